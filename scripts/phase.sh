@@ -1,0 +1,94 @@
+# shellcheck shell=bash
+# Phases: one thing done, its output kept in build/logs, its time and its verdict on one line.
+# Sourced by ./pleat, which sets $root and opens descriptor 3 for what a person reads.
+
+passed=0
+failed=0
+
+say() { printf '%s\n' "$*" >&3; }
+
+give_up() {
+  say "$*"
+  exit 1
+}
+
+# phase NAME "what it does" COMMAND…: runs COMMAND in the repository; its status is the phase's.
+phase() {
+  local name=$1 what=$2 status=0 start=$SECONDS log
+  shift 2
+  log=build/logs/$name.log
+  mkdir -p "$root/build/logs"
+  printf '%-46s ' "$what" >&3
+  (cd "$root" && "$@") >"$root/$log" 2>&1 </dev/null || status=$?
+  if [ "$status" -eq 0 ]; then
+    say "$((SECONDS - start)) s"
+  else
+    say "failed after $((SECONDS - start)) s; the end of $log:"
+    tail -n 40 "$root/$log" | sed 's/^/  | /' >&3
+  fi
+  return "$status"
+}
+
+# step NAME "what" COMMAND…: a phase the later ones build on; only its failure is counted.
+step() {
+  phase "$@" && return
+  failed=$((failed + 1))
+  return 1
+}
+
+# check NAME "what" COMMAND…: a phase that counts as one.
+check() {
+  step "$@" || return 1
+  passed=$((passed + 1))
+}
+
+# suite READER NAME "what" COMMAND…: a phase whose log says how many passed and failed. READER turns
+# the log into "PASSED FAILED". A suite that breaks off, or runs nothing, counts as one failure.
+suite() {
+  local reader=$1 name=$2 status=0 counts n_passed n_failed
+  shift
+  phase "$@" || status=$?
+  counts=$("$reader" <"$root/build/logs/$name.log")
+  read -r n_passed n_failed <<<"${counts:-0 0}"
+  if [ "$n_failed" -eq 0 ] && { [ "$status" -ne 0 ] || [ "$n_passed" -eq 0 ]; }; then
+    n_failed=1
+  fi
+  say "  $n_passed passed, $n_failed failed"
+  passed=$((passed + n_passed))
+  failed=$((failed + n_failed))
+  [ "$n_failed" -eq 0 ]
+}
+
+# Catch2's console reporter ends with "All tests passed (7 assertions in 3 test cases)" or
+# "test cases: 3 | 2 passed | 1 failed".
+read_catch2() {
+  awk '
+    /^All tests passed \(/ { match($0, /in [0-9]+ test case/); print substr($0, RSTART + 3) + 0, 0 }
+    /^test cases: / {
+      good = bad = 0
+      for (i = 3; i < NF; i++) {
+        if ($(i + 1) == "passed") good = $i
+        if ($(i + 1) == "failed" && $(i + 2) != "as") bad = $i
+      }
+      print good, bad
+    }' | tail -n 1
+}
+
+# Vitest ends with "Tests  1 failed | 8 passed | 2 skipped (11)". Everything a test could need has been
+# built by then, so a skipped one is a failure.
+read_vitest() {
+  sed 's/\x1b\[[0-9;]*m//g' | awk '
+    $1 == "Tests" {
+      good = bad = 0
+      for (i = 2; i < NF; i++) {
+        if ($(i + 1) == "passed") good = $i
+        if ($(i + 1) == "failed" || $(i + 1) == "skipped") bad += $i
+      }
+      print good, bad
+    }' | tail -n 1
+}
+
+# The page's own checks end with "8 passed, 1 failed".
+read_summary() {
+  sed -n 's/^\([0-9]\+\) passed, \([0-9]\+\) failed$/\1 \2/p' | tail -n 1
+}
