@@ -38,12 +38,13 @@ run_demo() {
   local port=''
   if [ "${1:-}" = --port ]; then
     port=${2:-}
-    [[ $port =~ ^[0-9]{1,5}$ ]] && [ "$port" -ge 1 ] && [ "$port" -le 65535 ] ||
-      give_up "--port: expected a number from 1 to 65535, got '$port'."
+    if ! [[ $port =~ ^[1-9][0-9]{0,4}$ ]] || [ "$port" -gt 65535 ]; then
+      bad_usage "--port: expected a number from 1 to 65535, got '$port'."
+    fi
     is_port_free "$port" || give_up "Port $port is taken."
     shift 2
   fi
-  [ $# -eq 0 ] || give_up "demo: expected nothing or --port NUMBER, got '$1'."
+  [ $# -eq 0 ] || bad_usage "demo: expected nothing or --port NUMBER, got '$1'."
 
   install_tools "$wasm_tools" "$node_tools"
   install_suitesparse || say "Going on without SuiteSparse: the page's direct solver is Eigen's."

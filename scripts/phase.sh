@@ -12,6 +12,12 @@ give_up() {
   exit 1
 }
 
+# The same for a command line that cannot be understood.
+bad_usage() {
+  say "pleat: $*"
+  exit 2
+}
+
 # phase NAME "what it does" COMMAND…: runs COMMAND in the repository; its status is the phase's.
 phase() {
   local name=$1 what=$2 status=0 start=$SECONDS log
@@ -53,7 +59,7 @@ suite() {
   if [ "$n_failed" -eq 0 ] && { [ "$status" -ne 0 ] || [ "$n_passed" -eq 0 ]; }; then
     n_failed=1
   fi
-  say "  $n_passed passed, $n_failed failed"
+  say "  $n_passed passed, $n_failed failed (build/logs/$name.log)"
   passed=$((passed + n_passed))
   failed=$((failed + n_failed))
   [ "$n_failed" -eq 0 ]

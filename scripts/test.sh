@@ -69,7 +69,7 @@ test_page() {
 }
 
 run_all_tests() {
-  install_tools "$native_tools" "$wasm_tools" "$node_tools" "$test_tools"
+  (install_tools "$native_tools" "$wasm_tools" "$node_tools" "$test_tools") || failed=1
   check format "Check the format of C++" check_format
   check layers "Check the layers" check_layers
   test_native
