@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+
+#include "core/linalg/linear_solver.h"
+
+namespace pleat {
+
+/// Conjugate gradients, preconditioned by the inverse of the diagonal blocks, one right-hand side
+/// after the other.
+///
+/// Stops at |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the best
+/// x so far. The report's iterations are the sum over the right-hand sides, its residual is the
+/// largest. The residual is the updated one; below a tolerance of 1e-8 it is computed afresh before
+/// success is reported. A matrix that is not positive definite is noticed in a diagonal block by
+/// factorize, otherwise by solve once a direction p has p'Ap <= 0. Source: Hestenes & Stiefel,
+/// Methods of conjugate gradients for solving linear systems, J. Res. NBS 49, 1952.
+std::unique_ptr<LinearSolver> make_conjugate_gradient(int block_size, const SolverOptions& options);
+
+}  // namespace pleat

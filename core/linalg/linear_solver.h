@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "core/linalg/solve_report.h"
+#include "core/linalg/sparse.h"
+
+namespace pleat {
+
+/// Solves A X = B for a symmetric positive definite A, given by its lower triangle.
+///
+/// Call `analyze` once per sparsity pattern, `factorize` once per set of values, `solve` as often
+/// as wanted. None of the three allocates in our code when called again with the same pattern and
+/// number of columns. Throws ContractError when the calls come in another order or sizes disagree;
+/// numeric trouble is reported.
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+
+  virtual void analyze(const SparseMatrix& lower) = 0;
+
+  /// `lower` has the pattern last analysed.
+  virtual SolveReport factorize(const SparseMatrix& lower) = 0;
+
+  /// rhs       n x m right-hand sides
+  /// solution  n x m; an iterative solver starts from what it holds
+  virtual SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                            Eigen::Ref<Eigen::MatrixXd> solution) = 0;
+};
+
+enum class SolverKind { cholmod, eigen, cg };
+
+const char* name(SolverKind kind);
+
+struct SolverOptions {
+  double tolerance = 1e-6;    ///< cg: relative residual |b - A x| / |b| at which to stop, in (0, 1)
+  int max_iterations = 1000;  ///< cg: cap, at least 1; reaching it is reported
+
+  void validate() const;  ///< throws ContractError
+};
+
+/// False for cholmod where SuiteSparse's source could not be had when this was built.
+bool is_available(SolverKind kind);
+
+/// block_size  unknowns per vertex, 1 or 3: cg preconditions by the inverse of these diagonal
+/// blocks and works on
+///             blocks; the direct solvers ignore it. n must be a multiple of it.
+/// Throws ContractError when the kind is not available.
+std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, int block_size,
+                                                 const SolverOptions& options = {});
+
+}  // namespace pleat

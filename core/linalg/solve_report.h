@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+namespace pleat {
+
+/// How a numeric task ended. The numbers report; they never throw.
+enum class SolveStatus {
+  ok,
+  not_converged,          ///< the iteration cap was reached; the result is the best one so far
+  not_positive_definite,  ///< the factorisation met a pivot that is not positive
+  not_finite,             ///< NaN or infinity appeared; the message names the first bad entry
+  unstable_step,          ///< the step exceeds the method's stability bound
+};
+
+const char* name(SolveStatus status);
+
+struct SolveReport {
+  SolveStatus status = SolveStatus::ok;
+  int iterations = 0;            ///< 0 for direct methods
+  double relative_residual = 0;  ///< of the equations that the task solves
+  std::string message;           ///< empty when ok
+
+  bool ok() const { return status == SolveStatus::ok; }
+};
+
+}  // namespace pleat
