@@ -1,0 +1,46 @@
+// Three kinds of failure have three channels: our bug (ContractError), their input (InputError),
+// and the numbers (a returned SolveReport, linalg/solve_report.h).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace pleat {
+
+/// A broken promise inside the program. The text names the condition and its place in the source.
+class ContractError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// Bad input from outside.
+///
+/// where  JSON pointer, file with line, or option name; may be empty for the input as a whole.
+/// what() one sentence: what was expected and what was found.
+class InputError : public std::runtime_error {
+ public:
+  InputError(std::string where, const std::string& sentence)
+      : std::runtime_error(sentence), where_(std::move(where)) {}
+  const std::string& where() const { return where_; }
+
+ private:
+  std::string where_;
+};
+
+[[noreturn]] void throw_contract_error(const char* condition, const char* file, int line,
+                                       const char* sentence);
+
+}  // namespace pleat
+
+/// Checked in every build, at the entry of a module.
+#define PLEAT_CHECK(condition, sentence)                                                       \
+  do {                                                                                         \
+    if (!(condition)) ::pleat::throw_contract_error(#condition, __FILE__, __LINE__, sentence); \
+  } while (false)
+
+/// Checked in Debug only, for inner loops.
+#ifdef NDEBUG
+#define PLEAT_DCHECK(condition, sentence) static_cast<void>(0)
+#else
+#define PLEAT_DCHECK(condition, sentence) PLEAT_CHECK(condition, sentence)
+#endif

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mesh/quad_mesh.h"
+
+namespace pleat {
+
+struct AirOptions {
+  double density = 1.2;              ///< rho [kg/m^3], positive
+  double normal_coefficient = 1;     ///< C_n, not negative
+  double tangent_coefficient = 0.1;  ///< C_t, not negative
+};
+
+/// Drag of still air, per triangle: f = 1/2 rho A |u| (C_n u_n + C_t u_t), where u is minus the
+/// triangle's velocity and u_n, u_t its normal and tangential parts; a third of f on each corner.
+class AirDrag {
+ public:
+  AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices);
+
+  /// Adds drag to `forces` [N].
+  ///
+  /// h  0 gives the law above. Positive gives the force that a linearly implicit step of h [s]
+  /// applies,
+  ///    (I + h D/m)^-1 f with D >= -df/dv lumped to the vertex: first-order consistent and never
+  ///    overshooting, so that light cloth may take large steps.
+  void add_forces(const Eigen::Ref<const Positions>& positions,
+                  const Eigen::Ref<const Positions>& velocities, const Eigen::VectorXd& masses,
+                  double h, Eigen::Ref<Positions> forces);
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+ private:
+  std::vector<Triangle> triangles_;
+  AirOptions options_;
+  Positions drag_;                                       // force of the air alone [N]
+  Eigen::Matrix<double, 6, Eigen::Dynamic> resistance_;  // lumped D, xx yy zz xy xz yz [N s/m]
+};
+
+}  // namespace pleat

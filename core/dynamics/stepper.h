@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/cloth_model.h"
+#include "core/dynamics/stage_observer.h"
+#include "core/dynamics/state.h"
+#include "core/linalg/linear_solver.h"
+
+namespace pleat {
+
+enum class StepperKind { explicit_euler, implicit_euler, projective, xpbd };
+
+/// As scenes write it: "explicit", "implicit", "projective", "xpbd".
+const char* name(StepperKind kind);
+
+/// Settings of a method. Each stepper reads what applies to it.
+struct MethodOptions {
+  StepperKind stepper = StepperKind::implicit_euler;
+  double step = 1.0 / 60;  ///< [s], positive
+  int substeps = 1;  ///< at least 1; 0 for explicit_euler: as many as its stability bound asks for
+  int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
+  SolverKind solver = SolverKind::cg;  ///< implicit_euler; projective takes cholmod or eigen
+  double tolerance = 1e-3;             ///< implicit_euler with cg: relative residual, in (0, 1)
+  bool constraints_rigid = false;      ///< xpbd: compliance 0 instead of 1/k
+
+  /// Throws ContractError.
+  void validate() const;
+};
+
+/// Advances a state by one step. Every stepper works on the same model, so that they can be
+/// compared.
+///
+/// The model is shared and outlives the stepper. After its pins changed in number or vertex, call
+/// `refresh`; after its rest lengths changed, `refresh_rest_lengths`; pins that only move need
+/// neither.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  /// From `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at their
+  /// pins. After each substep the model's contact corrects the result. The report's residual is
+  /// that of the last substep's own equations, its iterations the sum. A state that is not finite
+  /// ends the step: `state` then holds the last finite one. Allocates nothing after the first call.
+  SolveReport advance(State& state, double time);
+
+  virtual void refresh() = 0;
+  /// For steppers that keep rest lengths in a layout of their own.
+  virtual void refresh_rest_lengths() {}
+
+  void observe(StageObserver* observer) { observer_ = observer; }
+  const MethodOptions& options() const { return options_; }
+  int substeps() const { return substeps_; }
+
+ protected:
+  Stepper(ClothModel& model, const MethodOptions& options, int substeps);
+
+  /// Takes the state over at the begin of a step and gives it back at its end; steppers with a
+  /// layout of their own convert here. `store` may also complete the report: the residual is worth
+  /// computing once per step only.
+  virtual void load(const State& state);
+  virtual void store(State& state, SolveReport& report);
+  /// One substep of h [s] ending at time_end, contact included.
+  virtual SolveReport substep(State& state, double time_end, double h) = 0;
+
+  /// The shared way a substep ends for steppers that work on `State` itself: contact on every free
+  /// vertex.
+  void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h);
+
+  ClothModel& model_;
+  StageObserver* observer_ = nullptr;
+
+ private:
+  MethodOptions options_;
+  int substeps_;
+  State last_finite_;
+};
+
+/// Throws InputError when the method cannot run on this model (explicit beyond its stability bound
+/// with substeps given, xpbd or projective asked for a solver that is not available).
+std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options);
+
+}  // namespace pleat

@@ -1,0 +1,179 @@
+#include "core/dynamics/stepper_projective.h"
+
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/dynamics/elasticity.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kNotPinned = -1;
+
+std::unique_ptr<LinearSolver> factor_solver(const MethodOptions& options) {
+  if (options.solver == SolverKind::cg)
+    throw InputError("/method/solver",
+                     "expected cholmod or eigen for projective, which keeps a factor, found cg");
+  if (!is_available(options.solver))
+    throw InputError("/method/solver",
+                     std::string("expected a solver of this build, found ") + name(options.solver) +
+                         ", whose source could not be had when it was built; take eigen");
+  return make_linear_solver(options.solver, 1);
+}
+
+bool damps_along_spring(const ClothModel& model) {
+  return model.damping_direction == DampingDirection::along_spring;
+}
+
+}  // namespace
+
+StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
+    : Stepper(model, options, options.substeps),
+      solver_(factor_solver(options)),
+      targets_(model.springs.size()),
+      forces_(3, model.n_vertices()),
+      predicted_(3, model.n_vertices()),
+      positions_(3, model.n_vertices()),
+      first_change_(3, model.n_vertices()),
+      right_side_(model.n_vertices(), 3),
+      solution_(model.n_vertices(), 3),
+      positions_begin_(3, model.n_vertices()) {
+  refresh();
+}
+
+/// M/h^2 + sum over springs and bending elements, one number per pair of vertices because x, y and
+/// z do not couple. The damper's c/h joins k whichever way it acts.
+void StepperProjective::refresh() {
+  const int n = model_.n_vertices();
+  const double h = options().step / substeps();
+  std::vector<int> pin_of(static_cast<std::size_t>(n), kNotPinned);
+  for (std::size_t p = 0; p < model_.pins.size(); ++p)
+    pin_of[model_.pins[p].vertex] = static_cast<int>(p);
+
+  std::vector<Eigen::Triplet<double>> entries;
+  pinned_entries_.clear();
+  const auto add = [&](VertexId a, VertexId b, double value) {
+    if (pin_of[a] == kNotPinned && pin_of[b] == kNotPinned) {
+      entries.emplace_back(std::max(a.value, b.value), std::min(a.value, b.value), value);
+    } else if (pin_of[a] == kNotPinned) {
+      pinned_entries_.push_back({a, pin_of[b], value});
+    } else if (pin_of[b] == kNotPinned) {
+      pinned_entries_.push_back({b, pin_of[a], value});
+    }
+  };
+  for (int i = 0; i < n; ++i)
+    entries.emplace_back(i, i, pin_of[i] == kNotPinned ? model_.masses[i] / (h * h) : 1);
+  for (const Spring& spring : model_.springs) {
+    const double weight = spring.stiffness + spring.damping / h;
+    if (pin_of[spring.a] == kNotPinned) add(spring.a, spring.a, weight);
+    if (pin_of[spring.b] == kNotPinned) add(spring.b, spring.b, weight);
+    add(spring.a, spring.b, -weight);
+  }
+  for (const BendElement& bend : model_.bends) {
+    const auto& w = bend.weights;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j)
+        if (i != j || pin_of[bend.vertices[i]] == kNotPinned)
+          add(bend.vertices[i], bend.vertices[j], bend.stiffness * w[i] * w[j]);
+  }
+  matrix_.resize(n, n);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  solver_->analyze(matrix_);
+  factor_report_ = solver_->factorize(matrix_);
+}
+
+void StepperProjective::set_targets(double h) {
+  const bool along = damps_along_spring(model_);
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Spring& spring = model_.springs[s];
+    Target& target = targets_[s];
+    target = {spring.stiffness, spring.rest_length, Vec3::Zero()};
+    if (spring.damping == 0) continue;
+    const double damper = spring.damping / h;
+    const Vec3 d = positions_begin_.col(spring.a) - positions_begin_.col(spring.b);
+    if (along) {
+      target.weight += damper;
+      target.length = (spring.stiffness * spring.rest_length + damper * d.norm()) / target.weight;
+    } else {
+      target.damped = damper * d;
+    }
+  }
+}
+
+/// The right-hand side of the global solve: M/h^2 y + sum of projected springs, pinned neighbours
+/// moved over.
+void StepperProjective::set_right_side(double time_end, double h) {
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    right_side_.row(i) = (model_.masses[i] / (h * h) * predicted_.col(i)).transpose();
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Spring& spring = model_.springs[s];
+    const Target& target = targets_[s];
+    const Vec3 d = positions_.col(spring.a) - positions_.col(spring.b);
+    const double length = d.norm();
+    const double scale = length > 0 ? target.weight * target.length / length : 0;
+    const Vec3 pull = scale * d + target.damped;
+    right_side_.row(spring.a) += pull.transpose();
+    right_side_.row(spring.b) -= pull.transpose();
+  }
+  for (const PinnedEntry& entry : pinned_entries_)
+    right_side_.row(entry.free_vertex) -=
+        entry.value * model_.pins[entry.pin].position(time_end).transpose();
+  for (const Pin& pin : model_.pins)
+    right_side_.row(pin.vertex) = pin.position(time_end).transpose();
+}
+
+SolveReport StepperProjective::substep(State& state, double time_end, double h) {
+  if (!factor_report_.ok()) return factor_report_;
+  positions_begin_ = state.positions;
+  {
+    const StageScope scope(observer_, Stage::forces);
+    forces_.setZero();
+    add_gravity(model_, forces_);
+    if (model_.air)
+      model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces_);
+    for (int i = 0; i < model_.n_vertices(); ++i)
+      predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
+                          h * h / model_.masses[i] * forces_.col(i);
+    positions_ = predicted_;
+    for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
+    set_targets(h);
+  }
+  SolveReport report;
+  for (int round = 0; round < options().iterations; ++round) {
+    {
+      const StageScope scope(observer_, Stage::assembly);
+      set_right_side(time_end, h);
+    }
+    const StageScope scope(observer_, Stage::solve);
+    report = solver_->solve(right_side_, solution_);
+    if (!report.ok()) return report;
+    if (round == 0) first_change_ = solution_.transpose() - positions_;
+    positions_ = solution_.transpose();
+  }
+  report.iterations = options().iterations;
+  time_end_ = time_end;
+  state.positions = positions_;
+  state.velocities = (positions_ - positions_begin_) / h;
+  resolve_contacts(positions_begin_, state, time_end, h);
+  return report;
+}
+
+/// |b(x) - A x| over its value at the predicted positions, for the last substep.
+void StepperProjective::store(State&, SolveReport& report) {
+  if (!report.ok()) return;
+  set_right_side(time_end_, options().step / substeps());
+  const auto A = matrix_.selfadjointView<Eigen::Lower>();
+  solution_ = first_change_.transpose();
+  double first = 0;
+  double last = 0;
+  for (int c = 0; c < 3; ++c) {
+    column_ = A * solution_.col(c);
+    first += column_.squaredNorm();
+    solution_.col(c) = positions_.row(c).transpose();
+    column_ = right_side_.col(c) - A * solution_.col(c);
+    last += column_.squaredNorm();
+  }
+  report.relative_residual = first > 0 ? std::sqrt(last / first) : 0;
+}
+
+}  // namespace pleat

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/elasticity.h"
+#include "core/linalg/sparse.h"
+
+namespace pleat {
+
+/// A symmetric 3n x 3n matrix with a 3x3 block for every pair of vertices that a spring or a
+/// bending element joins. The pattern is built once; values are added element by element straight
+/// into place.
+class SystemMatrix {
+ public:
+  explicit SystemMatrix(const ClothModel& model);
+
+  void set_zero();
+  /// Adds factor * m to the diagonal of each vertex.
+  void add_masses(const Eigen::VectorXd& masses, double factor);
+  /// Adds [B -B; -B B] at the ends of spring `index` of the model.
+  void add_spring(std::size_t index, const Mat3& block);
+  /// Adds factor * Hessian of bending element `index`.
+  void add_bend(std::size_t index, double factor);
+
+  const SparseMatrix& lower() const { return matrix_; }
+
+  /// Moves prescribed values of some vertices to the right-hand side: rows and columns of these
+  /// vertices become those of the identity. Call `choose_prescribed` when the set changes,
+  /// `prescribe` after each assembly.
+  void choose_prescribed(const std::vector<VertexId>& vertices);
+  /// values  one column per chosen vertex, in order; rhs  3n.
+  void prescribe(const Eigen::Ref<const Positions>& values, Eigen::Ref<Eigen::VectorXd> rhs);
+
+ private:
+  /// Where the block (row, column), row > column, lies: as the `rank`th block below the diagonal of
+  /// its column.
+  struct Slot {
+    VertexId row, column;
+    int rank = 0;
+  };
+  struct PrescribedBlock {
+    Slot slot;
+    int row_index, column_index;  // into the prescribed values, or -1 when that vertex is free
+  };
+
+  Slot slot(VertexId a, VertexId b) const;
+  double* block_column(const Slot& slot, int component);
+  void add_block(const Slot& slot, const Mat3& block);
+  void add_diagonal(VertexId vertex, const Mat3& block);
+
+  const ClothModel& model_;
+  std::vector<std::vector<VertexId>> below_;  // by column: rows of its blocks, ascending
+  SparseMatrix matrix_;
+  std::vector<Slot> spring_slots_;
+  std::vector<std::array<Slot, 3>> bend_slots_;  // pairs 0-1, 1-2, 0-2
+  std::vector<VertexId> prescribed_;
+  std::vector<PrescribedBlock> prescribed_blocks_;
+};
+
+/// K = -d(elastic force)/dx at these positions, lower triangle, 3n x 3n [N/m].
+SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
+                              SpringHessian hessian);
+
+/// C = -d(damping force)/dv, lower triangle, 3n x 3n [N s/m].
+SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
+
+/// M, lumped, 3n x 3n [kg].
+SparseMatrix mass_matrix(const ClothModel& model);
+
+}  // namespace pleat

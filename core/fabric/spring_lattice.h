@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/fabric/fabric.h"
+#include "core/mesh/quad_mesh.h"
+
+namespace pleat {
+
+enum class SpringKind : std::uint8_t { warp, weft, shear, other };
+
+/// Hooke spring with a damper beside it. Force on a: -k (l - L) u - c ((v_a - v_b).u) u, u from b
+/// to a. At zero length it pulls nowhere.
+struct Spring {
+  VertexId a, b;
+  double stiffness = 0;    ///< k [N/m], not negative
+  double rest_length = 0;  ///< L [m], not negative
+  double damping = 0;      ///< c [N s/m], not negative
+  SpringKind kind = SpringKind::other;
+};
+
+/// Quadratic bending of three consecutive vertices of a mesh line: E = 1/2 s |w0 x0 + w1 x1 + w2
+/// x2|^2, the sum being the curvature vector [1/m]. Its Hessian is constant.
+struct BendElement {
+  std::array<VertexId, 3> vertices;  ///< before, middle, after
+  std::array<double, 3> weights;     ///< second difference [1/m^2]; they sum to zero
+  double stiffness = 0;              ///< s = B * width * mean arm [N m^3]
+};
+
+struct SpringLattice {
+  std::vector<Spring> springs;  ///< warp, then weft, then shear
+  std::vector<BendElement> bends;
+  Eigen::VectorXd masses;  ///< a quarter of each face per corner [kg]
+};
+
+/// Angular frequency at which a fabric's damping ratio holds: a visible swing of 5 Hz [rad/s].
+constexpr double kReferenceFrequency = 31.41592653589793;
+
+/// Springs along warp and weft and on both diagonals of each active face, bending along warp and
+/// weft lines, with constants such that the sheet's stiffness does not depend on the mesh: diagonal
+/// k = G (a^2 + b^2) / (2 a b); warp edge k = (K_u - G a^2/b^2) b'/a; weft edge k = (K_v - G
+/// b^2/a^2) a'/b with cell a (warp) x b (weft) and b', a' half of the adjacent cells' widths
+/// summed. Damping c = tau k with tau = 2 zeta / kReferenceFrequency.
+///
+/// Throws InputError naming the fabric when a cell's aspect would make an edge constant negative.
+/// Source: docs/methods/springs.md (derivation).
+SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric);
+
+}  // namespace pleat

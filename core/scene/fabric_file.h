@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/fabric/fabric.h"
+
+namespace pleat {
+
+struct FabricLibrary {
+  std::vector<Fabric> fabrics;
+  std::map<std::string, std::string> sources;  ///< key to citation
+
+  /// Throws InputError at /fabric/name listing the known names when there is none of that name.
+  const Fabric& find(std::string_view name) const;
+};
+
+/// Reads assets/fabrics/fabrics.json. Throws InputError with the JSON pointer for anything missing,
+/// of the wrong type, outside its own range or not physical.
+FabricLibrary read_fabrics(std::string_view json_text);
+
+}  // namespace pleat

@@ -1,0 +1,142 @@
+#include "core/scene/simulation.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/dynamics/carry_over.h"
+
+namespace pleat {
+namespace {
+
+std::vector<Triangle> scene_triangles(const Scene& scene, const std::optional<QuadMesh>& mesh) {
+  return mesh ? mesh->triangles() : std::get<InlineCloth>(scene.cloth).triangles;
+}
+
+bool has_ended(const SolveReport& report) {
+  return !report.ok() && report.status != SolveStatus::not_converged;
+}
+
+/// A smooth step from 1 to 0 over the carry-over time.
+double carried_share(double seconds) {
+  const double s = std::clamp(seconds / kCarryOverTime, 0.0, 1.0);
+  return 1 - s * s * (3 - 2 * s);
+}
+
+double rest_diagonal(const SheetShape& shape) { return std::hypot(shape.width, shape.height); }
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene)
+    : scene_(scene),
+      mesh_(scene_mesh(scene)),
+      triangles_(scene_triangles(scene, mesh_)),
+      model_(scene_model(scene, mesh(), triangles_)) {
+  for (const Spring& spring : model_.springs) rest_lengths_.push_back(spring.rest_length);
+  start();
+}
+
+/// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.
+void Simulation::start() {
+  state_ = scene_state(scene_, mesh());
+  time_begin_ = 0;
+  n_steps_ = 0;
+  ended_ = {};
+  for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(0);
+  stepper_ = make_stepper(model_, scene_.method);
+  stepper_->observe(observer_);
+}
+
+void Simulation::observe(StageObserver* observer) {
+  observer_ = observer;
+  stepper_->observe(observer);
+}
+
+Positions Simulation::rest_positions() const { return scene_state(scene_, mesh()).positions; }
+
+void Simulation::reset() {
+  release_grab();
+  carried_rest_lengths_.clear();
+  for (std::size_t s = 0; s < rest_lengths_.size(); ++s)
+    model_.springs[s].rest_length = rest_lengths_[s];
+  start();
+}
+
+SolveReport Simulation::step() {
+  if (has_ended(ended_)) return ended_;
+  if (grab_) place_grab_pins();
+  if (!carried_rest_lengths_.empty()) relax_rest_lengths();
+  ended_ = stepper_->advance(state_, time());
+  if (!has_ended(ended_)) ++n_steps_;
+  return ended_;
+}
+
+void Simulation::carry_over(const Simulation& old) {
+  const auto* shape = std::get_if<SheetShape>(&scene_.cloth);
+  const auto* old_shape = std::get_if<SheetShape>(&old.scene_.cloth);
+  PLEAT_CHECK(
+      shape && old_shape && shape->columns == old_shape->columns && shape->rows == old_shape->rows,
+      "motion is carried over between refinements of one sheet");
+  const MovingSheet from{*old.mesh_, old.model_, old.state_};
+  state_ = carried_state(from, *mesh_);
+  carried_rest_lengths_ = carried_rest_lengths(from, {*mesh_, model_, state_});
+  time_begin_ = old.time();
+  n_steps_ = 0;
+  if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {
+    grab(old.grab_->vertex);
+    move_grab(old.grab_->target);
+  }
+}
+
+void Simulation::relax_rest_lengths() {
+  const double share = carried_share(time() - time_begin_);
+  for (std::size_t s = 0; s < rest_lengths_.size(); ++s)
+    model_.springs[s].rest_length =
+        rest_lengths_[s] + share * (carried_rest_lengths_[s] - rest_lengths_[s]);
+  stepper_->refresh_rest_lengths();
+  if (share == 0) carried_rest_lengths_.clear();
+}
+
+void Simulation::grab(VertexId vertex) {
+  PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
+  release_grab();
+  std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
+  for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
+  grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
+  const double radius = mesh_ ? kHandRadius * rest_diagonal(std::get<SheetShape>(scene_.cloth)) : 0;
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const bool in_hand =
+        i == vertex ||
+        (mesh_ &&
+         (mesh_->rest_coordinates().col(i) - mesh_->rest_coordinates().col(vertex)).norm() <=
+             radius);
+    if (in_hand && !pinned[static_cast<std::size_t>(i)])
+      model_.pins.push_back({VertexId(i), state_.positions.col(i), {}});
+  }
+  stepper_->refresh();
+}
+
+void Simulation::move_grab(const Vec3& target) {
+  PLEAT_CHECK(grab_.has_value(), "a hand holds the cloth");
+  if (target.allFinite()) grab_->target = target;
+}
+
+void Simulation::release_grab() {
+  if (!grab_) return;
+  model_.pins.resize(grab_->first_pin);
+  grab_.reset();
+  stepper_->refresh();
+}
+
+/// The hand's pins go to the target at constant speed during the coming step, so that substeps do
+/// not see a jump.
+void Simulation::place_grab_pins() {
+  if (grab_->first_pin == model_.pins.size()) return;  // only pinned vertices in the hand
+  const Vec3 offset = grab_->target - state_.positions.col(grab_->vertex);
+  for (std::size_t p = grab_->first_pin; p < model_.pins.size(); ++p) {
+    Pin& pin = model_.pins[p];
+    pin.place = state_.positions.col(pin.vertex);
+    pin.motion = {Motion::Kind::move, offset, time(), time() + scene_.method.step, 0};
+  }
+}
+
+}  // namespace pleat

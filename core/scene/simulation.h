@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/stepper.h"
+#include "core/scene/scene.h"
+#include "core/scene/scene_model.h"
+
+namespace pleat {
+
+/// A scene in motion.
+class Simulation {
+ public:
+  /// Throws InputError when the scene's method cannot run on it.
+  explicit Simulation(const Scene& scene);
+
+  /// One step of scene.method.step. After a report that is not ok or not_converged the state is the
+  /// last finite one and further steps return the same report.
+  SolveReport step();
+  void reset();
+
+  /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
+  /// the bit, new ones are interpolated along the mesh lines. Internal forces per width and mass go
+  /// on where they were and relax to this scene's own within kCarryOverTime, so that a change of
+  /// mesh or fabric does not shake the cloth. Throws ContractError unless both are sheets with the
+  /// same base mesh.
+  void carry_over(const Simulation& old);
+
+  /// Holds every vertex within the hand's radius (kHandRadius of the sheet's rest diagonal, at
+  /// least the vertex itself) of `vertex` and moves them together. One hand at a time.
+  void grab(VertexId vertex);
+  /// Where the grabbed vertex shall be at the end of the next step [m].
+  void move_grab(const Vec3& target);
+  void release_grab();
+
+  const Scene& scene() const { return scene_; }
+  const ClothModel& model() const { return model_; }
+  const State& state() const { return state_; }
+  const QuadMesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }  ///< null for inline particles
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  Positions rest_positions() const;                  ///< where the scene starts [m]
+  std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
+  double time() const {
+    return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
+  }  ///< [s]
+  int substeps() const { return stepper_->substeps(); }
+  void observe(StageObserver* observer);
+
+ private:
+  struct Grab {
+    VertexId vertex;
+    std::size_t first_pin;  // its pins are the last of model_.pins
+    Vec3 target;            // of `vertex` at the end of the next step [m]
+  };
+
+  void start();
+  void place_grab_pins();
+  void relax_rest_lengths();
+
+  Scene scene_;
+  std::optional<QuadMesh> mesh_;
+  std::vector<Triangle> triangles_;
+  ClothModel model_;
+  State state_;
+  std::unique_ptr<Stepper> stepper_;
+  StageObserver* observer_ = nullptr;
+  double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
+  std::int64_t n_steps_ = 0;
+  std::optional<Grab> grab_;
+  std::vector<double> rest_lengths_;  // the scene's own, one per spring [m]
+  std::vector<double>
+      carried_rest_lengths_;  // what a carried-over cloth starts from, else empty [m]
+  SolveReport ended_;
+};
+
+constexpr double kCarryOverTime = 2;  ///< [s]
+constexpr double kHandRadius = 0.03;  ///< of the rest diagonal
+
+}  // namespace pleat
