@@ -31,7 +31,7 @@ Simulation::Simulation(const Scene& scene)
       mesh_(scene_mesh(scene)),
       triangles_(scene_triangles(scene, mesh_)),
       model_(scene_model(scene, mesh(), triangles_)) {
-  for (const Spring& spring : model_.springs) rest_lengths_.push_back(spring.rest_length);
+  springs_ = model_.springs;
   start();
 }
 
@@ -56,8 +56,7 @@ Positions Simulation::rest_positions() const { return scene_state(scene_, mesh()
 void Simulation::reset() {
   release_grab();
   carried_rest_lengths_.clear();
-  for (std::size_t s = 0; s < rest_lengths_.size(); ++s)
-    model_.springs[s].rest_length = rest_lengths_[s];
+  model_.springs = springs_;
   start();
 }
 
@@ -89,9 +88,9 @@ void Simulation::carry_over(const Simulation& old) {
 
 void Simulation::relax_rest_lengths() {
   const double share = carried_share(time() - time_begin_);
-  for (std::size_t s = 0; s < rest_lengths_.size(); ++s)
+  for (std::size_t s = 0; s < springs_.size(); ++s)
     model_.springs[s].rest_length =
-        rest_lengths_[s] + share * (carried_rest_lengths_[s] - rest_lengths_[s]);
+        springs_[s].rest_length + share * (carried_rest_lengths_[s] - springs_[s].rest_length);
   stepper_->refresh_rest_lengths();
   if (share == 0) carried_rest_lengths_.clear();
 }
