@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks every #include of the C++ sources against core/LAYERS.
+"""Checks every #include of the C++ sources, and who prints, against core/LAYERS.
 
 A violation is printed as "file:line: sentence"; the exit status is then 1.
 --self-test plants one violation of every kind in a scratch tree and expects each to be found.
@@ -16,11 +16,13 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 
 
 class Rules:
-    """core/LAYERS, read: the height of each module, and who may include which installed header."""
+    """core/LAYERS, read: the height of each module, who may include which installed header, and
+    who may call which function."""
 
     def __init__(self, text):
         self.height = {}
         self.reserved = []  # (header or folder ending in "/", places)
+        self.calls = []  # (function, places)
         n_layers = 0
         for number, line in enumerate(text.splitlines(), start=1):
             words = line.split("#")[0].split()
@@ -29,12 +31,13 @@ class Rules:
             if words[0] == "layer" and len(words) > 1:
                 self.height.update({module: n_layers for module in words[1:]})
                 n_layers += 1
-            elif words[0] == "only" and "in" in words[2:-1]:
+            elif words[0] in ("only", "call") and "in" in words[2:-1]:
                 split = words.index("in")
-                self.reserved += [(header, words[split + 1:]) for header in words[1:split]]
+                rules = self.reserved if words[0] == "only" else self.calls
+                rules += [(name, words[split + 1:]) for name in words[1:split]]
             else:
-                sys.exit(f"core/LAYERS:{number}: expected 'layer MODULE…' or "
-                         f"'only HEADER… in PLACE…', found '{line.strip()}'")
+                sys.exit(f"core/LAYERS:{number}: expected 'layer MODULE…', 'only HEADER… in PLACE…' "
+                         f"or 'call FUNCTION… in PLACE…', found '{line.strip()}'")
 
     def places_for(self, header):
         """Where this header may be included, or None when everywhere."""
@@ -83,11 +86,21 @@ def judge_installed(rules, path, header):
     return None
 
 
-def check_file(root, rules, path):
-    """Violations in one file, as (line number, sentence)."""
+def check_calls(rules, path, text):
+    """Calls of functions that are not for this file, as (line number, sentence)."""
+    forbidden = {name: places for name, places in rules.calls if not is_in(path, places)}
+    if not forbidden:
+        return
+    call = re.compile(r"\b(" + "|".join(forbidden) + r")\s*\(")
+    for number, line in enumerate(text.splitlines(), start=1):
+        for name in call.findall(line.split("//")[0]):
+            yield number, f"{name}() is only for {', '.join(forbidden[name])}"
+
+
+def check_includes(root, rules, path, text):
+    """Includes that break a rule, as (line number, sentence)."""
     own_header = str(Path(path).with_suffix(".h"))
     expects_own_first = path.endswith(".cpp") and (root / own_header).is_file()
-    text = (root / path).read_text(encoding="utf-8")
     for number, line in enumerate(text.splitlines(), start=1):
         match = INCLUDE.match(line)
         if not match:
@@ -100,6 +113,11 @@ def check_file(root, rules, path):
                     else judge_own(root, rules, path, own))
         if sentence:
             yield number, sentence
+
+
+def check_file(root, rules, path):
+    text = (root / path).read_text(encoding="utf-8")
+    return sorted([*check_includes(root, rules, path, text), *check_calls(rules, path, text)])
 
 
 def check_tree(root):
@@ -127,6 +145,9 @@ PLANTED = {  # path: (text, expected violation or None)
     "core/mesh/clock.cpp": ("#  include <chrono>\n", ":1: <chrono> is only for core/measure/"),
     "core/mesh/json.cpp": ("#include <nlohmann/json.hpp>\n", "<nlohmann/json.hpp> is only for"),
     "core/mesh/commented.cpp": ("// #include <iostream>\n", None),
+    "core/mesh/printing.cpp": ('std::printf ("%d", 1);\n', ":1: printf() is only for cli/"),
+    "core/mesh/formatting.cpp": ("std::snprintf(text, 9, format);  // not printf()\n", None),
+    "cli/report.cpp": ("std::puts(text);\n", None),
     "core/linalg/cholmod_solver.cpp": ("#include <cholmod.h>\n", None),
     "core/linalg/other_solver.cpp": ("#include <cholmod.h>\n", "<cholmod.h> is only for"),
     "core/attic/new.h": ('#include "core/base/vec.h"\n', "module attic stands in no layer"),
