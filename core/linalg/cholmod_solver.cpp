@@ -42,6 +42,14 @@ cholmod_dense view(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   return B;
 }
 
+/// cholmod_solve2 leaves its work array described as narrower than its memory is, and would
+/// allocate it again.
+void restore_width(cholmod_dense* work) {
+  if (work == nullptr) return;
+  work->nrow = work->nzmax / work->ncol;
+  work->d = work->nrow;
+}
+
 class CholmodSolver final : public LinearSolver {
  public:
   CholmodSolver() {
@@ -71,6 +79,7 @@ class CholmodSolver final : public LinearSolver {
 
   void analyze(const SparseMatrix& lower) override {
     order_.analyzed(lower);
+    if (lower.rows() == 0) return;
     cholmod_free_factor(&factor_, &common_);
     cholmod_sparse A = view(lower);
     factor_ = cholmod_analyze(&A, &common_);
@@ -80,6 +89,10 @@ class CholmodSolver final : public LinearSolver {
   SolveReport factorize(const SparseMatrix& lower) override {
     order_.begin_factorize(lower);
     if (auto report = report_not_finite(lower)) return *report;
+    if (lower.rows() == 0) {
+      order_.factorized();
+      return {};
+    }
     cholmod_sparse A = view(lower);
     cholmod_factorize(&A, factor_, &common_);
     check_memory();
@@ -99,6 +112,7 @@ class CholmodSolver final : public LinearSolver {
     if (auto report = report_not_finite(rhs, "right-hand side")) return *report;
     if (rhs.size() == 0) return {};
     cholmod_dense B = view(rhs);
+    restore_width(Y_);
     const int solved =
         cholmod_solve2(CHOLMOD_A, factor_, &B, nullptr, &X_, nullptr, &Y_, &E_, &common_);
     check_memory();
