@@ -1,7 +1,5 @@
 #include "core/dynamics/air_drag.h"
 
-#include <Eigen/Dense>
-
 #include "core/base/check.h"
 
 namespace pleat {

@@ -33,6 +33,7 @@ class Simulation {
   /// Holds every vertex within the hand's radius (kHandRadius of the sheet's rest diagonal, at
   /// least the vertex itself) of `vertex` and moves them together. One hand at a time.
   void grab(VertexId vertex);
+  bool is_grabbed() const { return grab_.has_value(); }
   /// Where the grabbed vertex shall be at the end of the next step [m].
   void move_grab(const Vec3& target);
   void release_grab();

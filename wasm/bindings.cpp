@@ -1,0 +1,300 @@
+// The one boundary between the core and JavaScript. Cold calls take and return JSON text in an envelope, {"ok": true, ...}
+// or {"ok": false, "kind", "where", "what"}; hot calls return numbers and views. A view of memory dies when memory grows:
+// take it anew after each call. No C++ exception may leave this file, JavaScript would see a bare pointer.
+#include <emscripten/bind.h>
+#include <emscripten/val.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/check.h"
+#include "core/measure/error_norms.h"
+#include "core/measure/stage_timer.h"
+#include "core/measure/sweep.h"
+#include "core/scene/scene_file.h"
+#include "core/scene/simulation.h"
+
+namespace {
+
+using emscripten::val;
+
+std::string json_text(const val& object) { return val::global("JSON").call<std::string>("stringify", object); }
+
+val json_value(std::string_view text) { return val::global("JSON").call<val>("parse", std::string(text)); }
+
+template <class Items>
+val json_array(const Items& items) {
+  val array = val::array();
+  for (const auto& item : items) array.call<void>("push", item);
+  return array;
+}
+
+val json_vec3(const pleat::Vec3& v) { return json_array(std::vector<double>{v.x(), v.y(), v.z()}); }
+
+std::string failure(const char* kind, const std::string& where, const std::string& what) {
+  val envelope = val::object();
+  envelope.set("ok", false);
+  envelope.set("kind", std::string(kind));
+  envelope.set("where", where);
+  envelope.set("what", what);
+  return json_text(envelope);
+}
+
+/// Runs `work`, which fills in the envelope that it is given.
+template <class Work>
+std::string guarded(Work&& work) {
+  try {
+    val envelope = val::object();
+    envelope.set("ok", true);
+    work(envelope);
+    return json_text(envelope);
+  } catch (const pleat::InputError& error) {
+    return failure("input", error.where(), error.what());
+  } catch (const std::exception& error) {
+    return failure("internal", "", error.what());
+  }
+}
+
+val summary(const pleat::Simulation& simulation) {
+  const pleat::ClothModel& model = simulation.model();
+  const pleat::BuildReport report = pleat::build_report(model);
+  val result = val::object();
+  result.set("n_vertices", model.n_vertices());
+  result.set("n_springs", model.springs.size());
+  result.set("n_bends", model.bends.size());
+  result.set("n_triangles", simulation.triangles().size());
+  result.set("step_s", simulation.scene().method.step);
+  result.set("substeps", simulation.substeps());
+  result.set("built", json_array(report.built));
+  result.set("left_out", json_array(report.left_out));
+  return result;
+}
+
+/// The fabric library as text, read on every use: cold, and one string instead of a second copy of its types.
+class Scene {
+ public:
+  explicit Scene(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
+
+  std::string fabrics() const {
+    return guarded([&](val& envelope) {
+      pleat::read_fabrics(fabrics_json_);
+      const val library = json_value(fabrics_json_);
+      envelope.set("fabrics", library["fabrics"]);
+      envelope.set("sources", library["meta"]["sources"]);
+    });
+  }
+
+  std::string schema() const {
+    return guarded([](val& envelope) { envelope.set("schema", json_value(pleat::scene_schema())); });
+  }
+
+  std::string parse(const std::string& scene_text) const {
+    return guarded([&](val& envelope) {
+      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_));
+      envelope.set("scene", json_value(pleat::write_scene(scene)));
+      envelope.set("summary", summary(pleat::Simulation(scene)));
+    });
+  }
+
+ private:
+  std::string fabrics_json_;
+};
+
+class Simulation {
+ public:
+  explicit Simulation(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
+
+  std::string load(const std::string& scene_text) {
+    return guarded([&](val& envelope) {
+      take(build(scene_text));
+      envelope.set("summary", summary(*simulation_));
+    });
+  }
+
+  std::string carry_over(const std::string& scene_text) {
+    return guarded([&](val& envelope) {
+      auto fresh = build(scene_text);
+      fresh->carry_over(running());
+      take(std::move(fresh));
+      envelope.set("summary", summary(*simulation_));
+    });
+  }
+
+  std::string reset() {
+    return guarded([&](val&) {
+      running().reset();
+      report_ = {};
+      clear_timing();
+      frame();
+    });
+  }
+
+  int step(int n) {
+    try {
+      for (int i = 0; i < n && !has_ended(); ++i) {
+        report_ = running().step();
+        ++n_timed_;
+      }
+      frame();
+    } catch (const std::exception& error) {
+      report_.status = pleat::SolveStatus::not_finite;
+      report_.message = error.what();
+    }
+    return has_ended() ? static_cast<int>(report_.status) : 0;
+  }
+
+  std::string status() const {
+    return guarded([&](val& envelope) {
+      envelope.set("status", std::string(name(report_.status)));
+      envelope.set("message", report_.message);
+    });
+  }
+
+  std::string numbers() {
+    return guarded([&](val& envelope) {
+      const pleat::Stretch stretch = pleat::stretch(running().springs(), running().state().positions);
+      envelope.set("time_s", running().time());
+      envelope.set("step", static_cast<double>(running().n_steps()));
+      envelope.set("largest_stretch", stretch.largest);
+      envelope.set("rms_stretch", stretch.rms);
+      envelope.set("residual", report_.relative_residual);
+      envelope.set("iterations", report_.iterations);
+      val parts = val::object();
+      for (int s = 0; s < pleat::kStageCount; ++s) {
+        const auto stage = static_cast<pleat::Stage>(s);
+        if (timer_.total(stage) > 0) parts.set(std::string(name(stage)), 1e3 * timer_.total(stage));
+      }
+      envelope.set("parts_ms", parts);
+      envelope.set("steps_timed", n_timed_);
+    });
+  }
+
+  std::string colliders() {
+    return guarded([&](val& envelope) {
+      val list = val::array();
+      for (const pleat::Collider& collider : running().scene().colliders) {
+        const auto shape = pleat::ContactStage::placed(collider, running().time());
+        val entry = val::object();
+        if (const auto* sphere = std::get_if<pleat::Sphere>(&shape)) {
+          entry.set("shape", std::string("sphere"));
+          entry.set("centre", json_vec3(sphere->centre));
+          entry.set("radius_m", sphere->radius);
+        } else {
+          entry.set("shape", std::string("plane"));
+          entry.set("point", json_vec3(std::get<pleat::Plane>(shape).point));
+          entry.set("normal", json_vec3(std::get<pleat::Plane>(shape).normal));
+        }
+        list.call<void>("push", entry);
+      }
+      envelope.set("colliders", list);
+    });
+  }
+
+  std::string grab(int vertex) {
+    return guarded([&](val&) { running().grab(pleat::VertexId(vertex)); });
+  }
+  void move_grab(double x, double y, double z) {
+    if (simulation_ && simulation_->is_grabbed()) simulation_->move_grab({x, y, z});
+  }
+  void release_grab() {
+    if (simulation_) simulation_->release_grab();
+  }
+
+  val positions() const { return val(emscripten::typed_memory_view(positions_.size(), positions_.data())); }
+  val triangles() const { return val(emscripten::typed_memory_view(triangles_.size(), triangles_.data())); }
+  val rest_coordinates() const {
+    return val(emscripten::typed_memory_view(rest_coordinates_.size(), rest_coordinates_.data()));
+  }
+  val stretch() {
+    if (!simulation_) return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
+    const std::vector<float>& strains = strain_map_->update(simulation_->springs(), simulation_->state().positions);
+    return val(emscripten::typed_memory_view(strains.size(), strains.data()));
+  }
+  val exact_positions() const {
+    if (!simulation_) return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
+    const pleat::Positions& x = simulation_->state().positions;
+    return val(emscripten::typed_memory_view(static_cast<std::size_t>(x.size()), x.data()));
+  }
+  val masses() const {
+    if (!simulation_) return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
+    const Eigen::VectorXd& m = simulation_->model().masses;
+    return val(emscripten::typed_memory_view(static_cast<std::size_t>(m.size()), m.data()));
+  }
+
+ private:
+  pleat::Simulation& running() const {
+    if (!simulation_) throw pleat::InputError("", "expected a loaded scene, found none");
+    return *simulation_;
+  }
+
+  bool has_ended() const { return !report_.ok() && report_.status != pleat::SolveStatus::not_converged; }
+
+  std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
+    return std::make_unique<pleat::Simulation>(
+        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_)));
+  }
+
+  /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state as it was.
+  void take(std::unique_ptr<pleat::Simulation> fresh) {
+    simulation_ = std::move(fresh);
+    simulation_->observe(&timer_);
+    report_ = {};
+    clear_timing();
+    strain_map_ = std::make_unique<pleat::StrainMap>(simulation_->springs(), simulation_->model().n_vertices());
+    triangles_.clear();
+    for (const pleat::Triangle& t : simulation_->triangles())
+      for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
+    const pleat::RestCoordinates& uv = simulation_->model().rest_coordinates;
+    rest_coordinates_.assign(uv.data(), uv.data() + uv.size());
+    frame();
+  }
+
+  void clear_timing() {
+    timer_.clear();
+    n_timed_ = 0;
+  }
+
+  void frame() {
+    const pleat::Positions& x = running().state().positions;
+    positions_.assign(x.data(), x.data() + x.size());
+  }
+
+  std::string fabrics_json_;
+  pleat::StageTimer timer_;
+  std::unique_ptr<pleat::Simulation> simulation_;
+  std::unique_ptr<pleat::StrainMap> strain_map_;
+  pleat::SolveReport report_;
+  int n_timed_ = 0;
+  std::vector<float> positions_;         // 3 per vertex [m]
+  std::vector<float> rest_coordinates_;  // 2 per vertex [m]
+  std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(pleat) {
+  emscripten::class_<Scene>("Scene")
+      .constructor<std::string>()
+      .function("fabrics", &Scene::fabrics)
+      .function("schema", &Scene::schema)
+      .function("parse", &Scene::parse);
+  emscripten::class_<Simulation>("Simulation")
+      .constructor<std::string>()
+      .function("load", &Simulation::load)
+      .function("carryOver", &Simulation::carry_over)
+      .function("reset", &Simulation::reset)
+      .function("step", &Simulation::step)
+      .function("status", &Simulation::status)
+      .function("numbers", &Simulation::numbers)
+      .function("colliders", &Simulation::colliders)
+      .function("grab", &Simulation::grab)
+      .function("moveGrab", &Simulation::move_grab)
+      .function("releaseGrab", &Simulation::release_grab)
+      .function("positions", &Simulation::positions)
+      .function("exactPositions", &Simulation::exact_positions)
+      .function("masses", &Simulation::masses)
+      .function("stretch", &Simulation::stretch)
+      .function("triangles", &Simulation::triangles)
+      .function("restCoordinates", &Simulation::rest_coordinates);
+}
