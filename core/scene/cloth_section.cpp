@@ -1,0 +1,204 @@
+#include "core/scene/cloth_section.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+constexpr std::int64_t kMaxCells = kMaxVertices;  // along one side; the product is checked too
+
+VertexId read_vertex(const JsonReader& reader, std::int64_t n_vertices) {
+  return VertexId(reader.integer(0, n_vertices - 1));
+}
+
+template <std::size_t n>
+std::array<VertexId, n> read_vertices(const JsonReader& reader, std::int64_t n_vertices) {
+  std::array<VertexId, n> vertices;
+  const std::vector<JsonReader> elements = reader.elements(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    vertices[k] = read_vertex(elements[k], n_vertices);
+    for (std::size_t other = 0; other < k; ++other)
+      if (vertices[other] == vertices[k]) reader.fail(std::to_string(n) + " different vertices");
+  }
+  return vertices;
+}
+
+/// Directions that are perpendicular up to the digits of a file are made so to the last bit.
+void read_directions(const JsonReader& reader, SheetShape& shape) {
+  constexpr double kWrittenDigits = 1e-6;  // cosine; a file with six digits is meant perpendicular
+  constexpr double kRoundedDigits =
+      1e-14;  // cosine; kept to the bit, so that what was written is read back
+  if (const auto at = reader.find("warp_direction")) shape.warp_direction = at->direction();
+  if (const auto at = reader.find("weft_direction")) shape.weft_direction = at->direction();
+  const double cosine = shape.warp_direction.dot(shape.weft_direction);
+  if (std::abs(cosine) > kWrittenDigits)
+    throw InputError(reader.pointer() + "/weft_direction",
+                     "expected a direction perpendicular to warp_direction, got one at " +
+                         Json(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI).dump() +
+                         " degrees");
+  if (std::abs(cosine) > kRoundedDigits)
+    shape.weft_direction = (shape.weft_direction - cosine * shape.warp_direction).normalized();
+}
+
+void read_sheet(const JsonReader& reader, Scene& scene) {
+  reader.allow_keys({"width_m", "height_m", "columns", "rows", "origin_m", "warp_direction",
+                     "weft_direction", "initial_velocity_m_per_s"});
+  SheetShape shape;
+  if (const auto at = reader.find("width_m")) shape.width = at->number(kPositive);
+  if (const auto at = reader.find("height_m")) shape.height = at->number(kPositive);
+  if (const auto at = reader.find("columns"))
+    shape.columns = static_cast<int>(at->integer(1, kMaxCells));
+  if (const auto at = reader.find("rows")) shape.rows = static_cast<int>(at->integer(1, kMaxCells));
+  if (const auto at = reader.find("origin_m")) shape.origin = at->vec3();
+  read_directions(reader, shape);
+  if (const auto at = reader.find("initial_velocity_m_per_s")) scene.initial_velocity = at->vec3();
+  const std::int64_t n_vertices = n_sheet_vertices(shape, 0);
+  if (n_vertices > kMaxVertices)
+    throw InputError(reader.pointer(), "expected at most " + std::to_string(kMaxVertices) +
+                                           " vertices, got " + std::to_string(n_vertices));
+  scene.cloth = shape;
+}
+
+Positions read_columns(const std::vector<JsonReader>& elements) {
+  Positions columns(3, static_cast<Eigen::Index>(elements.size()));
+  Eigen::Index column = 0;
+  for (const JsonReader& element : elements) columns.col(column++) = element.vec3();
+  return columns;
+}
+
+Spring read_spring(const JsonReader& reader, const Positions& positions) {
+  reader.allow_keys({"a", "b", "stiffness_n_per_m", "rest_length_m", "damping_n_s_per_m"});
+  Spring spring;
+  spring.a = read_vertex(reader.at("a"), positions.cols());
+  spring.b = read_vertex(reader.at("b"), positions.cols());
+  if (spring.a == spring.b) reader.at("b").fail("a particle other than a");
+  spring.stiffness = reader.at("stiffness_n_per_m").number(kPositive);
+  spring.rest_length = (positions.col(spring.a) - positions.col(spring.b)).norm();
+  if (const auto at = reader.find("rest_length_m")) spring.rest_length = at->number(kNotNegative);
+  if (const auto at = reader.find("damping_n_s_per_m")) spring.damping = at->number(kNotNegative);
+  return spring;
+}
+
+BendElement read_bend(const JsonReader& reader, std::int64_t n_vertices) {
+  constexpr double kRounding = 1e-9;  // of the largest weight; a file may round its weights
+  reader.allow_keys({"vertices", "stiffness_n_m3", "weights_per_m2"});
+  BendElement bend;
+  bend.vertices = read_vertices<3>(reader.at("vertices"), n_vertices);
+  bend.stiffness = reader.at("stiffness_n_m3").number(kPositive);
+  const JsonReader weights = reader.at("weights_per_m2");
+  const Vec3 read = weights.vec3();
+  if (std::abs(read.sum()) > kRounding * read.cwiseAbs().maxCoeff())
+    throw InputError(weights.pointer(),
+                     "expected weights that sum to zero, got a sum of " + Json(read.sum()).dump());
+  bend.weights = {read[0], read[1], read[2]};
+  return bend;
+}
+
+void read_particles(const JsonReader& reader, Scene& scene) {
+  reader.allow_keys(
+      {"positions_m", "velocities_m_per_s", "masses_kg", "springs", "bends", "triangles"});
+  InlineCloth cloth;
+  const std::vector<JsonReader> positions = reader.at("positions_m").elements();
+  if (positions.empty() || static_cast<std::int64_t>(positions.size()) > kMaxVertices)
+    reader.at("positions_m").fail("1 to " + std::to_string(kMaxVertices) + " positions");
+  cloth.positions = read_columns(positions);
+  const std::int64_t n = cloth.positions.cols();
+  cloth.velocities = Positions::Zero(3, n);
+  if (const auto at = reader.find("velocities_m_per_s"))
+    cloth.velocities = read_columns(at->elements(positions.size()));
+  cloth.masses.resize(n);
+  Eigen::Index particle = 0;
+  for (const JsonReader& mass : reader.at("masses_kg").elements(positions.size()))
+    cloth.masses[particle++] = mass.number(kPositive);
+  if (const auto at = reader.find("springs"))
+    for (const JsonReader& spring : at->elements())
+      cloth.springs.push_back(read_spring(spring, cloth.positions));
+  if (const auto at = reader.find("bends"))
+    for (const JsonReader& bend : at->elements()) cloth.bends.push_back(read_bend(bend, n));
+  if (const auto at = reader.find("triangles"))
+    for (const JsonReader& triangle : at->elements())
+      cloth.triangles.push_back(read_vertices<3>(triangle, n));
+  scene.cloth = std::move(cloth);
+}
+
+template <std::size_t n>
+Json json_vertices(const std::array<VertexId, n>& vertices) {
+  Json json = Json::array();
+  for (const VertexId vertex : vertices) json.push_back(vertex.value);
+  return json;
+}
+
+Json json_sheet(const SheetShape& shape, const Vec3& initial_velocity) {
+  return {{"width_m", shape.width},
+          {"height_m", shape.height},
+          {"columns", shape.columns},
+          {"rows", shape.rows},
+          {"origin_m", json_vec3(shape.origin)},
+          {"warp_direction", json_vec3(shape.warp_direction)},
+          {"weft_direction", json_vec3(shape.weft_direction)},
+          {"initial_velocity_m_per_s", json_vec3(initial_velocity)}};
+}
+
+Json json_columns(const Positions& columns) {
+  Json json = Json::array();
+  for (Eigen::Index column = 0; column < columns.cols(); ++column)
+    json.push_back(json_vec3(columns.col(column)));
+  return json;
+}
+
+Json json_particles(const InlineCloth& cloth) {
+  Json masses = Json::array();
+  for (const double mass : cloth.masses) masses.push_back(mass);
+  Json springs = Json::array();
+  for (const Spring& spring : cloth.springs)
+    springs.push_back({{"a", spring.a.value},
+                       {"b", spring.b.value},
+                       {"stiffness_n_per_m", spring.stiffness},
+                       {"rest_length_m", spring.rest_length},
+                       {"damping_n_s_per_m", spring.damping}});
+  Json bends = Json::array();
+  for (const BendElement& bend : cloth.bends)
+    bends.push_back({{"vertices", json_vertices(bend.vertices)},
+                     {"stiffness_n_m3", bend.stiffness},
+                     {"weights_per_m2", bend.weights}});
+  Json triangles = Json::array();
+  for (const Triangle& triangle : cloth.triangles) triangles.push_back(json_vertices(triangle));
+  return {{"positions_m", json_columns(cloth.positions)},
+          {"velocities_m_per_s", json_columns(cloth.velocities)},
+          {"masses_kg", masses},
+          {"springs", springs},
+          {"bends", bends},
+          {"triangles", triangles}};
+}
+
+}  // namespace
+
+std::int64_t n_sheet_vertices(const SheetShape& shape, int level) {
+  const std::int64_t cells_per_side = std::int64_t{1} << level;
+  return (shape.columns * cells_per_side + 1) * (shape.rows * cells_per_side + 1);
+}
+
+std::int64_t n_base_vertices(const Scene& scene) {
+  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth)) return n_sheet_vertices(*shape, 0);
+  return std::get<InlineCloth>(scene.cloth).positions.cols();
+}
+
+void read_cloth(const JsonReader& reader, Scene& scene) {
+  reader.allow_keys({"sheet", "particles"});
+  if (reader.only_one_of({"sheet", "particles"}) == 0) {
+    read_sheet(reader.at("sheet"), scene);
+  } else {
+    read_particles(reader.at("particles"), scene);
+  }
+}
+
+Json json_cloth(const Scene& scene) {
+  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth))
+    return {{"sheet", json_sheet(*shape, scene.initial_velocity)}};
+  return {{"particles", json_particles(std::get<InlineCloth>(scene.cloth))}};
+}
+
+}  // namespace pleat

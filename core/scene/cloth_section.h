@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/scene/json_reader.h"
+#include "core/scene/scene.h"
+
+namespace pleat {
+
+/// More base vertices or particles are refused: their matrices would not fit into a browser's
+/// memory.
+constexpr std::int64_t kMaxVertices = 1000000;
+
+/// Vertices of a sheet after `level` uniform refinements.
+std::int64_t n_sheet_vertices(const SheetShape& shape, int level);
+
+/// Vertices of the scene's cloth before refinement.
+std::int64_t n_base_vertices(const Scene& scene);
+
+/// The section "cloth" of a scene file: a sheet or particles with springs.
+void read_cloth(const JsonReader& reader, Scene& scene);
+Json json_cloth(const Scene& scene);
+
+}  // namespace pleat

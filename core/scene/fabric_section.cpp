@@ -1,0 +1,83 @@
+#include "core/scene/fabric_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+constexpr std::array<Word<BendSource>, 2> kBendSources{
+    {{"at_rest", BendSource::at_rest}, {"moving", BendSource::moving}}};
+
+struct NumberField {
+  const char* key;
+  double FabricConstants::*field;
+  NumberRange range;
+};
+constexpr std::array<NumberField, 9> kNumberFields{
+    {{"areal_density_kg_per_m2", &FabricConstants::areal_density, kPositive},
+     {"thickness_m", &FabricConstants::thickness, kNotNegative},
+     {"stretch_warp_n_per_m", &FabricConstants::stretch_warp, kPositive},
+     {"stretch_weft_n_per_m", &FabricConstants::stretch_weft, kPositive},
+     {"shear_n_per_m", &FabricConstants::shear, kNotNegative},
+     {"bend_warp_n_m", &FabricConstants::bend_warp, kNotNegative},
+     {"bend_weft_n_m", &FabricConstants::bend_weft, kNotNegative},
+     {"damping_ratio", &FabricConstants::damping_ratio, kNotNegative},
+     {"friction_solid", &FabricConstants::friction_solid, kNotNegative}}};
+
+/// Reads the numbers that are there; the others stay as they are. Returns the keys read.
+std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants& fabric) {
+  reader.allow_keys({"areal_density_kg_per_m2", "thickness_m", "stretch_warp_n_per_m",
+                     "stretch_weft_n_per_m", "shear_n_per_m", "bend_warp_n_m", "bend_weft_n_m",
+                     "damping_ratio", "friction_solid"});
+  std::vector<std::string> keys;
+  for (const NumberField& number : kNumberFields) {
+    const auto at = reader.find(number.key);
+    if (!at) continue;
+    fabric.*number.field = at->number(number.range);
+    keys.emplace_back(number.key);
+  }
+  // The membrane stiffness [[K_u, G], [G, K_v]] has to resist every stretch.
+  const double largest_shear = std::sqrt(fabric.stretch_warp) * std::sqrt(fabric.stretch_weft);
+  if (fabric.shear >= largest_shear)
+    throw InputError(reader.pointer() + "/shear_n_per_m",
+                     "expected less than the geometric mean of the stretch stiffnesses, " +
+                         Json(largest_shear).dump() + ", got " + Json(fabric.shear).dump());
+  return keys;
+}
+
+}  // namespace
+
+void read_fabric(const JsonReader& reader, const FabricLibrary& fabrics, Scene& scene) {
+  scene.fabric_is_named = reader.find("name").has_value();
+  if (!scene.fabric_is_named) {
+    if (const auto at = reader.find("bending"))
+      throw InputError(at->pointer(),
+                       "expected only for a fabric with a name: own numbers are taken as they are");
+    read_numbers(reader, scene.fabric);
+    return;
+  }
+  reader.allow_keys({"name", "bending", "overrides"});
+  if (const auto at = reader.find("bending")) scene.bend_source = at->word(kBendSources);
+  scene.fabric = constants(fabrics.find(reader.at("name").text()), scene.bend_source);
+  if (const auto at = reader.find("overrides"))
+    scene.fabric_overrides = read_numbers(*at, scene.fabric);
+}
+
+Json json_fabric(const Scene& scene) {
+  Json numbers = Json::object();
+  for (const NumberField& number : kNumberFields) {
+    const auto& keys = scene.fabric_overrides;
+    if (!scene.fabric_is_named || std::find(keys.begin(), keys.end(), number.key) != keys.end())
+      numbers[number.key] = scene.fabric.*number.field;
+  }
+  if (!scene.fabric_is_named) return numbers;
+  Json json{{"name", scene.fabric.name}, {"bending", word_for(kBendSources, scene.bend_source)}};
+  if (!numbers.empty()) json["overrides"] = numbers;
+  return json;
+}
+
+}  // namespace pleat

@@ -1,0 +1,91 @@
+#include "core/scene/method_section.h"
+
+namespace pleat {
+namespace {
+
+constexpr std::int64_t kMaxSubsteps = 1000000;
+constexpr std::int64_t kMaxIterations = 100000;
+constexpr NumberRange kTolerance{0, 1, NumberRange::Ends::excluded};
+
+constexpr std::array<Word<BendingModel>, 2> kBendingModels{
+    {{"quadratic", BendingModel::quadratic}, {"none", BendingModel::none}}};
+
+constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
+    {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
+
+constexpr std::array<Word<StepperKind>, 4> kSteppers{{{"explicit", StepperKind::explicit_euler},
+                                                      {"implicit", StepperKind::implicit_euler},
+                                                      {"projective", StepperKind::projective},
+                                                      {"xpbd", StepperKind::xpbd}}};
+
+constexpr std::array<Word<SolverKind>, 3> kSolvers{
+    {{"cholmod", SolverKind::cholmod}, {"eigen", SolverKind::eigen}, {"cg", SolverKind::cg}}};
+
+constexpr std::array<Word<bool>, 2> kConstraints{{{"compliant", false}, {"rigid", true}}};
+
+constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
+                                                          {"ply", FrameFormat::ply},
+                                                          {"binary", FrameFormat::binary},
+                                                          {"none", FrameFormat::none}}};
+
+constexpr const char* kStableSubsteps =
+    "stable";  // as many as the explicit stability bound asks for
+
+int read_substeps(const JsonReader& reader, StepperKind stepper) {
+  if (!reader.is_text()) return static_cast<int>(reader.integer(1, kMaxSubsteps));
+  if (stepper != StepperKind::explicit_euler)
+    reader.fail("a whole number: only explicit takes \"stable\"");
+  if (reader.text() != kStableSubsteps) reader.fail("a whole number or \"stable\"");
+  return 0;
+}
+
+}  // namespace
+
+void read_model(const JsonReader& reader, SpringModel& model) {
+  reader.allow_keys({"bending", "shear", "damping"});
+  if (const auto at = reader.find("bending")) model.bending = at->word(kBendingModels);
+  if (const auto at = reader.find("shear")) model.shear = at->boolean();
+  if (const auto at = reader.find("damping"))
+    model.damping_direction = at->word(kDampingDirections);
+}
+
+Json json_model(const SpringModel& model) {
+  return {{"bending", word_for(kBendingModels, model.bending)},
+          {"shear", model.shear},
+          {"damping", word_for(kDampingDirections, model.damping_direction)}};
+}
+
+void read_method(const JsonReader& reader, MethodOptions& method) {
+  reader.allow_keys(
+      {"stepper", "step_s", "substeps", "iterations", "solver", "tolerance", "constraints"});
+  if (const auto at = reader.find("stepper")) method.stepper = at->word(kSteppers);
+  if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
+  if (const auto at = reader.find("substeps")) method.substeps = read_substeps(*at, method.stepper);
+  if (const auto at = reader.find("iterations"))
+    method.iterations = static_cast<int>(at->integer(1, kMaxIterations));
+  if (const auto at = reader.find("solver")) method.solver = at->word(kSolvers);
+  if (const auto at = reader.find("tolerance")) method.tolerance = at->number(kTolerance);
+  if (const auto at = reader.find("constraints")) method.constraints_rigid = at->word(kConstraints);
+}
+
+Json json_method(const MethodOptions& method) {
+  return {{"stepper", word_for(kSteppers, method.stepper)},
+          {"step_s", method.step},
+          {"substeps", method.substeps == 0 ? Json(kStableSubsteps) : Json(method.substeps)},
+          {"iterations", method.iterations},
+          {"solver", word_for(kSolvers, method.solver)},
+          {"tolerance", method.tolerance},
+          {"constraints", word_for(kConstraints, method.constraints_rigid)}};
+}
+
+void read_record(const JsonReader& reader, RecordOptions& record) {
+  reader.allow_keys({"every_s", "format"});
+  if (const auto at = reader.find("every_s")) record.every = at->number(kPositive);
+  if (const auto at = reader.find("format")) record.format = at->word(kFrameFormats);
+}
+
+Json json_record(const RecordOptions& record) {
+  return {{"every_s", record.every}, {"format", word_for(kFrameFormats, record.format)}};
+}
+
+}  // namespace pleat

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/scene/json_reader.h"
+#include "core/scene/scene.h"
+
+namespace pleat {
+
+/// The section "model" of a scene file: what the springs do.
+void read_model(const JsonReader& reader, SpringModel& model);
+Json json_model(const SpringModel& model);
+
+/// The section "method": stepper, step and solver.
+void read_method(const JsonReader& reader, MethodOptions& method);
+Json json_method(const MethodOptions& method);
+
+/// The section "record": which frames are kept, and how.
+void read_record(const JsonReader& reader, RecordOptions& record);
+Json json_record(const RecordOptions& record);
+
+}  // namespace pleat

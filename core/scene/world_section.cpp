@@ -1,0 +1,213 @@
+#include "core/scene/world_section.h"
+
+#include <map>
+
+#include "core/base/check.h"
+#include "core/scene/cloth_section.h"
+
+namespace pleat {
+namespace {
+
+constexpr std::array<Word<Motion::Kind>, 4> kMotionKinds{{{"hold", Motion::Kind::hold},
+                                                          {"move", Motion::Kind::move},
+                                                          {"ease", Motion::Kind::ease},
+                                                          {"oscillate", Motion::Kind::oscillate}}};
+
+constexpr std::array<Word<SheetPart>, 8> kSheetParts{{{"upper_edge", SheetPart::upper_edge},
+                                                      {"lower_edge", SheetPart::lower_edge},
+                                                      {"left_edge", SheetPart::left_edge},
+                                                      {"right_edge", SheetPart::right_edge},
+                                                      {"upper_left", SheetPart::upper_left},
+                                                      {"upper_right", SheetPart::upper_right},
+                                                      {"lower_left", SheetPart::lower_left},
+                                                      {"lower_right", SheetPart::lower_right}}};
+
+Motion read_motion(const JsonReader& reader) {
+  Motion motion;
+  motion.kind = reader.at("kind").word(kMotionKinds);
+  switch (motion.kind) {
+    case Motion::Kind::hold:
+      reader.allow_keys({"kind"});
+      break;
+    case Motion::Kind::move:
+    case Motion::Kind::ease:
+      reader.allow_keys({"kind", "offset_m", "begin_s", "end_s"});
+      motion.offset = reader.at("offset_m").vec3();
+      if (const auto at = reader.find("begin_s")) motion.time_begin = at->number(kNotNegative);
+      motion.time_end = reader.at("end_s").number(kNotNegative);
+      if (motion.time_end < motion.time_begin)
+        reader.at("end_s").fail("a time that is not before begin_s");
+      break;
+    case Motion::Kind::oscillate:
+      reader.allow_keys({"kind", "offset_m", "begin_s", "frequency_hz"});
+      motion.offset = reader.at("offset_m").vec3();
+      if (const auto at = reader.find("begin_s")) motion.time_begin = at->number(kNotNegative);
+      motion.frequency = reader.at("frequency_hz").number(kPositive);
+      break;
+  }
+  return motion;
+}
+
+Json json_motion(const Motion& motion) {
+  Json json{{"kind", word_for(kMotionKinds, motion.kind)}};
+  if (motion.kind == Motion::Kind::hold) return json;
+  json["offset_m"] = json_vec3(motion.offset);
+  json["begin_s"] = motion.time_begin;
+  if (motion.kind == Motion::Kind::oscillate) {
+    json["frequency_hz"] = motion.frequency;
+  } else {
+    json["end_s"] = motion.time_end;
+  }
+  return json;
+}
+
+bool same_motion(const Motion& a, const Motion& b) {
+  return a.kind == b.kind && a.offset == b.offset && a.time_begin == b.time_begin &&
+         a.time_end == b.time_end && a.frequency == b.frequency;
+}
+
+/// Base vertices of a part: rows r and columns c of the vertex grid.
+std::vector<VertexId> base_vertices(const SheetShape& shape, SheetPart part) {
+  const bool left = part == SheetPart::upper_left || part == SheetPart::lower_left ||
+                    part == SheetPart::left_edge;
+  const bool right = part == SheetPart::upper_right || part == SheetPart::lower_right ||
+                     part == SheetPart::right_edge;
+  const bool upper = part == SheetPart::upper_left || part == SheetPart::upper_right ||
+                     part == SheetPart::upper_edge;
+  const bool lower = part == SheetPart::lower_left || part == SheetPart::lower_right ||
+                     part == SheetPart::lower_edge;
+  std::vector<VertexId> vertices;
+  for (int r = lower ? shape.rows : 0; r <= (upper ? 0 : shape.rows); ++r)
+    for (int c = right ? shape.columns : 0; c <= (left ? 0 : shape.columns); ++c)
+      vertices.emplace_back(std::int64_t{r} * (shape.columns + 1) + c);
+  return vertices;
+}
+
+std::vector<VertexId> pinned_vertices(const Scene& scene, const PinRule& pin) {
+  if (const auto* vertices = std::get_if<std::vector<VertexId>>(&pin.where)) return *vertices;
+  return base_vertices(std::get<SheetShape>(scene.cloth), std::get<SheetPart>(pin.where));
+}
+
+PinRule read_pin(const JsonReader& reader, const Scene& scene) {
+  reader.allow_keys({"part", "vertices", "motion"});
+  PinRule pin;
+  if (reader.only_one_of({"part", "vertices"}) == 0) {
+    pin.where = reader.at("part").word(kSheetParts);
+    if (!std::holds_alternative<SheetShape>(scene.cloth))
+      reader.at("part").fail("listed vertices, as only a sheet has parts");
+  } else {
+    std::vector<VertexId> vertices;
+    for (const JsonReader& vertex : reader.at("vertices").elements())
+      vertices.emplace_back(vertex.integer(0, n_base_vertices(scene) - 1));
+    if (vertices.empty()) reader.at("vertices").fail("at least one vertex");
+    pin.where = std::move(vertices);
+  }
+  if (const auto at = reader.find("motion")) pin.motion = read_motion(*at);
+  return pin;
+}
+
+Collider read_collider(const JsonReader& reader, double default_friction) {
+  reader.allow_keys({"plane", "sphere", "motion", "friction"});
+  Collider collider;
+  if (reader.only_one_of({"plane", "sphere"}) == 0) {
+    const JsonReader at = reader.at("plane");
+    at.allow_keys({"point_m", "normal"});
+    Plane plane;
+    if (const auto point = at.find("point_m")) plane.point = point->vec3();
+    if (const auto normal = at.find("normal")) plane.normal = normal->direction();
+    collider.shape = plane;
+  } else {
+    const JsonReader at = reader.at("sphere");
+    at.allow_keys({"centre_m", "radius_m"});
+    Sphere sphere;
+    if (const auto centre = at.find("centre_m")) sphere.centre = centre->vec3();
+    if (const auto radius = at.find("radius_m")) sphere.radius = radius->number(kPositive);
+    collider.shape = sphere;
+  }
+  if (const auto at = reader.find("motion")) collider.motion = read_motion(*at);
+  collider.friction = default_friction;
+  if (const auto at = reader.find("friction")) collider.friction = at->number(kNotNegative);
+  return collider;
+}
+
+Json json_collider(const Collider& collider) {
+  Json json;
+  if (const auto* plane = std::get_if<Plane>(&collider.shape)) {
+    json["plane"] = {{"point_m", json_vec3(plane->point)}, {"normal", json_vec3(plane->normal)}};
+  } else {
+    const auto& sphere = std::get<Sphere>(collider.shape);
+    json["sphere"] = {{"centre_m", json_vec3(sphere.centre)}, {"radius_m", sphere.radius}};
+  }
+  json["motion"] = json_motion(collider.motion);
+  json["friction"] = collider.friction;
+  return json;
+}
+
+AirOptions read_air(const JsonReader& reader) {
+  reader.allow_keys({"density_kg_per_m3", "normal_coefficient", "tangent_coefficient"});
+  AirOptions air;
+  if (const auto at = reader.find("density_kg_per_m3")) air.density = at->number(kPositive);
+  if (const auto at = reader.find("normal_coefficient"))
+    air.normal_coefficient = at->number(kNotNegative);
+  if (const auto at = reader.find("tangent_coefficient"))
+    air.tangent_coefficient = at->number(kNotNegative);
+  return air;
+}
+
+}  // namespace
+
+void read_pins(const JsonReader& reader, Scene& scene) {
+  std::map<std::int32_t, std::size_t> owner;  // the pin that a vertex belongs to
+  for (const JsonReader& element : reader.elements()) {
+    const PinRule pin = read_pin(element, scene);
+    for (const VertexId vertex : pinned_vertices(scene, pin)) {
+      const std::size_t first = owner.emplace(vertex.value, scene.pins.size()).first->second;
+      if (first == scene.pins.size() || same_motion(scene.pins[first].motion, pin.motion)) continue;
+      throw InputError(element.pointer(),
+                       "expected one motion for each vertex, got a second one for vertex " +
+                           std::to_string(vertex.value) + ", which " + reader.pointer() + "/" +
+                           std::to_string(first) + " moves too");
+    }
+    scene.pins.push_back(pin);
+  }
+}
+
+Json json_pins(const Scene& scene) {
+  Json json = Json::array();
+  for (const PinRule& pin : scene.pins) {
+    Json element;
+    if (const auto* part = std::get_if<SheetPart>(&pin.where)) {
+      element["part"] = word_for(kSheetParts, *part);
+    } else {
+      element["vertices"] = Json::array();
+      for (const VertexId vertex : std::get<std::vector<VertexId>>(pin.where))
+        element["vertices"].push_back(vertex.value);
+    }
+    element["motion"] = json_motion(pin.motion);
+    json.push_back(element);
+  }
+  return json;
+}
+
+void read_world(const JsonReader& reader, Scene& scene) {
+  reader.allow_keys({"gravity_m_per_s2", "air", "colliders"});
+  if (const auto at = reader.find("gravity_m_per_s2")) scene.gravity = at->vec3();
+  if (const auto at = reader.find("air")) scene.air = read_air(*at);
+  if (const auto at = reader.find("colliders"))
+    for (const JsonReader& collider : at->elements())
+      scene.colliders.push_back(read_collider(collider, scene.fabric.friction_solid));
+}
+
+Json json_world(const Scene& scene) {
+  Json json{{"gravity_m_per_s2", json_vec3(scene.gravity)}};
+  if (scene.air)
+    json["air"] = {{"density_kg_per_m3", scene.air->density},
+                   {"normal_coefficient", scene.air->normal_coefficient},
+                   {"tangent_coefficient", scene.air->tangent_coefficient}};
+  json["colliders"] = Json::array();
+  for (const Collider& collider : scene.colliders)
+    json["colliders"].push_back(json_collider(collider));
+  return json;
+}
+
+}  // namespace pleat
