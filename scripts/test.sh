@@ -30,7 +30,7 @@ changed_files() {
 # Sources the native build compiles; a changed header is checked through the source beside it.
 tidy_sources() {
   sed -n 's/\.h$/.cpp/p; /\.cpp$/p' | sort -u | while read -r source; do
-    grep -qF "$root/$source\"" build/release/compile_commands.json && echo "$source"
+    if grep -qF "$root/$source\"" build/release/compile_commands.json; then echo "$source"; fi
   done
 }
 
