@@ -1,0 +1,149 @@
+// Milliseconds against error, one mark and colour per stepper, the front as a line.
+import type { BenchRow } from '../sim/wasm-module';
+import { digits, milliseconds, smallLength } from '../views/quantity';
+import { logScale } from './log-scale';
+
+export interface PlotContent {
+  rows: BenchRow[];
+  /** Indices into `rows`. */
+  front: number[];
+  /** Index of the row that the stage shows, or -1. */
+  current: number;
+}
+
+const SVG = 'http://www.w3.org/2000/svg';
+const WIDTH = 520;
+const HEIGHT = 300;
+const LEFT = 62;
+const RIGHT = 12;
+const TOP = 12;
+const BOTTOM = 46;
+/** Radius that a finger or a pointer can hit. */
+const HIT_RADIUS = 12;
+
+/** Each stepper's mark about the origin. */
+const MARKS: Record<string, string> = {
+  implicit: 'M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0Z',
+  projective: 'M-4.2-4.2H4.2V4.2H-4.2Z',
+  xpbd: 'M0-5.4L5 3.8H-5Z',
+  explicit: 'M0-5.6L5.6 0L0 5.6L-5.6 0Z',
+};
+
+export function markOf(stepper: string): string {
+  return MARKS[stepper] ?? 'M-5 0H5M0-5V5';
+}
+
+/** A method in words: "XPBD, level 2, 1/60 s, 30 substeps". */
+export function titleOf(row: BenchRow): string {
+  const { stepper, step_s, substeps, iterations } = row.method;
+  const counts = [
+    substeps !== undefined && substeps > 1 ? `${substeps} substeps` : '',
+    iterations !== undefined && iterations > 1 ? `${iterations} iterations` : '',
+  ];
+  const parts = [stepper, `level ${row.level}`, `1/${Math.round(1 / step_s)} s`, ...counts];
+  return parts.filter((part) => part !== '').join(', ');
+}
+
+/** True when the row has a place on both axes. */
+export function isPlaced(row: BenchRow): boolean {
+  return row.status === 'ok' && row.ms_per_frame > 0 && row.position_error_m > 0;
+}
+
+function svg(tag: string, attributes: Record<string, string | number>, text = ''): SVGElement {
+  const made = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  if (text) made.textContent = text;
+  return made;
+}
+
+/** A chart that `update` draws anew; `onChoice` gets the index of a chosen row. */
+export function createSpeedErrorPlot(
+  parent: HTMLElement,
+  onChoice: (index: number) => void,
+): { update(content: PlotContent): void } {
+  const root = svg('svg', {
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    class: 'plot',
+    role: 'group',
+    'aria-label': 'Milliseconds for a frame against position error; points are buttons',
+  });
+  parent.append(root);
+
+  function point(row: BenchRow, index: number, x: number, y: number, isCurrent: boolean) {
+    const label = `${titleOf(row)}: ${milliseconds(row.ms_per_frame)} a frame, error ${smallLength(row.position_error_m)}`;
+    const group = svg('g', {
+      transform: `translate(${x} ${y})`,
+      class: `point point-${row.method.stepper}`,
+      role: 'button',
+      tabindex: 0,
+      'data-row': index,
+      'aria-label': isCurrent ? `${label}, shown now` : label,
+    });
+    group.append(
+      svg('title', {}, label),
+      svg('circle', { r: HIT_RADIUS, class: 'point-hit' }),
+      svg('path', { d: markOf(row.method.stepper), class: 'point-mark' }),
+    );
+    if (isCurrent) group.append(svg('circle', { r: 9, class: 'point-ring' }));
+    group.addEventListener('click', () => onChoice(index));
+    group.addEventListener('keydown', (event) => {
+      if (!(event instanceof KeyboardEvent) || !['Enter', ' '].includes(event.key)) return;
+      event.preventDefault();
+      onChoice(index);
+    });
+    return group;
+  }
+
+  function update({ rows, front, current }: PlotContent): void {
+    const focused = document.activeElement?.getAttribute('data-row') ?? null;
+    const hadFocus = focused !== null && root.contains(document.activeElement);
+    const placed = rows.filter(isPlaced);
+    const across = logScale(placed.map((row) => row.ms_per_frame));
+    const upward = logScale(placed.map((row) => row.position_error_m * 1000));
+    const xOf = (ms: number) => LEFT + across.part(ms) * (WIDTH - LEFT - RIGHT);
+    const yOf = (mm: number) => HEIGHT - BOTTOM - upward.part(mm) * (HEIGHT - TOP - BOTTOM);
+    const parts: SVGElement[] = [];
+    const line = (x1: number, y1: number, x2: number, y2: number, kind: string) =>
+      parts.push(svg('line', { x1, y1, x2, y2, class: kind }));
+    for (const ms of across.minorTicks) line(xOf(ms), TOP, xOf(ms), HEIGHT - BOTTOM, 'grid-minor');
+    for (const mm of upward.minorTicks) line(LEFT, yOf(mm), WIDTH - RIGHT, yOf(mm), 'grid-minor');
+    for (const ms of across.ticks) {
+      line(xOf(ms), TOP, xOf(ms), HEIGHT - BOTTOM, 'grid');
+      parts.push(
+        svg('text', { x: xOf(ms), y: HEIGHT - BOTTOM + 17, class: 'tick tick-x' }, digits(ms, 1)),
+      );
+    }
+    for (const mm of upward.ticks) {
+      line(LEFT, yOf(mm), WIDTH - RIGHT, yOf(mm), 'grid');
+      parts.push(svg('text', { x: LEFT - 8, y: yOf(mm) + 4, class: 'tick tick-y' }, digits(mm, 1)));
+    }
+    const middle = TOP + (HEIGHT - TOP - BOTTOM) / 2;
+    parts.push(
+      svg(
+        'text',
+        { x: LEFT + (WIDTH - LEFT - RIGHT) / 2, y: HEIGHT - 8, class: 'axis' },
+        'ms for a frame (1/60 s of motion)',
+      ),
+      svg(
+        'text',
+        { x: 14, y: middle, class: 'axis', transform: `rotate(-90 14 ${middle})` },
+        'position error [mm]',
+      ),
+    );
+    const places = front
+      .map((index) => rows[index])
+      .filter((row): row is BenchRow => row !== undefined && isPlaced(row))
+      .sort((a, b) => a.ms_per_frame - b.ms_per_frame)
+      .map((row) => `${xOf(row.ms_per_frame)},${yOf(row.position_error_m * 1000)}`);
+    parts.push(svg('polyline', { points: places.join(' '), class: 'front' }));
+    rows.forEach((row, index) => {
+      if (!isPlaced(row)) return;
+      const [x, y] = [xOf(row.ms_per_frame), yOf(row.position_error_m * 1000)];
+      parts.push(point(row, index, x, y, index === current));
+    });
+    root.replaceChildren(...parts);
+    if (hadFocus) root.querySelector<SVGElement>(`[data-row="${focused}"]`)?.focus();
+  }
+
+  return { update };
+}

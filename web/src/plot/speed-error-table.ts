@@ -1,0 +1,79 @@
+// The chart's data as a table; every row can be applied, failed rows say why they failed.
+import type { BenchRow } from '../sim/wasm-module';
+import { element } from '../views/element';
+import { digits, milliseconds, percent, smallLength } from '../views/quantity';
+import { type PlotContent, titleOf } from './speed-error-plot';
+
+const HEADS = [
+  'Setting',
+  'Vertices',
+  'ms a frame',
+  'Spread',
+  'Error',
+  'of diagonal',
+  'RMS stretch',
+  '',
+];
+
+function cells(row: BenchRow): string[] {
+  return [
+    String(row.n_vertices),
+    milliseconds(row.ms_per_frame),
+    `± ${digits(row.spread_ms, 1)} ms`,
+    smallLength(row.position_error_m),
+    `${digits(row.position_error_percent, 2)} %`,
+    percent(row.rms_stretch),
+  ];
+}
+
+export function createSpeedErrorTable(
+  parent: HTMLElement,
+  onChoice: (index: number) => void,
+): { update(content: PlotContent): void } {
+  const body = element('tbody');
+  parent.append(
+    element(
+      'table',
+      { class: 'rows' },
+      element('caption', { class: 'unseen' }, 'Speed and error of each setting'),
+      element(
+        'thead',
+        {},
+        element('tr', {}, ...HEADS.map((head) => element('th', { scope: 'col' }, head || 'Use'))),
+      ),
+      body,
+    ),
+  );
+
+  function line(row: BenchRow, index: number, isFront: boolean, isCurrent: boolean): HTMLElement {
+    const title = titleOf(row);
+    const use = element(
+      'button',
+      { type: 'button', 'aria-label': `Use ${title}`, click: () => onChoice(index) },
+      'Use',
+    );
+    const heading = element('th', { scope: 'row' }, title);
+    if (isFront) heading.append(' ', element('span', { class: 'badge' }, 'front'));
+    const data =
+      row.status === 'ok'
+        ? cells(row).map((text) => element('td', { class: 'number' }, text))
+        : [element('td', { colspan: 6, class: 'failed' }, `${row.status}: ${row.message}`)];
+    const kind = isCurrent ? 'current' : '';
+    return element('tr', { class: kind }, heading, ...data, element('td', {}, use));
+  }
+
+  return {
+    update({ rows, front, current }) {
+      const focused = document.activeElement?.getAttribute('aria-label');
+      const hadFocus = body.contains(document.activeElement);
+      body.replaceChildren(
+        ...rows.map((row, index) => line(row, index, front.includes(index), index === current)),
+      );
+      if (!hadFocus) return;
+      const again = [...body.querySelectorAll('button')].find(
+        (made) => made.getAttribute('aria-label') === focused,
+      );
+      again?.focus();
+    },
+  };
+}

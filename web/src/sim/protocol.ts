@@ -1,0 +1,76 @@
+// Messages between the page and its workers, both ways. Lengths in metres, times in seconds.
+import type { Collider, Failure, RunNumbers, SceneSummary, SweepReport } from './wasm-module';
+
+export type ToWorker =
+  /** First message: opens the module's objects with the fabric file's text. */
+  | { type: 'open'; fabricsText: string }
+  /** `request` comes back in the answer, so that a late answer can be told from a current one. */
+  | { type: 'load'; sceneText: string; keepMotion: boolean; request: number }
+  | { type: 'reset'; request: number }
+  /** The buffer is given away here and comes back filled in `frame`. */
+  | { type: 'step'; count: number; wantsNumbers: boolean; request: number; buffer: ArrayBuffer }
+  | { type: 'grab'; vertex: number }
+  | { type: 'moveGrab'; target: [number, number, number] }
+  | { type: 'releaseGrab' }
+  /** Runs to its end; to cancel, terminate the worker. */
+  | { type: 'sweep'; planText: string };
+
+export interface LoadedMessage {
+  type: 'loaded';
+  request: number;
+  summary: SceneSummary;
+  triangles: Uint32Array;
+  /** Two numbers a vertex [m]. */
+  restCoordinates: Float32Array;
+  /** Two frame buffers that belong to the page from now on; the first holds the present frame. */
+  buffers: [ArrayBuffer, ArrayBuffer];
+  numbers: RunNumbers;
+  colliders: Collider[];
+}
+
+/** `status` is "ok", "not_converged" (the run goes on from the best so far), or why it ended. */
+export interface RunReport {
+  numbers: RunNumbers;
+  status: string;
+  message: string;
+}
+
+export interface FrameMessage {
+  type: 'frame';
+  request: number;
+  count: number;
+  buffer: ArrayBuffer;
+  /** The run cannot go on; the buffer holds its last finite frame. */
+  hasEnded: boolean;
+  /** Only when it was asked for, or when the run has ended. */
+  report: RunReport | null;
+  colliders: Collider[];
+}
+
+export type FromWorker =
+  | { type: 'ready' }
+  /** The module could not be started. */
+  | { type: 'broken'; reason: string }
+  | LoadedMessage
+  | FrameMessage
+  /** A load, reset or sweep that was refused; `request` is -1 when the message had none. */
+  | { type: 'refused'; request: number; failure: Failure }
+  | { type: 'sweepStarted'; nRuns: number }
+  | { type: 'sweepReport'; report: SweepReport };
+
+export type Post = (message: FromWorker, transfer: Transferable[]) => void;
+
+/** A frame buffer holds the positions (3 n) and then the stretch (n) as 32-bit floats. */
+export const FLOATS_PER_VERTEX = 4;
+
+/** The two parts of a frame buffer. */
+export function frameViews(buffer: ArrayBuffer): {
+  positions: Float32Array;
+  stretch: Float32Array;
+} {
+  const nVertices = buffer.byteLength / (4 * FLOATS_PER_VERTEX);
+  return {
+    positions: new Float32Array(buffer, 0, 3 * nVertices),
+    stretch: new Float32Array(buffer, 12 * nVertices, nVertices),
+  };
+}

@@ -1,0 +1,229 @@
+// Runs the shown cloth: turns changes of the state into messages, and answers into state and frames.
+
+import type { AppState } from '../state/app-state';
+import { fabricsText } from '../state/fabric-data';
+import { type Setting, sceneOf } from '../state/setting';
+import type { Store } from '../state/store';
+import { startWorker } from './client';
+import { createPacer } from './pacer';
+import type { FrameMessage, FromWorker, LoadedMessage, RunReport } from './protocol';
+import { createStepTimer } from './step-timing';
+import type { Failure, Triple } from './wasm-module';
+
+/** Numbers are read and shown this often [ms]: faster cannot be read. */
+const NUMBERS_EVERY_MS = 200;
+
+/** The pace is measured over this much of the clock [s]. */
+const PACE_WINDOW_S = 1;
+
+export interface SessionView {
+  /** A new mesh; its first frame follows at once. */
+  showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
+  /** The buffer stays valid until the next call. */
+  showFrame(buffer: ArrayBuffer): void;
+}
+
+export interface Session {
+  play(): void;
+  pause(): void;
+  step(): void;
+  reset(): void;
+  grab(vertex: number): void;
+  moveGrab(target: Triple): void;
+  releaseGrab(): void;
+}
+
+/** One sentence for a failure, with the place in the scene when there is one. */
+function sentenceOf(failure: Failure): string {
+  const place = failure.where && !failure.what.includes(failure.where) ? `${failure.where}: ` : '';
+  const prefix = failure.kind === 'internal' ? 'The program failed: ' : '';
+  return `${prefix}${place}${failure.what}`;
+}
+
+/** Opens the worker, loads the state's setting, and follows the store from then on. */
+export function createSession(store: Store<AppState>, view: SessionView): Session {
+  const pacer = createPacer();
+  const timer = createStepTimer();
+  const client = startWorker(receive, broken);
+  let request = 0;
+  let isWaiting = false; // for the answer to a load or a reset
+  let isStepping = false;
+  let shown: ArrayBuffer | null = null;
+  let spare: ArrayBuffer | null = null;
+  let loadedSetting: Setting | null = null;
+  let pendingSetting: Setting | null = null;
+  let tickHandle = 0;
+  let lastTickMs = 0;
+  let lastNumbersMs = 0;
+  let paceMark = { clockMs: 0, timeS: 0 };
+
+  function broken(reason: string): void {
+    const sentence = `The cloth cannot be computed: ${reason}. It needs WebAssembly with SIMD and exceptions, which current browsers have.`;
+    store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
+  }
+
+  function load(setting: Setting): void {
+    const { numbers, phase } = store.get();
+    const sameScene = loadedSetting?.preset === setting.preset;
+    const keepMotion = sameScene && phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
+    pendingSetting = setting;
+    isWaiting = true;
+    request += 1;
+    const sceneText = JSON.stringify(sceneOf(setting));
+    store.set({ phase: 'loading', held: false });
+    client.send({ type: 'load', sceneText, keepMotion, request });
+  }
+
+  function receiveLoaded(message: LoadedMessage): void {
+    const isNewScene = loadedSetting?.preset !== pendingSetting?.preset;
+    loadedSetting = pendingSetting;
+    isWaiting = false;
+    isStepping = false;
+    [shown, spare] = message.buffers;
+    pacer.clear();
+    timer.clear();
+    timer.feed(message.numbers);
+    paceMark = { clockMs: performance.now(), timeS: message.numbers.time_s };
+    view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
+    view.showFrame(shown);
+    const { problem } = store.get();
+    const isSolved = problem?.source === 'setting' || problem?.source === 'run';
+    store.set({
+      phase: 'ready',
+      summary: message.summary,
+      numbers: message.numbers,
+      colliders: message.colliders,
+      timing: null,
+      isCutShort: false,
+      pace: null,
+      problem: isSolved ? null : problem,
+    });
+  }
+
+  function receiveReport({ numbers, status }: RunReport): void {
+    const patch: Partial<AppState> = { numbers, isCutShort: status === 'not_converged' };
+    const timing = timer.feed(numbers);
+    if (timing) patch.timing = timing;
+    const now = performance.now();
+    const elapsedS = (now - paceMark.clockMs) / 1000;
+    if (store.get().playing && elapsedS >= PACE_WINDOW_S) {
+      patch.pace = (numbers.time_s - paceMark.timeS) / elapsedS;
+      paceMark = { clockMs: now, timeS: numbers.time_s };
+    }
+    store.set(patch);
+  }
+
+  function receiveFrame({ buffer, hasEnded, report, colliders }: FrameMessage): void {
+    isStepping = false;
+    spare = shown;
+    shown = buffer;
+    view.showFrame(shown);
+    if (colliders.length > 0) store.set({ colliders });
+    if (report) receiveReport(report);
+    if (!hasEnded) return;
+    const reason = report
+      ? `${report.status.replaceAll('_', ' ')}: ${report.message}`
+      : 'no report';
+    const sentence = `The run stopped, ${reason}. The last good frame stays; reset to start again.`;
+    store.set({
+      phase: 'stopped',
+      playing: false,
+      held: false,
+      problem: { source: 'run', sentence },
+    });
+  }
+
+  function receive(message: FromWorker): void {
+    switch (message.type) {
+      case 'ready':
+        return load(store.get().setting);
+      case 'broken':
+        return broken(message.reason);
+      case 'loaded':
+        if (message.request === request) receiveLoaded(message);
+        return;
+      case 'frame':
+        if (message.request === request) receiveFrame(message);
+        return;
+      case 'refused':
+        if (message.request >= 0 && message.request !== request) return;
+        isWaiting = false;
+        isStepping = false;
+        store.set({
+          phase: 'refused',
+          playing: false,
+          problem: { source: 'setting', sentence: sentenceOf(message.failure) },
+        });
+        return;
+    }
+  }
+
+  function send(count: number): void {
+    if (!spare) return;
+    const now = performance.now();
+    const wantsNumbers = !store.get().playing || now - lastNumbersMs >= NUMBERS_EVERY_MS;
+    if (wantsNumbers) lastNumbersMs = now;
+    const buffer = spare;
+    spare = null;
+    isStepping = true;
+    client.send({ type: 'step', count, wantsNumbers, request, buffer }, [buffer]);
+  }
+
+  function tick(nowMs: number): void {
+    const { playing, speed, summary, timing } = store.get();
+    if (!playing || !summary) return;
+    pacer.advance(((nowMs - lastTickMs) / 1000) * speed);
+    lastTickMs = nowMs;
+    if (!isWaiting && !isStepping && spare) {
+      const count = pacer.take(summary.step_s, timing?.totalMs ?? null);
+      if (count > 0) send(count);
+    }
+    tickHandle = requestAnimationFrame(tick);
+  }
+
+  function start(): void {
+    lastTickMs = performance.now();
+    paceMark = { clockMs: lastTickMs, timeS: store.get().numbers?.time_s ?? 0 };
+    pacer.clear();
+    cancelAnimationFrame(tickHandle);
+    tickHandle = requestAnimationFrame(tick);
+  }
+
+  store.subscribe((state, previous) => {
+    if (state.setting !== previous.setting && state.phase !== 'broken') load(state.setting);
+    if (state.playing && !previous.playing) start();
+  });
+  client.send({ type: 'open', fabricsText });
+
+  return {
+    play() {
+      const { phase } = store.get();
+      if (phase === 'ready' || phase === 'loading') store.set({ playing: true, invited: false });
+    },
+    pause() {
+      store.set({ playing: false, pace: null });
+    },
+    step() {
+      store.set({ playing: false, invited: false, pace: null });
+      if (store.get().phase === 'ready' && !isWaiting && !isStepping) send(1);
+    },
+    reset() {
+      if (store.get().phase === 'broken' || !loadedSetting) return;
+      store.set({ playing: false, held: false, phase: 'loading' });
+      if (loadedSetting !== store.get().setting) return load(store.get().setting);
+      request += 1;
+      isWaiting = true;
+      pendingSetting = loadedSetting;
+      client.send({ type: 'reset', request });
+    },
+    grab(vertex) {
+      client.send({ type: 'grab', vertex });
+      store.set({ held: true });
+    },
+    moveGrab: (target) => client.send({ type: 'moveGrab', target }),
+    releaseGrab() {
+      client.send({ type: 'releaseGrab' });
+      store.set({ held: false });
+    },
+  };
+}

@@ -1,0 +1,38 @@
+// Milliseconds of one step, in parts, from the running totals of the module.
+import type { StepTiming } from '../state/app-state';
+import type { RunNumbers } from './wasm-module';
+
+/** Browsers round their clocks to as much as 0.1 ms: over this much work that is below 1 %. */
+const SHORTEST_BATCH_MS = 50;
+
+type Totals = Pick<RunNumbers, 'parts_ms' | 'steps_timed'>;
+
+function sum(parts: Record<string, number>): number {
+  return Object.values(parts).reduce((total, ms) => total + ms, 0);
+}
+
+/** Feed it each set of numbers; it answers when enough work lies between two of them. */
+export function createStepTimer(): { feed(numbers: Totals): StepTiming | null; clear(): void } {
+  let mark: Totals | null = null;
+  return {
+    feed(numbers) {
+      if (!mark || numbers.steps_timed < mark.steps_timed) {
+        mark = numbers;
+        return null;
+      }
+      const steps = numbers.steps_timed - mark.steps_timed;
+      const work = sum(numbers.parts_ms) - sum(mark.parts_ms);
+      if (steps === 0 || work < SHORTEST_BATCH_MS) return null;
+      const before = mark.parts_ms;
+      mark = numbers;
+      const parts = Object.entries(numbers.parts_ms)
+        .map(([name, ms]) => ({ name, ms: (ms - (before[name] ?? 0)) / steps }))
+        .filter((part) => part.ms > 0)
+        .sort((a, b) => b.ms - a.ms);
+      return { totalMs: work / steps, parts };
+    },
+    clear() {
+      mark = null;
+    },
+  };
+}

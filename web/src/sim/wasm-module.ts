@@ -1,0 +1,163 @@
+// The classes bound by the WebAssembly module, and the shape of the texts they answer with.
+// Each class has a list of its methods; a test holds the lists against the real module.
+
+/** Every text answer: the payload beside `ok`, or one sentence about what was wrong and where. */
+export type Answer<Payload> = ({ ok: true } & Payload) | Failure;
+
+export interface Failure {
+  ok: false;
+  /** `input`: the scene or plan is at fault. `internal`: the program is. */
+  kind: 'input' | 'internal';
+  /** JSON pointer into the text that was passed, or empty. */
+  where: string;
+  what: string;
+}
+
+export interface SceneSummary {
+  n_vertices: number;
+  n_triangles: number;
+  n_springs: number;
+  n_bends: number;
+  step_s: number;
+  substeps: number;
+  built: string[];
+  left_out: string[];
+  notes?: string[];
+}
+
+export interface RunNumbers {
+  time_s: number;
+  step: number;
+  /** Largest and root mean square of |edge strain|, as ratios. */
+  largest_stretch: number;
+  rms_stretch: number;
+  /** Relative residual of the last step's own equations. */
+  residual: number;
+  iterations: number;
+  /** Total wall time of each part since load [ms]. */
+  parts_ms: Record<string, number>;
+  steps_timed: number;
+}
+
+export interface RunStatus {
+  status: string;
+  message: string;
+}
+
+export type Triple = [number, number, number];
+
+export type Collider =
+  | { shape: 'plane'; point: Triple; normal: Triple }
+  | { shape: 'sphere'; centre: Triple; radius_m: number };
+
+export interface BenchMethod {
+  stepper: string;
+  step_s: number;
+  substeps?: number;
+  iterations?: number;
+  [setting: string]: unknown;
+}
+
+export interface BenchRow {
+  scene: string;
+  method: BenchMethod;
+  level: number;
+  n_vertices: number;
+  ms_per_frame: number;
+  ms_per_simulated_second: number;
+  spread_ms: number;
+  position_error_m: number;
+  position_error_percent: number;
+  rms_stretch: number;
+  largest_stretch: number;
+  reference: { id: string; converged: boolean; description: string };
+  status: string;
+  message: string;
+  target: 'wasm' | 'native';
+  [detail: string]: unknown;
+}
+
+export interface SweepReport {
+  done: boolean;
+  /** 0 to 1. */
+  progress: number;
+  rows: BenchRow[];
+  /** Indices into `rows`. */
+  front: number[];
+  message: string;
+}
+
+export interface SceneHandle {
+  fabrics(): string;
+  schema(): string;
+  parse(sceneText: string): string;
+  delete(): void;
+}
+
+export interface SimulationHandle {
+  load(sceneText: string): string;
+  carryOver(sceneText: string): string;
+  reset(): string;
+  /** 0, or the status code whose reason `status()` tells. */
+  step(count: number): number;
+  status(): string;
+  numbers(): string;
+  /** Views of module memory: a view is dead after the next call, take it anew each time. */
+  positions(): Float32Array;
+  /** The same positions in full precision. */
+  exactPositions(): Float64Array;
+  /** One a vertex [kg]. */
+  masses(): Float64Array;
+  /** Signed mean strain of the springs at each vertex, as a ratio. */
+  stretch(): Float32Array;
+  triangles(): Uint32Array;
+  restCoordinates(): Float32Array;
+  colliders(): string;
+  grab(vertex: number): string;
+  /** Target of the held patch [m]. */
+  moveGrab(x: number, y: number, z: number): void;
+  releaseGrab(): void;
+  delete(): void;
+}
+
+export interface ExperimentHandle {
+  start(planText: string): string;
+  advance(budgetMs: number): string;
+  delete(): void;
+}
+
+export interface PleatModule {
+  Scene: new (fabricsText: string) => SceneHandle;
+  Simulation: new (fabricsText: string) => SimulationHandle;
+  Experiment: new (fabricsText: string) => ExperimentHandle;
+}
+
+/** Lists the keys of `Handle`; a missing or a surplus name does not compile. */
+function methodsOf<Handle>(names: Record<keyof Handle, true>): string[] {
+  return Object.keys(names).sort();
+}
+
+/** The methods of each bound class by name. */
+export const BOUND_METHODS: Record<keyof PleatModule, string[]> = {
+  Scene: methodsOf<SceneHandle>({ fabrics: true, schema: true, parse: true, delete: true }),
+  Simulation: methodsOf<SimulationHandle>({
+    load: true,
+    carryOver: true,
+    reset: true,
+    step: true,
+    status: true,
+    numbers: true,
+    positions: true,
+    exactPositions: true,
+    masses: true,
+    stretch: true,
+    triangles: true,
+    restCoordinates: true,
+    colliders: true,
+    grab: true,
+    moveGrab: true,
+    releaseGrab: true,
+    delete: true,
+  }),
+  Experiment: methodsOf<ExperimentHandle>({ start: true, advance: true, delete: true }),
+};

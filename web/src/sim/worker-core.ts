@@ -1,0 +1,191 @@
+// What a worker does with each message, as a function of the module and of where answers go.
+// The only file that calls delete().
+import {
+  FLOATS_PER_VERTEX,
+  frameViews,
+  type Post,
+  type RunReport,
+  type ToWorker,
+} from './protocol';
+import type {
+  Answer,
+  Collider,
+  ExperimentHandle,
+  Failure,
+  PleatModule,
+  RunNumbers,
+  RunStatus,
+  SceneSummary,
+  SimulationHandle,
+  SweepReport,
+} from './wasm-module';
+
+/** Work between two progress reports of a sweep [ms]; short enough that progress looks alive. */
+const SWEEP_SLICE_MS = 150;
+
+/** Parses an answer; one that is not JSON is a fault of the program, not of the input. */
+function read<Payload>(text: string): Answer<Payload> {
+  try {
+    return JSON.parse(text) as Answer<Payload>;
+  } catch {
+    return internalFailure(`the module answered with unreadable text: ${text.slice(0, 120)}`);
+  }
+}
+
+function internalFailure(what: string): Failure {
+  return { ok: false, kind: 'internal', where: '', what };
+}
+
+function describe(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** Copies the present frame; the one copy on its way to the screen. */
+function fill(simulation: SimulationHandle, buffer: ArrayBuffer): void {
+  const views = frameViews(buffer);
+  views.positions.set(simulation.positions());
+  views.stretch.set(simulation.stretch());
+}
+
+function readNumbers(simulation: SimulationHandle): RunNumbers | null {
+  const numbers = read<RunNumbers>(simulation.numbers());
+  return numbers.ok ? numbers : null;
+}
+
+function readReport(simulation: SimulationHandle): RunReport | null {
+  const numbers = readNumbers(simulation);
+  const status = read<RunStatus>(simulation.status());
+  if (!numbers || !status.ok) return null;
+  return { numbers, status: status.status, message: status.message };
+}
+
+function readColliders(simulation: SimulationHandle): Collider[] {
+  const answer = read<{ colliders: Collider[] }>(simulation.colliders());
+  return answer.ok ? answer.colliders : [];
+}
+
+/** Serves one page. Call `receive` with each message, `close` at the end. */
+export function createWorkerCore(
+  module: PleatModule,
+  post: Post,
+): { receive: (message: ToWorker) => void; close: () => void } {
+  let fabricsText: string | null = null;
+  let simulation: SimulationHandle | null = null;
+  let experiment: ExperimentHandle | null = null;
+  let loaded: SceneSummary | null = null;
+  let isHeld = false;
+
+  function refuse(request: number, failure: Failure): void {
+    post({ type: 'refused', request, failure }, []);
+  }
+
+  /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
+  function postLoaded(request: number, run: SimulationHandle, summary: SceneSummary): void {
+    const numbers = readNumbers(run);
+    if (!numbers) return refuse(request, internalFailure('no numbers after a load'));
+    const nBytes = 4 * FLOATS_PER_VERTEX * summary.n_vertices;
+    const buffers: [ArrayBuffer, ArrayBuffer] = [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)];
+    fill(run, buffers[0]);
+    const triangles = run.triangles().slice();
+    const restCoordinates = run.restCoordinates().slice();
+    const colliders = readColliders(run);
+    post(
+      { type: 'loaded', request, summary, triangles, restCoordinates, buffers, numbers, colliders },
+      [triangles.buffer, restCoordinates.buffer, ...buffers],
+    );
+  }
+
+  function load(run: SimulationHandle, message: Extract<ToWorker, { type: 'load' }>): void {
+    const { sceneText, keepMotion, request } = message;
+    const text = keepMotion && loaded ? run.carryOver(sceneText) : run.load(sceneText);
+    const answer = read<{ summary: SceneSummary }>(text);
+    if (!answer.ok) return refuse(request, answer);
+    loaded = answer.summary;
+    postLoaded(request, run, loaded);
+  }
+
+  function reset(run: SimulationHandle, request: number): void {
+    if (!loaded) return refuse(request, internalFailure('reset before load'));
+    const answer = read<object>(run.reset());
+    if (!answer.ok) return refuse(request, answer);
+    postLoaded(request, run, loaded);
+  }
+
+  function step(run: SimulationHandle, message: Extract<ToWorker, { type: 'step' }>): void {
+    const { buffer, count, request } = message;
+    // A buffer of another size belongs to the mesh before the last load: nothing to fill.
+    if (!loaded || buffer.byteLength !== 4 * FLOATS_PER_VERTEX * loaded.n_vertices) return;
+    const code = run.step(count);
+    fill(run, buffer);
+    const hasEnded = code !== 0;
+    const report = hasEnded || message.wantsNumbers ? readReport(run) : null;
+    const colliders = readColliders(run);
+    post({ type: 'frame', request, count, buffer, hasEnded, report, colliders }, [buffer]);
+  }
+
+  function sweep(planText: string): void {
+    if (fabricsText === null) return refuse(-1, internalFailure('sweep before open'));
+    experiment?.delete();
+    experiment = new module.Experiment(fabricsText);
+    const started = read<{ n_runs: number }>(experiment.start(planText));
+    if (!started.ok) return refuse(-1, started);
+    post({ type: 'sweepStarted', nRuns: started.n_runs }, []);
+    for (let done = false; !done; ) {
+      const report = read<SweepReport>(experiment.advance(SWEEP_SLICE_MS));
+      if (!report.ok) return refuse(-1, report);
+      post({ type: 'sweepReport', report }, []);
+      done = report.done;
+    }
+  }
+
+  function open(text: string): void {
+    simulation?.delete();
+    fabricsText = text;
+    simulation = new module.Simulation(text);
+    loaded = null;
+    post({ type: 'ready' }, []);
+  }
+
+  function handle(message: ToWorker): void {
+    if (message.type === 'open') return open(message.fabricsText);
+    if (message.type === 'sweep') return sweep(message.planText);
+    if (!simulation) throw new Error(`${message.type} before open`);
+    switch (message.type) {
+      case 'load':
+        isHeld = false;
+        return load(simulation, message);
+      case 'reset':
+        isHeld = false;
+        return reset(simulation, message.request);
+      case 'step':
+        return step(simulation, message);
+      case 'grab':
+        isHeld = loaded !== null && read<object>(simulation.grab(message.vertex)).ok;
+        return;
+      case 'moveGrab':
+        if (isHeld) simulation.moveGrab(...message.target);
+        return;
+      case 'releaseGrab':
+        if (isHeld) simulation.releaseGrab();
+        isHeld = false;
+        return;
+    }
+  }
+
+  return {
+    receive(message) {
+      try {
+        handle(message);
+      } catch (error) {
+        const request = 'request' in message ? message.request : -1;
+        refuse(request, internalFailure(describe(error)));
+      }
+    },
+    close() {
+      simulation?.delete();
+      experiment?.delete();
+      simulation = null;
+      experiment = null;
+    },
+  };
+}

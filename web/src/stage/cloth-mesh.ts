@@ -1,0 +1,205 @@
+// One mesh from one frame: positions as they come, smooth normals, material or heat map.
+import {
+  BackSide,
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  DynamicDrawUsage,
+  FrontSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  MeshPhysicalMaterial,
+} from 'three';
+import { frameViews } from '../sim/protocol';
+import type { HeatScale } from '../state/app-state';
+import type { HeatMap } from '../state/url-codec';
+import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
+import type { FabricLook } from './fabric-look';
+
+/** Each edge once, as pairs of vertices. */
+function edgesOf(triangles: Uint32Array): Uint32Array {
+  const seen = new Set<number>();
+  const edges: number[] = [];
+  let nVertices = 0;
+  for (const vertex of triangles) nVertices = Math.max(nVertices, vertex + 1);
+  for (let corner = 0; corner < triangles.length; ++corner) {
+    const a = triangles[corner] ?? 0;
+    const b = triangles[corner % 3 === 2 ? corner - 2 : corner + 1] ?? 0;
+    const key = Math.min(a, b) * nVertices + Math.max(a, b);
+    if (seen.has(key)) continue;
+    seen.add(key);
+    edges.push(a, b);
+  }
+  return Uint32Array.from(edges);
+}
+
+/** Sums each triangle's area-weighted normal at its corners; the shader normalises. */
+function addNormals(positions: Float32Array, triangles: Uint32Array, normals: Float32Array): void {
+  normals.fill(0);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = 3 * (triangles[t] as number);
+    const b = 3 * (triangles[t + 1] as number);
+    const c = 3 * (triangles[t + 2] as number);
+    const ux = (positions[b] as number) - (positions[a] as number);
+    const uy = (positions[b + 1] as number) - (positions[a + 1] as number);
+    const uz = (positions[b + 2] as number) - (positions[a + 2] as number);
+    const vx = (positions[c] as number) - (positions[a] as number);
+    const vy = (positions[c + 1] as number) - (positions[a + 1] as number);
+    const vz = (positions[c + 2] as number) - (positions[a + 2] as number);
+    const nx = uy * vz - uz * vy;
+    const ny = uz * vx - ux * vz;
+    const nz = ux * vy - uy * vx;
+    for (const corner of [a, b, c]) {
+      normals[corner] = (normals[corner] as number) + nx;
+      normals[corner + 1] = (normals[corner + 1] as number) + ny;
+      normals[corner + 2] = (normals[corner + 2] as number) + nz;
+    }
+  }
+  for (let v = 0; v < normals.length; v += 3) {
+    const length = Math.hypot(
+      normals[v] as number,
+      normals[v + 1] as number,
+      normals[v + 2] as number,
+    );
+    if (length === 0) continue;
+    normals[v] = (normals[v] as number) / length;
+    normals[v + 1] = (normals[v + 1] as number) / length;
+    normals[v + 2] = (normals[v + 2] as number) / length;
+  }
+}
+
+export interface ClothMesh {
+  object: Group;
+  /** Present positions, three numbers a vertex [m]; valid until the next frame. */
+  positions(): Float32Array;
+  triangles(): Uint32Array;
+  setTopology(triangles: Uint32Array, nVertices: number): void;
+  setFrame(buffer: ArrayBuffer): void;
+  setLook(look: FabricLook): void;
+  setHeat(map: HeatMap, range: 'auto' | number): void;
+  setEdges(isShown: boolean): void;
+  heatScale(): HeatScale;
+}
+
+export function createClothMesh(): ClothMesh {
+  const geometry = new BufferGeometry();
+  const edgeGeometry = new BufferGeometry();
+  // Two materials over one geometry: the back has its own tint, so that folds read.
+  const frontMaterial = new MeshPhysicalMaterial({ side: FrontSide, shadowSide: DoubleSide });
+  const backMaterial = new MeshPhysicalMaterial({ side: BackSide });
+  const heatMaterial = new MeshBasicMaterial({ side: DoubleSide, vertexColors: true });
+  heatMaterial.toneMapped = false;
+  const front = new Mesh(geometry, frontMaterial);
+  const back = new Mesh(geometry, backMaterial);
+  const heat = new Mesh(geometry, heatMaterial);
+  const edges = new LineSegments(
+    edgeGeometry,
+    new LineBasicMaterial({ color: '#101418', transparent: true, opacity: 0.45 }),
+  );
+  front.castShadow = true;
+  for (const mesh of [front, back]) mesh.receiveShadow = true;
+  heat.castShadow = true;
+  heat.visible = false;
+  edges.visible = false;
+  const object = new Group();
+  object.add(front, back, heat, edges);
+  for (const part of object.children) part.frustumCulled = false;
+
+  let triangles = new Uint32Array(0);
+  let positions: Float32Array = new Float32Array(0);
+  let stretch: Float32Array = new Float32Array(0);
+  let magnitudes = new Float32Array(0);
+  let heatMap: HeatMap = 'off';
+  let heatRange: 'auto' | number = 'auto';
+  let scale: HeatScale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
+
+  function attribute(name: string): BufferAttribute {
+    return geometry.getAttribute(name) as BufferAttribute;
+  }
+
+  function paintHeat(): void {
+    if (heatMap === 'off') {
+      scale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
+      return;
+    }
+    for (let v = 0; v < stretch.length; ++v) magnitudes[v] = Math.abs(stretch[v] as number);
+    const values = heatMap === 'signed' ? stretch : magnitudes;
+    let least = Number.POSITIVE_INFINITY;
+    let most = Number.NEGATIVE_INFINITY;
+    for (const value of values) {
+      least = Math.min(least, value);
+      most = Math.max(most, value);
+    }
+    // A still cloth has no stretch: the scale then ends at 0.01 %, not at nothing.
+    const reach = Math.max(Math.abs(least), Math.abs(most), 1e-4);
+    const high = heatRange === 'auto' ? roundedUp(reach) : heatRange / 100;
+    const low = heatMap === 'signed' ? -high : 0;
+    scale = { map: heatMap, low, high, least, most };
+    const colours = attribute('color');
+    const map = heatMap === 'signed' ? SIGNED_MAP : MAGNITUDE_MAP;
+    paint(map, values, low, high, colours.array as Float32Array);
+    colours.needsUpdate = true;
+  }
+
+  return {
+    object,
+    positions: () => positions,
+    triangles: () => triangles,
+    heatScale: () => scale,
+    setTopology(newTriangles, nVertices) {
+      triangles = new Uint32Array(newTriangles);
+      magnitudes = new Float32Array(nVertices);
+      geometry.dispose();
+      edgeGeometry.dispose();
+      const dynamic = (values: Float32Array) =>
+        new BufferAttribute(values, 3).setUsage(DynamicDrawUsage);
+      geometry.setAttribute('position', dynamic(new Float32Array(3 * nVertices)));
+      geometry.setAttribute('normal', dynamic(new Float32Array(3 * nVertices)));
+      geometry.setAttribute('color', dynamic(new Float32Array(3 * nVertices)));
+      geometry.setIndex(new BufferAttribute(triangles, 1));
+      edgeGeometry.setAttribute('position', geometry.getAttribute('position'));
+      edgeGeometry.setIndex(new BufferAttribute(edgesOf(triangles), 1));
+    },
+    setFrame(buffer) {
+      const views = frameViews(buffer);
+      positions = views.positions;
+      stretch = views.stretch;
+      const place = attribute('position');
+      place.array = positions;
+      place.needsUpdate = true;
+      const normals = attribute('normal');
+      addNormals(positions, triangles, normals.array as Float32Array);
+      normals.needsUpdate = true;
+      paintHeat();
+    },
+    setLook(look) {
+      for (const [material, colour] of [
+        [frontMaterial, look.front],
+        [backMaterial, look.back],
+      ] as const) {
+        material.color.set(colour);
+        material.roughness = look.roughness;
+        material.sheen = look.sheen;
+        material.sheenRoughness = 0.4;
+        material.sheenColor.set(look.sheenColour);
+        material.transparent = look.opacity < 1;
+        material.opacity = look.opacity;
+        material.needsUpdate = true;
+      }
+    },
+    setHeat(map, range) {
+      heatMap = map;
+      heatRange = range;
+      front.visible = map === 'off';
+      back.visible = map === 'off';
+      heat.visible = map !== 'off';
+      if (stretch.length > 0) paintHeat();
+    },
+    setEdges(isShown) {
+      edges.visible = isShown;
+    },
+  };
+}

@@ -1,0 +1,267 @@
+// The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
+// simulation, and draws only when something changed.
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  DynamicDrawUsage,
+  Line,
+  LineBasicMaterial,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Scene,
+  Sphere,
+  SphereGeometry,
+  SRGBColorSpace,
+  Vector3,
+  VSMShadowMap,
+  WebGLRenderer,
+} from 'three';
+import type { Collider, Triple } from '../sim/wasm-module';
+import type { HeatScale } from '../state/app-state';
+import type { HeatMap } from '../state/url-codec';
+import { createCameraControl } from './camera-control';
+import { createClothMesh } from './cloth-mesh';
+import { lookOf } from './fabric-look';
+import { createHand } from './grab';
+import { createSurroundings } from './surroundings';
+
+export interface StageEvents {
+  grab(vertex: number): void;
+  moveGrab(target: Triple): void;
+  releaseGrab(): void;
+  /** Keys that are neither the camera's nor the hand's. True when used. */
+  key(name: string): boolean;
+  /** After each drawn frame: the heat map's scale, and the invitation's place in pixels. */
+  drawn(scale: HeatScale, invitation: { x: number; y: number }): void;
+  contextLost(): void;
+}
+
+export interface Stage {
+  /** A new mesh; the view is set anew when it belongs to a new scene. */
+  showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
+  showFrame(buffer: ArrayBuffer): void;
+  setColliders(colliders: Collider[]): void;
+  setFabric(id: number): void;
+  setHeat(map: HeatMap, range: 'auto' | number): void;
+  setEdges(isShown: boolean): void;
+  homeView(): void;
+  /** Present positions, three numbers a vertex [m]. */
+  positions(): Float32Array;
+  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+  project(vertex: number): { x: number; y: number };
+}
+
+/** Sharper than this no display at arm's length looks, and it costs the square. */
+const MOST_PIXEL_RATIO = 2;
+
+/** Direction of the first view [rad]: a little from the right and from above. */
+const AZIMUTH = 0.55;
+const POLAR = 1.32;
+
+/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
+function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
+  const box = new Box3().setFromArray(positions);
+  const reach = box.getSize(new Vector3());
+  // A sheet that lies level at first will hang: leave room for its length below.
+  if (reach.y < 0.25 * Math.max(reach.x, reach.z) && colliders.every((c) => c.shape === 'plane')) {
+    box.min.y -= 0.9 * Math.max(reach.x, reach.z);
+  }
+  for (const collider of colliders) {
+    if (collider.shape !== 'sphere') continue;
+    const centre = new Vector3(...collider.centre);
+    const half = new Vector3().setScalar(collider.radius_m);
+    box.union(new Box3(centre.clone().sub(half), centre.clone().add(half)));
+  }
+  return box.getBoundingSphere(new Sphere());
+}
+
+/** The floor is the level plane of the scene, or a little under everything that is seen [m]. */
+function floorHeight(sphere: Sphere, colliders: Collider[]): number {
+  for (const collider of colliders) {
+    if (collider.shape === 'plane' && collider.normal[1] > 0.99) return collider.point[1];
+  }
+  return Math.min(0, sphere.center.y - sphere.radius);
+}
+
+/** The vertex that asks to be taken: low, and on the side of the eye. */
+function invitingVertex(positions: Float32Array, towards: Vector3): number {
+  let best = 0;
+  let bestScore = Number.NEGATIVE_INFINITY;
+  const place = new Vector3();
+  for (let v = 0; 3 * v < positions.length; ++v) {
+    place.fromArray(positions, 3 * v);
+    const score = place.dot(towards) - 2 * place.y;
+    if (score > bestScore) {
+      bestScore = score;
+      best = v;
+    }
+  }
+  return best;
+}
+
+/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
+export function createStage(
+  parent: HTMLElement,
+  canvas: HTMLCanvasElement,
+  events: StageEvents,
+): Stage {
+  const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+  renderer.outputColorSpace = SRGBColorSpace;
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = VSMShadowMap;
+  const scene = new Scene();
+  const camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  const cloth = createClothMesh();
+  const surroundings = createSurroundings();
+  scene.add(surroundings.object, cloth.object);
+
+  const seen = { depthTest: false, transparent: true };
+  const marker = new Mesh(new SphereGeometry(1, 20, 14), new MeshBasicMaterial(seen));
+  const thread = new Line(new BufferGeometry(), new LineBasicMaterial(seen));
+  const threadEnds = new BufferAttribute(new Float32Array(6), 3).setUsage(DynamicDrawUsage);
+  thread.geometry.setAttribute('position', threadEnds);
+  for (const part of [marker, thread]) {
+    part.frustumCulled = false;
+    part.visible = false;
+    part.renderOrder = 10;
+    scene.add(part);
+  }
+
+  let colliders: Collider[] = [];
+  let awaitsFraming = false;
+  let inviting = 0;
+  let drawHandle = 0;
+
+  const control = createCameraControl(canvas, camera, redraw);
+  const hand = createHand(canvas, camera, {
+    grab(vertex) {
+      control.setResting(true);
+      events.grab(vertex);
+    },
+    move: events.moveGrab,
+    release() {
+      control.setResting(false);
+      events.releaseGrab();
+    },
+    fallbackVertex: () => inviting,
+    cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
+    onChange: redraw,
+  });
+
+  function redraw(): void {
+    if (drawHandle === 0) drawHandle = requestAnimationFrame(draw);
+  }
+
+  function placeHand(): void {
+    const vertex = hand.vertex();
+    marker.visible = vertex !== null;
+    thread.visible = vertex !== null;
+    if (vertex === null) return;
+    const place = new Vector3().fromArray(cloth.positions(), 3 * vertex);
+    marker.position.copy(place);
+    marker.scale.setScalar(0.006 * camera.position.distanceTo(place));
+    place.toArray(threadEnds.array, 0);
+    hand.target().toArray(threadEnds.array, 3);
+    threadEnds.needsUpdate = true;
+  }
+
+  function project(vertex: number): { x: number; y: number } {
+    const place = new Vector3().fromArray(cloth.positions(), 3 * vertex).project(camera);
+    return {
+      x: ((place.x + 1) / 2) * canvas.clientWidth,
+      y: ((1 - place.y) / 2) * canvas.clientHeight,
+    };
+  }
+
+  function draw(): void {
+    drawHandle = 0;
+    if (cloth.positions().length === 0) return;
+    placeHand();
+    renderer.render(scene, camera);
+    events.drawn(cloth.heatScale(), project(inviting));
+  }
+
+  function frameScene(): void {
+    const sphere = framedSphere(cloth.positions(), colliders);
+    surroundings.frame(sphere.center, sphere.radius, floorHeight(sphere, colliders));
+    control.frame({ centre: sphere.center, radius: sphere.radius, azimuth: AZIMUTH, polar: POLAR });
+    const towards = camera.position.clone().sub(sphere.center).normalize();
+    inviting = invitingVertex(cloth.positions(), towards);
+  }
+
+  function resize(): void {
+    const { clientWidth: width, clientHeight: height } = parent;
+    if (width === 0 || height === 0) return;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXEL_RATIO));
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    control.refit();
+  }
+
+  function applyTheme(): void {
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name: string) => style.getPropertyValue(name).trim();
+    surroundings.setTheme({
+      floor: colour('--stage-floor'),
+      grid: colour('--stage-grid'),
+      body: colour('--stage-body'),
+    });
+    marker.material.color.set(colour('--stage-hand'));
+    thread.material.color.set(colour('--stage-hand'));
+    redraw();
+  }
+
+  new ResizeObserver(resize).observe(parent);
+  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', applyTheme);
+  canvas.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault();
+    events.contextLost();
+  });
+  canvas.addEventListener('webglcontextrestored', redraw);
+  canvas.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    if (hand.key(name) || control.key(event.key) || events.key(name)) event.preventDefault();
+  });
+  resize();
+  applyTheme();
+
+  return {
+    showMesh(triangles, nVertices, isNewScene) {
+      cloth.setTopology(triangles, nVertices);
+      awaitsFraming = isNewScene;
+      hand.drop();
+      control.setResting(false);
+    },
+    showFrame(buffer) {
+      cloth.setFrame(buffer);
+      redraw();
+    },
+    setColliders(newColliders) {
+      colliders = newColliders;
+      surroundings.setColliders(newColliders);
+      if (awaitsFraming) {
+        awaitsFraming = false;
+        frameScene();
+      }
+      redraw();
+    },
+    setFabric(id) {
+      cloth.setLook(lookOf(id));
+      redraw();
+    },
+    setHeat(map, range) {
+      cloth.setHeat(map, range);
+      redraw();
+    },
+    setEdges(isShown) {
+      cloth.setEdges(isShown);
+      redraw();
+    },
+    homeView: control.home,
+    positions: () => cloth.positions(),
+    project,
+  };
+}

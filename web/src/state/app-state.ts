@@ -1,0 +1,97 @@
+// Everything the page shows. Only this and the frames travel between its parts.
+import type { BenchRow, Collider, RunNumbers, SceneSummary } from '../sim/wasm-module';
+import type { HeatMap, LinkState } from './url-codec';
+
+export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
+
+export interface Problem {
+  /** Who has to act: the link, the settings, the run's numbers, or the browser itself. */
+  source: 'link' | 'setting' | 'run' | 'browser' | 'sweep';
+  sentence: string;
+}
+
+/** Times of one step, from differences of running totals over at least 50 ms of work. */
+export interface StepTiming {
+  totalMs: number;
+  parts: { name: string; ms: number }[];
+}
+
+/** The heat map's scale and what the frame holds, as ratios. */
+export interface HeatScale {
+  map: HeatMap;
+  low: number;
+  high: number;
+  least: number;
+  most: number;
+}
+
+export interface SweepState {
+  phase: 'none' | 'running' | 'done' | 'cancelled' | 'failed';
+  /** 0 to 1. */
+  progress: number;
+  message: string;
+  rows: BenchRow[];
+  /** Indices into `rows`. */
+  front: number[];
+  /** The scene the rows are of: a row of another scene or fabric says nothing about this one. */
+  scene: { preset: string; fabric: string } | null;
+  /** The cloth was running at the same time, so that the times are too long. */
+  disturbed: boolean;
+}
+
+export interface AppState extends LinkState {
+  phase: Phase;
+  playing: boolean;
+  /** Simulated seconds a second of the clock: 1, 1/2 or 1/4. */
+  speed: number;
+  /** The cloth is being held. */
+  held: boolean;
+  /** Nobody has grabbed or played yet: the invitation is shown. */
+  invited: boolean;
+  summary: SceneSummary | null;
+  numbers: RunNumbers | null;
+  timing: StepTiming | null;
+  /** Simulated seconds a second of the clock, as reached. */
+  pace: number | null;
+  /** The last step's solve reached its iteration cap. */
+  isCutShort: boolean;
+  colliders: Collider[];
+  heatScale: HeatScale | null;
+  problem: Problem | null;
+  sweep: SweepState;
+  sweepOpen: boolean;
+}
+
+export const NO_SWEEP: SweepState = {
+  phase: 'none',
+  progress: 0,
+  message: '',
+  rows: [],
+  front: [],
+  scene: null,
+  disturbed: false,
+};
+
+export function initialState(link: LinkState, problems: string[]): AppState {
+  return {
+    ...link,
+    phase: 'loading',
+    playing: false,
+    speed: 1,
+    held: false,
+    invited: true,
+    summary: null,
+    numbers: null,
+    timing: null,
+    pace: null,
+    isCutShort: false,
+    colliders: [],
+    heatScale: null,
+    problem:
+      problems.length > 0
+        ? { source: 'link', sentence: `The link could not be read fully. ${problems.join('; ')}.` }
+        : null,
+    sweep: NO_SWEEP,
+    sweepOpen: false,
+  };
+}

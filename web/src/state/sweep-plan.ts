@@ -1,0 +1,64 @@
+// What one press of the sweep button measures, and how its rows map back to settings.
+import type { BenchRow } from '../sim/wasm-module';
+import type { AppState } from './app-state';
+import { isSameMethod, type Setting, STEPPERS, type Stepper, sceneOf } from './setting';
+
+export interface PlannedMethod {
+  stepper: Stepper;
+  step_s: number;
+  substeps?: number;
+  iterations?: number;
+}
+
+/** Long enough for the cloth to move and fall, short enough to wait for [s]. */
+const DURATION_S = 1;
+
+/** Two costs for each stepper, so that every level shows which way its knob moves it. */
+const METHODS: readonly PlannedMethod[] = [
+  { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
+  { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
+  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5 },
+  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 30 },
+  { stepper: 'xpbd', step_s: 1 / 60, substeps: 10, iterations: 1 },
+  { stepper: 'xpbd', step_s: 1 / 60, substeps: 60, iterations: 1 },
+  { stepper: 'explicit', step_s: 1 / 60, substeps: 0 },
+];
+
+export interface SweepPlan {
+  scene: Record<string, unknown>;
+  levels: number[];
+  methods: PlannedMethod[];
+  duration_s: number;
+}
+
+/** Levels 0 to `finest` of the shown preset and fabric, each with every method. */
+export function sweepPlan(setting: Setting, finest: number): SweepPlan {
+  const levels = Array.from({ length: finest + 1 }, (_, level) => level);
+  return { scene: sceneOf(setting), levels, methods: [...METHODS], duration_s: DURATION_S };
+}
+
+/** The setting a row was measured with; the counts it does not name stay as they are. */
+export function settingOfRow(row: BenchRow, present: Setting): Setting {
+  const stepper = STEPPERS.find((known) => known === row.method.stepper) ?? present.stepper;
+  return {
+    ...present,
+    level: row.level,
+    stepper,
+    stepS: row.method.step_s,
+    substeps: row.method.substeps ?? present.substeps,
+    iterations: row.method.iterations ?? present.iterations,
+  };
+}
+
+/** The row of the last sweep that was measured with just the shown setting, if there is one. */
+export function rowOfSetting({
+  sweep,
+  setting,
+}: Pick<AppState, 'sweep' | 'setting'>): BenchRow | null {
+  if (sweep.scene?.preset !== setting.preset || sweep.scene.fabric !== setting.fabric) return null;
+  const found = sweep.rows.find((row) => {
+    const measured = settingOfRow(row, setting);
+    return measured.level === setting.level && isSameMethod(measured, setting);
+  });
+  return found?.status === 'ok' ? found : null;
+}

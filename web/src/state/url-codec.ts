@@ -1,0 +1,134 @@
+// The state that a link carries, to text and back. A part that cannot be read gives its default
+// and one sentence; it never stops the page.
+import { fabrics } from './fabric-data';
+import {
+  type Count,
+  LEVELS,
+  MOST_ITERATIONS,
+  MOST_SUBSTEPS,
+  PRESET_IDS,
+  type PresetId,
+  presetSetting,
+  type Setting,
+  STEPPER_TRAITS,
+  STEPPERS,
+  STEPS_PER_SECOND,
+  withStepper,
+} from './setting';
+
+export type HeatMap = 'off' | 'magnitude' | 'signed';
+
+export interface LinkState {
+  setting: Setting;
+  heat: HeatMap;
+  /** Upper end of the heat map's scale [%], or chosen from the frame. */
+  heatRange: 'auto' | number;
+  edges: boolean;
+}
+
+export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed'];
+export const HEAT_RANGES: readonly number[] = [0.5, 1, 2, 5, 10];
+const DEFAULT_PRESET: PresetId = 'curtain';
+
+/** A name as it stands in a link: lower case, hyphens. */
+export function slug(name: string): string {
+  return name
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, '-')
+    .replace(/^-|-$/g, '');
+}
+
+/** Reads one part of the link at a time and collects what was wrong with it. */
+function createReader(parameters: URLSearchParams) {
+  const problems: string[] = [];
+  const known = new Set<string>();
+
+  function take<Value>(
+    key: string,
+    fallback: Value,
+    expected: string,
+    parse: (text: string) => Value | undefined,
+  ): Value {
+    known.add(key);
+    const text = parameters.get(key);
+    if (text === null) return fallback;
+    const value = parse(text);
+    if (value !== undefined) return value;
+    problems.push(`${key}: expected ${expected}, found "${text.slice(0, 40)}"`);
+    return fallback;
+  }
+
+  function finish(): string[] {
+    for (const key of new Set(parameters.keys())) {
+      if (!known.has(key)) problems.push(`${key.slice(0, 40)}: not a known part`);
+    }
+    return problems;
+  }
+
+  return { take, finish };
+}
+
+function oneOf<Value extends string | number>(values: readonly Value[]) {
+  return (text: string): Value | undefined => values.find((value) => String(value) === text);
+}
+
+function wholeNumber(least: number, most: number) {
+  return (text: string): number | undefined => {
+    const value = /^\d{1,6}$/.test(text) ? Number(text) : -1;
+    return value >= least && value <= most ? value : undefined;
+  };
+}
+
+/** "1/60" is a sixtieth of a second. */
+function stepFraction(text: string): number | undefined {
+  const perSecond = STEPS_PER_SECOND.find((count) => text === `1/${count}`);
+  return perSecond === undefined ? undefined : 1 / perSecond;
+}
+
+/** The part of a link after `#`. */
+export function encodeLink(link: LinkState): string {
+  const { setting } = link;
+  const parts: [string, string][] = [
+    ['scene', setting.preset],
+    ['fabric', slug(setting.fabric)],
+    ['level', String(setting.level)],
+    ['stepper', setting.stepper],
+    ['step', `1/${Math.round(1 / setting.stepS)}`],
+    ['substeps', String(setting.substeps)],
+    ['iterations', String(setting.iterations)],
+    ['heat', link.heat],
+    ['range', String(link.heatRange)],
+    ['edges', link.edges ? 'on' : 'off'],
+  ];
+  return parts.map(([key, value]) => `${key}=${value}`).join('&');
+}
+
+/** The state a link stands for; `problems` says in words what could not be read. */
+export function decodeLink(hash: string): { link: LinkState; problems: string[] } {
+  const { take, finish } = createReader(new URLSearchParams(hash.replace(/^#/, '')));
+  const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
+  const own = presetSetting(preset);
+  const stepper = take('stepper', own.stepper, STEPPERS.join(', '), oneOf(STEPPERS));
+  const start = withStepper(own, stepper);
+  const takeCount = (count: Count, most: number) => {
+    const least = STEPPER_TRAITS[stepper].counts[count]?.least ?? 1;
+    return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
+  };
+  const setting: Setting = {
+    preset,
+    fabric: take('fabric', own.fabric, 'the name of a fabric', (text) => {
+      return fabrics.find((fabric) => slug(fabric.name_en) === text)?.name_en;
+    }),
+    level: take('level', own.level, '0 to 4', oneOf(LEVELS)),
+    stepper,
+    stepS: take('step', start.stepS, '1/30 to 1/960', stepFraction),
+    substeps: takeCount('substeps', MOST_SUBSTEPS),
+    iterations: takeCount('iterations', MOST_ITERATIONS),
+  };
+  const heat = take('heat', 'off', HEAT_MAPS.join(', '), oneOf(HEAT_MAPS));
+  const range = take<LinkState['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>
+    text === 'auto' ? 'auto' : oneOf(HEAT_RANGES)(text),
+  );
+  const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  return { link: { setting, heat, heatRange: range, edges }, problems: finish() };
+}

@@ -1,0 +1,41 @@
+// What is painted on the cloth: its material, or its stretch; and the edges of the mesh.
+import type { AppState } from '../state/app-state';
+import { type Store, watch } from '../state/store';
+import { HEAT_RANGES, type HeatMap } from '../state/url-codec';
+import { choice, element, field } from './element';
+
+const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
+  { value: 'off', title: 'Fabric' },
+  { value: 'magnitude', title: 'Stretch: how much' },
+  { value: 'signed', title: 'Stretch: longer or shorter' },
+];
+
+export function createDrawingPanel(parent: HTMLElement, store: Store<AppState>): () => void {
+  const heat = choice(HEAT_TITLES, (value) => store.set({ heat: value }));
+  const range = choice<string>(
+    [
+      { value: 'auto', title: 'Automatic' },
+      ...HEAT_RANGES.map((percent) => ({ value: String(percent), title: `up to ${percent} %` })),
+    ],
+    (value) => store.set({ heatRange: value === 'auto' ? 'auto' : Number(value) }),
+  );
+  const rangeField = field('Scale', range.control);
+  const edges = element('input', {
+    type: 'checkbox',
+    change: () => store.set({ edges: edges.checked }),
+  });
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Drawing' },
+      element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
+      element('label', { class: 'check' }, edges, 'Edges of the mesh'),
+    ),
+  );
+  return watch(store, ['heat', 'heatRange', 'edges'], (state) => {
+    heat.select(state.heat);
+    range.select(String(state.heatRange));
+    rangeField.hidden = state.heat === 'off';
+    edges.checked = state.edges;
+  });
+}

@@ -1,0 +1,62 @@
+// Building the document by hand, briefly.
+
+type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
+
+/** An element with attributes (functions become listeners, false is left out) and children. */
+export function element<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  attributes: Attributes = {},
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[Tag] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === 'function') made.addEventListener(name, value);
+    else if (value !== false) made.setAttribute(name, value === true ? '' : String(value));
+  }
+  made.append(...children);
+  return made;
+}
+
+/** Sets the text only when it is another one, so that nothing is laid out or read anew. */
+export function setText(target: Element, text: string): void {
+  if (target.textContent !== text) target.textContent = text;
+}
+
+let nIds = 0;
+
+/** A label above its control. */
+export function field(
+  label: string,
+  control: HTMLElement,
+  ...after: (Node | string)[]
+): HTMLElement {
+  nIds += 1;
+  control.id ||= `control-${nIds}`;
+  return element(
+    'div',
+    { class: 'field' },
+    element('label', { for: control.id }, label),
+    control,
+    ...after,
+  );
+}
+
+/** A choice of named values. `onChoice` gets the chosen value. */
+export function choice<Value extends string | number>(
+  options: readonly { value: Value; title: string }[],
+  onChoice: (value: Value) => void,
+): { control: HTMLSelectElement; select(value: Value): void } {
+  const control = element('select', {
+    change: () => {
+      const chosen = options[control.selectedIndex];
+      if (chosen) onChoice(chosen.value);
+    },
+  });
+  for (const { title } of options) control.append(element('option', {}, title));
+  return {
+    control,
+    select(value) {
+      control.selectedIndex = options.findIndex((option) => option.value === value);
+    },
+  };
+}

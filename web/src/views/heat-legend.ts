@@ -1,0 +1,34 @@
+// The colour scale on the stage: ends, unit, and the least and largest value now.
+import { MAGNITUDE_MAP, SIGNED_MAP } from '../stage/colormap';
+import type { AppState } from '../state/app-state';
+import { type Store, watch } from '../state/store';
+import { element, setText } from './element';
+import { percent } from './quantity';
+
+export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): () => void {
+  const title = element('p', { class: 'legend-title' });
+  const bar = element('div', { class: 'legend-bar', 'aria-hidden': 'true' });
+  const low = element('span');
+  const high = element('span');
+  const present = element('p', { class: 'legend-present' });
+  const legend = element(
+    'div',
+    { class: 'legend', role: 'group', 'aria-label': 'Colour scale' },
+    title,
+    bar,
+    element('p', { class: 'legend-ends' }, low, high),
+    present,
+  );
+  parent.append(legend);
+  return watch(store, ['heatScale', 'heatRange'], ({ heatScale: scale, heatRange }) => {
+    legend.hidden = !scale || scale.map === 'off';
+    if (!scale) return;
+    const isSigned = scale.map === 'signed';
+    const range = heatRange === 'auto' ? 'automatic scale' : 'fixed scale';
+    setText(title, `${isSigned ? 'Change of length' : 'Stretch'} of the springs in %, ${range}`);
+    bar.style.background = (isSigned ? SIGNED_MAP : MAGNITUDE_MAP).gradient;
+    setText(low, percent(scale.low));
+    setText(high, percent(scale.high));
+    setText(present, `now ${percent(scale.least)} to ${percent(scale.most)}, mean per vertex`);
+  });
+}

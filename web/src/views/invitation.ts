@@ -1,0 +1,29 @@
+// The one thing that asks to be grabbed, until someone grabs or plays.
+import type { AppState } from '../state/app-state';
+import { type Store, watch } from '../state/store';
+import { element } from './element';
+
+export interface Invitation {
+  /** Pixels from the stage's upper left corner. */
+  place(x: number, y: number): void;
+  close(): void;
+}
+
+export function createInvitation(parent: HTMLElement, store: Store<AppState>): Invitation {
+  const ring = element(
+    'div',
+    { class: 'invitation', 'aria-hidden': 'true' },
+    element('span', { class: 'invitation-ring' }),
+    element('span', { class: 'invitation-word' }, 'Pull me'),
+  );
+  parent.append(ring);
+  const close = watch(store, ['invited', 'phase'], ({ invited, phase }) => {
+    ring.hidden = !invited || phase !== 'ready';
+  });
+  return {
+    place(x, y) {
+      ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    },
+    close,
+  };
+}

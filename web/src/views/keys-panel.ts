@@ -1,0 +1,30 @@
+// The keys, for those who do not use a pointer.
+import { element } from './element';
+
+const KEYS: readonly [string, string][] = [
+  ['Space', 'play or pause'],
+  ['.', 'one step'],
+  ['R', 'reset'],
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+  ['G', 'take the cloth at the middle of the picture; then arrows, Page Up and Page Down move it'],
+  ['G or Escape', 'let go'],
+];
+
+export function createKeysPanel(parent: HTMLElement): () => void {
+  const list = element('dl', { class: 'keys' });
+  for (const [key, meaning] of KEYS) {
+    list.append(element('dt', {}, element('kbd', {}, key)), element('dd', {}, meaning));
+  }
+  const box = element(
+    'details',
+    {},
+    element('summary', {}, 'Keys'),
+    element('p', { class: 'note' }, 'They work while the picture has the focus.'),
+    list,
+  );
+  const section = element('section', { 'aria-label': 'Keys' }, box);
+  parent.append(section);
+  return () => section.remove();
+}

@@ -1,0 +1,111 @@
+// The read-out above the toolbar: what the setting costs and how wrong it is, with status and time.
+import type { AppState } from '../state/app-state';
+import { fabricNamed } from '../state/fabric-data';
+import { type Store, watch } from '../state/store';
+import { rowOfSetting } from '../state/sweep-plan';
+import { element, setText } from './element';
+import { digits, milliseconds, percent, smallLength } from './quantity';
+
+const STATUS_WORDS: Record<AppState['phase'], string> = {
+  loading: 'loading',
+  ready: 'paused',
+  stopped: 'stopped',
+  refused: 'refused',
+  broken: 'not available',
+};
+
+interface Item {
+  title: string;
+  meaning: string;
+  text(state: AppState): string;
+  /** A second, smaller line. */
+  detail?(state: AppState): string;
+}
+
+function statusText({ phase, playing, pace }: AppState): string {
+  if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
+  return pace === null ? 'running' : `running, ${digits(Math.min(pace, 1), 2)} × real time`;
+}
+
+const ITEMS: readonly Item[] = [
+  {
+    title: 'Status',
+    meaning: 'What the computation does, and how fast next to the clock.',
+    text: statusText,
+    detail: ({ numbers }) =>
+      numbers ? `step ${numbers.step}, t = ${numbers.time_s.toFixed(2)} s` : '',
+  },
+  {
+    title: 'Cost of a step',
+    meaning: 'Wall time of one step on this device, in parts, over at least 50 ms of work.',
+    text: ({ timing }) => (timing ? milliseconds(timing.totalMs) : '–'),
+    detail: ({ timing }) =>
+      timing
+        ? timing.parts
+            .slice(0, 3)
+            .map(({ name, ms }) => `${name.replaceAll('_', ' ')} ${digits(ms, 2)}`)
+            .join(' · ')
+        : 'play to measure',
+  },
+  {
+    title: 'Error',
+    meaning: 'Distance from the reference of the last sweep for the very same setting.',
+    text(state) {
+      const row = rowOfSetting(state);
+      return row ? smallLength(row.position_error_m) : 'not measured';
+    },
+    detail(state) {
+      const row = rowOfSetting(state);
+      if (!row) return 'sweep to measure';
+      return row.reference.converged ? 'against a converged reference' : 'reference not converged';
+    },
+  },
+  {
+    title: 'Stretch',
+    meaning: 'Largest and root-mean-square change of length of the springs, now.',
+    text: ({ numbers }) => (numbers ? percent(numbers.largest_stretch) : '–'),
+    detail: ({ numbers }) => (numbers ? `RMS ${percent(numbers.rms_stretch)}` : ''),
+  },
+  {
+    title: 'Residual',
+    meaning: 'What is left over of the step’s own equations, relative.',
+    text: ({ numbers }) => (numbers ? digits(numbers.residual, 2) : '–'),
+    detail: ({ numbers, isCutShort }) =>
+      isCutShort ? 'not converged' : numbers ? `${numbers.iterations} iterations` : '',
+  },
+  {
+    title: 'Vertices',
+    meaning: 'Points whose motion is computed.',
+    text: ({ summary }) => (summary ? String(summary.n_vertices) : '–'),
+    detail({ setting }) {
+      const { areal_density_kg_per_m2: weight } = fabricNamed(setting.fabric);
+      return `${setting.fabric}: weight ${weight.confidence}`;
+    },
+  },
+];
+
+export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>): () => void {
+  const cells = ITEMS.map((item) => {
+    const value = element('dd');
+    const detail = element('dd', { class: 'detail' });
+    const cell = element(
+      'div',
+      { title: item.meaning },
+      element('dt', {}, item.title),
+      value,
+      detail,
+    );
+    return { item, value, detail, cell };
+  });
+  parent.append(element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)));
+  return watch(
+    store,
+    ['numbers', 'timing', 'summary', 'phase', 'playing', 'pace', 'sweep', 'setting'],
+    (state) => {
+      for (const { item, value, detail } of cells) {
+        setText(value, item.text(state));
+        setText(detail, item.detail?.(state) ?? '');
+      }
+    },
+  );
+}

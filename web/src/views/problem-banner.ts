@@ -1,0 +1,26 @@
+// What went wrong, in a sentence, with what can be done about it.
+import type { AppState } from '../state/app-state';
+import { type Store, watch } from '../state/store';
+import { element, setText } from './element';
+
+export function createProblemBanner(
+  parent: HTMLElement,
+  store: Store<AppState>,
+  actions: { reset(): void },
+): () => void {
+  const sentence = element('p');
+  const reset = element('button', { type: 'button', click: actions.reset }, 'Reset');
+  const dismiss = element(
+    'button',
+    { type: 'button', click: () => store.set({ problem: null }) },
+    'Dismiss',
+  );
+  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, reset, dismiss);
+  parent.append(banner);
+  return watch(store, ['problem'], ({ problem }) => {
+    banner.hidden = problem === null;
+    reset.hidden = problem?.source !== 'run';
+    dismiss.hidden = problem?.source === 'browser';
+    setText(sentence, problem?.sentence ?? '');
+  });
+}

@@ -1,0 +1,43 @@
+// Numbers as people read them: two or three significant digits, and a unit.
+
+const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
+
+function superscript(exponent: number): string {
+  const digits = [...String(Math.abs(exponent))].map((digit) => SUPERSCRIPTS[Number(digit)]);
+  return (exponent < 0 ? '⁻' : '') + digits.join('');
+}
+
+/** 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷". */
+export function digits(value: number, significant = 3): string {
+  if (!Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const rounded = Number(value.toPrecision(significant));
+  const exponent = Math.floor(Math.log10(Math.abs(rounded)));
+  if (exponent < -3 || exponent > 5) {
+    const mantissa = Number((rounded / 10 ** exponent).toPrecision(significant));
+    return `${mantissa}·10${superscript(exponent)}`;
+  }
+  return rounded.toFixed(Math.max(0, Math.min(significant - 1 - exponent, 6)));
+}
+
+/** A ratio as per cent. */
+export function percent(ratio: number, significant = 2): string {
+  return `${digits(100 * ratio, significant)} %`;
+}
+
+/** A length of the size of an error: millimetres, micrometres below a tenth of one. */
+export function smallLength(metres: number): string {
+  const millimetres = 1000 * metres;
+  if (millimetres !== 0 && Math.abs(millimetres) < 0.1)
+    return `${digits(1000 * millimetres, 2)} µm`;
+  return `${digits(millimetres, 2)} mm`;
+}
+
+export function milliseconds(ms: number): string {
+  return `${digits(ms, 2)} ms`;
+}
+
+/** A step as the fraction of a second it is. */
+export function stepTitle(stepS: number): string {
+  return `1/${Math.round(1 / stepS)} s`;
+}

@@ -1,0 +1,84 @@
+import { describe, expect, it } from 'vitest';
+import type { BenchRow } from '../src/sim/wasm-module';
+import { NO_SWEEP } from '../src/state/app-state';
+import {
+  isSameMethod,
+  PRESET_IDS,
+  presetSetting,
+  STEPPERS,
+  sceneOf,
+  withStepper,
+} from '../src/state/setting';
+import { rowOfSetting, settingOfRow, sweepPlan } from '../src/state/sweep-plan';
+
+const start = presetSetting('curtain');
+
+function rowFor(level: number, method: BenchRow['method']): BenchRow {
+  return { level, method, status: 'ok' } as BenchRow;
+}
+
+describe('setting', () => {
+  it('writes only the counts that the stepper listens to', () => {
+    const implicit = sceneOf(withStepper(start, 'implicit')).method as Record<string, unknown>;
+    const xpbd = sceneOf(withStepper(start, 'xpbd')).method as Record<string, unknown>;
+    expect(implicit).not.toHaveProperty('iterations');
+    expect(implicit).toHaveProperty('substeps');
+    expect(xpbd).toMatchObject({ stepper: 'xpbd', substeps: 30, iterations: 1 });
+  });
+
+  it('keeps the fine print of a stepper away from the others', () => {
+    for (const preset of PRESET_IDS) {
+      const own = presetSetting(preset);
+      for (const stepper of STEPPERS.filter((other) => other !== own.stepper)) {
+        const method = sceneOf(withStepper(own, stepper)).method as Record<string, unknown>;
+        const known = ['stepper', 'step_s', 'substeps', 'iterations'];
+        expect(Object.keys(method).filter((key) => !known.includes(key))).toEqual([]);
+      }
+    }
+  });
+
+  it('changes fabric and level of the scene and nothing else', () => {
+    const scene = sceneOf({ ...start, fabric: 'silk', level: 4 });
+    const before = sceneOf(start);
+    expect(scene).toMatchObject({ fabric: { name: 'silk' }, refinement: { level: 4 } });
+    expect({ ...scene, fabric: 0, refinement: 0 }).toEqual({ ...before, fabric: 0, refinement: 0 });
+  });
+
+  it('tells methods apart by the counts that matter only', () => {
+    const implicit = withStepper(start, 'implicit');
+    const projective = withStepper(start, 'projective');
+    expect(isSameMethod(implicit, { ...implicit, iterations: 99 })).toBe(true);
+    expect(isSameMethod(projective, { ...projective, iterations: 99 })).toBe(false);
+    expect(isSameMethod(implicit, { ...implicit, stepS: 1 / 240 })).toBe(false);
+  });
+});
+
+describe('sweep-plan', () => {
+  it('measures every stepper at every level up to the finest', () => {
+    const plan = sweepPlan(start, 3);
+    expect(plan.levels).toEqual([0, 1, 2, 3]);
+    expect(new Set(plan.methods.map((method) => method.stepper))).toEqual(new Set(STEPPERS));
+  });
+
+  it('finds the row of a setting that a row was applied from', () => {
+    const rows = sweepPlan(start, 2).methods.flatMap((method) =>
+      [0, 1, 2].map((level) => rowFor(level, { ...method })),
+    );
+    const scene = { preset: start.preset, fabric: start.fabric };
+    for (const row of rows) {
+      const setting = settingOfRow(row, start);
+      expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows, scene }, setting })).toBe(row);
+    }
+  });
+
+  it('takes no row of another fabric or of a failed run', () => {
+    const method = { stepper: 'implicit', step_s: 1 / 60, substeps: 1 };
+    const row = rowFor(1, method);
+    const setting = settingOfRow(row, start);
+    const other = { ...NO_SWEEP, rows: [row], scene: { preset: start.preset, fabric: 'silk' } };
+    expect(rowOfSetting({ sweep: other, setting })).toBeNull();
+    const failed = { ...row, status: 'unstable_step' };
+    const scene = { preset: start.preset, fabric: start.fabric };
+    expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows: [failed], scene }, setting })).toBeNull();
+  });
+});

@@ -1,0 +1,230 @@
+// A small stand-in for the WebAssembly module: a square sheet of springs, enough to test the page's
+// side of the boundary. It counts the objects that are not deleted.
+import type {
+  BenchRow,
+  ExperimentHandle,
+  PleatModule,
+  SceneHandle,
+  SimulationHandle,
+} from '../../src/sim/wasm-module';
+
+/** As many steps as this and the run ends with a status, when the scene's name is "fragile". */
+const FRAGILE_STEPS = 10;
+
+interface FakeScene {
+  name: string;
+  refinement: { level: number };
+  method: { stepper: string; step_s: number; substeps?: number };
+}
+
+const ok = (payload: object = {}) => JSON.stringify({ ok: true, ...payload });
+const refuse = (where: string, what: string) =>
+  JSON.stringify({ ok: false, kind: 'input', where, what });
+
+class FakeSimulation implements SimulationHandle {
+  private side = 0;
+  private scene: FakeScene | null = null;
+  private x = new Float32Array(0);
+  private steps = 0;
+  private held: number | null = null;
+  private ended = false;
+
+  constructor(private readonly onDelete: () => void) {}
+
+  private summary() {
+    const n = this.side * this.side;
+    const m = this.side - 1;
+    return ok({
+      summary: {
+        n_vertices: n,
+        n_triangles: 2 * m * m,
+        n_springs: 2 * this.side * m,
+        n_bends: 0,
+        step_s: this.scene?.method.step_s,
+        substeps: 1,
+        built: ['springs'],
+        left_out: ['contact'],
+      },
+    });
+  }
+
+  load(text: string): string {
+    const scene = JSON.parse(text) as FakeScene;
+    if (scene.method.stepper === 'explicit' && scene.method.substeps === 1) {
+      return refuse('/method/substeps', 'expected at least 300 substeps, found 1');
+    }
+    this.scene = scene;
+    this.side = 2 ** (scene.refinement.level + 1) + 1;
+    this.x = new Float32Array(3 * this.side * this.side);
+    this.reset();
+    return this.summary();
+  }
+
+  carryOver(text: string): string {
+    const steps = this.steps;
+    const answer = this.load(text);
+    this.steps = steps;
+    return answer;
+  }
+
+  reset(): string {
+    this.steps = 0;
+    this.ended = false;
+    for (let v = 0; v < this.side * this.side; ++v) {
+      const [row, column] = [Math.floor(v / this.side), v % this.side];
+      this.x.set([column / (this.side - 1), 1 - row / (this.side - 1), 0], 3 * v);
+    }
+    return ok();
+  }
+
+  step(count: number): number {
+    for (let step = 0; step < count; ++step) {
+      this.steps += 1;
+      this.ended ||= this.scene?.name === 'fragile' && this.steps > FRAGILE_STEPS;
+      if (this.ended) return 3;
+      for (let v = 0; v < this.x.length / 3; ++v) {
+        const depth = Math.floor(v / this.side) / (this.side - 1);
+        this.x[3 * v + 2] = 0.3 * depth * Math.sin(0.1 * this.steps);
+      }
+    }
+    return 0;
+  }
+
+  status(): string {
+    return this.ended
+      ? ok({ status: 'not_finite', message: 'vertex 3' })
+      : ok({ status: 'ok', message: '' });
+  }
+
+  numbers(): string {
+    return ok({
+      time_s: this.steps / 60,
+      step: this.steps,
+      largest_stretch: 0.01,
+      rms_stretch: 0.004,
+      residual: 1e-4,
+      iterations: 7,
+      parts_ms: { forces: 0.5 * this.steps, solve: 1.5 * this.steps },
+      steps_timed: this.steps,
+    });
+  }
+
+  positions = () => this.x;
+  exactPositions = () => Float64Array.from(this.x);
+  masses = () => new Float64Array(this.x.length / 3).fill(0.001);
+  stretch = () => new Float32Array(this.x.length / 3).fill(this.steps === 0 ? 0 : 0.002);
+  restCoordinates = () => new Float32Array((2 * this.x.length) / 3);
+
+  triangles(): Uint32Array {
+    const corners: number[] = [];
+    for (let row = 0; row + 1 < this.side; ++row) {
+      for (let column = 0; column + 1 < this.side; ++column) {
+        const a = row * this.side + column;
+        corners.push(a, a + this.side, a + 1, a + 1, a + this.side, a + this.side + 1);
+      }
+    }
+    return Uint32Array.from(corners);
+  }
+
+  colliders = () => ok({ colliders: [{ shape: 'sphere', centre: [0, 0, 0], radius_m: 0.2 }] });
+
+  grab(vertex: number): string {
+    if (vertex < 0 || vertex >= this.x.length / 3) return refuse('', `no vertex ${vertex}`);
+    this.held = vertex;
+    return ok();
+  }
+
+  moveGrab(x: number, y: number, z: number): void {
+    if (this.held !== null) this.x.set([x, y, z], 3 * this.held);
+  }
+
+  releaseGrab(): void {
+    this.held = null;
+  }
+
+  delete(): void {
+    this.onDelete();
+  }
+}
+
+class FakeExperiment implements ExperimentHandle {
+  private rows: BenchRow[] = [];
+
+  constructor(private readonly onDelete: () => void) {}
+
+  start(text: string): string {
+    const plan = JSON.parse(text) as { levels: number[]; methods: BenchRow['method'][] };
+    if (plan.levels.length === 0) return refuse('/levels', 'expected a level, found none');
+    this.rows = plan.levels.flatMap((level) => plan.methods.map((method) => row(level, method)));
+    return ok({ n_runs: this.rows.length });
+  }
+
+  private shown = 0;
+
+  advance(): string {
+    this.shown += 1;
+    const done = this.shown >= this.rows.length;
+    return ok({
+      done,
+      progress: this.shown / this.rows.length,
+      rows: this.rows.slice(0, this.shown),
+      front: [0],
+      message: done ? 'done' : 'running',
+    });
+  }
+
+  delete(): void {
+    this.onDelete();
+  }
+}
+
+function row(level: number, method: BenchRow['method']): BenchRow {
+  return {
+    scene: 'fake',
+    method,
+    level,
+    n_vertices: (2 ** (level + 1) + 1) ** 2,
+    ms_per_frame: 2 ** level,
+    ms_per_simulated_second: 60 * 2 ** level,
+    spread_ms: 0.1,
+    position_error_m: 0.01 / 2 ** level,
+    position_error_percent: 1 / 2 ** level,
+    rms_stretch: 0.004,
+    largest_stretch: 0.01,
+    reference: { id: 'fake', converged: false, description: 'the finest level of the grid' },
+    status: 'ok',
+    message: '',
+    target: 'wasm',
+  };
+}
+
+/** The module, and how many of its objects are still alive. */
+export function createFakeModule(): { module: PleatModule; alive: () => number } {
+  let nAlive = 0;
+  const born = () => {
+    nAlive += 1;
+    return () => {
+      nAlive -= 1;
+    };
+  };
+  class Scene implements SceneHandle {
+    private readonly onDelete = born();
+    fabrics = () => ok({ fabrics: [] });
+    schema = () => ok({ schema: {} });
+    parse = () => ok({});
+    delete(): void {
+      this.onDelete();
+    }
+  }
+  class Simulation extends FakeSimulation {
+    constructor() {
+      super(born());
+    }
+  }
+  class Experiment extends FakeExperiment {
+    constructor() {
+      super(born());
+    }
+  }
+  return { module: { Scene, Simulation, Experiment }, alive: () => nAlive };
+}

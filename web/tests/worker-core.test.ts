@@ -1,0 +1,220 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
+import { BOUND_METHODS, type PleatModule } from '../src/sim/wasm-module';
+import { createWorkerCore } from '../src/sim/worker-core';
+import { fabricsText } from '../src/state/fabric-data';
+import { presetSetting, type Setting, sceneOf } from '../src/state/setting';
+import { sweepPlan } from '../src/state/sweep-plan';
+import { createFakeModule } from './support/fake-module';
+
+const wasmFile = new URL('../src/wasm/pleat.wasm', import.meta.url);
+const glueFile = new URL('../src/wasm/pleat.mjs', import.meta.url);
+const hasModule = existsSync(wasmFile);
+
+async function loadRealModule(): Promise<PleatModule> {
+  const { default: createPleat } = await import(/* @vite-ignore */ glueFile.href);
+  return createPleat({ wasmBinary: readFileSync(wasmFile) });
+}
+
+type Sent<Type extends FromWorker['type']> = Extract<FromWorker, { type: Type }>;
+
+/** A core with everything it posted; `take` removes and returns the next message. */
+function serve(module: PleatModule) {
+  const posted: FromWorker[] = [];
+  const core = createWorkerCore(module, (message) => posted.push(message));
+  return {
+    core,
+    posted,
+    send: (message: ToWorker) => core.receive(message),
+    take<Type extends FromWorker['type']>(type: Type): Sent<Type> {
+      const message = posted.shift();
+      if (message?.type !== type) throw new Error(`${type} expected: ${JSON.stringify(message)}`);
+      return message as Sent<Type>;
+    },
+  };
+}
+
+const setting: Setting = { ...presetSetting('curtain'), level: 1 };
+const sceneText = (patch: Partial<Setting> = {}) =>
+  JSON.stringify(sceneOf({ ...setting, ...patch }));
+
+function open(module: PleatModule) {
+  const server = serve(module);
+  server.send({ type: 'open', fabricsText });
+  server.take('ready');
+  server.send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 1 });
+  return { ...server, loaded: server.take('loaded') };
+}
+
+const modules: [string, () => Promise<PleatModule>][] = [
+  ['the stand-in', async () => createFakeModule().module],
+];
+if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
+
+describe.each(modules)('worker-core with %s', (_name, load) => {
+  it('answers a load with a mesh, a first frame and numbers that fit together', async () => {
+    const { loaded } = open(await load());
+    const { positions, stretch } = frameViews(loaded.buffers[0]);
+    expect(loaded.request).toBe(1);
+    expect(positions.length).toBe(3 * loaded.summary.n_vertices);
+    expect(stretch.length).toBe(loaded.summary.n_vertices);
+    expect(loaded.restCoordinates.length).toBe(2 * loaded.summary.n_vertices);
+    expect(loaded.triangles.length).toBe(3 * loaded.summary.n_triangles);
+    expect(Math.max(...loaded.triangles)).toBe(loaded.summary.n_vertices - 1);
+    expect(loaded.buffers[1].byteLength).toBe(loaded.buffers[0].byteLength);
+    expect(loaded.numbers.time_s).toBe(0);
+  });
+
+  it('fills the buffer it was given with the moved cloth', async () => {
+    const { send, take, loaded } = open(await load());
+    const [first, buffer] = loaded.buffers;
+    send({ type: 'step', count: 5, wantsNumbers: true, request: 1, buffer });
+    const frame = take('frame');
+    expect(frame.buffer).toBe(buffer);
+    expect(frame.hasEnded).toBe(false);
+    expect(frame.report?.numbers.time_s).toBeCloseTo(5 * loaded.summary.step_s, 12);
+    expect(frameViews(frame.buffer).positions).not.toEqual(frameViews(first).positions);
+    expect(frameViews(frame.buffer).positions.every(Number.isFinite)).toBe(true);
+  });
+
+  it('keeps the motion when the level changes, and forgets it on a load', async () => {
+    const { send, take, loaded } = open(await load());
+    send({ type: 'step', count: 20, wantsNumbers: true, request: 1, buffer: loaded.buffers[1] });
+    const before = take('frame').report?.numbers.time_s ?? 0;
+    expect(before).toBeGreaterThan(0);
+    send({ type: 'load', sceneText: sceneText({ level: 2 }), keepMotion: true, request: 2 });
+    const carried = take('loaded');
+    expect(carried.summary.n_vertices).toBeGreaterThan(loaded.summary.n_vertices);
+    expect(carried.numbers.time_s).toBeCloseTo(before, 9);
+    send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 3 });
+    expect(take('loaded').numbers.time_s).toBe(0);
+  });
+
+  it('is back at the first frame after a reset', async () => {
+    const { send, take, loaded } = open(await load());
+    send({ type: 'step', count: 9, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    take('frame');
+    send({ type: 'reset', request: 2 });
+    const again = take('loaded');
+    expect(again.numbers.step).toBe(0);
+    expect(frameViews(again.buffers[0])).toEqual(frameViews(loaded.buffers[0]));
+  });
+
+  it('says why a scene is refused and keeps the cloth it had', async () => {
+    const { send, take, loaded } = open(await load());
+    const refusedText = sceneText({ stepper: 'explicit', substeps: 1 });
+    send({ type: 'load', sceneText: refusedText, keepMotion: false, request: 2 });
+    const { request, failure } = take('refused');
+    expect(request).toBe(2);
+    expect(failure.kind).toBe('input');
+    expect(failure.where).toBe('/method/substeps');
+    expect(failure.what).toContain('substeps');
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    expect(take('frame').hasEnded).toBe(false);
+  });
+
+  it('moves a held vertex to its target and lets it go', async () => {
+    const { send, take, loaded } = open(await load());
+    const { positions } = frameViews(loaded.buffers[0]);
+    const vertex = loaded.summary.n_vertices - 1;
+    const target: [number, number, number] = [
+      (positions[3 * vertex] ?? 0) + 0.05,
+      positions[3 * vertex + 1] ?? 0,
+      (positions[3 * vertex + 2] ?? 0) + 0.05,
+    ];
+    send({ type: 'grab', vertex });
+    send({ type: 'moveGrab', target });
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    const moved = frameViews(take('frame').buffer).positions;
+    const held = moved.subarray(3 * vertex, 3 * vertex + 3);
+    // The stand-in swings what it steps; the module puts a held vertex at its target.
+    if (_name !== 'the stand-in') {
+      target.forEach((value, axis) => {
+        expect(held[axis]).toBeCloseTo(value, 5);
+      });
+    }
+    send({ type: 'releaseGrab' });
+    send({ type: 'moveGrab', target: [9, 9, 9] });
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[0] });
+    expect(Math.max(...frameViews(take('frame').buffer).positions)).toBeLessThan(8);
+  });
+
+  it('drops a buffer of another mesh instead of writing beyond it', async () => {
+    const { send, posted } = open(await load());
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: new ArrayBuffer(16) });
+    expect(posted).toEqual([]);
+  });
+
+  it('turns an exception into a refusal', async () => {
+    const { send, take } = serve(await load());
+    send({ type: 'reset', request: 4 });
+    expect(take('refused')).toMatchObject({ request: 4, failure: { kind: 'internal' } });
+  });
+});
+
+describe('worker-core', () => {
+  it('reports a run that ended, with its reason', () => {
+    const { send, take } = serve(createFakeModule().module);
+    send({ type: 'open', fabricsText });
+    take('ready');
+    const fragile = JSON.stringify({ ...sceneOf(setting), name: 'fragile' });
+    send({ type: 'load', sceneText: fragile, keepMotion: false, request: 1 });
+    const [, buffer] = take('loaded').buffers;
+    send({ type: 'step', count: 50, wantsNumbers: false, request: 1, buffer });
+    const frame = take('frame');
+    expect(frame.hasEnded).toBe(true);
+    expect(frame.report?.status).toBe('not_finite');
+  });
+
+  it('runs a sweep to its end, with growing rows', () => {
+    const { send, take, posted } = serve(createFakeModule().module);
+    send({ type: 'open', fabricsText });
+    take('ready');
+    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
+    expect(take('sweepStarted').nRuns).toBe(14);
+    const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
+    expect(reports.map((report) => report.rows.length)).toEqual(
+      Array.from({ length: 14 }, (_, index) => index + 1),
+    );
+    expect(reports.map((report) => report.done).indexOf(true)).toBe(13);
+  });
+
+  it('refuses a sweep with the reason of the module', () => {
+    const { send, take } = serve(createFakeModule().module);
+    send({ type: 'open', fabricsText });
+    take('ready');
+    send({ type: 'sweep', planText: JSON.stringify({ levels: [], methods: [] }) });
+    expect(take('refused').failure.where).toBe('/levels');
+  });
+
+  it('deletes every object of the module', () => {
+    const { module, alive } = createFakeModule();
+    const { send, core } = serve(module);
+    send({ type: 'open', fabricsText });
+    send({ type: 'open', fabricsText });
+    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
+    expect(alive()).toBe(2);
+    core.close();
+    expect(alive()).toBe(0);
+  });
+});
+
+describe.runIf(hasModule)('wasm-module', () => {
+  it('binds exactly the classes and methods that the types name', async () => {
+    const module: object = await loadRealModule();
+    // What Embind itself gives to every class.
+    const inherited = ['constructor', 'isAliasOf', 'clone', 'isDeleted', 'deleteLater'];
+    const bound: Record<string, string[]> = {};
+    for (const [name, value] of Object.entries(module)) {
+      if (typeof value !== 'function' || !/^[A-Z][a-z]/.test(name)) continue;
+      const { prototype } = value as { prototype: object };
+      const prototypes = [prototype, Object.getPrototypeOf(prototype)];
+      const methods = prototypes.flatMap((owner) => Object.getOwnPropertyNames(owner));
+      bound[name] = [...new Set(methods)]
+        .filter((method) => !inherited.includes(method) && !(method in Object.prototype))
+        .sort();
+    }
+    expect(bound).toEqual(BOUND_METHODS);
+  });
+});

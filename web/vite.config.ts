@@ -1,0 +1,17 @@
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vite';
+import { firstLoadBudget } from './build-checks/first-load-budget';
+
+const repository = fileURLToPath(new URL('..', import.meta.url));
+
+export default defineConfig({
+  base: './', // any static folder will do
+  plugins: [firstLoadBudget()],
+  server: { fs: { allow: [repository] } }, // fabrics and scenes lie in assets/
+  worker: { format: 'es' },
+  build: {
+    target: 'es2022',
+    assetsInlineLimit: 0, // the content policy allows no data: but images
+    chunkSizeWarningLimit: 800, // three.js; the budget below is what counts
+  },
+});
