@@ -22,6 +22,7 @@ std::atomic<std::int64_t> n_allocations{0};
 // A program's own malloc takes the place of the C library's, for the shared libraries too; what it
 // returns may be given to the C library's free.
 #ifndef PLEAT_OTHER_MALLOC
+// NOLINTBEGIN: the names and parameters are the C library's.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -48,6 +49,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
   return __libc_memalign(alignment, size);
 }
 }
+// NOLINTEND
 #endif
 
 namespace pleat {
