@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+
+#include "core/base/vec.h"
+
+namespace pleat {
+
+/// A plane over one substep, grown by its clearance: vertices keep n . x >= level at the end.
+struct SweptPlane {
+  Vec3 normal;       ///< unit, away from the solid
+  double level = 0;  ///< [m], at the end of the substep
+  Vec3 shift;        ///< how far the solid moves during the substep [m]
+};
+
+/// A sphere over one substep, grown by its clearance.
+struct SweptSphere {
+  Vec3 centre;        ///< at the end of the substep [m]
+  double radius = 0;  ///< clearance included [m]
+  Vec3 shift;         ///< how far the solid moves during the substep [m]
+};
+
+/// Where the straight path of a vertex, seen from the moving solid, first meets the solid's grown
+/// surface.
+struct Impact {
+  double fraction = 0;  ///< of the substep, in [0, 1]; 0 for a vertex that begins inside
+  Vec3 normal;          ///< unit, away from the solid
+  Vec3 point;  ///< on the surface where the solid is at the end of the substep [m]; for a vertex
+               ///< that begins inside, the nearest one
+};
+
+/// begin, end  of the vertex's path [m]; a path that is not finite meets nothing
+/// slack       a path that stays above this depth meets nothing [m]
+std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, const Vec3& end,
+                                   double slack);
+std::optional<Impact> first_impact(const SweptSphere& sphere, const Vec3& begin, const Vec3& end,
+                                   double slack);
+
+/// The grown surface's nearest point, seen from a place at the end of the substep.
+struct Gap {
+  double distance = 0;  ///< [m], negative inside
+  Vec3 normal;          ///< unit, away from the solid
+};
+Gap gap(const SweptPlane& plane, const Vec3& place);
+Gap gap(const SweptSphere& sphere, const Vec3& place);
+
+/// False when first_impact certainly finds nothing. Runs for every vertex, hence inline.
+inline bool may_touch(const SweptPlane& plane, const Vec3& /*begin*/, const Vec3& end) {
+  return plane.normal.dot(end) < plane.level;
+}
+
+// The vertex is at the squared distance a from the centre and moves by the squared length d. It
+// cannot come within r when sqrt(a) > r + sqrt(d), which 2 (r^2 + d) >= (r + sqrt(d))^2 tells
+// without roots.
+inline bool may_touch(const SweptSphere& sphere, const Vec3& begin, const Vec3& end) {
+  const Vec3 from_centre = begin + sphere.shift - sphere.centre;
+  const Vec3 path = end - begin - sphere.shift;
+  return from_centre.squaredNorm() < 2 * (sphere.radius * sphere.radius + path.squaredNorm());
+}
+
+}  // namespace pleat
