@@ -55,8 +55,7 @@ void read_fabric(const JsonReader& reader, const FabricLibrary& fabrics, Scene& 
   scene.fabric_is_named = reader.find("name").has_value();
   if (!scene.fabric_is_named) {
     if (const auto at = reader.find("bending"))
-      throw InputError(at->pointer(),
-                       "expected only for a fabric with a name: own numbers are taken as they are");
+      at->fail("only beside a fabric's name, as own numbers are taken as they are");
     read_numbers(reader, scene.fabric);
     return;
   }

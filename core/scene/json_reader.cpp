@@ -27,12 +27,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// A key that lacks its unit ("width") is closest to the one that has it ("width_m").
+/// The known key that is most likely meant; empty when none is near. A key that lacks its unit
+/// ("width") is closest to the one that has it ("width_m").
 std::string_view nearest(std::string_view key, std::initializer_list<const char*> known) {
   constexpr std::size_t kLongestKey = 64;  // letters worth comparing; the comparison is quadratic
   const std::string_view begin = key.substr(0, kLongestKey);
   std::string_view best;
-  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
+  std::size_t best_distance = begin.size() / 2 + 1;  // half of the letters wrong is another word
   for (const std::string_view candidate : known) {
     const bool lacks_unit = !begin.empty() && candidate.substr(0, begin.size()) == begin;
     const std::size_t distance = lacks_unit ? 0 : edit_distance(begin, candidate);
@@ -70,10 +71,12 @@ void JsonReader::allow_keys(std::initializer_list<const char*> keys) const {
   if (!json_->is_object()) fail("an object");
   for (const auto& item : json_->items()) {
     if (std::find(keys.begin(), keys.end(), item.key()) != keys.end()) continue;
+    const std::string_view near = nearest(item.key(), keys);
+    const std::string expected =
+        near.empty() ? (keys.size() == 1 ? "only the key " : "one of the keys ") + listed(keys)
+                     : "the key \"" + std::string(near) + '"';
     throw InputError(pointer_ + "/" + pointer_token(item.key()),
-                     "expected a known key, the nearest is \"" +
-                         std::string(nearest(item.key(), keys)) + "\", got " +
-                         abbreviated(Json(item.key())));
+                     "expected " + expected + ", got " + abbreviated(Json(item.key())));
   }
 }
 

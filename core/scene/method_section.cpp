@@ -34,7 +34,7 @@ constexpr const char* kStableSubsteps =
 int read_substeps(const JsonReader& reader, StepperKind stepper) {
   if (!reader.is_text()) return static_cast<int>(reader.integer(1, kMaxSubsteps));
   if (stepper != StepperKind::explicit_euler)
-    reader.fail("a whole number: only explicit takes \"stable\"");
+    reader.fail("a whole number, as only explicit takes \"stable\"");
   if (reader.text() != kStableSubsteps) reader.fail("a whole number or \"stable\"");
   return 0;
 }

@@ -1,0 +1,347 @@
+#include "core/scene/scene_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/base/check.h"
+#include "native-tests/scene/assets.h"
+
+namespace pleat {
+namespace {
+
+struct BadScene {
+  const char* text;
+  const char* where;
+  const char* sentence;
+};
+
+// One entry for each way in which a section can be wrong.
+const BadScene kBadScenes[] = {
+    // The text itself.
+    {"", "line 1, column 1",
+     "expected JSON, got an error while parsing value - unexpected end of input; expected '[', "
+     "'{', or a literal"},
+    {R"({"cloth": {"sheet": {}})", "line 1, column 24",
+     "expected JSON, got an error while parsing object - unexpected end of input; expected '}'"},
+    {"{\"cloth\":\n{\"sheet\": {\"width_m\": nan}}}", "line 2, column 24",
+     "expected JSON, got an error while parsing value - invalid literal"},
+    {"{\"cloth\":\n{\"sheet\": {\"width_m\": 1e999}}}", "line 2, column 23",
+     "expected a number of at most 1.8e308 in size, got 1e999"},
+    {R"({"cloth": {"sheet": {"rows": 1, "rows": 2}}})", "/cloth/sheet/rows",
+     "expected each key once, got this one twice"},
+    {"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[0]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]",
+     "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0",
+     "expected at most 32 levels of nesting, got more"},
+    // The whole.
+    {"[]", "", "expected an object, got an array of 0 values"},
+    {"{}", "", "expected the key \"cloth\", got an empty object"},
+    {R"({"cloth": {"sheet": {}}, "gravity": 1})", "/gravity",
+     R"(expected one of the keys "$schema", "name", "caption", "cloth", "fabric", "model", "refinement", )"
+     R"("pins", "world", "method", "duration_s", "record", got "gravity")"},
+    {R"({"cloth": {"sheet": {}}, "duration": 1})", "/duration",
+     R"(expected the key "duration_s", got "duration")"},
+    {R"({"cloth": {"sheet": {}}, "name": 7})", "/name", "expected a text in quotes, got 7"},
+    {R"({"cloth": {"sheet": {}}, "duration_s": 0})", "/duration_s",
+     "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "duration_s": 1e13})", "/duration_s",
+     "expected a number of at most 1e12 in size, got 10000000000000.0"},
+    {R"({"cloth": {"sheet": {}}, "duration_s": 1000, "method": {"step_s": 1e-7}})", "/duration_s",
+     "expected at most 1e9 steps of 1e-07 s, got 10000000000.0"},
+    // Cloth: sheet.
+    {R"({"cloth": {}})", "/cloth",
+     R"(expected one of the keys "sheet", "particles", got an empty object)"},
+    {R"({"cloth": {"sheet": {}, "particles": {}}})", "/cloth",
+     R"(expected only one of the keys "sheet", "particles", got several)"},
+    {R"({"cloth": {"garment": {}}})", "/cloth/garment",
+     R"(expected one of the keys "sheet", "particles", got "garment")"},
+    {R"({"cloth": {"sheet": {"a/b~": 1}}})", "/cloth/sheet/a~1b~0",
+     R"(expected one of the keys "width_m", "height_m", "columns", "rows", "origin_m", "warp_direction", )"
+     R"("weft_direction", "initial_velocity_m_per_s", got "a/b~")"},
+    {R"({"cloth": {"sheet": {"colums": 8}}})", "/cloth/sheet/colums",
+     R"(expected the key "columns", got "colums")"},
+    {R"({"cloth": {"sheet": {"initial_velocity": [0, 0, 0]}}})", "/cloth/sheet/initial_velocity",
+     R"(expected the key "initial_velocity_m_per_s", got "initial_velocity")"},
+    {R"({"cloth": {"sheet": {"width_m": "1 m"}}})", "/cloth/sheet/width_m",
+     R"(expected a number > 0.0, got "1 m")"},
+    {R"({"cloth": {"sheet": {"width_m": -1}}})", "/cloth/sheet/width_m",
+     "expected a number > 0.0, got -1"},
+    {R"({"cloth": {"sheet": {"columns": 2.5}}})", "/cloth/sheet/columns",
+     "expected a whole number from 1 to 1000000, got 2.5"},
+    {R"({"cloth": {"sheet": {"columns": 1e300}}})", "/cloth/sheet/columns",
+     "expected a whole number from 1 to 1000000, got 1e+300"},
+    {R"({"cloth": {"sheet": {"columns": 1000, "rows": 1000}}})", "/cloth/sheet",
+     "expected at most 1000000 vertices, got 1002001"},
+    {R"({"cloth": {"sheet": {"origin_m": [0, 0]}}})", "/cloth/sheet/origin_m",
+     "expected an array of 3 numbers, got an array of 2 values"},
+    {R"({"cloth": {"sheet": {"origin_m": [0, null, 0]}}})", "/cloth/sheet/origin_m/1",
+     "expected a number, got null"},
+    {R"({"cloth": {"sheet": {"warp_direction": [0, 0, 0]}}})", "/cloth/sheet/warp_direction",
+     "expected a direction, got three zeros"},
+    {R"({"cloth": {"sheet": {"warp_direction": [1, -1, 0]}}})", "/cloth/sheet/weft_direction",
+     "expected a direction perpendicular to warp_direction, got one at 45.00000000000001 degrees"},
+    // Cloth: particles.
+    {R"({"cloth": {"particles": {"masses_kg": [1]}}})", "/cloth/particles",
+     R"(expected the key "positions_m", got an object)"},
+    {R"({"cloth": {"particles": {"positions_m": [], "masses_kg": []}}})",
+     "/cloth/particles/positions_m", "expected 1 to 1000000 positions, got an array of 0 values"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1, 1]}}})",
+     "/cloth/particles/masses_kg", "expected an array of 1 values, got an array of 2 values"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [0]}}})",
+     "/cloth/particles/masses_kg/0", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1],
+         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}}})",
+     "/cloth/particles/springs/0/b", "expected a whole number from 0 to 0, got 1"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1],
+         "springs": [{"a": 0, "b": 0, "stiffness_n_per_m": 1}]}}})",
+     "/cloth/particles/springs/0/b", "expected a particle other than a, got 0"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
+         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 0}]}}})",
+     "/cloth/particles/springs/0/stiffness_n_per_m", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
+         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1, "rest_length_m": -1}]}}})",
+     "/cloth/particles/springs/0/rest_length_m", "expected a number >= 0.0, got -1"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "masses_kg": [1, 1, 1],
+         "bends": [{"vertices": [0, 1, 1], "stiffness_n_m3": 1, "weights_per_m2": [1, -2, 1]}]}}})",
+     "/cloth/particles/bends/0/vertices",
+     "expected 3 different vertices, got an array of 3 values"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "masses_kg": [1, 1, 1],
+         "bends": [{"vertices": [0, 1, 2], "stiffness_n_m3": 1, "weights_per_m2": [1, -1, 1]}]}}})",
+     "/cloth/particles/bends/0/weights_per_m2",
+     "expected weights that sum to zero, got a sum of 1.0"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1], "triangles": [[0, 1, 2]]}}})",
+     "/cloth/particles/triangles/0/1", "expected a whole number from 0 to 0, got 1"},
+    // Fabric.
+    {R"({"cloth": {"sheet": {}}, "fabric": {"name": "tweed"}})", "/fabric/name",
+     "expected one of fine cotton, coarse cotton (denim), canvas, linen, ramie, silk, poplin, "
+     "chiffon, spandex, "
+     "polyester, nylon, gabardine, leather, wool, velvet, got \"tweed\""},
+    {R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk", "bending": "stiff"}})",
+     "/fabric/bending", R"(expected one of "at_rest", "moving", got "stiff")"},
+    {R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk", "shear_n_per_m": 1}})",
+     "/fabric/shear_n_per_m",
+     R"(expected one of the keys "name", "bending", "overrides", got "shear_n_per_m")"},
+    {R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk", "overrides": {"damping_ratio": -1}}})",
+     "/fabric/overrides/damping_ratio", "expected a number >= 0.0, got -1"},
+    {R"({"cloth": {"sheet": {}}, "fabric": {"bending": "moving"}})", "/fabric/bending",
+     "expected only beside a fabric's name, as own numbers are taken as they are, got \"moving\""},
+    {R"({"cloth": {"sheet": {}}, "fabric": {"areal_density_kg_per_m2": 0}})",
+     "/fabric/areal_density_kg_per_m2", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "fabric": {"shear_n_per_m": 1000}})", "/fabric/shear_n_per_m",
+     "expected less than the geometric mean of the stretch stiffnesses, 1000.0, got 1000.0"},
+    // Model and refinement.
+    {R"({"cloth": {"sheet": {}}, "model": {"shear": 1}})", "/model/shear",
+     "expected true or false, got 1"},
+    {R"({"cloth": {"sheet": {}}, "model": {"bending": "hinge"}})", "/model/bending",
+     R"(expected one of "quadratic", "none", got "hinge")"},
+    {R"({"cloth": {"sheet": {}}, "refinement": {"level": 9}})", "/refinement/level",
+     "expected a whole number from 0 to 8, got 9"},
+    {R"({"cloth": {"sheet": {"columns": 8, "rows": 8}}, "refinement": {"level": 7}})",
+     "/refinement/level", "expected a level with at most 1000000 vertices, got 7"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}}, "refinement": {"level": 1}})",
+     "/refinement/level", "expected 0, as inline particles cannot be refined, got 1"},
+    // Pins.
+    {R"({"cloth": {"sheet": {}}, "pins": {}})", "/pins", "expected an array, got an empty object"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "top"}]})", "/pins/0/part",
+     R"(expected one of "upper_edge", "lower_edge", "left_edge", "right_edge", "upper_left", "upper_right", )"
+     R"("lower_left", "lower_right", got "top")"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"vertices": [4]}]})", "/pins/0/vertices/0",
+     "expected a whole number from 0 to 3, got 4"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"vertices": []}]})", "/pins/0/vertices",
+     "expected at least one vertex, got an array of 0 values"},
+    {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}}, "pins": [{"part": "upper_left"}]})",
+     "/pins/0/part", "expected listed vertices, as only a sheet has parts, got \"upper_left\""},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge"},
+         {"part": "left_edge", "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}}]})",
+     "/pins/1",
+     "expected one motion for each vertex, got a second one for vertex 0, which /pins/0 moves too"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge", "motion": {"kind": "hold", "end_s": 1}}]})",
+     "/pins/0/motion/end_s", R"(expected only the key "kind", got "end_s")"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge",
+         "motion": {"kind": "ease", "offset_m": [1, 0, 0], "begin_s": 2, "end_s": 1}}]})",
+     "/pins/0/motion/end_s", "expected a time that is not before begin_s, got 1"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge",
+         "motion": {"kind": "oscillate", "offset_m": [1, 0, 0], "frequency_hz": 0}}]})",
+     "/pins/0/motion/frequency_hz", "expected a number > 0.0, got 0"},
+    // World.
+    {R"({"cloth": {"sheet": {}}, "world": {"gravity_m_per_s2": -9.81}})", "/world/gravity_m_per_s2",
+     "expected an array of 3 numbers, got -9.81"},
+    {R"({"cloth": {"sheet": {}}, "world": {"air": {"density_kg_per_m3": 0}}})",
+     "/world/air/density_kg_per_m3", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"friction": 1}]}})", "/world/colliders/0",
+     R"(expected one of the keys "plane", "sphere", got an object)"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"sphere": {"radius_m": 0}}]}})",
+     "/world/colliders/0/sphere/radius_m", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"plane": {"normal": [0, 0, 0]}}]}})",
+     "/world/colliders/0/plane/normal", "expected a direction, got three zeros"},
+    {R"({"cloth": {"sheet": {}}, "world": {"colliders": [{"plane": {}, "friction": -0.1}]}})",
+     "/world/colliders/0/friction", "expected a number >= 0.0, got -0.1"},
+    // Method and record.
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "rk4"}})", "/method/stepper",
+     R"(expected one of "explicit", "implicit", "projective", "xpbd", got "rk4")"},
+    {R"({"cloth": {"sheet": {}}, "method": {"step_s": 0}})", "/method/step_s",
+     "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "method": {"substeps": 0}})", "/method/substeps",
+     "expected a whole number from 1 to 1000000, got 0"},
+    {R"({"cloth": {"sheet": {}}, "method": {"substeps": "stable"}})", "/method/substeps",
+     "expected a whole number, as only explicit takes \"stable\", got \"stable\""},
+    {R"({"cloth": {"sheet": {}}, "method": {"iterations": 0}})", "/method/iterations",
+     "expected a whole number from 1 to 100000, got 0"},
+    {R"({"cloth": {"sheet": {}}, "method": {"tolerance": 1}})", "/method/tolerance",
+     "expected a number between 0.0 and 1.0, both excluded, got 1"},
+    {R"({"cloth": {"sheet": {}}, "method": {"constraints": true}})", "/method/constraints",
+     R"(expected one of "compliant", "rigid", got true)"},
+    {R"({"cloth": {"sheet": {}}, "record": {"every_s": -1}})", "/record/every_s",
+     "expected a number > 0.0, got -1"},
+    {R"({"cloth": {"sheet": {}}, "record": {"format": "stl"}})", "/record/format",
+     R"(expected one of "obj", "ply", "binary", "none", got "stl")"},
+};
+
+const char* const kRichScene = R"({
+  "name": "rich", "caption": "Every option once, with numbers that do not end in binary.",
+  "cloth": {"sheet": {"width_m": 0.3, "height_m": 0.7, "columns": 3, "rows": 5, "origin_m": [0.1, 2.3, -0.7],
+            "warp_direction": [0, -2, 0.1], "weft_direction": [3, 0, 0], "initial_velocity_m_per_s": [0.1, 0, 0.3]}},
+  "fabric": {"name": "silk", "bending": "moving", "overrides": {"damping_ratio": 0.013, "thickness_m": 0.0011}},
+  "model": {"bending": "none", "shear": false, "damping": "isotropic"},
+  "refinement": {"level": 3},
+  "pins": [{"part": "upper_edge", "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "frequency_hz": 0.7}},
+           {"vertices": [9, 10], "motion": {"kind": "ease", "offset_m": [0.1, 0, 0], "begin_s": 0.1, "end_s": 0.3}},
+           {"vertices": [11], "motion": {"kind": "move", "offset_m": [0.1, 0, 0], "end_s": 0.3}},
+           {"part": "lower_left"}],
+  "world": {"gravity_m_per_s2": [0, -1.62, 0],
+            "air": {"density_kg_per_m3": 1.1, "normal_coefficient": 1.3, "tangent_coefficient": 0.03},
+            "colliders": [{"plane": {"point_m": [0, 0.1, 0], "normal": [0, 1, 1]}, "friction": 0.7},
+                          {"sphere": {"centre_m": [0, 0.3, 0], "radius_m": 0.1},
+                           "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "begin_s": 1, "frequency_hz": 2}}]},
+  "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable", "iterations": 7, "solver": "eigen",
+             "tolerance": 1e-7, "constraints": "rigid"},
+  "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
+
+Scene read(const std::string& text) { return read_scene(text, fabric_library()); }
+
+}  // namespace
+
+TEST_CASE("scene file: bad input is refused with its place, what was expected and what was found",
+          "[scene]") {
+  CHECK(std::size(kBadScenes) >= 40);
+  for (const BadScene& bad : kBadScenes) {
+    CAPTURE(bad.text);
+    try {
+      read(bad.text);
+      FAIL_CHECK("was accepted");
+    } catch (const InputError& error) {
+      CHECK(error.where() == bad.where);
+      CHECK(std::string(error.what()) == bad.sentence);
+    }
+  }
+}
+
+TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scene]") {
+  const Scene scene = read(kRichScene);
+  const auto& sheet = std::get<SheetShape>(scene.cloth);
+  CHECK(scene.name == "rich");
+  CHECK(sheet.width == 0.3);
+  CHECK(sheet.height == 0.7);
+  CHECK(sheet.columns == 3);
+  CHECK(sheet.rows == 5);
+  CHECK(sheet.origin == Vec3(0.1, 2.3, -0.7));
+  CHECK(sheet.warp_direction.isApprox(Vec3(0, -2, 0.1).normalized(), 1e-15));
+  CHECK(sheet.weft_direction == Vec3(1, 0, 0));
+  CHECK(scene.initial_velocity == Vec3(0.1, 0, 0.3));
+  CHECK(scene.fabric_is_named);
+  CHECK(scene.fabric.name == "silk");
+  CHECK(scene.fabric.bend_warp == 2e-6);
+  CHECK(scene.fabric.damping_ratio == 0.013);
+  CHECK(scene.fabric.thickness == 0.0011);
+  CHECK(scene.model.bending == BendingModel::none);
+  CHECK_FALSE(scene.model.shear);
+  CHECK(scene.model.damping_direction == DampingDirection::isotropic);
+  CHECK(scene.level == 3);
+  REQUIRE(scene.pins.size() == 4);
+  CHECK(std::get<SheetPart>(scene.pins[0].where) == SheetPart::upper_edge);
+  CHECK(scene.pins[0].motion.frequency == 0.7);
+  CHECK(std::get<std::vector<VertexId>>(scene.pins[1].where)[1] == VertexId(10));
+  CHECK(scene.pins[1].motion.time_begin == 0.1);
+  CHECK(scene.pins[1].motion.time_end == 0.3);
+  CHECK(scene.pins[2].motion.kind == Motion::Kind::move);
+  CHECK(scene.pins[3].motion.kind == Motion::Kind::hold);
+  CHECK(scene.gravity == Vec3(0, -1.62, 0));
+  REQUIRE(scene.air);
+  CHECK(scene.air->density == 1.1);
+  CHECK(scene.air->normal_coefficient == 1.3);
+  CHECK(scene.air->tangent_coefficient == 0.03);
+  REQUIRE(scene.colliders.size() == 2);
+  CHECK(
+      std::get<Plane>(scene.colliders[0].shape).normal.isApprox(Vec3(0, 1, 1).normalized(), 1e-15));
+  CHECK(scene.colliders[0].friction == 0.7);
+  CHECK(std::get<Sphere>(scene.colliders[1].shape).radius == 0.1);
+  CHECK(scene.colliders[1].motion.frequency == 2);
+  CHECK(scene.method.stepper == StepperKind::explicit_euler);
+  CHECK(scene.method.step == 0.003);
+  CHECK(scene.method.substeps == 0);
+  CHECK(scene.method.iterations == 7);
+  CHECK(scene.method.solver == SolverKind::eigen);
+  CHECK(scene.method.tolerance == 1e-7);
+  CHECK(scene.method.constraints_rigid);
+  CHECK(scene.duration == 1.7);
+  CHECK(scene.record.every == 0.06);
+  CHECK(scene.record.format == FrameFormat::binary);
+}
+
+TEST_CASE("scene file: a collider without friction takes the fabric's", "[scene]") {
+  const Scene scene = read(kRichScene);
+  CHECK(scene.colliders[1].friction == fabric_library().find("silk").friction_solid.value);
+}
+
+TEST_CASE("scene file: a spring without rest length is unstretched at time 0", "[scene]") {
+  const Scene scene =
+      read(R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [3, 4, 0]], "masses_kg": [1, 2],
+                               "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 10}]}}})");
+  const auto& cloth = std::get<InlineCloth>(scene.cloth);
+  CHECK(cloth.springs.at(0).rest_length == 5);
+  CHECK(cloth.masses[1] == 2);
+  CHECK(cloth.velocities.isZero(0));
+}
+
+TEST_CASE("scene file: almost perpendicular directions become perpendicular", "[scene]") {
+  const Scene scene = read(R"({"cloth": {"sheet": {"warp_direction": [0.7071068, 0.7071068, 1e-7],
+                               "weft_direction": [0, 1e-7, 1]}}})");
+  const auto& sheet = std::get<SheetShape>(scene.cloth);
+  CHECK(std::abs(sheet.warp_direction.dot(sheet.weft_direction)) < 1e-15);
+  CHECK(std::abs(sheet.weft_direction.norm() - 1) < 1e-15);
+}
+
+TEST_CASE("scene file: what was written is read back to the bit", "[scene]") {
+  std::vector<std::string> texts{kRichScene, R"({"cloth": {"sheet": {}}})"};
+  for (const char* name : kSceneFiles) texts.push_back(scene_text(name));
+  for (const std::string& text : texts) {
+    CAPTURE(text);
+    const std::string written = write_scene(read(text));
+    CHECK(write_scene(read(written)) == written);
+  }
+}
+
+TEST_CASE("scene file: a number keeps every bit through the file", "[scene]") {
+  Scene scene;
+  const double seventh = 1.0 / 7;
+  scene.gravity = {seventh, -seventh * 1e-300, 5e-324};
+  scene.method.step = seventh;
+  const Scene again = read(write_scene(scene));
+  CHECK(again.gravity == scene.gravity);
+  CHECK(again.method.step == scene.method.step);
+}
+
+TEST_CASE("scene file: every default is the one of the structs", "[scene]") {
+  CHECK(write_scene(read(R"({"cloth": {"sheet": {}}})")) == write_scene(Scene{}));
+}
+
+TEST_CASE("scene file: the scenes that come with the program have a name and a caption",
+          "[scene]") {
+  for (const char* name : kSceneFiles) {
+    CAPTURE(name);
+    const Scene scene = read(scene_text(name));
+    CHECK(scene.name != "unnamed");
+    CHECK(scene.caption.size() > 40);
+    CHECK(scene.caption.back() == '.');
+  }
+}
+
+}  // namespace pleat

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/scene/scene_file.h"
+#include "native-tests/scene/assets.h"
+#include "native-tests/scene/schema_walk.h"
+
+namespace pleat {
+namespace {
+
+using nlohmann::json;
+
+// Only required keys, so that everything else in the written scene is a default.
+const char* const kShortScenes[] = {
+    R"({"cloth": {"sheet": {}}, "world": {"air": {}, "colliders": [{"plane": {}}, {"sphere": {}}]},
+        "pins": [{"part": "upper_left", "motion": {"kind": "ease", "offset_m": [1, 0, 0], "end_s": 1}},
+                 {"part": "lower_left", "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}},
+                 {"vertices": [1], "motion": {"kind": "oscillate", "offset_m": [1, 0, 0], "frequency_hz": 1}}]})",
+    R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk"}})",
+    R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
+        "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}}})",
+};
+
+// What no short scene has.
+const char* const kFurtherScenes[] = {
+    R"({"$schema": "scene_schema.json", "cloth": {"sheet": {}},
+        "fabric": {"name": "silk", "overrides": {"shear_n_per_m": 3}}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
+    R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "masses_kg": [1, 1, 1],
+        "bends": [{"vertices": [0, 1, 2], "stiffness_n_m3": 1, "weights_per_m2": [1, -2, 1]}],
+        "triangles": [[0, 1, 2]]}}})",
+};
+
+json schema() { return json::parse(scene_schema()); }
+
+json written(const std::string& text) {
+  return json::parse(write_scene(read_scene(text, fabric_library())));
+}
+
+}  // namespace
+
+TEST_CASE("scene schema: what the reader accepts and the writer writes is valid", "[scene]") {
+  const json document = schema();
+  SchemaWalk walk(document);
+  std::vector<std::string> texts(std::begin(kShortScenes), std::end(kShortScenes));
+  texts.insert(texts.end(), std::begin(kFurtherScenes), std::end(kFurtherScenes));
+  for (const char* name : kSceneFiles) texts.push_back(scene_text(name));
+  for (const std::string& text : texts) {
+    CAPTURE(text);
+    CHECK(walk.violation(json::parse(text)) == "");
+    CHECK(walk.violation(written(text)) == "");
+  }
+}
+
+TEST_CASE("scene schema: every property of the schema is read", "[scene]") {
+  const json document = schema();
+  SchemaWalk walk(document);
+  for (const char* text : kShortScenes) CHECK(walk.violation(written(text)) == "");
+  for (const char* text : kFurtherScenes) {
+    CHECK(walk.violation(json::parse(text)) == "");
+    CHECK(walk.violation(written(text)) == "");
+  }
+  CHECK(walk.all_properties().size() > 70);
+  std::vector<std::string> unread;
+  std::set_difference(walk.all_properties().begin(), walk.all_properties().end(),
+                      walk.seen_properties().begin(), walk.seen_properties().end(),
+                      std::back_inserter(unread));
+  CHECK(unread == std::vector<std::string>{});
+}
+
+TEST_CASE("scene schema: its defaults are those of the structs", "[scene]") {
+  const json document = schema();
+  int n_defaults = 0;
+  for (const char* text : kShortScenes) {
+    const json given = json::parse(text);
+    SchemaWalk walk(document);
+    walk.visit = [&](const json& property, const json& value, const std::string& pointer) {
+      if (!property.contains("default") || given.contains(json::json_pointer(pointer))) return;
+      CAPTURE(pointer);
+      ++n_defaults;
+      CHECK(value == property["default"]);
+    };
+    CHECK(walk.violation(written(text)) == "");
+  }
+  CHECK(n_defaults > 60);
+}
+
+TEST_CASE("scene schema: unknown keys, wrong types and values out of range are not valid",
+          "[scene]") {
+  const json document = schema();
+  SchemaWalk walk(document);
+  const auto violation = [&](const char* text) { return walk.violation(json::parse(text)); };
+  CHECK(violation(R"({})") == " required cloth");
+  CHECK(violation(R"({"cloth": {}})") == "/cloth minProperties");
+  CHECK(violation(R"({"cloth": {"sheet": {"colums": 8}}})") ==
+        "/cloth/sheet/colums additionalProperties");
+  CHECK(violation(R"({"cloth": {"sheet": {"columns": 2.5}}})") == "/cloth/sheet/columns type");
+  CHECK(violation(R"({"cloth": {"sheet": {"width_m": 0}}})") ==
+        "/cloth/sheet/width_m exclusiveMinimum");
+  CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"stepper": "rk4"}})") ==
+        "/method/stepper enum");
+  CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"substeps": 0}})") ==
+        "/method/substeps 0 choices");
+}
+
+}  // namespace pleat
