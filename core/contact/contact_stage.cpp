@@ -111,16 +111,20 @@ void ContactStage::begin_substep(double time_begin, double time_end) {
 ContactStage::Meeting ContactStage::earliest_meeting(const Vec3& begin, const Vec3& end,
                                                      double slack, const Solid* skipped) const {
   Meeting earliest;
+  const auto meet = [&](const Solid& solid, const auto& shape) {
+    if (!may_touch(shape, begin, end)) return;
+    const auto impact = first_impact(shape, begin, end, slack);
+    if (!impact || (earliest.solid && impact->fraction >= earliest.impact.fraction)) return;
+    earliest = {&solid, *impact};
+  };
   for (const Solid& solid : solids_) {
     if (&solid == skipped) continue;
-    std::visit(
-        [&](const auto& shape) {
-          if (!may_touch(shape, begin, end)) return;
-          const auto impact = first_impact(shape, begin, end, slack);
-          if (!impact || (earliest.solid && impact->fraction >= earliest.impact.fraction)) return;
-          earliest = {&solid, *impact};
-        },
-        solid.swept);
+    // Not std::visit: it goes through a table of functions, and this loop runs for every vertex.
+    if (const auto* plane = std::get_if<SweptPlane>(&solid.swept)) {
+      meet(solid, *plane);
+    } else if (const auto* sphere = std::get_if<SweptSphere>(&solid.swept)) {
+      meet(solid, *sphere);
+    }
   }
   return earliest;
 }

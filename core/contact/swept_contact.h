@@ -49,13 +49,19 @@ inline bool may_touch(const SweptPlane& plane, const Vec3& /*begin*/, const Vec3
   return plane.normal.dot(end) < plane.level;
 }
 
-// The vertex is at the squared distance a from the centre and moves by the squared length d. It
-// cannot come within r when sqrt(a) > r + sqrt(d), which 2 (r^2 + d) >= (r + sqrt(d))^2 tells
-// without roots.
+// With a from the centre to the beginning and d the path, |a + s d| is least at s = -a.d / d.d. Is
+// it below r there, or at the end when the path stops before? (a.d)^2 > d.d (a.a - r^2) asks the
+// first without a root.
 inline bool may_touch(const SweptSphere& sphere, const Vec3& begin, const Vec3& end) {
   const Vec3 from_centre = begin + sphere.shift - sphere.centre;
   const Vec3 path = end - begin - sphere.shift;
-  return from_centre.squaredNorm() < 2 * (sphere.radius * sphere.radius + path.squaredNorm());
+  const double excess = from_centre.squaredNorm() - sphere.radius * sphere.radius;
+  const double approach = -from_centre.dot(path);
+  const double squared_path = path.squaredNorm();
+  if (excess < 0) return true;
+  if (!(approach > 0)) return false;
+  if (approach >= squared_path) return excess + squared_path < 2 * approach;
+  return approach * approach > squared_path * excess;
 }
 
 }  // namespace pleat

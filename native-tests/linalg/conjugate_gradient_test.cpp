@@ -1,0 +1,130 @@
+#include "core/linalg/conjugate_gradient.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <limits>
+#include <unsupported/Eigen/KroneckerProduct>
+
+#include "native-tests/support/finite_difference.h"
+#include "native-tests/support/linear_systems.h"
+
+namespace pleat {
+
+using Eigen::MatrixXd;
+
+TEST_CASE("linalg: cg notices an indefinite matrix whose diagonal is positive", "[linalg]") {
+  MatrixXd A(2, 2);
+  A << 1, 2, 2, 1;
+  const auto solver = make_conjugate_gradient(1, {});
+  solver->analyze(lower_of(A));
+  REQUIRE(solver->factorize(lower_of(A)).ok());
+  MatrixXd rhs(2, 1);
+  rhs << 1, -1;
+  MatrixXd x = MatrixXd::Zero(2, 1);
+  CHECK(solver->solve(rhs, x).status == SolveStatus::not_positive_definite);
+}
+
+TEST_CASE("linalg: cg reports its cap and the residual it stopped at", "[linalg]") {
+  const SparseMatrix lower = grid_system(9, 3, 4);
+  const auto solver = make_conjugate_gradient(3, {1e-9, 5});
+  solver->analyze(lower);
+  REQUIRE(solver->factorize(lower).ok());
+  Random random(3);
+  const MatrixXd rhs = random_columns(lower.rows(), 1, random);
+  MatrixXd x = MatrixXd::Zero(lower.rows(), 1);
+  const SolveReport report = solver->solve(rhs, x);
+  CHECK(report.status == SolveStatus::not_converged);
+  CHECK(report.iterations == 5);
+  const double residual = relative_error(full_of(lower) * x, rhs);
+  CHECK(report.relative_residual == Approx(residual).epsilon(1e-6));
+  CHECK(residual > 1e-9);
+}
+
+TEST_CASE("linalg: cg keeps its promise about the residual", "[linalg]") {
+  const double tolerance = GENERATE(1e-1, 1e-3, 1e-6, 1e-10, 1e-13);
+  const int block_size = GENERATE(1, 3);
+  CAPTURE(tolerance, block_size);
+  const SparseMatrix lower = grid_system(12, block_size, 6);
+  const auto solver = make_conjugate_gradient(block_size, {tolerance, 10000});
+  solver->analyze(lower);
+  REQUIRE(solver->factorize(lower).ok());
+  Random random(8);
+  const MatrixXd rhs = random_columns(lower.rows(), 1, random);
+  MatrixXd x = MatrixXd::Zero(lower.rows(), 1);
+  REQUIRE(solver->solve(rhs, x).ok());
+  // 1 % for the rounding of this check's own product at 1e-13.
+  CHECK(relative_error(full_of(lower) * x, rhs) < 1.01 * tolerance);
+}
+
+TEST_CASE("linalg: cg says so when rounding keeps it from its tolerance", "[linalg]") {
+  MatrixXd A = full_of(grid_system(12, 3, 6));
+  A.diagonal().array() +=
+      1e-9 - 0.1;  // nearly singular: the residual stalls near epsilon |A| |x| / |b|
+  const auto solver = make_conjugate_gradient(3, {1e-14, 100000});
+  const SparseMatrix lower = lower_of(A);
+  solver->analyze(lower);
+  REQUIRE(solver->factorize(lower).ok());
+  const MatrixXd rhs = MatrixXd::Ones(lower.rows(), 1);
+  MatrixXd x = MatrixXd::Zero(lower.rows(), 1);
+  const SolveReport report = solver->solve(rhs, x);
+  CHECK(report.status == SolveStatus::not_converged);
+  CHECK(report.iterations < 100000);
+  CHECK(report.relative_residual > 1e-14);
+}
+
+TEST_CASE("linalg: cg started at the solution takes no iteration", "[linalg]") {
+  const SparseMatrix lower = grid_system(6, 3, 9);
+  Random random(2);
+  const MatrixXd exact = random_columns(lower.rows(), 3, random);
+  const auto solver = make_conjugate_gradient(3, {});
+  solver->analyze(lower);
+  REQUIRE(solver->factorize(lower).ok());
+  MatrixXd x = exact;
+  const SolveReport report = solver->solve(full_of(lower) * exact, x);
+  CHECK(report.ok());
+  CHECK(report.iterations == 0);
+  CHECK(x == exact);
+}
+
+// Conjugate gradients end after as many steps as the preconditioned matrix has distinct
+// eigenvalues.
+TEST_CASE("linalg: cg ends after two steps on a complete graph", "[linalg]") {
+  const int n = GENERATE(6, 60);
+  const int block_size = GENERATE(1, 3);
+  const MatrixXd A = (n + 1) * MatrixXd::Identity(n, n) - MatrixXd::Ones(n, n);
+  const MatrixXd blocks = Eigen::kroneckerProduct(A, MatrixXd::Identity(block_size, block_size));
+  Random random(5);
+  const MatrixXd rhs = random_columns(blocks.rows(), 1, random);
+  const auto solver = make_conjugate_gradient(block_size, {1e-7, 50});
+  solver->analyze(lower_of(blocks));
+  REQUIRE(solver->factorize(lower_of(blocks)).ok());
+  MatrixXd x = MatrixXd::Zero(blocks.rows(), 1);
+  CHECK(solver->solve(rhs, x).iterations == 2);
+}
+
+TEST_CASE("linalg: cg solves a block diagonal matrix in one step", "[linalg]") {
+  Random random(21);
+  MatrixXd A = MatrixXd::Zero(15, 15);
+  for (int row = 0; row < 15; row += 3) {
+    const MatrixXd half = random_columns(3, 3, random);
+    A.block(row, row, 3, 3) = half * half.transpose() + 0.01 * MatrixXd::Identity(3, 3);
+  }
+  const auto solver = make_conjugate_gradient(3, {1e-7, 50});
+  solver->analyze(lower_of(A));
+  REQUIRE(solver->factorize(lower_of(A)).ok());
+  MatrixXd x = MatrixXd::Zero(15, 1);
+  CHECK(solver->solve(random_columns(15, 1, random), x).iterations == 1);
+}
+
+TEST_CASE("linalg: cg reports a start that is not finite", "[linalg]") {
+  const SparseMatrix lower = grid_system(4, 3, 9);
+  const auto solver = make_conjugate_gradient(3, {});
+  solver->analyze(lower);
+  REQUIRE(solver->factorize(lower).ok());
+  MatrixXd x = MatrixXd::Zero(lower.rows(), 1);
+  x(2, 0) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(solver->solve(MatrixXd::Ones(lower.rows(), 1), x).message ==
+        "starting guess (2, 0) is not finite");
+}
+
+}  // namespace pleat

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/base/random.h"
+#include "core/contact/contact_stage.h"
+
+namespace pleat {
+
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+/// What rounding may leave of a distance when coordinates are near 1 m [m].
+constexpr double kRoundingDepth = 1e-14;
+
+struct Particle {
+  Vec3 position;  ///< [m]
+  Vec3 velocity;  ///< [m/s]
+};
+
+/// The half space y < 0.
+Collider floor_collider(double friction);
+Collider ball_collider(const Vec3& centre, double radius, double friction);
+
+/// Motion at a constant velocity [m/s] from time 0 on, for 1000 s.
+Motion steady_motion(const Vec3& velocity);
+
+Vec3 random_direction(Random& random);
+
+/// How far a place [m] is above the surface of the solid at a time [s], without clearance [m].
+double height(const Collider& collider, const Vec3& place, double time);
+
+/// One step of symplectic Euler under an acceleration [m/s^2], contact included. True when a
+/// contact acted.
+bool step(ContactStage& stage, const Vec3& acceleration, double time, double h, Particle& particle);
+
+}  // namespace pleat
