@@ -1,10 +1,12 @@
-// The one boundary between the core and JavaScript. Cold calls take and return JSON text in an envelope, {"ok": true, ...}
-// or {"ok": false, "kind", "where", "what"}; hot calls return numbers and views. A view of memory dies when memory grows:
-// take it anew after each call. No C++ exception may leave this file, JavaScript would see a bare pointer.
+// The one boundary between the core and JavaScript. Cold calls take and return JSON text in an
+// envelope, {"ok": true, ...} or {"ok": false, "kind", "where", "what"}; hot calls return numbers
+// and views. A view of memory dies when memory grows: take it anew after each call. No C++
+// exception may leave this file, JavaScript would see a bare pointer.
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,13 @@ namespace {
 
 using emscripten::val;
 
-std::string json_text(const val& object) { return val::global("JSON").call<std::string>("stringify", object); }
+std::string json_text(const val& object) {
+  return val::global("JSON").call<std::string>("stringify", object);
+}
 
-val json_value(std::string_view text) { return val::global("JSON").call<val>("parse", std::string(text)); }
+val json_value(std::string_view text) {
+  return val::global("JSON").call<val>("parse", std::string(text));
+}
 
 template <class Items>
 val json_array(const Items& items) {
@@ -71,7 +77,8 @@ val summary(const pleat::Simulation& simulation) {
   return result;
 }
 
-/// The fabric library as text, read on every use: cold, and one string instead of a second copy of its types.
+/// The fabric library as text, read on every use: cold, and one string instead of a second copy of
+/// its types.
 class Scene {
  public:
   explicit Scene(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
@@ -86,7 +93,8 @@ class Scene {
   }
 
   std::string schema() const {
-    return guarded([](val& envelope) { envelope.set("schema", json_value(pleat::scene_schema())); });
+    return guarded(
+        [](val& envelope) { envelope.set("schema", json_value(pleat::scene_schema())); });
   }
 
   std::string parse(const std::string& scene_text) const {
@@ -153,7 +161,8 @@ class Simulation {
 
   std::string numbers() {
     return guarded([&](val& envelope) {
-      const pleat::Stretch stretch = pleat::stretch(running().springs(), running().state().positions);
+      const pleat::Stretch stretch =
+          pleat::stretch(running().springs(), running().state().positions);
       envelope.set("time_s", running().time());
       envelope.set("step", static_cast<double>(running().n_steps()));
       envelope.set("largest_stretch", stretch.largest);
@@ -201,23 +210,31 @@ class Simulation {
     if (simulation_) simulation_->release_grab();
   }
 
-  val positions() const { return val(emscripten::typed_memory_view(positions_.size(), positions_.data())); }
-  val triangles() const { return val(emscripten::typed_memory_view(triangles_.size(), triangles_.data())); }
+  val positions() const {
+    return val(emscripten::typed_memory_view(positions_.size(), positions_.data()));
+  }
+  val triangles() const {
+    return val(emscripten::typed_memory_view(triangles_.size(), triangles_.data()));
+  }
   val rest_coordinates() const {
     return val(emscripten::typed_memory_view(rest_coordinates_.size(), rest_coordinates_.data()));
   }
   val stretch() {
-    if (!simulation_) return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
-    const std::vector<float>& strains = strain_map_->update(simulation_->springs(), simulation_->state().positions);
+    if (!simulation_)
+      return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
+    const std::vector<float>& strains =
+        strain_map_->update(simulation_->springs(), simulation_->state().positions);
     return val(emscripten::typed_memory_view(strains.size(), strains.data()));
   }
   val exact_positions() const {
-    if (!simulation_) return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
+    if (!simulation_)
+      return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
     const pleat::Positions& x = simulation_->state().positions;
     return val(emscripten::typed_memory_view(static_cast<std::size_t>(x.size()), x.data()));
   }
   val masses() const {
-    if (!simulation_) return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
+    if (!simulation_)
+      return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
     const Eigen::VectorXd& m = simulation_->model().masses;
     return val(emscripten::typed_memory_view(static_cast<std::size_t>(m.size()), m.data()));
   }
@@ -228,20 +245,24 @@ class Simulation {
     return *simulation_;
   }
 
-  bool has_ended() const { return !report_.ok() && report_.status != pleat::SolveStatus::not_converged; }
+  bool has_ended() const {
+    return !report_.ok() && report_.status != pleat::SolveStatus::not_converged;
+  }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
     return std::make_unique<pleat::Simulation>(
         pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_)));
   }
 
-  /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state as it was.
+  /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state
+  /// as it was.
   void take(std::unique_ptr<pleat::Simulation> fresh) {
     simulation_ = std::move(fresh);
     simulation_->observe(&timer_);
     report_ = {};
     clear_timing();
-    strain_map_ = std::make_unique<pleat::StrainMap>(simulation_->springs(), simulation_->model().n_vertices());
+    strain_map_ = std::make_unique<pleat::StrainMap>(simulation_->springs(),
+                                                     simulation_->model().n_vertices());
     triangles_.clear();
     for (const pleat::Triangle& t : simulation_->triangles())
       for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
@@ -271,6 +292,37 @@ class Simulation {
   std::vector<std::uint32_t> triangles_;
 };
 
+/// A sweep on the visitor's machine, in slices short enough to show progress and to give up between
+/// them.
+class Experiment {
+ public:
+  explicit Experiment(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
+
+  std::string start(const std::string& plan_text) {
+    return guarded([&](val& envelope) {
+      pleat::SweepPlan plan = pleat::read_sweep_plan(plan_text, pleat::read_fabrics(fabrics_json_));
+      const int n_runs = plan.n_settings();
+      sweep_.emplace(std::move(plan), references_, "");
+      envelope.set("n_runs", n_runs);
+    });
+  }
+
+  std::string advance(double budget_ms) {
+    return guarded([&](val& envelope) {
+      if (!sweep_) throw pleat::InputError("", "expected a started experiment, found none");
+      sweep_->advance(1e-3 * budget_ms);
+      const val report = json_value(sweep_->report_json());
+      for (const char* key : {"done", "progress", "rows", "front", "message"})
+        envelope.set(key, report[key]);
+    });
+  }
+
+ private:
+  std::string fabrics_json_;
+  pleat::MemoryReferenceStore references_;
+  std::optional<pleat::Sweep> sweep_;
+};
+
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(pleat) {
@@ -297,4 +349,8 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("stretch", &Simulation::stretch)
       .function("triangles", &Simulation::triangles)
       .function("restCoordinates", &Simulation::rest_coordinates);
+  emscripten::class_<Experiment>("Experiment")
+      .constructor<std::string>()
+      .function("start", &Experiment::start)
+      .function("advance", &Experiment::advance);
 }
