@@ -110,7 +110,7 @@ watch(store, ['setting'], ({ setting }) => stage?.setFabric(fabricNamed(setting.
 watch(store, ['colliders'], ({ colliders }) => stage?.setColliders(colliders));
 watch(store, ['heat', 'heatRange'], ({ heat, heatRange }) => stage?.setHeat(heat, heatRange));
 watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
-watch(store, ['setting', 'heat', 'heatRange', 'edges'], (state) => {
+watch(store, ['setting', 'heat', 'heatRange', 'edges', 'startS'], (state) => {
   const hash = `#${encodeLink(state)}`;
   if (hash !== window.location.hash) window.history.replaceState(null, '', hash);
 });
@@ -125,5 +125,6 @@ Object.assign(window, {
     state: () => store.get(),
     positions: () => Array.from(stage?.positions() ?? []),
     project: (vertex: number) => stage?.project(vertex),
+    inviting: () => stage?.inviting(),
   },
 });

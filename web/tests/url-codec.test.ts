@@ -16,6 +16,7 @@ const link: LinkState = {
   heat: 'signed',
   heatRange: 2,
   edges: true,
+  startS: 1.5,
 };
 
 describe('url-codec', () => {
@@ -46,6 +47,8 @@ describe('url-codec', () => {
     expect(problems).toEqual([]);
     expect(read.setting).toEqual(presetSetting('curtain'));
     expect(read.heat).toBe('off');
+    expect(read.startS).toBeGreaterThan(0);
+    expect(decodeLink('#scene=curtain').link.startS).toBe(0);
   });
 
   it('takes what a preset is made for when a part is missing', () => {
@@ -55,13 +58,13 @@ describe('url-codec', () => {
 
   it('names each broken part, what was expected and what was found, and keeps the others', () => {
     const { link: read, problems } = decodeLink(
-      '#scene=curtain&level=9&fabric=lead&stepper=implicit&substeps=-3&step=1/7&heat=signed&foo=1',
+      '#scene=curtain&level=9&fabric=lead&stepper=implicit&substeps=-3&step=1/7&heat=signed&start=99&foo=1',
     );
     const own = presetSetting('curtain');
     expect(read.heat).toBe('signed');
     expect(read.setting.level).toBe(own.level);
     expect(read.setting.fabric).toBe(own.fabric);
-    expect(problems).toHaveLength(5);
+    expect(problems).toHaveLength(6);
     expect(problems.join('\n')).toContain('level: expected 0 to 4, found "9"');
     expect(problems.join('\n')).toContain('substeps: expected 1 to');
     expect(problems.join('\n')).toContain('foo: not a known part');

@@ -209,6 +209,7 @@ describe.runIf(hasModule)('wasm-module', () => {
     for (const [name, value] of Object.entries(module)) {
       if (typeof value !== 'function' || !/^[A-Z][a-z]/.test(name)) continue;
       const { prototype } = value as { prototype: object };
+      if (prototype instanceof Error) continue; // Embind's own
       const prototypes = [prototype, Object.getPrototypeOf(prototype)];
       const methods = prototypes.flatMap((owner) => Object.getOwnPropertyNames(owner));
       bound[name] = [...new Set(methods)]

@@ -1,5 +1,6 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
 import type { BenchRow } from '../sim/wasm-module';
+import { hasFinished } from '../state/sweep-plan';
 import { digits, milliseconds, smallLength } from '../views/quantity';
 import { logScale } from './log-scale';
 
@@ -44,9 +45,11 @@ export function titleOf(row: BenchRow): string {
   return parts.filter((part) => part !== '').join(', ');
 }
 
-/** True when the row has a place on both axes. */
-export function isPlaced(row: BenchRow): boolean {
-  return row.status === 'ok' && row.ms_per_frame > 0 && row.position_error_m > 0;
+/** Where a row lies: [ms for a frame, position error in mm]; null when it has no place. */
+function placeOf(row: BenchRow): [number, number] | null {
+  const { ms_per_frame: ms, position_error_m: metres } = row;
+  if (!hasFinished(row) || ms === null || metres === null) return null;
+  return ms > 0 && metres > 0 ? [ms, 1000 * metres] : null;
 }
 
 function svg(tag: string, attributes: Record<string, string | number>, text = ''): SVGElement {
@@ -97,9 +100,10 @@ export function createSpeedErrorPlot(
   function update({ rows, front, current }: PlotContent): void {
     const focused = document.activeElement?.getAttribute('data-row') ?? null;
     const hadFocus = focused !== null && root.contains(document.activeElement);
-    const placed = rows.filter(isPlaced);
-    const across = logScale(placed.map((row) => row.ms_per_frame));
-    const upward = logScale(placed.map((row) => row.position_error_m * 1000));
+    const places = rows.map(placeOf);
+    const placed = places.filter((place) => place !== null);
+    const across = logScale(placed.map(([ms]) => ms));
+    const upward = logScale(placed.map(([, mm]) => mm));
     const xOf = (ms: number) => LEFT + across.part(ms) * (WIDTH - LEFT - RIGHT);
     const yOf = (mm: number) => HEIGHT - BOTTOM - upward.part(mm) * (HEIGHT - TOP - BOTTOM);
     const parts: SVGElement[] = [];
@@ -130,16 +134,16 @@ export function createSpeedErrorPlot(
         'position error [mm]',
       ),
     );
-    const places = front
-      .map((index) => rows[index])
-      .filter((row): row is BenchRow => row !== undefined && isPlaced(row))
-      .sort((a, b) => a.ms_per_frame - b.ms_per_frame)
-      .map((row) => `${xOf(row.ms_per_frame)},${yOf(row.position_error_m * 1000)}`);
-    parts.push(svg('polyline', { points: places.join(' '), class: 'front' }));
+    const corners = front
+      .map((index) => places[index] ?? null)
+      .filter((place) => place !== null)
+      .sort((a, b) => a[0] - b[0])
+      .map(([ms, mm]) => `${xOf(ms)},${yOf(mm)}`);
+    parts.push(svg('polyline', { points: corners.join(' '), class: 'front' }));
     rows.forEach((row, index) => {
-      if (!isPlaced(row)) return;
-      const [x, y] = [xOf(row.ms_per_frame), yOf(row.position_error_m * 1000)];
-      parts.push(point(row, index, x, y, index === current));
+      const place = places[index];
+      if (!place) return;
+      parts.push(point(row, index, xOf(place[0]), yOf(place[1]), index === current));
     });
     root.replaceChildren(...parts);
     if (hadFocus) root.querySelector<SVGElement>(`[data-row="${focused}"]`)?.focus();

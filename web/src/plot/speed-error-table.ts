@@ -1,5 +1,6 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
 import type { BenchRow } from '../sim/wasm-module';
+import { hasFinished } from '../state/sweep-plan';
 import { element } from '../views/element';
 import { digits, milliseconds, percent, smallLength } from '../views/quantity';
 import { type PlotContent, titleOf } from './speed-error-plot';
@@ -19,7 +20,7 @@ function cells(row: BenchRow): string[] {
   return [
     String(row.n_vertices),
     milliseconds(row.ms_per_frame),
-    `± ${digits(row.spread_ms, 1)} ms`,
+    milliseconds(row.spread_ms),
     smallLength(row.position_error_m),
     `${digits(row.position_error_percent, 2)} %`,
     percent(row.rms_stretch),
@@ -53,11 +54,11 @@ export function createSpeedErrorTable(
       'Use',
     );
     const heading = element('th', { scope: 'row' }, title);
+    if (row.status === 'not_converged') heading.append(' (solve cut short)');
     if (isFront) heading.append(' ', element('span', { class: 'badge' }, 'front'));
-    const data =
-      row.status === 'ok'
-        ? cells(row).map((text) => element('td', { class: 'number' }, text))
-        : [element('td', { colspan: 6, class: 'failed' }, `${row.status}: ${row.message}`)];
+    const data = hasFinished(row)
+      ? cells(row).map((text) => element('td', { class: 'number' }, text))
+      : [element('td', { colspan: 6, class: 'failed' }, `${row.status}: ${row.message}`)];
     const kind = isCurrent ? 'current' : '';
     return element('tr', { class: kind }, heading, ...data, element('td', {}, use));
   }

@@ -13,6 +13,9 @@ import type { Failure, Triple } from './wasm-module';
 /** Numbers are read and shown this often [ms]: faster cannot be read. */
 const NUMBERS_EVERY_MS = 200;
 
+/** Running ahead of the first picture gives up after this much of the clock [ms]. */
+const LONGEST_AHEAD_MS = 4000;
+
 /** The pace is measured over this much of the clock [s]. */
 const PACE_WINDOW_S = 1;
 
@@ -52,6 +55,7 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
   let spare: ArrayBuffer | null = null;
   let loadedSetting: Setting | null = null;
   let pendingSetting: Setting | null = null;
+  let aheadSinceMs: number | null = null; // running to the start time, nothing is shown
   let tickHandle = 0;
   let lastTickMs = 0;
   let lastNumbersMs = 0;
@@ -67,10 +71,11 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
     const sameScene = loadedSetting?.preset === setting.preset;
     const keepMotion = sameScene && phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
     pendingSetting = setting;
+    aheadSinceMs = null;
     isWaiting = true;
     request += 1;
     const sceneText = JSON.stringify(sceneOf(setting));
-    store.set({ phase: 'loading', held: false });
+    store.set({ phase: 'loading', held: false, ahead: null });
     client.send({ type: 'load', sceneText, keepMotion, request });
   }
 
@@ -86,7 +91,7 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
     paceMark = { clockMs: performance.now(), timeS: message.numbers.time_s };
     view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
     view.showFrame(shown);
-    const { problem } = store.get();
+    const { problem, startS } = store.get();
     const isSolved = problem?.source === 'setting' || problem?.source === 'run';
     store.set({
       phase: 'ready',
@@ -98,6 +103,27 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
       pace: null,
       problem: isSolved ? null : problem,
     });
+    if (message.numbers.time_s === 0 && startS > 0) {
+      aheadSinceMs = performance.now();
+      runAhead();
+    }
+  }
+
+  /** Takes the next steps towards the start time, or shows the frame when there. */
+  function runAhead(): void {
+    const { startS, numbers, summary, timing, playing } = store.get();
+    if (aheadSinceMs === null || !numbers || !summary) return;
+    const left = Math.round((startS - numbers.time_s) / summary.step_s);
+    const isLate = performance.now() - aheadSinceMs > LONGEST_AHEAD_MS;
+    if (left > 0 && !isLate && !playing) {
+      pacer.advance(left * summary.step_s);
+      store.set({ ahead: numbers.time_s / startS });
+      return send(pacer.take(summary.step_s, timing?.totalMs ?? 10));
+    }
+    aheadSinceMs = null;
+    pacer.clear();
+    if (shown) view.showFrame(shown);
+    store.set({ ahead: null });
   }
 
   function receiveReport({ numbers, status }: RunReport): void {
@@ -117,10 +143,11 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
     isStepping = false;
     spare = shown;
     shown = buffer;
-    view.showFrame(shown);
+    if (aheadSinceMs === null || hasEnded) view.showFrame(shown);
     if (colliders.length > 0) store.set({ colliders });
     if (report) receiveReport(report);
-    if (!hasEnded) return;
+    if (!hasEnded) return aheadSinceMs === null ? goOn() : runAhead();
+    aheadSinceMs = null;
     const reason = report
       ? `${report.status.replaceAll('_', ' ')}: ${report.message}`
       : 'no report';
@@ -129,6 +156,7 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
       phase: 'stopped',
       playing: false,
       held: false,
+      ahead: null,
       problem: { source: 'run', sentence },
     });
   }
@@ -169,16 +197,21 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
     client.send({ type: 'step', count, wantsNumbers, request, buffer }, [buffer]);
   }
 
-  function tick(nowMs: number): void {
+  /** Asks for the steps that are due by the clock; called at each frame and at each answer. */
+  function goOn(): void {
     const { playing, speed, summary, timing } = store.get();
     if (!playing || !summary) return;
+    const nowMs = performance.now();
     pacer.advance(((nowMs - lastTickMs) / 1000) * speed);
     lastTickMs = nowMs;
-    if (!isWaiting && !isStepping && spare) {
-      const count = pacer.take(summary.step_s, timing?.totalMs ?? null);
-      if (count > 0) send(count);
-    }
-    tickHandle = requestAnimationFrame(tick);
+    if (isWaiting || isStepping || aheadSinceMs !== null) return;
+    const count = pacer.take(summary.step_s, timing?.totalMs ?? null);
+    if (count > 0) send(count);
+  }
+
+  function tick(): void {
+    goOn();
+    if (store.get().playing) tickHandle = requestAnimationFrame(tick);
   }
 
   function start(): void {
@@ -209,7 +242,8 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
     },
     reset() {
       if (store.get().phase === 'broken' || !loadedSetting) return;
-      store.set({ playing: false, held: false, phase: 'loading' });
+      aheadSinceMs = null;
+      store.set({ playing: false, held: false, phase: 'loading', startS: 0, ahead: null });
       if (loadedSetting !== store.get().setting) return load(store.get().setting);
       request += 1;
       isWaiting = true;

@@ -58,19 +58,28 @@ export interface BenchMethod {
   [setting: string]: unknown;
 }
 
+/** One measured setting; a number that could not be measured is null. */
 export interface BenchRow {
   scene: string;
   method: BenchMethod;
   level: number;
   n_vertices: number;
-  ms_per_frame: number;
-  ms_per_simulated_second: number;
-  spread_ms: number;
-  position_error_m: number;
-  position_error_percent: number;
-  rms_stretch: number;
-  largest_stretch: number;
+  /** Substeps of a step, as run. */
+  n_substeps: number;
+  /** Timed runs, of which the times are the median. */
+  n_runs: number;
+  /** Wall time of 1/60 s of motion. */
+  ms_per_frame: number | null;
+  ms_per_simulated_second: number | null;
+  /** Slowest minus quickest run, of `ms_per_frame`. */
+  spread_ms: number | null;
+  position_error_m: number | null;
+  /** Of the rest diagonal. */
+  position_error_percent: number | null;
+  rms_stretch: number | null;
+  largest_stretch: number | null;
   reference: { id: string; converged: boolean; description: string };
+  /** "ok", "not_converged" (it ran to its end), or why it failed. */
   status: string;
   message: string;
   target: 'wasm' | 'native';

@@ -78,6 +78,8 @@ export interface ClothMesh {
   triangles(): Uint32Array;
   setTopology(triangles: Uint32Array, nVertices: number): void;
   setFrame(buffer: ArrayBuffer): void;
+  /** Takes the last frame to the screen; call before drawing. */
+  update(): void;
   setLook(look: FabricLook): void;
   setHeat(map: HeatMap, range: 'auto' | number): void;
   setEdges(isShown: boolean): void;
@@ -112,6 +114,7 @@ export function createClothMesh(): ClothMesh {
   let positions: Float32Array = new Float32Array(0);
   let stretch: Float32Array = new Float32Array(0);
   let magnitudes = new Float32Array(0);
+  let isStale = false; // the frame or the heat map changed since the last update
   let heatMap: HeatMap = 'off';
   let heatRange: 'auto' | number = 'auto';
   let scale: HeatScale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
@@ -167,6 +170,11 @@ export function createClothMesh(): ClothMesh {
       const views = frameViews(buffer);
       positions = views.positions;
       stretch = views.stretch;
+      isStale = true;
+    },
+    update() {
+      if (!isStale || positions.length === 0) return;
+      isStale = false;
       const place = attribute('position');
       place.array = positions;
       place.needsUpdate = true;
@@ -196,7 +204,7 @@ export function createClothMesh(): ClothMesh {
       front.visible = map === 'off';
       back.visible = map === 'off';
       heat.visible = map !== 'off';
-      if (stretch.length > 0) paintHeat();
+      isStale = true;
     },
     setEdges(isShown) {
       edges.visible = isShown;

@@ -9,13 +9,13 @@ import {
   LineBasicMaterial,
   Mesh,
   MeshBasicMaterial,
+  PCFShadowMap,
   PerspectiveCamera,
   Scene,
   Sphere,
   SphereGeometry,
   SRGBColorSpace,
   Vector3,
-  VSMShadowMap,
   WebGLRenderer,
 } from 'three';
 import type { Collider, Triple } from '../sim/wasm-module';
@@ -51,6 +51,8 @@ export interface Stage {
   positions(): Float32Array;
   /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
   project(vertex: number): { x: number; y: number };
+  /** The vertex that asks to be taken. */
+  inviting(): number;
 }
 
 /** Sharper than this no display at arm's length looks, and it costs the square. */
@@ -110,7 +112,7 @@ export function createStage(
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
   renderer.outputColorSpace = SRGBColorSpace;
   renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = VSMShadowMap;
+  renderer.shadowMap.type = PCFShadowMap;
   const scene = new Scene();
   const camera = new PerspectiveCamera(32, 1, 0.01, 100);
   const cloth = createClothMesh();
@@ -131,6 +133,7 @@ export function createStage(
 
   let colliders: Collider[] = [];
   let awaitsFraming = false;
+  let isFreshMesh = false;
   let inviting = 0;
   let drawHandle = 0;
 
@@ -178,6 +181,7 @@ export function createStage(
   function draw(): void {
     drawHandle = 0;
     if (cloth.positions().length === 0) return;
+    cloth.update();
     placeHand();
     renderer.render(scene, camera);
     events.drawn(cloth.heatScale(), project(inviting));
@@ -187,7 +191,11 @@ export function createStage(
     const sphere = framedSphere(cloth.positions(), colliders);
     surroundings.frame(sphere.center, sphere.radius, floorHeight(sphere, colliders));
     control.frame({ centre: sphere.center, radius: sphere.radius, azimuth: AZIMUTH, polar: POLAR });
-    const towards = camera.position.clone().sub(sphere.center).normalize();
+    chooseInviting();
+  }
+
+  function chooseInviting(): void {
+    const towards = camera.getWorldDirection(new Vector3()).negate();
     inviting = invitingVertex(cloth.positions(), towards);
   }
 
@@ -232,11 +240,14 @@ export function createStage(
     showMesh(triangles, nVertices, isNewScene) {
       cloth.setTopology(triangles, nVertices);
       awaitsFraming = isNewScene;
+      isFreshMesh = true;
       hand.drop();
       control.setResting(false);
     },
     showFrame(buffer) {
       cloth.setFrame(buffer);
+      if (isFreshMesh) chooseInviting();
+      isFreshMesh = false;
       redraw();
     },
     setColliders(newColliders) {
@@ -263,5 +274,6 @@ export function createStage(
     homeView: control.home,
     positions: () => cloth.positions(),
     project,
+    inviting: () => inviting,
   };
 }

@@ -111,11 +111,11 @@ export function createSurroundings(): Surroundings {
     floor.add(part);
   });
 
-  const sky = new HemisphereLight('#ffffff', '#b9b2a6', 1.7);
-  const key = new DirectionalLight('#fff6e8', 2.1);
+  const sky = new HemisphereLight('#ffffff', '#a79f92', 1.35);
+  const key = new DirectionalLight('#fff4e2', 2.5);
   key.castShadow = true;
-  key.shadow.mapSize.set(2048, 2048);
-  key.shadow.radius = 5;
+  key.shadow.mapSize.set(1024, 1024);
+  key.shadow.radius = 4;
   key.shadow.bias = -0.0004;
   key.shadow.normalBias = 0.012;
   object.add(floor, sky, key, key.target);

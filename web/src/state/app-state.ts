@@ -51,6 +51,8 @@ export interface AppState extends LinkState {
   summary: SceneSummary | null;
   numbers: RunNumbers | null;
   timing: StepTiming | null;
+  /** How much of the time before the start is run through, 0 to 1; null when nothing is. */
+  ahead: number | null;
   /** Simulated seconds a second of the clock, as reached. */
   pace: number | null;
   /** The last step's solve reached its iteration cap. */
@@ -83,6 +85,7 @@ export function initialState(link: LinkState, problems: string[]): AppState {
     summary: null,
     numbers: null,
     timing: null,
+    ahead: null,
     pace: null,
     isCutShort: false,
     colliders: [],

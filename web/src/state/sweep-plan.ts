@@ -37,6 +37,11 @@ export function sweepPlan(setting: Setting, finest: number): SweepPlan {
   return { scene: sceneOf(setting), levels, methods: [...METHODS], duration_s: DURATION_S };
 }
 
+/** True for a run that came to its end: only such a row has a time and an error. */
+export function hasFinished(row: BenchRow): boolean {
+  return row.status === 'ok' || row.status === 'not_converged';
+}
+
 /** The setting a row was measured with; the counts it does not name stay as they are. */
 export function settingOfRow(row: BenchRow, present: Setting): Setting {
   const stepper = STEPPERS.find((known) => known === row.method.stepper) ?? present.stepper;
@@ -60,5 +65,5 @@ export function rowOfSetting({
     const measured = settingOfRow(row, setting);
     return measured.level === setting.level && isSameMethod(measured, setting);
   });
-  return found?.status === 'ok' ? found : null;
+  return found && hasFinished(found) ? found : null;
 }

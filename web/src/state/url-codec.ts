@@ -24,11 +24,16 @@ export interface LinkState {
   /** Upper end of the heat map's scale [%], or chosen from the frame. */
   heatRange: 'auto' | number;
   edges: boolean;
+  /** Simulated time that is run through before the cloth is shown [s]. */
+  startS: number;
 }
 
 export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed'];
 export const HEAT_RANGES: readonly number[] = [0.5, 1, 2, 5, 10];
 const DEFAULT_PRESET: PresetId = 'curtain';
+const LATEST_START_S = 10;
+/** By then the curtain is drawn and hangs in folds: a first visit sees what it is about [s]. */
+const FIRST_VISIT_START_S = 2.5;
 
 /** A name as it stands in a link: lower case, hyphens. */
 export function slug(name: string): string {
@@ -85,6 +90,11 @@ function stepFraction(text: string): number | undefined {
   return perSecond === undefined ? undefined : 1 / perSecond;
 }
 
+function startTime(text: string): number | undefined {
+  const value = /^\d{1,2}(\.\d)?$/.test(text) ? Number(text) : Number.NaN;
+  return value <= LATEST_START_S ? value : undefined;
+}
+
 /** The part of a link after `#`. */
 export function encodeLink(link: LinkState): string {
   const { setting } = link;
@@ -99,13 +109,15 @@ export function encodeLink(link: LinkState): string {
     ['heat', link.heat],
     ['range', String(link.heatRange)],
     ['edges', link.edges ? 'on' : 'off'],
+    ['start', String(link.startS)],
   ];
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
 }
 
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeLink(hash: string): { link: LinkState; problems: string[] } {
-  const { take, finish } = createReader(new URLSearchParams(hash.replace(/^#/, '')));
+  const text = hash.replace(/^#/, '');
+  const { take, finish } = createReader(new URLSearchParams(text));
   const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
   const own = presetSetting(preset);
   const stepper = take('stepper', own.stepper, STEPPERS.join(', '), oneOf(STEPPERS));
@@ -130,5 +142,7 @@ export function decodeLink(hash: string): { link: LinkState; problems: string[] 
     text === 'auto' ? 'auto' : oneOf(HEAT_RANGES)(text),
   );
   const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
-  return { link: { setting, heat, heatRange: range, edges }, problems: finish() };
+  const usualStart = text === '' ? FIRST_VISIT_START_S : 0;
+  const startS = take('start', usualStart, `0 to ${LATEST_START_S} s`, startTime);
+  return { link: { setting, heat, heatRange: range, edges, startS }, problems: finish() };
 }

@@ -29,6 +29,9 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
     bar.style.background = (isSigned ? SIGNED_MAP : MAGNITUDE_MAP).gradient;
     setText(low, percent(scale.low));
     setText(high, percent(scale.high));
-    setText(present, `now ${percent(scale.least)} to ${percent(scale.most)}, mean per vertex`);
+    // Next to the largest value, rounding noise is zero.
+    const isNoise = Math.abs(scale.least) < 1e-3 * Math.abs(scale.most);
+    const least = isNoise ? '0 %' : percent(scale.least);
+    setText(present, `now ${least} to ${percent(scale.most)}, mean per vertex`);
   });
 }

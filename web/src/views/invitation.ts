@@ -17,8 +17,8 @@ export function createInvitation(parent: HTMLElement, store: Store<AppState>): I
     element('span', { class: 'invitation-word' }, 'Pull me'),
   );
   parent.append(ring);
-  const close = watch(store, ['invited', 'phase'], ({ invited, phase }) => {
-    ring.hidden = !invited || phase !== 'ready';
+  const close = watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) => {
+    ring.hidden = !invited || phase !== 'ready' || ahead !== null;
   });
   return {
     place(x, y) {

@@ -18,13 +18,15 @@ interface Item {
   title: string;
   meaning: string;
   text(state: AppState): string;
+  isWide?: true;
   /** A second, smaller line. */
   detail?(state: AppState): string;
 }
 
-function statusText({ phase, playing, pace }: AppState): string {
+function statusText({ phase, playing, pace, ahead }: AppState): string {
+  if (ahead !== null) return `ahead, ${Math.round(100 * ahead)} %`;
   if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
-  return pace === null ? 'running' : `running, ${digits(Math.min(pace, 1), 2)} × real time`;
+  return pace === null ? 'running' : `${digits(Math.min(pace, 1), 2)} × real time`;
 }
 
 const ITEMS: readonly Item[] = [
@@ -37,6 +39,7 @@ const ITEMS: readonly Item[] = [
   },
   {
     title: 'Cost of a step',
+    isWide: true,
     meaning: 'Wall time of one step on this device, in parts, over at least 50 ms of work.',
     text: ({ timing }) => (timing ? milliseconds(timing.totalMs) : '–'),
     detail: ({ timing }) =>
@@ -77,9 +80,15 @@ const ITEMS: readonly Item[] = [
     title: 'Vertices',
     meaning: 'Points whose motion is computed.',
     text: ({ summary }) => (summary ? String(summary.n_vertices) : '–'),
+    detail: ({ summary }) => (summary ? `${summary.n_springs} springs` : ''),
+  },
+  {
+    title: 'Fabric',
+    meaning: 'The fabric, and how well its weight is known, from which source.',
+    text: ({ setting }) => setting.fabric.replace(/ \(.*\)/, ''),
     detail({ setting }) {
-      const { areal_density_kg_per_m2: weight } = fabricNamed(setting.fabric);
-      return `${setting.fabric}: weight ${weight.confidence}`;
+      const { confidence, source } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
+      return `${confidence}, ${source[0] ?? 'no source'}`;
     },
   },
 ];

@@ -7,9 +7,9 @@ function superscript(exponent: number): string {
   return (exponent < 0 ? '⁻' : '') + digits.join('');
 }
 
-/** 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷". */
-export function digits(value: number, significant = 3): string {
-  if (!Number.isFinite(value)) return '–';
+/** Null is a dash. 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷". */
+export function digits(value: number | null, significant = 3): string {
+  if (value === null || !Number.isFinite(value)) return '–';
   if (value === 0) return '0';
   const rounded = Number(value.toPrecision(significant));
   const exponent = Math.floor(Math.log10(Math.abs(rounded)));
@@ -21,19 +21,21 @@ export function digits(value: number, significant = 3): string {
 }
 
 /** A ratio as per cent. */
-export function percent(ratio: number, significant = 2): string {
+export function percent(ratio: number | null, significant = 2): string {
+  if (ratio === null) return '–';
   return `${digits(100 * ratio, significant)} %`;
 }
 
 /** A length of the size of an error: millimetres, micrometres below a tenth of one. */
-export function smallLength(metres: number): string {
+export function smallLength(metres: number | null): string {
+  if (metres === null) return '–';
   const millimetres = 1000 * metres;
   if (millimetres !== 0 && Math.abs(millimetres) < 0.1)
     return `${digits(1000 * millimetres, 2)} µm`;
   return `${digits(millimetres, 2)} mm`;
 }
 
-export function milliseconds(ms: number): string {
+export function milliseconds(ms: number | null): string {
   return `${digits(ms, 2)} ms`;
 }
 

@@ -7,7 +7,8 @@ import { choice, element, field, setText } from './element';
 export function createScenePanel(parent: HTMLElement, store: Store<AppState>): () => void {
   const presets = choice(
     PRESET_IDS.map((value) => ({ value, title: PRESETS[value].title })),
-    (preset) => store.set({ setting: presetSetting(preset), playing: false, invited: true }),
+    (preset) =>
+      store.set({ setting: presetSetting(preset), startS: 0, playing: false, invited: true }),
   );
   const caption = element('p', { class: 'caption' });
   parent.append(

@@ -4,7 +4,7 @@ import { createSpeedErrorTable } from '../plot/speed-error-table';
 import type { AppState } from '../state/app-state';
 import { PRESET_IDS, PRESETS, STEPPER_TRAITS, STEPPERS } from '../state/setting';
 import { type Store, watch } from '../state/store';
-import { rowOfSetting, settingOfRow } from '../state/sweep-plan';
+import { hasFinished, rowOfSetting, settingOfRow } from '../state/sweep-plan';
 import { element, setText } from './element';
 
 function legend(): HTMLElement {
@@ -21,16 +21,17 @@ function legend(): HTMLElement {
 /** What the numbers are, and how far to trust them. */
 function footnote({ sweep }: AppState): string {
   const { rows, disturbed } = sweep;
-  const reference = rows[0]?.reference;
-  if (!reference) return 'Waiting for the first row.';
-  const runs = rows[0]?.runs;
-  const nRuns = typeof runs === 'number' ? runs : rows[0]?.n_runs;
+  const [first] = rows;
+  if (!first) return 'Waiting for the first row.';
+  const { converged, description } = first.reference;
+  const nRuns = Math.min(...rows.filter(hasFinished).map((row) => row.n_runs));
+  const runs = Number.isFinite(nRuns) && nRuns > 0 ? `${nRuns} runs, ` : '';
   const parts = [
-    `Measured on this device, ${typeof nRuns === 'number' ? `${nRuns} runs, ` : ''}median.`,
-    `Reference${reference.converged ? '' : ' (not converged)'}: ${reference.description}.`,
+    `Measured on this device, ${runs}median.`,
+    `Reference${converged ? '' : ' (not converged)'}: ${description.replace(/[.]$/, '')}.`,
   ];
   if (disturbed) parts.push('The cloth was playing meanwhile: the times are too long.');
-  return parts.join(' ').replace('..', '.');
+  return parts.join(' ');
 }
 
 export function createSpeedErrorView(parent: HTMLElement, store: Store<AppState>): () => void {

@@ -184,6 +184,8 @@ function row(level: number, method: BenchRow['method']): BenchRow {
     method,
     level,
     n_vertices: (2 ** (level + 1) + 1) ** 2,
+    n_substeps: 1,
+    n_runs: 5,
     ms_per_frame: 2 ** level,
     ms_per_simulated_second: 60 * 2 ** level,
     spread_ms: 0.1,

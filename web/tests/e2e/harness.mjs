@@ -1,0 +1,102 @@
+// The built page, served and opened in a headless browser; one line for every check.
+import { chromium } from 'playwright-core';
+import { preview } from 'vite';
+
+const SWITCHES = [
+  '--no-sandbox',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--disable-dev-shm-usage',
+];
+
+/** Software rendering on a busy machine is slow, not broken [ms]. */
+const PATIENCE_MS = 60000;
+
+export async function createHarness() {
+  const server = await preview({ preview: { port: 0 }, logLevel: 'error' });
+  const address = server.resolvedUrls.local[0];
+  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: SWITCHES });
+  const blank = await browser.newPage();
+  const counts = { passed: 0, failed: 0 };
+
+  /** A page at a link, with what its console said. */
+  async function open(hash, { width = 1280, height = 800, prepare, ...options } = {}) {
+    const context = await browser.newContext({ viewport: { width, height }, ...options });
+    const page = await context.newPage();
+    const complaints = [];
+    page.on('console', (message) => complaints.push(`${message.type()}: ${message.text()}`));
+    page.on('pageerror', (error) => complaints.push(`exception: ${error.message}`));
+    page.setDefaultTimeout(PATIENCE_MS);
+    await prepare?.(page);
+    await page.goto(address + hash);
+    return { page, complaints, close: () => context.close() };
+  }
+
+  async function check(name, work) {
+    const begin = performance.now();
+    try {
+      await work();
+      counts.passed += 1;
+      console.log(`ok      ${name} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+      counts.failed += 1;
+      console.log(`FAILED  ${name}: ${error.message.split('\n').slice(0, 3).join(' ')}`);
+    }
+  }
+
+  /** Number of different colours in a picture. */
+  async function countColours(png) {
+    return blank.evaluate(
+      async (text) => {
+        const picture = await createImageBitmap(await (await fetch(text)).blob());
+        const canvas = new OffscreenCanvas(picture.width, picture.height);
+        const context = canvas.getContext('2d');
+        context.drawImage(picture, 0, 0);
+        const { data } = context.getImageData(0, 0, picture.width, picture.height);
+        return new Set(new Uint32Array(data.buffer)).size;
+      },
+      `data:image/png;base64,${png.toString('base64')}`,
+    );
+  }
+
+  async function finish() {
+    await browser.close();
+    await server.close();
+    console.log(`${counts.passed} passed, ${counts.failed} failed`);
+    return counts.failed === 0;
+  }
+
+  return { open, check, countColours, finish };
+}
+
+export function expectThat(condition, sentence) {
+  if (!condition) throw new Error(sentence);
+}
+
+export const stateOf = (page) => page.evaluate(() => window.pleat.state());
+export const positionsOf = (page) => page.evaluate(() => window.pleat.positions());
+
+/** Waits until the state fulfils `test`, a function of the state and `argument`. */
+export function until(page, test, argument) {
+  return page.waitForFunction(
+    ([text, value]) => new Function(`return (${text})`)()(window.pleat.state(), value),
+    [test.toString(), argument],
+  );
+}
+
+export const isReady = (page) =>
+  until(page, (state) => state.phase === 'ready' && state.ahead === null);
+
+/** Largest distance that a vertex moved between two sets of positions [m]. */
+export function largestMove(before, after) {
+  let most = 0;
+  for (let v = 0; v < before.length; v += 3) {
+    const move = Math.hypot(
+      after[v] - before[v],
+      after[v + 1] - before[v + 1],
+      after[v + 2] - before[v + 2],
+    );
+    most = Math.max(most, move);
+  }
+  return most;
+}

@@ -1,0 +1,330 @@
+// The page in a real browser: `npm run e2e` after `npm run build`.
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import {
+  createHarness,
+  expectThat,
+  isReady,
+  largestMove,
+  positionsOf,
+  stateOf,
+  until,
+} from './harness.mjs';
+
+const axeText = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const { open, check, countColours, finish } = await createHarness();
+
+const picture = (page) => page.locator('canvas').screenshot();
+const button = (page, name) => page.getByRole('button', { name, exact: true });
+
+/** Serious and critical findings of axe, as text. */
+async function findingsOf(page) {
+  await page.evaluate(axeText);
+  const { violations } = await page.evaluate(() => window.axe.run());
+  return violations
+    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+    .map(({ id, nodes }) => `${id} at ${nodes.map((node) => node.target.join(' ')).join(', ')}`);
+}
+
+function expectSilence(complaints) {
+  expectThat(complaints.length === 0, `console: ${complaints.join(' | ')}`);
+}
+
+/** Runs `work` on a page at `hash`; whatever it does, the console has to stay empty. */
+async function visit(hash, work, options) {
+  const { page, complaints, close } = await open(hash, options);
+  try {
+    await isReady(page);
+    await work(page);
+    expectSilence(complaints);
+  } finally {
+    await close();
+  }
+}
+
+for (const preset of ['curtain', 'tablecloth', 'swinging-sheet']) {
+  await check(`${preset}: loads still, then moves, in positions and in pixels`, () =>
+    visit(`#scene=${preset}`, async (page) => {
+      const [before, still] = [await positionsOf(page), await picture(page)];
+      expectThat((await stateOf(page)).numbers.time_s === 0, 'the cloth moved before play');
+      expectThat((await countColours(still)) > 100, 'the picture is blank');
+      await button(page, 'Play').click();
+      await until(page, (state) => state.numbers.time_s > 0.4);
+      await button(page, 'Pause').click();
+      const move = largestMove(before, await positionsOf(page));
+      expectThat(move > 0.01, `the cloth moved ${move} m`);
+      expectThat(!still.equals(await picture(page)), 'the picture is the same');
+    }),
+  );
+}
+
+await check('first visit: runs ahead to a draped curtain and stands still', () =>
+  visit('', async (page) => {
+    const { numbers, playing } = await stateOf(page);
+    expectThat(numbers.time_s > 0.1 && !playing, `at ${numbers.time_s} s, playing: ${playing}`);
+    const before = await positionsOf(page);
+    await page.waitForTimeout(300);
+    expectThat(largestMove(before, await positionsOf(page)) === 0, 'the cloth moves unasked');
+  }),
+);
+
+await check('a drag pulls the cloth, starts it, and lets go', () =>
+  visit('#scene=curtain', async (page) => {
+    const vertex = await page.evaluate(() => window.pleat.inviting());
+    const at = await page.evaluate((v) => window.pleat.project(v), vertex);
+    const box = await page.locator('canvas').boundingBox();
+    const before = await positionsOf(page);
+    // A little inside the corner, so that the ray meets the cloth.
+    const [x, y] = [box.x + at.x - 6, box.y + at.y - 8];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 60, y - 40, { steps: 4 });
+    await until(page, (state) => state.held && state.playing && state.numbers.time_s > 0.3);
+    const after = await positionsOf(page);
+    await page.mouse.up();
+    await until(page, (state) => !state.held);
+    const part = (positions) => positions.slice(3 * vertex, 3 * vertex + 3);
+    const move = largestMove(part(before), part(after));
+    expectThat(move > 0.05, `the held corner moved ${move} m`);
+  }),
+);
+
+await check('a drag off the cloth turns the view and leaves the cloth alone', () =>
+  visit('#scene=curtain', async (page) => {
+    const [positions, still] = [await positionsOf(page), await picture(page)];
+    const box = await page.locator('canvas').boundingBox();
+    await page.mouse.move(box.x + 20, box.y + 20);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 120, box.y + 40, { steps: 3 });
+    await page.mouse.up();
+    expectThat(!still.equals(await picture(page)), 'the view did not turn');
+    expectThat(largestMove(positions, await positionsOf(page)) === 0, 'the cloth moved');
+    await button(page, 'View').click();
+    await page.waitForTimeout(300);
+    expectThat(still.equals(await picture(page)), 'View does not give the first view back');
+  }),
+);
+
+await check('keys play, step, reset, turn, take and let go, only with the stage in focus', () =>
+  visit('#scene=curtain&level=1', async (page) => {
+    await page.keyboard.press('Space');
+    expectThat(!(await stateOf(page)).playing, 'space played without the focus');
+    await page.locator('canvas').focus();
+    await page.keyboard.press('.');
+    await until(page, (state) => state.numbers.step === 1);
+    await page.keyboard.press('g');
+    await until(page, (state) => state.held && state.playing);
+    for (let press = 0; press < 5; ++press) await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('Escape');
+    await until(page, (state) => !state.held);
+    await page.keyboard.press('Space');
+    await until(page, (state) => !state.playing);
+    await page.keyboard.press('r');
+    await until(page, (state) => state.phase === 'ready' && state.numbers.time_s === 0);
+  }),
+);
+
+await check('heat map: legend with unit and ends, pixels change', () =>
+  visit('#scene=swinging-sheet&level=1', async (page) => {
+    const still = await picture(page);
+    await page.getByLabel('Colour shows').selectOption({ index: 1 });
+    const legend = page.locator('.legend');
+    await legend.waitFor();
+    expectThat(/%/.test(await legend.textContent()), 'the legend has no unit');
+    expectThat(!still.equals(await picture(page)), 'the picture is the same');
+    await page.getByLabel('Scale').selectOption({ label: 'up to 5 %' });
+    await page.waitForFunction(() => /5\.0 %/.test(document.querySelector('.legend').textContent));
+  }),
+);
+
+await check('fabric, level and stepper change while it moves, and the motion goes on', () =>
+  visit('#scene=tablecloth&level=1', async (page) => {
+    await button(page, 'Play').click();
+    await until(page, (state) => state.numbers.time_s > 0.2);
+    const change = async (act) => {
+      const { numbers, summary } = await stateOf(page);
+      await act();
+      await until(page, (state) => state.phase === 'ready' && state.playing);
+      await until(page, (state, time) => state.numbers.time_s > time, numbers.time_s);
+      return summary;
+    };
+    await change(() => page.getByLabel('Fabric').selectOption({ index: 5 }));
+    const before = await change(() => page.getByLabel('Level 2').check({ force: true }));
+    expectThat(
+      (await stateOf(page)).summary.n_vertices > before.n_vertices,
+      'the mesh is the same',
+    );
+    for (const stepper of ['Projective', 'XPBD', 'Explicit']) {
+      await change(() => page.getByLabel('Stepper').selectOption({ label: stepper }));
+    }
+    const { problem, setting } = await stateOf(page);
+    expectThat(problem === null, `problem: ${problem?.sentence}`);
+    expectThat(setting.fabric === 'silk' && setting.stepper === 'explicit', 'wrong setting');
+  }),
+);
+
+await check('a setting that cannot run is a sentence, and the page goes on', () =>
+  visit('#scene=curtain&level=1', async (page) => {
+    await page.getByLabel('Stepper').selectOption({ label: 'Explicit' });
+    await isReady(page);
+    await page.getByLabel('Substeps').fill('1');
+    await page.getByLabel('Substeps').press('Enter');
+    await until(page, (state) => state.phase === 'refused');
+    const sentence = await page.getByRole('alert').textContent();
+    expectThat(/substeps/.test(sentence), `the sentence is: ${sentence}`);
+    await page.getByLabel('Substeps').fill('0');
+    await page.getByLabel('Substeps').press('Enter');
+    await isReady(page);
+    expectThat((await stateOf(page)).problem === null, 'the sentence stays');
+  }),
+);
+
+await check('the read-out shows cost in parts, stretch and residual after some play', () =>
+  visit('#scene=curtain&level=2', async (page) => {
+    await button(page, 'Play').click();
+    await until(page, (state) => state.timing !== null && state.timing.parts.length > 0);
+    const text = await page.locator('.numbers').textContent();
+    for (const word of ['ms', '%', 'RMS', 'Residual', 'Vertices', 'Fabric', 'Error']) {
+      expectThat(text.includes(word), `no ${word} in: ${text}`);
+    }
+  }),
+);
+
+await check('the sweep fills chart and table, and a click on a point applies it', () =>
+  visit('#scene=swinging-sheet&level=0', async (page) => {
+    await page.getByLabel('Levels').selectOption({ label: '0 to 1' });
+    await button(page, 'Measure speed and error').click();
+    await page.getByRole('progressbar').waitFor();
+    await until(page, (state) => state.sweep.rows.length >= 2);
+    expectThat((await page.locator('.point').count()) >= 2, 'no points while it runs');
+    await until(page, (state) => state.sweep.phase !== 'running');
+    const { sweep } = await stateOf(page);
+    expectThat(sweep.phase === 'done', `the sweep ended as ${sweep.phase}: ${sweep.message}`);
+    expectThat(sweep.rows.length === 14, `${sweep.rows.length} rows`);
+    expectThat((await page.locator('.rows tbody tr').count()) === 14, 'the table differs');
+    const corners = await page.locator('.front').getAttribute('points');
+    expectThat(corners.split(' ').length >= 2, 'the front is no line');
+    expectThat(
+      /not converged/.test(await page.locator('figcaption').textContent()),
+      'the reference is not labelled',
+    );
+    const point = page.locator('.point-xpbd').first();
+    const row = sweep.rows[Number(await point.getAttribute('data-row'))];
+    await point.dispatchEvent('click');
+    await isReady(page);
+    const { setting } = await stateOf(page);
+    expectThat(setting.stepper === 'xpbd' && setting.level === row.level, 'not applied');
+    expectThat((await page.locator('.point-ring').count()) === 1, 'the point is not ringed');
+    const strip = await page.locator('.numbers').textContent();
+    expectThat(!strip.includes('not measured'), 'the error is not in the read-out');
+    const findings = await findingsOf(page);
+    expectThat(findings.length === 0, findings.join('; '));
+  }),
+);
+
+await check('a cancelled sweep stops at once and keeps its rows', () =>
+  visit('#scene=swinging-sheet&level=0', async (page) => {
+    await page.getByLabel('Levels').selectOption({ label: '0 to 2' });
+    await button(page, 'Measure speed and error').click();
+    await until(page, (state) => state.sweep.rows.length >= 1);
+    await button(page, 'Cancel').click();
+    const { sweep } = await stateOf(page);
+    expectThat(sweep.phase === 'cancelled' && sweep.rows.length >= 1, `it is ${sweep.phase}`);
+    await page.waitForTimeout(500);
+    const later = (await stateOf(page)).sweep;
+    expectThat(later.rows.length === sweep.rows.length, 'it goes on');
+  }),
+);
+
+await check('a reload restores preset, fabric, method and drawing', () =>
+  visit(
+    '#scene=tablecloth&fabric=velvet&level=1&stepper=projective&step=1/120&iterations=7&heat=signed&range=2&edges=on',
+    async (page) => {
+      const before = await stateOf(page);
+      await page.reload();
+      await isReady(page);
+      const after = await stateOf(page);
+      for (const key of ['setting', 'heat', 'heatRange', 'edges', 'startS']) {
+        const [a, b] = [JSON.stringify(before[key]), JSON.stringify(after[key])];
+        expectThat(a === b, `${key} was ${a}, is ${b}`);
+      }
+      expectThat(after.setting.fabric === 'velvet', `the fabric is ${after.setting.fabric}`);
+      expectThat(after.setting.iterations === 7, `${after.setting.iterations} iterations`);
+    },
+  ),
+);
+
+await check('a broken link gives defaults and a message', () =>
+  visit('#scene=moon&level=77&fabric=%E0%A4%A&heat', async (page) => {
+    const { setting, problem } = await stateOf(page);
+    expectThat(setting.preset === 'curtain', `the preset is ${setting.preset}`);
+    expectThat(problem?.source === 'link', 'there is no message');
+    const sentence = await page.getByRole('alert').textContent();
+    expectThat(/level: expected 0 to 4, found "77"/.test(sentence), `it says: ${sentence}`);
+    await button(page, 'Dismiss').click();
+    await page.getByRole('alert').waitFor({ state: 'hidden' });
+  }),
+);
+
+for (const colorScheme of ['light', 'dark']) {
+  await check(`axe finds nothing serious, ${colorScheme}`, () =>
+    visit(
+      '#scene=curtain&level=1&heat=magnitude',
+      async (page) => {
+        for (const box of await page.locator('details').all()) {
+          await box.evaluate((details) => details.setAttribute('open', ''));
+        }
+        const findings = await findingsOf(page);
+        expectThat(findings.length === 0, findings.join('; '));
+      },
+      { colorScheme, reducedMotion: 'reduce' },
+    ),
+  );
+}
+
+for (const [width, height] of [
+  [320, 568],
+  [390, 844],
+  [720, 700],
+  [1280, 800],
+]) {
+  await check(`nothing scrolls sideways at ${width} px`, () =>
+    visit(
+      '#scene=curtain&level=1&heat=signed',
+      async (page) => {
+        const [content, view] = await page.evaluate(() => [
+          document.documentElement.scrollWidth,
+          window.innerWidth,
+        ]);
+        expectThat(content <= view, `${content} px of content in ${view} px`);
+      },
+      { width, height },
+    ),
+  );
+}
+
+await check('without WebGL: a sentence, and the numbers still run', async () => {
+  const { page, close } = await open('#scene=curtain&level=0', {
+    prepare: (fresh) =>
+      fresh.addInitScript(() => {
+        HTMLCanvasElement.prototype.getContext = () => null;
+      }),
+  });
+  await isReady(page);
+  expectThat(/WebGL/.test(await page.getByRole('alert').textContent()), 'no sentence');
+  await button(page, 'Step').click();
+  await until(page, (state) => state.numbers.step === 1);
+  await close();
+});
+
+await check('without the WebAssembly file: a sentence, and the text stays', async () => {
+  const { page, close } = await open('#scene=curtain', {
+    prepare: (fresh) => fresh.context().route('**/*.wasm', (route) => route.abort()),
+  });
+  await until(page, (state) => state.phase === 'broken');
+  expectThat(/WebAssembly/.test(await page.getByRole('alert').textContent()), 'no sentence');
+  expectThat((await page.locator('.caption').textContent()).length > 20, 'the caption is gone');
+  await close();
+});
+
+process.exit((await finish()) ? 0 : 1);
