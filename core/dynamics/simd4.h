@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#if defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace pleat {
+
+/// One float under the interface of Float4, so that a kernel written once runs on a single lane.
+struct Float1 {
+  static constexpr int kLanes = 1;
+  float value;
+
+  static Float1 load(const float* from) { return {*from}; }
+  static Float1 all(float number) { return {number}; }
+  void store(float* to) const { *to = value; }
+};
+inline Float1 operator+(Float1 a, Float1 b) { return {a.value + b.value}; }
+inline Float1 operator-(Float1 a, Float1 b) { return {a.value - b.value}; }
+inline Float1 operator*(Float1 a, Float1 b) { return {a.value * b.value}; }
+inline Float1 operator/(Float1 a, Float1 b) { return {a.value / b.value}; }
+inline Float1 sqrt(Float1 a) { return {std::sqrt(a.value)}; }
+
+/// The larger of a and b; a when it is not a number, so that an error is not hidden.
+inline Float1 max(Float1 a, Float1 b) { return {a.value < b.value ? b.value : a.value}; }
+
+/// `a` where `condition` is positive, else zero.
+inline Float1 where_positive(Float1 condition, Float1 a) {
+  return {condition.value > 0 ? a.value : 0.0f};
+}
+
+/// Four floats, computed with together. Loads and stores need no alignment.
+///
+/// Every operation rounds like its scalar form, so that both builds and Float1 agree to the bit.
+struct Float4 {
+  static constexpr int kLanes = 4;
+#if defined(__wasm_simd128__)
+  v128_t value;
+
+  static Float4 load(const float* from) { return {wasm_v128_load(from)}; }
+  static Float4 all(float number) { return {wasm_f32x4_splat(number)}; }
+  void store(float* to) const { wasm_v128_store(to, value); }
+#elif defined(__SSE2__)
+  __m128 value;
+
+  static Float4 load(const float* from) { return {_mm_loadu_ps(from)}; }
+  static Float4 all(float number) { return {_mm_set1_ps(number)}; }
+  void store(float* to) const { _mm_storeu_ps(to, value); }
+#else
+  Float1 value[4];
+
+  static Float4 load(const float* from) { return {{{from[0]}, {from[1]}, {from[2]}, {from[3]}}}; }
+  static Float4 all(float number) { return {{{number}, {number}, {number}, {number}}}; }
+  void store(float* to) const {
+    for (int lane = 0; lane < 4; ++lane) value[lane].store(to + lane);
+  }
+#endif
+};
+
+#if defined(__wasm_simd128__)
+inline Float4 operator+(Float4 a, Float4 b) { return {wasm_f32x4_add(a.value, b.value)}; }
+inline Float4 operator-(Float4 a, Float4 b) { return {wasm_f32x4_sub(a.value, b.value)}; }
+inline Float4 operator*(Float4 a, Float4 b) { return {wasm_f32x4_mul(a.value, b.value)}; }
+inline Float4 operator/(Float4 a, Float4 b) { return {wasm_f32x4_div(a.value, b.value)}; }
+inline Float4 sqrt(Float4 a) { return {wasm_f32x4_sqrt(a.value)}; }
+inline Float4 max(Float4 a, Float4 b) { return {wasm_f32x4_pmax(a.value, b.value)}; }
+inline Float4 where_positive(Float4 condition, Float4 a) {
+  return {wasm_v128_and(wasm_f32x4_gt(condition.value, wasm_f32x4_splat(0)), a.value)};
+}
+#elif defined(__SSE2__)
+inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.value, b.value)}; }
+inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.value, b.value)}; }
+inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.value, b.value)}; }
+inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.value, b.value)}; }
+inline Float4 sqrt(Float4 a) { return {_mm_sqrt_ps(a.value)}; }
+// The instruction returns its second operand when either is not a number: hence the exchange.
+inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(b.value, a.value)}; }
+inline Float4 where_positive(Float4 condition, Float4 a) {
+  return {_mm_and_ps(_mm_cmpgt_ps(condition.value, _mm_setzero_ps()), a.value)};
+}
+#else
+template <class Operation>
+Float4 lane_by_lane(Float4 a, Float4 b, Operation&& operation) {
+  Float4 result;
+  for (int lane = 0; lane < 4; ++lane) result.value[lane] = operation(a.value[lane], b.value[lane]);
+  return result;
+}
+inline Float4 operator+(Float4 a, Float4 b) {
+  return lane_by_lane(a, b, [](Float1 p, Float1 q) { return p + q; });
+}
+inline Float4 operator-(Float4 a, Float4 b) {
+  return lane_by_lane(a, b, [](Float1 p, Float1 q) { return p - q; });
+}
+inline Float4 operator*(Float4 a, Float4 b) {
+  return lane_by_lane(a, b, [](Float1 p, Float1 q) { return p * q; });
+}
+inline Float4 operator/(Float4 a, Float4 b) {
+  return lane_by_lane(a, b, [](Float1 p, Float1 q) { return p / q; });
+}
+inline Float4 sqrt(Float4 a) {
+  return lane_by_lane(a, a, [](Float1 p, Float1) { return sqrt(p); });
+}
+inline Float4 max(Float4 a, Float4 b) {
+  return lane_by_lane(a, b, [](Float1 p, Float1 q) { return max(p, q); });
+}
+inline Float4 where_positive(Float4 condition, Float4 a) {
+  return lane_by_lane(condition, a, [](Float1 p, Float1 q) { return where_positive(p, q); });
+}
+#endif
+
+/// Three components of four (or one) vectors.
+template <class Lanes>
+struct Vec3Lanes {
+  Lanes x, y, z;
+};
+template <class Lanes>
+Vec3Lanes<Lanes> operator+(const Vec3Lanes<Lanes>& a, const Vec3Lanes<Lanes>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Lanes>
+Vec3Lanes<Lanes> operator-(const Vec3Lanes<Lanes>& a, const Vec3Lanes<Lanes>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Lanes>
+Vec3Lanes<Lanes> operator*(Lanes factor, const Vec3Lanes<Lanes>& a) {
+  return {factor * a.x, factor * a.y, factor * a.z};
+}
+template <class Lanes>
+Lanes dot(const Vec3Lanes<Lanes>& a, const Vec3Lanes<Lanes>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+}  // namespace pleat

@@ -1,0 +1,191 @@
+#include "core/dynamics/stepper_xpbd.h"
+
+#include "core/base/check.h"
+#include "core/dynamics/simd4.h"
+
+namespace pleat {
+namespace {
+
+/// Arrays begin an odd number of cache lines apart: at a multiple of 4096 bytes a load would wait
+/// for stores to the other arrays.
+std::size_t pitch_for(int n_slots) {
+  constexpr std::size_t kFloatsPerLine = 16;
+  const std::size_t lines =
+      (static_cast<std::size_t>(n_slots) + kFloatsPerLine - 1) / kFloatsPerLine;
+  return (lines | 1) * kFloatsPerLine;
+}
+
+double step_of(const MethodOptions& options) { return options.step / options.substeps; }
+
+}  // namespace
+
+StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
+    : Stepper(model, options, options.substeps),
+      layout_(lane_layout(model)),
+      program_(model, layout_, options.constraints_rigid, step_of(options)),
+      pitch_(pitch_for(layout_.n_slots)),
+      data_(pitch_ * kArrays, 0.0f) {
+  const double h = step_of(options);
+  for (int k = 0; k < 3; ++k)
+    fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
+  if (model.air) forces_.resize(3, model.n_vertices());
+  refresh();
+}
+
+void StepperXpbd::refresh() {
+  float* const inverse_masses = array(inverse_mass);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    inverse_masses[slot_of(VertexId(i))] =
+        static_cast<float>(program_.mean_mass() / model_.masses[i]);
+  for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
+  pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
+  refresh_rest_lengths();
+}
+
+void StepperXpbd::refresh_rest_lengths() { program_.refresh_rest_lengths(model_); }
+
+LaneView StepperXpbd::view() {
+  return {{array(move), array(move + 1), array(move + 2)},
+          {array(begin), array(begin + 1), array(begin + 2)},
+          array(inverse_mass)};
+}
+
+int StepperXpbd::slot_of(VertexId vertex) const {
+  return layout_.places[static_cast<std::size_t>(vertex)].slot;
+}
+
+Vec3 StepperXpbd::position_of(int slot) {
+  Vec3 position = origin_;
+  for (int k = 0; k < 3; ++k)
+    position[k] += static_cast<double>(array(begin + k)[slot]) + array(move + k)[slot];
+  return position;
+}
+
+Vec3 StepperXpbd::velocity_of(int slot, double h) {
+  Vec3 velocity;
+  for (int k = 0; k < 3; ++k)
+    velocity[k] = (static_cast<double>(array(move + k)[slot]) - array(rounded_off + k)[slot]) / h;
+  return velocity;
+}
+
+void StepperXpbd::set_motion(int slot, const Vec3& position, const Vec3& velocity, double h) {
+  for (int k = 0; k < 3; ++k) {
+    const double local = position[k] - origin_[k];
+    const auto rounded = static_cast<float>(local);
+    const auto rest = static_cast<float>(local - rounded);
+    array(begin + k)[slot] = rounded;
+    array(move + k)[slot] = rest;
+    array(rounded_off + k)[slot] = static_cast<float>(rest - h * velocity[k]);
+  }
+}
+
+void StepperXpbd::load(const State& state) {
+  const StageScope scope(observer_, Stage::convert);
+  const double h = step_of(options());
+  origin_ = 0.5 * (state.positions.rowwise().minCoeff() + state.positions.rowwise().maxCoeff());
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    set_motion(slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
+  substeps_left_ = substeps();
+}
+
+// begin' = begin + move is rounded; begin' - begin is not, for the two are near each other. So
+// rounded_off' is exactly what the rounding took away, and goes into the next move.
+void StepperXpbd::predict() {
+  const float* const inverse_masses = array(inverse_mass);
+  for (int k = 0; k < 3; ++k) {
+    float* const begins = array(begin + k);
+    float* const moves = array(move + k);
+    float* const rests = array(rounded_off + k);
+    const Float4 fall = Float4::all(fall_[static_cast<std::size_t>(k)]);
+    for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
+      const Float4 from = Float4::load(begins + slot);
+      const Float4 moved = Float4::load(moves + slot);
+      const Float4 goes_on = moved - Float4::load(rests + slot) +
+                             where_positive(Float4::load(inverse_masses + slot), fall);
+      const Float4 to = from + moved;
+      const Float4 rest = moved - (to - from);
+      to.store(begins + slot);
+      rest.store(rests + slot);
+      (rest + goes_on).store(moves + slot);
+    }
+  }
+}
+
+void StepperXpbd::place_pins(double time_end, double h) {
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    const Pin& pin = model_.pins[p];
+    const Vec3 place = pin.position(time_end);
+    const int slot = slot_of(pin.vertex);
+    for (int k = 0; k < 3; ++k)
+      array(move + k)[slot] = static_cast<float>(place[k] - origin_[k] - array(begin + k)[slot]);
+    if (substeps_left_ == 1)
+      pin_velocities_.col(static_cast<Eigen::Index>(p)) = (place - pin.position(time_end - h)) / h;
+  }
+}
+
+void StepperXpbd::add_air_drag(State& state, double h) {
+  const StageScope scope(observer_, Stage::forces);
+  copy_to(state, h);
+  forces_.setZero();
+  model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces_);
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    for (int k = 0; k < 3; ++k)
+      array(rounded_off + k)[slot] -= static_cast<float>(h * h / model_.masses[i] * forces_(k, i));
+  }
+}
+
+void StepperXpbd::correct_for_contact(State& state, double time_end, double h) {
+  const StageScope scope(observer_, Stage::contact);
+  model_.contact->begin_substep(time_end - h, time_end);
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    Vec3 position = position_of(slot);
+    Vec3 velocity = velocity_of(slot, h);
+    if (array(inverse_mass)[slot] > 0 &&
+        model_.contact->resolve(state.positions.col(i), position, velocity))
+      set_motion(slot, position, velocity, h);
+    state.positions.col(i) = position;
+  }
+}
+
+void StepperXpbd::copy_to(State& state, double h) {
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    state.positions.col(i) = position_of(slot);
+    state.velocities.col(i) = velocity_of(slot, h);
+  }
+}
+
+SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
+  if (model_.air) add_air_drag(state, h);
+  {
+    const StageScope scope(observer_, Stage::solve);
+    predict();
+    place_pins(time_end, h);
+    const bool last = substeps_left_ == 1;
+    if (last) residual_begin_ = program_.residual_before_sweeps(view());
+    program_.first_sweep(view());
+    for (int sweep = 1; sweep < options().iterations; ++sweep) program_.next_sweep(view());
+    if (last) residual_end_ = program_.residual(view());
+  }
+  if (model_.contact) correct_for_contact(state, time_end, h);
+  --substeps_left_;
+  time_end_ = time_end;
+  SolveReport report;
+  report.iterations = options().iterations;
+  return report;
+}
+
+void StepperXpbd::store(State& state, SolveReport& report) {
+  const StageScope scope(observer_, Stage::convert);
+  copy_to(state, step_of(options()));
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    state.positions.col(model_.pins[p].vertex.value) = model_.pins[p].position(time_end_);
+    state.velocities.col(model_.pins[p].vertex.value) =
+        pin_velocities_.col(static_cast<Eigen::Index>(p));
+  }
+  report.relative_residual = residual_begin_ > 0 ? residual_end_ / residual_begin_ : 0;
+}
+
+}  // namespace pleat
