@@ -5,6 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "native-tests/support/particle.h"
@@ -225,6 +226,27 @@ TEST_CASE("contact: a corner of three walls holds a vertex", "[contact]") {
   CHECK(particle.position.norm() < 1e-3);
   CHECK(particle.velocity.norm() < 0.05);  // of the 0.29 m/s that each step adds
   CHECK(stage.n_unresolved() == 0);
+}
+
+TEST_CASE("contact: far from the origin, rounding does not count as a contact", "[contact]") {
+  Random random(18);
+  std::int64_t n_unresolved = 0;
+  for (int trial = 0; trial < 1500; ++trial) {
+    const Vec3 place = (trial % 2 == 0 ? 1 : 1e4) * random_direction(random);
+    const Vec3 normal_a = random_direction(random);
+    const Vec3 normal_b = random_direction(random);
+    if (normal_a.cross(normal_b).norm() < 0.05) continue;
+    std::vector<Collider> solids(2, floor_collider(0.3));
+    solids[0].shape = Plane{place, normal_a};
+    solids[1] = ball_collider(place - 0.3 * normal_b, 0.3, 0.3);
+    ContactStage stage(solids, {});
+    Particle particle{place + 0.5 * (normal_a + normal_b), {0, 0, 0}};
+    for (int k = 0; k < 30; ++k) {
+      step(stage, -20 * (normal_a + normal_b), k / 60.0, 1 / 60.0, particle);
+    }
+    n_unresolved += stage.n_unresolved();
+  }
+  CHECK(n_unresolved == 0);
 }
 
 TEST_CASE("contact: a vertex crushed between two walls is counted", "[contact]") {
