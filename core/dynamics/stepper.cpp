@@ -45,6 +45,7 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps)
     : model_(model), options_(options), substeps_(substeps) {
   options.validate();
   model.validate();
+  if (model.contact) contact_forces_ = Positions::Zero(3, model.n_vertices());
 }
 
 void Stepper::load(const State&) {}
@@ -83,23 +84,35 @@ SolveReport Stepper::advance(State& state, double time) {
   return report;
 }
 
+void Stepper::add_contact_forces(Eigen::Ref<Positions> forces) const {
+  if (model_.contact) forces += contact_forces_;
+}
+
+// With f the remembered force, the proposed place and velocity without it are x - h^2 f/m and v - h
+// f/m: what the vertex would do were it let go. The contact acts on those, so that the new force, m
+// dv/h, is the whole one: never pulling, and inside Coulomb's cone. It equals f where the vertex is
+// held in equilibrium and vanishes where it leaves.
 void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double time_end,
                                double h) {
   if (!model_.contact) return;
   const StageScope scope(observer_, Stage::contact);
   model_.contact->begin_substep(time_end - h, time_end);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-    Vec3 position = state.positions.col(i);
-    Vec3 velocity = state.velocities.col(i);
-    if (!model_.contact->resolve(positions_begin.col(i), position, velocity)) continue;
+    const double mobility = h / model_.masses[i];
+    const Vec3 free_velocity = state.velocities.col(i) - mobility * contact_forces_.col(i);
+    Vec3 position = state.positions.col(i) - h * mobility * contact_forces_.col(i);
+    Vec3 velocity = free_velocity;
+    model_.contact->resolve(positions_begin.col(i), position, velocity);
     state.positions.col(i) = position;
     state.velocities.col(i) = velocity;
+    contact_forces_.col(i) = (velocity - free_velocity) / mobility;
   }
   // A pin wins over a solid: it is where the scene puts it.
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) =
         (state.positions.col(pin.vertex) - positions_begin.col(pin.vertex)) / h;
+    contact_forces_.col(pin.vertex).setZero();
   }
 }
 

@@ -65,9 +65,16 @@ class Stepper {
   /// One substep of h [s] ending at time_end, contact included.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
 
-  /// The shared way a substep ends for steppers that work on `State` itself: contact on every free
+  /// The shared way a substep ends for steppers that work on `State` itself: contact on every
   /// vertex.
+  ///
+  /// The force with which a solid held a vertex is remembered, and a stepper that solves for the
+  /// end of a substep adds it to its forces in the next one. What a held cloth rests on is then in
+  /// its equations: it comes to rest in equilibrium instead of falling into the solid and being put
+  /// back in every substep.
   void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h);
+  /// Adds the remembered forces [N].
+  void add_contact_forces(Eigen::Ref<Positions> forces) const;
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
@@ -76,6 +83,7 @@ class Stepper {
   MethodOptions options_;
   int substeps_;
   State last_finite_;
+  Positions contact_forces_;  // by which solids held the vertices in the last substep [N]
 };
 
 /// Throws InputError when the method cannot run on this model (explicit beyond its stability bound

@@ -129,6 +129,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     const StageScope scope(observer_, Stage::forces);
     forces_.setZero();
     add_gravity(model_, forces_);
+    add_contact_forces(forces_);
     if (model_.air)
       model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces_);
     for (int i = 0; i < model_.n_vertices(); ++i)
