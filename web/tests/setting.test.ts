@@ -26,12 +26,19 @@ describe('setting', () => {
     expect(xpbd).toMatchObject({ stepper: 'xpbd', substeps: 30, iterations: 1 });
   });
 
+  it('writes 0 substeps as the word of the scene format', () => {
+    const method = sceneOf(withStepper(start, 'explicit')).method;
+    expect(method).toMatchObject({ stepper: 'explicit', substeps: 'stable' });
+    const row = rowFor(1, { stepper: 'explicit', step_s: 1 / 60, substeps: 'stable' });
+    expect(settingOfRow(row, start).substeps).toBe(0);
+  });
+
   it('keeps the fine print of a stepper away from the others', () => {
     for (const preset of PRESET_IDS) {
       const own = presetSetting(preset);
       for (const stepper of STEPPERS.filter((other) => other !== own.stepper)) {
         const method = sceneOf(withStepper(own, stepper)).method as Record<string, unknown>;
-        const known = ['stepper', 'step_s', 'substeps', 'iterations'];
+        const known = ['stepper', 'step_s', 'substeps', 'iterations', 'solver'];
         expect(Object.keys(method).filter((key) => !known.includes(key))).toEqual([]);
       }
     }

@@ -4,7 +4,7 @@ import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol'
 import { BOUND_METHODS, type PleatModule } from '../src/sim/wasm-module';
 import { createWorkerCore } from '../src/sim/worker-core';
 import { fabricsText } from '../src/state/fabric-data';
-import { presetSetting, type Setting, sceneOf } from '../src/state/setting';
+import { presetSetting, type Setting, STEPPERS, sceneOf, withStepper } from '../src/state/setting';
 import { sweepPlan } from '../src/state/sweep-plan';
 import { createFakeModule } from './support/fake-module';
 
@@ -99,6 +99,17 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
     const again = take('loaded');
     expect(again.numbers.step).toBe(0);
     expect(frameViews(again.buffers[0])).toEqual(frameViews(loaded.buffers[0]));
+  });
+
+  it('runs every stepper of the page from its usual setting', async () => {
+    const { send, take } = open(await load());
+    STEPPERS.forEach((stepper, index) => {
+      const text = JSON.stringify(sceneOf(withStepper({ ...setting, level: 0 }, stepper)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: index });
+      const [, buffer] = take('loaded').buffers;
+      send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
+      expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
+    });
   });
 
   it('says why a scene is refused and keeps the cloth it had', async () => {

@@ -34,11 +34,11 @@ export function markOf(stepper: string): string {
   return MARKS[stepper] ?? 'M-5 0H5M0-5V5';
 }
 
-/** A method in words: "XPBD, level 2, 1/60 s, 30 substeps". */
+/** A setting in words: "xpbd, level 2, 1/60 s, 30 substeps". */
 export function titleOf(row: BenchRow): string {
-  const { stepper, step_s, substeps, iterations } = row.method;
+  const { stepper, step_s, iterations } = row.method;
   const counts = [
-    substeps !== undefined && substeps > 1 ? `${substeps} substeps` : '',
+    row.n_substeps > 1 ? `${row.n_substeps} substeps` : '',
     iterations !== undefined && iterations > 1 ? `${iterations} iterations` : '',
   ];
   const parts = [stepper, `level ${row.level}`, `1/${Math.round(1 / step_s)} s`, ...counts];

@@ -13,7 +13,6 @@ const HEADS = [
   'Error',
   'of diagonal',
   'RMS stretch',
-  '',
 ];
 
 function cells(row: BenchRow): string[] {
@@ -40,7 +39,7 @@ export function createSpeedErrorTable(
       element(
         'thead',
         {},
-        element('tr', {}, ...HEADS.map((head) => element('th', { scope: 'col' }, head || 'Use'))),
+        element('tr', {}, ...HEADS.map((head) => element('th', { scope: 'col' }, head))),
       ),
       body,
     ),
@@ -50,31 +49,33 @@ export function createSpeedErrorTable(
     const title = titleOf(row);
     const use = element(
       'button',
-      { type: 'button', 'aria-label': `Use ${title}`, click: () => onChoice(index) },
-      'Use',
+      {
+        type: 'button',
+        title: 'Show this setting',
+        'data-row': index,
+        click: () => onChoice(index),
+      },
+      title,
     );
-    const heading = element('th', { scope: 'row' }, title);
+    const heading = element('th', { scope: 'row' }, use);
     if (row.status === 'not_converged') heading.append(' (solve cut short)');
     if (isFront) heading.append(' ', element('span', { class: 'badge' }, 'front'));
     const data = hasFinished(row)
       ? cells(row).map((text) => element('td', { class: 'number' }, text))
       : [element('td', { colspan: 6, class: 'failed' }, `${row.status}: ${row.message}`)];
     const kind = isCurrent ? 'current' : '';
-    return element('tr', { class: kind }, heading, ...data, element('td', {}, use));
+    return element('tr', { class: kind }, heading, ...data);
   }
 
   return {
     update({ rows, front, current }) {
-      const focused = document.activeElement?.getAttribute('aria-label');
-      const hadFocus = body.contains(document.activeElement);
+      const focused = body.contains(document.activeElement)
+        ? document.activeElement?.getAttribute('data-row')
+        : null;
       body.replaceChildren(
         ...rows.map((row, index) => line(row, index, front.includes(index), index === current)),
       );
-      if (!hadFocus) return;
-      const again = [...body.querySelectorAll('button')].find(
-        (made) => made.getAttribute('aria-label') === focused,
-      );
-      again?.focus();
+      if (focused) body.querySelector<HTMLElement>(`[data-row="${focused}"]`)?.focus();
     },
   };
 }

@@ -53,7 +53,8 @@ export type Collider =
 export interface BenchMethod {
   stepper: string;
   step_s: number;
-  substeps?: number;
+  /** "stable": as many as the stability bound asks for. */
+  substeps?: number | 'stable';
   iterations?: number;
   [setting: string]: unknown;
 }

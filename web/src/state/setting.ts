@@ -6,6 +6,10 @@ import tableclothText from '../../../assets/scenes/tablecloth.json?raw';
 export type Stepper = 'implicit' | 'explicit' | 'projective' | 'xpbd';
 export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet';
 
+/** What a scene says for 0 substeps: as many as the stability bound asks for. */
+export const STABLE_SUBSTEPS = 'stable';
+export type Substeps = number | typeof STABLE_SUBSTEPS;
+
 export interface Setting {
   preset: PresetId;
   /** English name in the fabric file. */
@@ -15,6 +19,7 @@ export interface Setting {
   stepper: Stepper;
   /** Time that one step advances [s]. */
   stepS: number;
+  /** 0: as many as the stability bound asks for. */
   substeps: number;
   iterations: number;
 }
@@ -27,7 +32,7 @@ interface SceneFile {
   method: {
     stepper: Stepper;
     step_s: number;
-    substeps?: number;
+    substeps?: Substeps;
     iterations?: number;
     [detail: string]: unknown;
   };
@@ -45,7 +50,7 @@ export const STEPPERS: readonly Stepper[] = ['implicit', 'projective', 'xpbd', '
 export const LEVELS: readonly number[] = [0, 1, 2, 3, 4];
 /** Steps offered, as fractions of a second: 1/30 s to 1/960 s. */
 export const STEPS_PER_SECOND: readonly number[] = [30, 60, 120, 240, 480, 960];
-export const MOST_SUBSTEPS = 2000;
+export const MOST_SUBSTEPS = 100000;
 export const MOST_ITERATIONS = 500;
 
 export type Count = 'substeps' | 'iterations';
@@ -55,6 +60,8 @@ export interface StepperTraits {
   meaning: string;
   /** The counts the stepper listens to, each with what it starts from. */
   counts: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
+  /** The one a scene has to name, because the format's own default does not fit. */
+  solver?: 'cholmod';
 }
 
 export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
@@ -73,6 +80,7 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
       substeps: { start: 1, least: 1, meaning: 'More substeps damp less.' },
       iterations: { start: 10, least: 1, meaning: 'More rounds come closer to Implicit.' },
     },
+    solver: 'cholmod',
   },
   xpbd: {
     title: 'XPBD',
@@ -107,10 +115,11 @@ export const PRESETS: Record<PresetId, Preset> = {
 export const PRESET_IDS = Object.keys(PRESETS) as PresetId[];
 
 /** Both counts of a method, with the stepper's own start where the method says nothing. */
-function countsOf(stepper: Stepper, method: Partial<Record<Count, number>>) {
+function countsOf(stepper: Stepper, method: { substeps?: Substeps; iterations?: number }) {
   const { counts } = STEPPER_TRAITS[stepper];
+  const { substeps } = method;
   return {
-    substeps: method.substeps ?? counts.substeps?.start ?? 1,
+    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? counts.substeps?.start ?? 1),
     iterations: method.iterations ?? counts.iterations?.start ?? 1,
   };
 }
@@ -138,10 +147,12 @@ export function withStepper(setting: Setting, stepper: Stepper): Setting {
 export function methodOf(setting: Setting): Record<string, unknown> {
   const own = PRESETS[setting.preset].scene.method;
   const method: Record<string, unknown> = own.stepper === setting.stepper ? { ...own } : {};
-  const { counts } = STEPPER_TRAITS[setting.stepper];
+  const { counts, solver } = STEPPER_TRAITS[setting.stepper];
+  if (solver) method.solver ??= solver;
   method.stepper = setting.stepper;
   method.step_s = setting.stepS;
   for (const count of COUNTS) if (counts[count]) method[count] = setting[count];
+  if (method.substeps === 0) method.substeps = STABLE_SUBSTEPS;
   return method;
 }
 

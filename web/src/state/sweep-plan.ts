@@ -1,13 +1,21 @@
 // What one press of the sweep button measures, and how its rows map back to settings.
 import type { BenchRow } from '../sim/wasm-module';
 import type { AppState } from './app-state';
-import { isSameMethod, type Setting, STEPPERS, type Stepper, sceneOf } from './setting';
+import {
+  isSameMethod,
+  type Setting,
+  STABLE_SUBSTEPS,
+  STEPPERS,
+  type Stepper,
+  sceneOf,
+} from './setting';
 
 export interface PlannedMethod {
   stepper: Stepper;
   step_s: number;
   substeps?: number;
   iterations?: number;
+  solver?: string;
 }
 
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
@@ -17,11 +25,12 @@ const DURATION_S = 1;
 const METHODS: readonly PlannedMethod[] = [
   { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
   { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
-  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5 },
-  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 30 },
+  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5, solver: 'cholmod' },
+  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 30, solver: 'cholmod' },
   { stepper: 'xpbd', step_s: 1 / 60, substeps: 10, iterations: 1 },
   { stepper: 'xpbd', step_s: 1 / 60, substeps: 60, iterations: 1 },
-  { stepper: 'explicit', step_s: 1 / 60, substeps: 0 },
+  // Finer levels need many more and are refused: such a row says how many would do.
+  { stepper: 'explicit', step_s: 1 / 60, substeps: 1000 },
 ];
 
 export interface SweepPlan {
@@ -45,12 +54,13 @@ export function hasFinished(row: BenchRow): boolean {
 /** The setting a row was measured with; the counts it does not name stay as they are. */
 export function settingOfRow(row: BenchRow, present: Setting): Setting {
   const stepper = STEPPERS.find((known) => known === row.method.stepper) ?? present.stepper;
+  const { substeps } = row.method;
   return {
     ...present,
     level: row.level,
     stepper,
     stepS: row.method.step_s,
-    substeps: row.method.substeps ?? present.substeps,
+    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
     iterations: row.method.iterations ?? present.iterations,
   };
 }

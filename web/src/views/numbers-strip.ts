@@ -26,16 +26,17 @@ interface Item {
 function statusText({ phase, playing, pace, ahead }: AppState): string {
   if (ahead !== null) return `ahead, ${Math.round(100 * ahead)} %`;
   if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
-  return pace === null ? 'running' : `${digits(Math.min(pace, 1), 2)} × real time`;
+  return pace === null ? 'running' : `running ${digits(Math.min(pace, 1), 2)} ×`;
 }
 
 const ITEMS: readonly Item[] = [
   {
     title: 'Status',
-    meaning: 'What the computation does, and how fast next to the clock.',
+    meaning:
+      'What the computation does; 1 × keeps up with the clock. Below: step and simulated time.',
     text: statusText,
     detail: ({ numbers }) =>
-      numbers ? `step ${numbers.step}, t = ${numbers.time_s.toFixed(2)} s` : '',
+      numbers ? `step ${numbers.step}, ${numbers.time_s.toFixed(2)} s` : '',
   },
   {
     title: 'Cost of a step',
@@ -55,11 +56,11 @@ const ITEMS: readonly Item[] = [
     meaning: 'Distance from the reference of the last sweep for the very same setting.',
     text(state) {
       const row = rowOfSetting(state);
-      return row ? smallLength(row.position_error_m) : 'not measured';
+      return row ? smallLength(row.position_error_m) : 'unknown';
     },
     detail(state) {
       const row = rowOfSetting(state);
-      if (!row) return 'sweep to measure';
+      if (!row) return 'run a sweep';
       return row.reference.converged ? 'against a converged reference' : 'reference not converged';
     },
   },
@@ -88,7 +89,7 @@ const ITEMS: readonly Item[] = [
     text: ({ setting }) => setting.fabric.replace(/ \(.*\)/, ''),
     detail({ setting }) {
       const { confidence, source } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
-      return `${confidence}, ${source[0] ?? 'no source'}`;
+      return `${source[0] ?? 'no source'}, ${confidence}`;
     },
   },
 ];
@@ -99,7 +100,7 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>):
     const detail = element('dd', { class: 'detail' });
     const cell = element(
       'div',
-      { title: item.meaning },
+      { title: item.meaning, class: item.isWide ? 'wide-cell' : '' },
       element('dt', {}, item.title),
       value,
       detail,
@@ -109,7 +110,7 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>):
   parent.append(element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)));
   return watch(
     store,
-    ['numbers', 'timing', 'summary', 'phase', 'playing', 'pace', 'sweep', 'setting'],
+    ['numbers', 'timing', 'summary', 'phase', 'playing', 'ahead', 'pace', 'sweep', 'setting'],
     (state) => {
       for (const { item, value, detail } of cells) {
         setText(value, item.text(state));

@@ -21,7 +21,10 @@ export async function createHarness() {
 
   /** A page at a link, with what its console said. */
   async function open(hash, { width = 1280, height = 800, prepare, ...options } = {}) {
-    const context = await browser.newContext({ viewport: { width, height }, ...options });
+    // Without animations, a picture changes only when the cloth or the view does.
+    const reducedMotion = 'reduce';
+    const viewport = { width, height };
+    const context = await browser.newContext({ viewport, reducedMotion, ...options });
     const page = await context.newPage();
     const complaints = [];
     page.on('console', (message) => complaints.push(`${message.type()}: ${message.text()}`));
@@ -76,12 +79,23 @@ export function expectThat(condition, sentence) {
 export const stateOf = (page) => page.evaluate(() => window.pleat.state());
 export const positionsOf = (page) => page.evaluate(() => window.pleat.positions());
 
-/** Waits until the state fulfils `test`, a function of the state and `argument`. */
-export function until(page, test, argument) {
-  return page.waitForFunction(
-    ([text, value]) => new Function(`return (${text})`)()(window.pleat.state(), value),
-    [test.toString(), argument],
-  );
+/** Waits until `probe`, asked again and again, answers true. */
+export async function eventually(probe, what) {
+  const end = performance.now() + PATIENCE_MS;
+  while (!(await probe())) {
+    if (performance.now() > end) throw new Error(`waited in vain: ${what}`);
+    await new Promise((resume) => setTimeout(resume, 50));
+  }
+}
+
+/** Waits until the page's state fulfils `test`. */
+export async function until(page, test) {
+  let state = null;
+  await eventually(async () => {
+    state = await page.evaluate(() => window.pleat?.state() ?? null);
+    return state !== null && test(state);
+  }, test.toString());
+  return state;
 }
 
 export const isReady = (page) =>
