@@ -37,8 +37,8 @@ QuadMesh QuadMesh::sheet(const SheetShape& shape) {
   mesh.parents_.resize(static_cast<std::size_t>(n));
   for (int r = 0; r <= shape.rows; ++r) {
     for (int c = 0; c <= shape.columns; ++c) {
-      const double u = shape.height * r / shape.rows;
-      const double v = shape.width * c / shape.columns;
+      const double u = shape.height * (static_cast<double>(r) / shape.rows);
+      const double v = shape.width * (static_cast<double>(c) / shape.columns);
       mesh.rest_coordinates_.col(r * line + c) << u, v;
       mesh.rest_positions_.col(r * line + c) =
           shape.origin + u * shape.warp_direction + v * shape.weft_direction;
