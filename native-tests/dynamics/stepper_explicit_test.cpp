@@ -1,0 +1,163 @@
+#include "core/dynamics/stepper_explicit.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "core/base/check.h"
+#include "core/dynamics/system_matrix.h"
+#include "native-tests/support/models.h"
+
+namespace pleat {
+namespace {
+
+MethodOptions explicit_method(double step, int substeps) {
+  MethodOptions options;
+  options.stepper = StepperKind::explicit_euler;
+  options.step = step;
+  options.substeps = substeps;
+  return options;
+}
+
+/// Largest eigenvalue in size of one step of symplectic Euler linearised about these positions.
+double amplification(const ClothModel& model, const Positions& x, double h) {
+  const Eigen::Index n = 3 * model.n_vertices();
+  const Eigen::VectorXd inverse_mass = dense(mass_matrix(model)).diagonal().cwiseInverse();
+  const Eigen::MatrixXd K =
+      inverse_mass.asDiagonal() * dense(stiffness_matrix(model, x, SpringHessian::projected));
+  const Eigen::MatrixXd C = inverse_mass.asDiagonal() * dense(damping_matrix(model, x));
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd step(2 * n, 2 * n);  // of (x, v)
+  step << I - h * h * K, h * (I - h * C), -h * K, I - h * C;
+  return step.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+/// Springs between random points, of stiffness and damping over three decades.
+ClothModel random_graph(Random& random, Positions& x) {
+  constexpr int kVertices = 9;
+  constexpr int kSprings = 20;
+  x = shaken(Positions::Zero(3, kVertices), 1, random);
+  ClothModel model;
+  model.masses.resize(kVertices);
+  for (double& mass : model.masses) mass = std::pow(10, random.uniform(-3, 0));
+  for (int s = 0; s < kSprings; ++s) {
+    const VertexId a(random.below(kVertices));
+    const VertexId b((a + 1 + random.below(kVertices - 1)) % kVertices);
+    model.springs.push_back({a, b, std::pow(10, random.uniform(0, 3)),
+                             (x.col(a.value) - x.col(b.value)).norm(),
+                             std::pow(10, random.uniform(-3, 0)), SpringKind::other});
+  }
+  return model;
+}
+
+/// Two masses on a spring: the bound is exact there.
+ClothModel pair_model(double damping) {
+  ClothModel model;
+  model.masses = Eigen::Vector2d(0.01, 0.01);
+  model.springs = {{VertexId(0), VertexId(1), 100, 1, damping, SpringKind::other}};
+  model.gravity.setZero();
+  return model;
+}
+
+/// Largest stretch of the pair's spring over 4000 steps, begun at 1e-6 [m].
+double largest_stretch(ClothModel model, double h) {
+  State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
+  state.positions(0, 1) = 1 + 1e-6;
+  const auto stepper = make_stepper(model, explicit_method(h, 1));
+  double largest = 0;
+  for (int s = 0; s < 4000; ++s) {
+    if (!stepper->advance(state, s * h).ok()) break;
+    largest = std::max(largest, std::abs(state.positions(0, 1) - state.positions(0, 0) - 1));
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("explicit: below the bound nothing grows, on any graph of springs", "[dynamics]") {
+  Random random(GENERATE(range(1, 21)));
+  Positions x;
+  const ClothModel model = random_graph(random, x);
+  CHECK(amplification(model, x, StepperExplicit::largest_stable_step(model)) < 1 + 1e-6);
+}
+
+TEST_CASE("explicit: below the bound nothing grows on a sheet with bending", "[dynamics]") {
+  const std::string name = GENERATE("canvas", "chiffon", "spandex");
+  const QuadMesh mesh = sheet_with_aspect(4, 4, 1.2);
+  FabricConstants fabric = library_fabric(name);
+  fabric.bend_warp *= 1e4;  // so that bending sets the bound
+  const double damping = GENERATE(0.0, 1.0);
+  fabric.damping_ratio *= damping;
+  CAPTURE(name, damping);
+  const ClothModel model = sheet_model(mesh, fabric);
+  const double bound = StepperExplicit::largest_stable_step(model);
+  CHECK(amplification(model, mesh.rest_positions(), bound) < 1 + 1e-6);
+  // The bound is a bound by circles, at most about twice too careful on a sheet.
+  CHECK(amplification(model, mesh.rest_positions(), 2.2 * bound) > 1.01);
+}
+
+TEST_CASE("explicit: the bound of two masses on a spring is the exact one", "[dynamics]") {
+  const double damping = GENERATE(0.0, 0.5);
+  CAPTURE(damping);
+  const ClothModel model = pair_model(damping);
+  const double bound = StepperExplicit::largest_stable_step(model);
+  // h^2 k/mu + 2 h c/mu = 4 with the reduced mass mu.
+  const double mu = 0.005;
+  CHECK(bound * bound * 100 / mu + 2 * bound * damping / mu == Approx(4));
+  CHECK(amplification(model, Positions(Vec3::UnitX() * Eigen::RowVector2d(0, 1)), 1.01 * bound) >
+        1.01);
+}
+
+TEST_CASE("explicit: the bound of one bending element is exact where masses go as its weights",
+          "[dynamics]") {
+  ClothModel model;
+  model.masses = Eigen::Vector3d(1, 2, 1);
+  model.bends = {{{VertexId(0), VertexId(1), VertexId(2)}, {1, -2, 1}, 7}};
+  // Its one eigenvalue is s (1/1 + 4/2 + 1/1) = 4 s.
+  CHECK(StepperExplicit::largest_stable_step(model) == Approx(2 / std::sqrt(4 * 7.0)));
+}
+
+TEST_CASE("explicit: a run just below the bound stays, one just above is refused", "[dynamics]") {
+  const double damping = GENERATE(0.0, 0.5);
+  CAPTURE(damping);
+  const double bound = StepperExplicit::largest_stable_step(pair_model(damping));
+  CHECK(largest_stretch(pair_model(damping), 0.999 * bound) < 1e-3);
+  CHECK_THROWS_AS(largest_stretch(pair_model(damping), 1.001 * bound), InputError);
+}
+
+TEST_CASE("explicit: the refusal names the bound and a count of substeps that runs", "[dynamics]") {
+  ClothModel model = sheet_model(square_sheet(4), library_fabric("canvas"));
+  int count = 0;
+  try {
+    make_stepper(model, explicit_method(1.0 / 60, 2));
+    FAIL("nothing was thrown");
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    CAPTURE(text);
+    CHECK(error.where() == "/method/substeps");
+    CHECK(text.find("found 0.00833 s") != std::string::npos);
+    const std::size_t bracket = text.find('(');
+    REQUIRE(bracket != std::string::npos);
+    count = std::stoi(text.substr(bracket + 1));
+  }
+  CHECK_NOTHROW(make_stepper(model, explicit_method(1.0 / 60, count)));
+}
+
+TEST_CASE("explicit: left to choose, it takes the fewest substeps within its share of the bound",
+          "[dynamics]") {
+  ClothModel model = sheet_model(square_sheet(8), library_fabric("silk"));
+  const double bound = StepperExplicit::largest_stable_step(model);
+  const int substeps = make_stepper(model, explicit_method(1.0 / 60, 0))->substeps();
+  CHECK(1.0 / 60 / substeps <= 0.9 * bound);
+  CHECK(1.0 / 60 / (substeps - 1) > 0.9 * bound);
+}
+
+TEST_CASE("explicit: cloth without stiffness has no bound", "[dynamics]") {
+  ClothModel model;
+  model.masses = Eigen::VectorXd::Ones(3);
+  CHECK(std::isinf(StepperExplicit::largest_stable_step(model)));
+  CHECK(make_stepper(model, explicit_method(1, 0))->substeps() == 1);
+}
+
+}  // namespace pleat

@@ -1,0 +1,145 @@
+#include "core/dynamics/stepper_projective.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/dynamics/system_matrix.h"
+#include "native-tests/support/models.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kStep = 0.01;  // [s]
+
+MethodOptions projective(int rounds) {
+  MethodOptions options;
+  options.stepper = StepperKind::projective;
+  options.step = kStep;
+  options.solver = SolverKind::eigen;
+  options.iterations = rounds;
+  return options;
+}
+
+struct Cloth {
+  ClothModel model;
+  State state;
+};
+
+/// Springs, dampers, bending, gravity and a moving pin.
+Cloth soft_sheet(DampingDirection direction) {
+  const QuadMesh mesh = sheet_with_aspect(3, 3, 1.2);
+  Cloth cloth{sheet_model(mesh, soft_fabric()), rest_state(mesh)};
+  Random random(2);
+  cloth.model.damping_direction = direction;
+  cloth.model.gravity = {0, -9.81, 0};
+  for (Spring& spring : cloth.model.springs) spring.damping *= 5;  // so that it matters
+  cloth.state.positions = shaken(1.05 * cloth.state.positions, 0.02, random);
+  cloth.state.velocities = shaken(cloth.state.velocities, 1, random);
+  const Motion motion{Motion::Kind::move, {0.1, 0.05, 0.2}, 0, 0.1, 0};
+  cloth.model.pins.push_back({VertexId(3), cloth.state.positions.col(3), motion});
+  return cloth;
+}
+
+/// Gradient of |x - y|^2_M / (2 h^2) + E(x) + dampers, whose root is the backward Euler step.
+Eigen::VectorXd gradient(const Cloth& cloth, const Eigen::VectorXd& flat_x) {
+  const ClothModel& model = cloth.model;
+  const Eigen::Map<const Positions> x(flat_x.data(), 3, model.n_vertices());
+  Positions g = Positions::Zero(3, model.n_vertices());
+  add_elastic_forces(model, x, g);
+  g = -g;
+  for (const Spring& spring : model.springs) {
+    const Vec3 d = x.col(spring.a.value) - x.col(spring.b.value);
+    const Vec3 begin =
+        cloth.state.positions.col(spring.a.value) - cloth.state.positions.col(spring.b.value);
+    const Vec3 drag =
+        model.damping_direction == DampingDirection::isotropic
+            ? Vec3(spring.damping / kStep * (d - begin))
+            : Vec3(spring.damping / kStep * (d.norm() - begin.norm()) * d.normalized());
+    g.col(spring.a.value) += drag;
+    g.col(spring.b.value) -= drag;
+  }
+  for (int i = 0; i < model.n_vertices(); ++i) {
+    const Vec3 y = cloth.state.positions.col(i) + kStep * cloth.state.velocities.col(i) +
+                   kStep * kStep * model.gravity;
+    g.col(i) += model.masses[i] / (kStep * kStep) * (x.col(i) - y);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(g.data(), g.size());
+}
+
+/// Backward Euler by Newton's method with a dense Jacobian by differences.
+Positions newton_step(const Cloth& cloth) {
+  const int n = cloth.model.n_vertices();
+  Positions x_end = cloth.state.positions + kStep * cloth.state.velocities;
+  const Pin& pin = cloth.model.pins[0];
+  x_end.col(pin.vertex.value) = pin.position(kStep);
+  Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(x_end.data(), x_end.size());
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    Eigen::VectorXd g = gradient(cloth, x);
+    Eigen::MatrixXd J(3 * n, 3 * n);
+    constexpr double kStride = 1e-6;  // [m]
+    for (Eigen::Index c = 0; c < J.cols(); ++c) {
+      Eigen::VectorXd ahead = x, behind = x;
+      ahead[c] += kStride;
+      behind[c] -= kStride;
+      J.col(c) = (gradient(cloth, ahead) - gradient(cloth, behind)) / (2 * kStride);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Index row = 3 * pin.vertex.value + k;
+      J.row(row).setZero();
+      J(row, row) = 1;
+      g[row] = 0;
+    }
+    x -= J.partialPivLu().solve(g);
+  }
+  return Eigen::Map<const Positions>(x.data(), 3, n);
+}
+
+}  // namespace
+
+TEST_CASE("projective: many rounds reach the backward Euler step that Newton finds", "[dynamics]") {
+  const auto direction = GENERATE(DampingDirection::along_spring, DampingDirection::isotropic);
+  Cloth cloth = soft_sheet(direction);
+  const Positions expected = newton_step(cloth);
+  const Positions begin = cloth.state.positions;
+  REQUIRE(make_stepper(cloth.model, projective(2000))->advance(cloth.state, 0).ok());
+  CHECK((cloth.state.positions - expected).norm() < 1e-9 * (expected - begin).norm());
+}
+
+TEST_CASE("projective: more rounds come nearer to the converged step", "[dynamics]") {
+  const auto after = [](int rounds) {
+    Cloth cloth = soft_sheet(DampingDirection::along_spring);
+    const SolveReport report =
+        make_stepper(cloth.model, projective(rounds))->advance(cloth.state, 0);
+    REQUIRE(report.ok());
+    return std::pair(cloth.state.positions, report.relative_residual);
+  };
+  const Positions converged = after(2000).first;
+  double error = INFINITY;
+  double residual = INFINITY;
+  for (const int rounds : {1, 3, 10, 30, 100}) {
+    CAPTURE(rounds);
+    const auto [positions, reported] = after(rounds);
+    CHECK((positions - converged).norm() < 0.8 * error);
+    CHECK(reported < 0.8 * residual);
+    error = (positions - converged).norm();
+    residual = reported;
+  }
+}
+
+TEST_CASE("projective: velocities are displacements over the step", "[dynamics]") {
+  Cloth cloth = soft_sheet(DampingDirection::along_spring);
+  const Positions begin = cloth.state.positions;
+  REQUIRE(make_stepper(cloth.model, projective(5))->advance(cloth.state, 0).ok());
+  CHECK((cloth.state.positions - begin - kStep * cloth.state.velocities).norm() < 1e-14);
+}
+
+TEST_CASE("projective: a solver that keeps no factor is refused", "[dynamics]") {
+  Cloth cloth = soft_sheet(DampingDirection::along_spring);
+  MethodOptions options = projective(1);
+  options.solver = SolverKind::cg;
+  CHECK_THROWS_AS(make_stepper(cloth.model, options), InputError);
+}
+
+}  // namespace pleat

@@ -1,0 +1,128 @@
+#include "native-tests/support/models.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/scene/fabric_file.h"
+
+namespace pleat {
+namespace {
+
+const FabricLibrary& library() {
+  static const FabricLibrary fabrics = [] {
+    std::ifstream file(PLEAT_SOURCE_DIR "/assets/fabrics/fabrics.json");
+    return read_fabrics(std::string(std::istreambuf_iterator<char>(file), {}));
+  }();
+  return fabrics;
+}
+
+MethodOptions method(StepperKind stepper, double step) {
+  MethodOptions options;
+  options.stepper = stepper;
+  options.step = step;
+  options.solver = SolverKind::eigen;
+  return options;
+}
+
+}  // namespace
+
+std::vector<FabricConstants> library_fabrics() {
+  std::vector<FabricConstants> fabrics;
+  for (const Fabric& fabric : library().fabrics)
+    fabrics.push_back(constants(fabric, BendSource::moving));
+  return fabrics;
+}
+
+FabricConstants library_fabric(const std::string& name) {
+  return constants(library().find(name), BendSource::moving);
+}
+
+FabricConstants soft_fabric() {
+  FabricConstants fabric;
+  fabric.name = "soft";
+  fabric.areal_density = 0.2;
+  fabric.stretch_warp = 60;
+  fabric.stretch_weft = 45;
+  fabric.shear = 8;
+  fabric.bend_warp = 2e-3;
+  fabric.bend_weft = 1e-3;
+  fabric.damping_ratio = 0.05;
+  return fabric;
+}
+
+ClothModel sheet_model(const QuadMesh& mesh, const FabricConstants& fabric) {
+  SpringLattice lattice = spring_lattice(mesh, fabric);
+  ClothModel model;
+  model.masses = std::move(lattice.masses);
+  model.springs = std::move(lattice.springs);
+  model.bends = std::move(lattice.bends);
+  model.gravity.setZero();
+  model.rest_coordinates = mesh.rest_coordinates();
+  return model;
+}
+
+State rest_state(const QuadMesh& mesh) {
+  return {mesh.rest_positions(), Positions::Zero(3, mesh.n_vertices())};
+}
+
+ClothModel chain_model(const Chain& chain) {
+  ClothModel model;
+  model.masses = Eigen::VectorXd::Constant(chain.n_springs + 1, chain.mass);
+  model.masses[chain.n_springs] = chain.mass / 2;
+  for (int i = 0; i < chain.n_springs; ++i)
+    model.springs.push_back({VertexId(i), VertexId(i + 1), chain.stiffness, chain.length,
+                             chain.relaxation * chain.stiffness, SpringKind::other});
+  model.gravity = {0, -chain.gravity, 0};
+  model.pins.push_back({VertexId(0), Vec3::Zero(), {}});
+  return model;
+}
+
+State hanging_state(const Chain& chain) {
+  const int n = chain.n_springs;
+  State state{Positions::Zero(3, n + 1), Positions::Zero(3, n + 1)};
+  for (int i = 0; i < n; ++i) {
+    const double mass_below = chain.mass * (n - i - 0.5);
+    const double length = chain.length + mass_below * chain.gravity / chain.stiffness;
+    state.positions(1, i + 1) = state.positions(1, i) - length;
+  }
+  return state;
+}
+
+Eigen::MatrixXd dense(const SparseMatrix& lower) {
+  return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+}
+
+std::vector<MethodOptions> converged_methods(double step) {
+  MethodOptions explicit_method = method(StepperKind::explicit_euler, step);
+  MethodOptions projective = method(StepperKind::projective, step);
+  projective.iterations = 300;
+  MethodOptions xpbd = method(StepperKind::xpbd, step);
+  xpbd.iterations = 100;
+  return {explicit_method, method(StepperKind::implicit_euler, step), projective, xpbd};
+}
+
+std::vector<MethodOptions> everyday_methods() {
+  MethodOptions explicit_method = method(StepperKind::explicit_euler, 1.0 / 60);
+  explicit_method.substeps = 0;
+  MethodOptions implicit = method(StepperKind::implicit_euler, 1.0 / 60);
+  implicit.solver = SolverKind::cg;
+  MethodOptions projective = method(StepperKind::projective, 1.0 / 60);
+  projective.iterations = 10;
+  MethodOptions xpbd = method(StepperKind::xpbd, 1.0 / 60);
+  xpbd.substeps = 30;
+  return {explicit_method, implicit, projective, xpbd};
+}
+
+Scene released_sheet_scene(int cells, const std::string& fabric) {
+  SheetShape shape;
+  shape.rows = cells;
+  shape.columns = cells;
+  shape.warp_direction = {0, 0, 1};
+  Scene scene;
+  scene.cloth = shape;
+  scene.fabric = library_fabric(fabric);
+  scene.pins = {{SheetPart::upper_edge, {}}};
+  return scene;
+}
+
+}  // namespace pleat
