@@ -5,24 +5,14 @@ import { element } from '../views/element';
 import { digits, milliseconds, percent, smallLength } from '../views/quantity';
 import { type PlotContent, titleOf } from './speed-error-plot';
 
-const HEADS = [
-  'Setting',
-  'Vertices',
-  'ms a frame',
-  'Spread',
-  'Error',
-  'of diagonal',
-  'RMS stretch',
-];
+const HEADS = ['Setting', 'ms a frame', 'Error', 'RMS stretch'];
 
-function cells(row: BenchRow): string[] {
+/** Each value with what explains it, by column after the first. */
+function cells(row: BenchRow): [string, string][] {
   return [
-    String(row.n_vertices),
-    milliseconds(row.ms_per_frame),
-    milliseconds(row.spread_ms),
-    smallLength(row.position_error_m),
-    `${digits(row.position_error_percent, 2)} %`,
-    percent(row.rms_stretch),
+    [milliseconds(row.ms_per_frame), `spread ${digits(row.spread_ms, 2)}`],
+    [smallLength(row.position_error_m), `${digits(row.position_error_percent, 2)} % of diagonal`],
+    [percent(row.rms_stretch), `largest ${percent(row.largest_stretch)}`],
   ];
 }
 
@@ -58,11 +48,14 @@ export function createSpeedErrorTable(
       title,
     );
     const heading = element('th', { scope: 'row' }, use);
+    heading.append(element('small', {}, `${row.n_vertices} vertices`));
     if (row.status === 'not_converged') heading.append(' (solve cut short)');
     if (isFront) heading.append(' ', element('span', { class: 'badge' }, 'front'));
     const data = hasFinished(row)
-      ? cells(row).map((text) => element('td', { class: 'number' }, text))
-      : [element('td', { colspan: 6, class: 'failed' }, `${row.status}: ${row.message}`)];
+      ? cells(row).map(([value, detail]) =>
+          element('td', { class: 'number' }, value, element('small', {}, detail)),
+        )
+      : [element('td', { colspan: 3, class: 'failed' }, `${row.status}: ${row.message}`)];
     const kind = isCurrent ? 'current' : '';
     return element('tr', { class: kind }, heading, ...data);
   }

@@ -116,6 +116,7 @@ export function createSession(store: Store<AppState>, view: SessionView): Sessio
     const left = Math.round((startS - numbers.time_s) / summary.step_s);
     const isLate = performance.now() - aheadSinceMs > LONGEST_AHEAD_MS;
     if (left > 0 && !isLate && !playing) {
+      pacer.clear();
       pacer.advance(left * summary.step_s);
       store.set({ ahead: numbers.time_s / startS });
       return send(pacer.take(summary.step_s, timing?.totalMs ?? 10));

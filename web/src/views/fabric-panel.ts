@@ -143,8 +143,14 @@ export function createFabricPanel(parent: HTMLElement, store: Store<AppState>): 
   );
   const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
   const construction = element('p', { class: 'note' });
+  const sourceBody = element('div', {}, construction);
   const rows = element('tbody');
-  const sourcesBox = element('details', {}, element('summary', {}, 'Where the numbers come from'));
+  const sourcesBox = element(
+    'details',
+    {},
+    element('summary', {}, 'Where the numbers come from'),
+    sourceBody,
+  );
   const table = element(
     'table',
     { class: 'quantities' },
@@ -162,7 +168,6 @@ export function createFabricPanel(parent: HTMLElement, store: Store<AppState>): 
       'section',
       { 'aria-label': 'Fabric' },
       field('Fabric', names.control, swatch),
-      construction,
       table,
       sourcesBox,
       meaningBox,
@@ -178,7 +183,6 @@ export function createFabricPanel(parent: HTMLElement, store: Store<AppState>): 
     swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
     construction.textContent = `Taken as: ${fabric.assumed_construction}.`;
     rows.replaceChildren(...LINES.map((line) => row(fabric, line)));
-    sourcesBox.lastElementChild?.matches('dl') && sourcesBox.lastElementChild.remove();
-    sourcesBox.append(sourceList(fabric));
+    sourceBody.replaceChildren(construction, sourceList(fabric));
   });
 }

@@ -5,6 +5,9 @@ import { type Store, watch } from '../state/store';
 import { element, setText } from './element';
 import { percent } from './quantity';
 
+const LEGEND_MEANING =
+  'Mean strain of the springs at each vertex: change of length over rest length.';
+
 export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): () => void {
   const title = element('p', { class: 'legend-title' });
   const bar = element('div', { class: 'legend-bar', 'aria-hidden': 'true' });
@@ -13,7 +16,7 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
   const present = element('p', { class: 'legend-present' });
   const legend = element(
     'div',
-    { class: 'legend', role: 'group', 'aria-label': 'Colour scale' },
+    { class: 'legend', role: 'group', 'aria-label': 'Colour scale', title: LEGEND_MEANING },
     title,
     bar,
     element('p', { class: 'legend-ends' }, low, high),
@@ -24,14 +27,14 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
     legend.hidden = !scale || scale.map === 'off';
     if (!scale) return;
     const isSigned = scale.map === 'signed';
-    const range = heatRange === 'auto' ? 'automatic scale' : 'fixed scale';
-    setText(title, `${isSigned ? 'Change of length' : 'Stretch'} of the springs in %, ${range}`);
+    const range = heatRange === 'auto' ? 'automatic' : 'fixed';
+    setText(title, `${isSigned ? 'Change of length' : 'Stretch'}, ${range} scale`);
     bar.style.background = (isSigned ? SIGNED_MAP : MAGNITUDE_MAP).gradient;
     setText(low, percent(scale.low));
     setText(high, percent(scale.high));
     // Next to the largest value, rounding noise is zero.
     const isNoise = Math.abs(scale.least) < 1e-3 * Math.abs(scale.most);
     const least = isNoise ? '0 %' : percent(scale.least);
-    setText(present, `now ${least} to ${percent(scale.most)}, mean per vertex`);
+    setText(present, `now ${least} to ${percent(scale.most)}`);
   });
 }

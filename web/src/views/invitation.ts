@@ -10,11 +10,12 @@ export interface Invitation {
 }
 
 export function createInvitation(parent: HTMLElement, store: Store<AppState>): Invitation {
+  const word = element('span', { class: 'invitation-word' }, 'Pull me');
   const ring = element(
     'div',
     { class: 'invitation', 'aria-hidden': 'true' },
     element('span', { class: 'invitation-ring' }),
-    element('span', { class: 'invitation-word' }, 'Pull me'),
+    word,
   );
   parent.append(ring);
   const close = watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) => {
@@ -23,6 +24,10 @@ export function createInvitation(parent: HTMLElement, store: Store<AppState>): I
   return {
     place(x, y) {
       ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      // The word stays inside the stage when the cloth is at its rim.
+      const half = word.offsetWidth / 2 + 4;
+      const inside = Math.min(parent.clientWidth - half, Math.max(half, x));
+      word.style.left = `${(inside - x).toFixed(1)}px`;
     },
     close,
   };

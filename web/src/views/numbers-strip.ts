@@ -14,11 +14,14 @@ const STATUS_WORDS: Record<AppState['phase'], string> = {
   broken: 'not available',
 };
 
+/** Parts below this share of a step are not worth their room. */
+const LEAST_PART = 0.02;
+
 interface Item {
   title: string;
   meaning: string;
   text(state: AppState): string;
-  isWide?: true;
+  width: 'narrow' | 'middle' | 'wide';
   /** A second, smaller line. */
   detail?(state: AppState): string;
 }
@@ -32,6 +35,7 @@ function statusText({ phase, playing, pace, ahead }: AppState): string {
 const ITEMS: readonly Item[] = [
   {
     title: 'Status',
+    width: 'middle',
     meaning:
       'What the computation does; 1 × keeps up with the clock. Below: step and simulated time.',
     text: statusText,
@@ -40,12 +44,13 @@ const ITEMS: readonly Item[] = [
   },
   {
     title: 'Cost of a step',
-    isWide: true,
+    width: 'wide',
     meaning: 'Wall time of one step on this device, in parts, over at least 50 ms of work.',
     text: ({ timing }) => (timing ? milliseconds(timing.totalMs) : '–'),
     detail: ({ timing }) =>
       timing
         ? timing.parts
+            .filter(({ ms }) => ms >= LEAST_PART * timing.totalMs)
             .slice(0, 3)
             .map(({ name, ms }) => `${name.replaceAll('_', ' ')} ${digits(ms, 2)}`)
             .join(' · ')
@@ -53,6 +58,7 @@ const ITEMS: readonly Item[] = [
   },
   {
     title: 'Error',
+    width: 'middle',
     meaning: 'Distance from the reference of the last sweep for the very same setting.',
     text(state) {
       const row = rowOfSetting(state);
@@ -61,17 +67,19 @@ const ITEMS: readonly Item[] = [
     detail(state) {
       const row = rowOfSetting(state);
       if (!row) return 'run a sweep';
-      return row.reference.converged ? 'against a converged reference' : 'reference not converged';
+      return row.reference.converged ? 'converged reference' : 'not converged';
     },
   },
   {
     title: 'Stretch',
+    width: 'narrow',
     meaning: 'Largest and root-mean-square change of length of the springs, now.',
     text: ({ numbers }) => (numbers ? percent(numbers.largest_stretch) : '–'),
     detail: ({ numbers }) => (numbers ? `RMS ${percent(numbers.rms_stretch)}` : ''),
   },
   {
     title: 'Residual',
+    width: 'narrow',
     meaning: 'What is left over of the step’s own equations, relative.',
     text: ({ numbers }) => (numbers ? digits(numbers.residual, 2) : '–'),
     detail: ({ numbers, isCutShort }) =>
@@ -79,17 +87,19 @@ const ITEMS: readonly Item[] = [
   },
   {
     title: 'Vertices',
+    width: 'narrow',
     meaning: 'Points whose motion is computed.',
     text: ({ summary }) => (summary ? String(summary.n_vertices) : '–'),
     detail: ({ summary }) => (summary ? `${summary.n_springs} springs` : ''),
   },
   {
     title: 'Fabric',
+    width: 'middle',
     meaning: 'The fabric, and how well its weight is known, from which source.',
     text: ({ setting }) => setting.fabric.replace(/ \(.*\)/, ''),
     detail({ setting }) {
       const { confidence, source } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
-      return `${source[0] ?? 'no source'}, ${confidence}`;
+      return `${confidence}, ${source[0] ?? 'no source'}`;
     },
   },
 ];
@@ -100,7 +110,7 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>):
     const detail = element('dd', { class: 'detail' });
     const cell = element(
       'div',
-      { title: item.meaning, class: item.isWide ? 'wide-cell' : '' },
+      { title: item.meaning, class: `cell-${item.width}` },
       element('dt', {}, item.title),
       value,
       detail,

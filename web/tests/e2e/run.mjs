@@ -70,6 +70,13 @@ await check('first visit: runs ahead to a draped curtain and stands still', () =
   }),
 );
 
+await check('a start time in the link is met to the step, whatever a step costs', () =>
+  visit('#scene=curtain&level=0&start=0.7', async (page) => {
+    const { numbers } = await stateOf(page);
+    expectThat(numbers.step === 42, `step ${numbers.step} instead of 42`);
+  }),
+);
+
 await check('a drag pulls the cloth, starts it, and lets go', () =>
   visit('#scene=curtain', async (page) => {
     const vertex = await page.evaluate(() => window.pleat.inviting());
@@ -89,6 +96,30 @@ await check('a drag pulls the cloth, starts it, and lets go', () =>
     const move = largestMove(part(before), part(after));
     expectThat(move > 0.05, `the held corner moved ${move} m`);
   }),
+);
+
+await check('a finger pulls the cloth, and its loss lets go', () =>
+  visit(
+    '#scene=curtain&level=1',
+    async (page) => {
+      const vertex = await page.evaluate(() => window.pleat.inviting());
+      const at = await page.evaluate((v) => window.pleat.project(v), vertex);
+      const box = await page.locator('canvas').boundingBox();
+      const touch = await page.context().newCDPSession(page);
+      const send = (type, dx, dy) =>
+        touch.send('Input.dispatchTouchEvent', {
+          type,
+          touchPoints: dx === null ? [] : [{ x: box.x + at.x - 5 + dx, y: box.y + at.y - 7 + dy }],
+        });
+      await send('touchStart', 0, 0);
+      await send('touchMove', -20, -30);
+      await send('touchMove', -40, -60);
+      await until(page, (state) => state.held && state.numbers.time_s > 0.2);
+      await send('touchCancel', null);
+      await until(page, (state) => !state.held);
+    },
+    { width: 390, height: 844, hasTouch: true, isMobile: true },
+  ),
 );
 
 await check('a drag off the cloth turns the view and leaves the cloth alone', () =>
@@ -225,7 +256,7 @@ await check('the sweep fills chart and table, and a click on a point applies it'
 
 await check('a cancelled sweep stops at once and keeps its rows', () =>
   visit('#scene=swinging-sheet&level=0', async (page) => {
-    await choice(page, 'Levels').selectOption({ label: '0 to 2' });
+    await choice(page, 'Levels').selectOption({ label: '0 to 1' });
     await button(page, 'Measure speed and error').click();
     await until(page, (state) => state.sweep.rows.length >= 1);
     await button(page, 'Cancel').click();
