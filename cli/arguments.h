@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pleat {
+
+/// The words after a command's name. Each one is asked for once; `finish` refuses what nobody asked
+/// for. Everything here throws InputError naming the option.
+class Arguments {
+ public:
+  explicit Arguments(std::vector<std::string> words) : words_(std::move(words)) {}
+
+  bool flag(const char* option);
+  /// The word after an option, or nothing.
+  std::optional<std::string> text(const char* option);
+  std::optional<double> positive_number(const char* option);
+  std::optional<int> whole_number(const char* option, int low, int high);
+  /// Separated by commas, none empty.
+  std::vector<std::string> list(const char* option);
+
+  /// The next word that is no option; `what` names it when it is missing.
+  std::string word(const char* what);
+
+  /// Refuses words that are left over.
+  void finish() const;
+
+ private:
+  std::vector<std::string> words_;
+};
+
+/// The number that a whole text says. Throws InputError{where} unless it is in [low, high].
+int parse_whole_number(const std::string& text, const std::string& where, int low, int high);
+double parse_positive_number(const std::string& text, const std::string& where);
+
+}  // namespace pleat

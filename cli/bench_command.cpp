@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/reference_folder.h"
+#include "cli/scene_input.h"
+#include "core/base/check.h"
+#include "core/measure/chain_reference.h"
+#include "core/measure/core_version.h"
+#include "core/measure/platform.h"
+#include "core/measure/sampled_run.h"
+#include "core/scene/method_section.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;  // [s]
+
+std::vector<double> take_times(Arguments& arguments) {
+  std::vector<double> times;
+  for (const std::string& entry : arguments.list("--times"))
+    times.push_back(parse_positive_number(entry, "--times"));
+  if (!std::is_sorted(times.begin(), times.end()))
+    throw InputError("--times", "expected ascending times");
+  return times;
+}
+
+Json sample_json(const Sample& sample) {
+  const double* begin = sample.positions.data();
+  return {{"time_s", sample.time},
+          {"rms_stretch", sample.stretch.rms},
+          {"largest_stretch", sample.stretch.largest},
+          {"positions_m", std::vector<double>(begin, begin + sample.positions.size())}};
+}
+
+std::int64_t steps_of_frame(const MethodOptions& method) {
+  constexpr double kTolerance = 1e-9;  // [s]
+  const std::int64_t n_steps = std::llround(kFrame / method.step);
+  if (std::abs(static_cast<double>(n_steps) * method.step - kFrame) > kTolerance)
+    throw InputError("/method/step_s",
+                     "expected 1/60 s or a whole part of it, got " + Json(method.step).dump());
+  return n_steps;
+}
+
+/// Wall time, stretch and parts of a run, frame by frame, and its positions at the end of some
+/// frames.
+struct FrameSeries {
+  std::vector<double> ms;  // the first frame is not among them
+  std::vector<double> rms_stretch;
+  std::vector<double> largest_stretch;
+  Json samples = Json::array();
+  SolveReport report;  // residual the largest, iterations the sum
+};
+
+FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<double>& times) {
+  const std::int64_t n_steps = steps_of_frame(simulation.scene().method);
+  FrameSeries series;
+  std::size_t next = 0;
+  for (int frame = 0; frame < n_frames; ++frame) {
+    const Stopwatch watch;
+    for (std::int64_t step = 0; step < n_steps; ++step) {
+      SolveReport report = simulation.step();
+      series.report.iterations += report.iterations;
+      series.report.relative_residual =
+          std::max(series.report.relative_residual, report.relative_residual);
+      if (report.ok()) continue;
+      series.report.status = report.status;
+      series.report.message = std::move(report.message);
+    }
+    const double seconds = watch.elapsed();
+    if (frame > 0) series.ms.push_back(1e3 * seconds);
+    const Positions& positions = simulation.state().positions;
+    const Stretch now = stretch(simulation.model().springs, positions);
+    series.rms_stretch.push_back(now.rms);
+    series.largest_stretch.push_back(now.largest);
+    if (next < times.size() && simulation.time() > times[next] - kFrame / 2) {
+      series.samples.push_back(sample_json({simulation.time(), positions, now}));
+      ++next;
+    }
+  }
+  return series;
+}
+
+Json parts_json(const StageTimer& parts, int n_frames) {
+  Json json = Json::object();
+  for (int s = 0; s < kStageCount; ++s)
+    json[name(static_cast<Stage>(s))] = 1e3 * parts.total(static_cast<Stage>(s)) / n_frames;
+  return json;
+}
+
+Outcome bench_run(Arguments arguments) {
+  const bool wants_parts = arguments.flag("--parts");
+  const int n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(60);
+  const std::vector<double> times = take_times(arguments);
+  const Scene scene = take_scene(arguments);
+  arguments.finish();
+  steps_of_frame(scene.method);
+  Simulation simulation(scene);
+  StageTimer parts;
+  if (wants_parts) simulation.observe(&parts);
+  const FrameSeries series = run_frames(simulation, n_frames, times);
+  const auto& masses = simulation.model().masses;
+  Json json = {{"scene", scene.name},
+               {"method", json_method(scene.method)},
+               {"level", scene.level},
+               {"n_vertices", simulation.model().n_vertices()},
+               {"n_substeps", simulation.substeps()},
+               {"ms", series.ms},
+               {"rms_stretch", series.rms_stretch},
+               {"largest_stretch", series.largest_stretch},
+               {"residual", series.report.relative_residual},
+               {"iterations_per_frame", static_cast<double>(series.report.iterations) / n_frames},
+               {"status", name(series.report.status)},
+               {"message", series.report.message},
+               {"target", build_target()},
+               {"core", core_version()},
+               {"samples", series.samples},
+               {"masses_kg", std::vector<double>(masses.data(), masses.data() + masses.size())}};
+  if (wants_parts) json["parts_ms"] = parts_json(parts, n_frames);
+  if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
+  std::printf("%s\n", json.dump().c_str());
+  return series.report.ok() || series.report.status == SolveStatus::not_converged
+             ? Outcome::ok
+             : Outcome::check_failed;
+}
+
+/// The scene's own run, for taking it as a reference: its method is the one that makes it.
+Reference run_reference(const Scene& scene, const std::vector<double>& times,
+                        ReferenceStore& store) {
+  const std::string id = reference_id("run", scene, times);
+  if (auto known = store.find(id)) return *known;
+  SampledRun run(scene, times, SampledRun::Parts::untimed);
+  run.advance(std::numeric_limits<double>::infinity());
+  if (run.failed())
+    throw InputError("/method", "expected a run to its end, got: " + run.report().message);
+  const MethodOptions& method = run.simulation().scene().method;
+  const Reference reference{
+      {id,
+       std::string(name(method.stepper)) + " with " + name(method.solver) + ", step " +
+           Json(method.step / run.simulation().substeps()).dump() + " s",
+       false},
+      run.samples()};
+  store.keep(reference);
+  return reference;
+}
+
+Outcome bench_reference(Arguments arguments) {
+  const std::string kind = arguments.text("--kind").value_or("run");
+  if (kind != "run" && kind != "rigid_chain")
+    throw InputError("--kind", "expected run or rigid_chain, got \"" + kind + "\"");
+  const auto cache = arguments.text("--cache");
+  std::vector<double> times = take_times(arguments);
+  const Scene scene = take_scene(arguments);
+  arguments.finish();
+  if (times.empty()) times = {scene.duration};
+  std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
+  if (cache) store = std::make_unique<ReferenceFolder>(*cache);
+  const Reference reference =
+      kind == "run" ? run_reference(scene, times, *store) : chain_reference(scene, times);
+  Json samples = Json::array();
+  for (const Sample& sample : reference.samples) samples.push_back(sample_json(sample));
+  const Json json = {{"reference",
+                      {{"id", reference.label.id},
+                       {"description", reference.label.description},
+                       {"converged", reference.label.converged}}},
+                     {"rest_diagonal_m", rest_diagonal(scene)},
+                     {"samples", samples}};
+  std::printf("%s\n", json.dump().c_str());
+  return Outcome::ok;
+}
+
+}  // namespace
+
+Outcome bench_command(Arguments arguments) {
+  arguments.flag("--json");  // its only form
+  const std::string kind = arguments.word("what to measure: run or reference");
+  if (kind == "run") return bench_run(std::move(arguments));
+  if (kind == "reference") return bench_reference(std::move(arguments));
+  throw InputError(kind, "expected run or reference");
+}
+
+}  // namespace pleat

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "cli/arguments.h"
+
+namespace pleat {
+
+/// How a command ended; bad input throws InputError instead.
+enum class Outcome {
+  ok,
+  check_failed,  ///< it ran, but something it looked at is not as it should be
+};
+
+Outcome run_command(Arguments arguments);
+Outcome sweep_command(Arguments arguments);
+Outcome bench_command(Arguments arguments);
+
+}  // namespace pleat

@@ -1,0 +1,82 @@
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "core/base/check.h"
+#include "core/measure/core_version.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kExitCheckFailed = 1;
+constexpr int kExitBadInput = 2;
+constexpr int kExitOwnFault = 3;
+
+constexpr const char* kHelp =
+    R"(pleat run SCENE.json     compute a scene
+  --out DIR              write frames and metrics.json into this folder
+  --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
+  --drift                account for the energy: what no force explains is the method's own
+  --steps N | --duration S
+pleat sweep SCENE.json   compute it with many settings: milliseconds against error
+  --levels 0,1,2         refinement levels (default: the scene's)
+  --steppers A,B         of explicit, implicit, projective, xpbd (default: all)
+  --reference KIND       finest (default), or rigid_chain for a sheet that swings from its edge
+  --repeat N             timed runs of each setting (default 5)
+  --cache DIR            keep references here
+  --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
+  --duration S           compare over this time
+  --out FILE             write the rows as JSON lines
+pleat bench run SCENE.json        what one run costs, with positions to compare
+  --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions
+pleat bench reference SCENE.json  positions that are taken for right
+  --times T1,T2;  --kind run|rigid_chain;  --cache DIR
+pleat help | --version
+
+Changes to the scene, for every command:
+  --level N  --fabric NAME  --stepper NAME  --step S  --substeps N  --iterations N
+  --solver NAME  --tolerance X
+  --fabrics FILE         read the fabrics from here
+--json prints for machines. Exit status: 0 done, 1 ran but a check failed, 2 bad input.
+)";
+
+Outcome dispatch(const std::string& command, Arguments arguments) {
+  if (command == "run") return run_command(std::move(arguments));
+  if (command == "sweep") return sweep_command(std::move(arguments));
+  if (command == "bench") return bench_command(std::move(arguments));
+  if (command == "help" || command == "--help" || command == "-h") {
+    std::fputs(kHelp, stdout);
+    return Outcome::ok;
+  }
+  if (command == "--version") {
+    std::printf("pleat %s\n", core_version());
+    return Outcome::ok;
+  }
+  throw InputError(command, "unknown command; the commands are run, sweep, bench and help");
+}
+
+int run(const std::vector<std::string>& words) {
+  const std::string command = words.empty() ? "help" : words.front();
+  std::vector<std::string> rest(words.empty() ? words.end() : words.begin() + 1, words.end());
+  for (const std::string& word : rest)
+    if (word == "--help" || word == "-h") return run({"help"});
+  return dispatch(command, Arguments(std::move(rest))) == Outcome::ok ? 0 : kExitCheckFailed;
+}
+
+}  // namespace
+}  // namespace pleat
+
+int main(int argc, char** argv) {
+  try {
+    return pleat::run(std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const pleat::InputError& error) {
+    const std::string place = error.where().empty() ? "" : error.where() + ": ";
+    std::fprintf(stderr, "pleat: %s%s\n", place.c_str(), error.what());
+    return pleat::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pleat: this is a fault of the program: %s\n", error.what());
+    return pleat::kExitOwnFault;
+  }
+}

@@ -1,0 +1,32 @@
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace pleat {
+namespace {
+
+constexpr double kSilentStart = 0.5;       // [s]; what is shorter needs no progress
+constexpr double kTerminalInterval = 0.1;  // [s]
+constexpr double kLogInterval = 5;         // [s]
+
+}  // namespace
+
+Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0), next_(kSilentStart) {}
+
+Progress::~Progress() {
+  if (line_is_open_) std::fputs("\r\x1b[K", stderr);
+}
+
+void Progress::show(double share, const std::string& message) {
+  const double now = watch_.elapsed();
+  if (now < next_) return;
+  next_ = now + (on_terminal_ ? kTerminalInterval : kLogInterval);
+  std::fprintf(stderr, on_terminal_ ? "\r\x1b[K%3.0f %% %s" : "%3.0f %% %s\n", 100 * share,
+               message.c_str());
+  std::fflush(stderr);
+  line_is_open_ = on_terminal_;
+}
+
+}  // namespace pleat

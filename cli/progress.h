@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "core/measure/stage_timer.h"
+
+namespace pleat {
+
+/// Tells on stderr how far something long has come: a line that is rewritten on a terminal, else a
+/// line now and then.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// share  done, in [0, 1]
+  void show(double share, const std::string& message);
+
+ private:
+  Stopwatch watch_;
+  bool on_terminal_;
+  double next_;  // when to speak again [s]
+  bool line_is_open_ = false;
+};
+
+}  // namespace pleat

@@ -1,0 +1,28 @@
+#include "cli/reference_folder.h"
+
+#include "cli/text_file.h"
+#include "core/base/check.h"
+
+namespace pleat {
+
+std::filesystem::path ReferenceFolder::path(const std::string& id) const {
+  return folder_ / (id + ".reference");
+}
+
+std::optional<Reference> ReferenceFolder::find(const std::string& id) {
+  std::error_code error;
+  if (!std::filesystem::exists(path(id), error)) return std::nullopt;
+  try {
+    Reference reference = read_reference(read_file(path(id)));
+    if (reference.label.id == id) return reference;
+  } catch (const InputError&) {
+  }
+  return std::nullopt;
+}
+
+void ReferenceFolder::keep(const Reference& reference) {
+  make_folder(folder_);
+  write_file(path(reference.label.id), write_reference(reference));
+}
+
+}  // namespace pleat

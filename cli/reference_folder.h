@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/measure/reference.h"
+
+namespace pleat {
+
+/// Keeps references as files, one per id: a changed scene, method or core has another id and never
+/// meets an old one.
+class ReferenceFolder : public ReferenceStore {
+ public:
+  /// Made when the first reference is kept.
+  explicit ReferenceFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// A file that cannot be read as a reference counts as none.
+  std::optional<Reference> find(const std::string& id) override;
+  void keep(const Reference& reference) override;
+
+ private:
+  std::filesystem::path path(const std::string& id) const;
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace pleat

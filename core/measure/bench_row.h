@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/measure/reference.h"
+
+namespace pleat {
+
+/// One setting measured: what it costs and how wrong it is, never one without the other. A setting
+/// that failed is a row with its status; what could not be measured is NaN, in JSON null.
+struct BenchRow {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  /// Throws ContractError without a reference id.
+  explicit BenchRow(ReferenceLabel against);
+
+  std::string scene;
+  MethodOptions method;
+  int level = 0;
+  int n_vertices = 0;
+  int n_substeps = 0;  ///< of a step, as run
+
+  double ms_per_frame = kUnknown;  ///< wall time per simulated 1/60 s, median of the runs [ms]
+  double spread_ms = kUnknown;     ///< of ms_per_frame, slowest minus quickest run [ms]
+  int n_runs = 0;  ///< timed; each from a state built anew, its first step not counted
+  std::array<double, kStageCount> parts_ms{};  ///< per frame, from a run of its own [ms]
+
+  double position_error = kUnknown;          ///< RMS over the cloth and the sample times [m]
+  double position_error_percent = kUnknown;  ///< of the rest diagonal
+  double rms_stretch = kUnknown;             ///< over structural springs and sample times
+  double largest_stretch = kUnknown;
+  double rms_stretch_error = kUnknown;  ///< minus the reference's
+  double largest_stretch_error = kUnknown;
+  double residual = kUnknown;  ///< of the steps' own equations, the largest
+  double iterations_per_step = kUnknown;
+
+  ReferenceLabel reference;
+  std::string status = "ok";  ///< or the name of a SolveStatus, or "refused"
+  std::string message;
+  std::string target;                               ///< "native" or "wasm"
+  std::string commit;                               ///< what was measured
+  std::optional<std::int64_t> process_peak_memory;  ///< [bytes], where the platform tells
+
+  /// False for a run that was refused or ended early: such a row is on no front.
+  bool finished() const { return status == "ok" || status == "not_converged"; }
+  double ms_per_simulated_second() const { return 60 * ms_per_frame; }
+};
+
+/// One line of JSON without its end of line.
+std::string write_bench_row(const BenchRow& row);
+
+/// Throws InputError with the JSON pointer; a row without a reference id is refused.
+BenchRow read_bench_row(std::string_view json_text);
+
+/// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
+std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
+
+/// Rows as a Markdown table, those on the front marked.
+std::string markdown_table(std::span<const BenchRow> rows);
+
+}  // namespace pleat

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/fabric/spring_lattice.h"
+#include "core/scene/scene.h"
+
+namespace pleat {
+
+/// RMS distance of the same material points of one cloth in two states at the same time [m].
+///
+/// positions, reference  [m]; column i is the same material point in both. One may be the finer
+/// mesh: vertex i of a mesh
+///                       is vertex i of its refinements, so the first columns are compared.
+/// areas                 rest area of each compared point, all positive: weights, in any unit.
+///
+/// Throws ContractError unless `areas` has the smaller of both column counts.
+double position_error(const Eigen::Ref<const Positions>& positions,
+                      const Eigen::Ref<const Positions>& reference,
+                      const Eigen::Ref<const Eigen::VectorXd>& areas);
+
+/// Length that position errors are given in per cent of [m]: a sheet's diagonal, or that of the box
+/// around inline particles. 0 for a single particle.
+double rest_diagonal(const Scene& scene);
+
+/// |l/L - 1| over structural springs: along warp and weft, and those given by hand. Shear springs
+/// do not count, and neither do springs without length.
+struct Stretch {
+  double rms = 0;
+  double largest = 0;
+};
+
+Stretch stretch(std::span<const Spring> springs, const Eigen::Ref<const Positions>& positions);
+
+/// The signed mean l/L - 1 of the structural springs at each vertex, for colouring.
+class StrainMap {
+ public:
+  StrainMap(std::span<const Spring> springs, int n_vertices);
+
+  /// springs    those given first, their rest lengths may have changed
+  /// positions  [m]
+  /// Returns one number per vertex, 0 where no spring ends; valid until the next call. Never
+  /// allocates.
+  const std::vector<float>& update(std::span<const Spring> springs,
+                                   const Eigen::Ref<const Positions>& positions);
+
+ private:
+  std::vector<float> inverse_counts_;  // springs per vertex
+  std::vector<float> strains_;
+};
+
+}  // namespace pleat

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/measure/sampled_run.h"
+
+namespace pleat {
+
+/// What an error is measured against.
+struct ReferenceLabel {
+  std::string id;           ///< names the content; never empty
+  std::string description;  ///< a phrase for people
+  bool converged =
+      false;  ///< halving its mesh or step would change the errors by less than a quarter
+};
+
+/// Positions at given times that are taken for right.
+struct Reference {
+  ReferenceLabel label;
+  std::vector<Sample> samples;
+};
+
+/// Sixteen hexadecimal digits of 64-bit FNV-1a.
+std::string content_hash(std::string_view bytes);
+
+/// Id of a run of this scene at these times [s] by this version of the core: another scene, method
+/// or core has another one. `prefix` says what made it.
+std::string reference_id(std::string_view prefix, const Scene& scene,
+                         std::span<const double> times);
+
+/// Keeps references by id.
+class ReferenceStore {
+ public:
+  virtual ~ReferenceStore() = default;
+  virtual std::optional<Reference> find(const std::string& id) = 0;
+  virtual void keep(const Reference& reference) = 0;
+};
+
+/// Keeps them as long as it lives.
+class MemoryReferenceStore : public ReferenceStore {
+ public:
+  std::optional<Reference> find(const std::string& id) override;
+  void keep(const Reference& reference) override;
+
+ private:
+  std::map<std::string, Reference> references_;
+};
+
+/// One line of JSON with everything but positions, then those as little-endian float64, x y z of
+/// each vertex, sample after sample.
+std::string write_reference(const Reference& reference);
+
+/// Throws InputError for bytes that write_reference did not write.
+Reference read_reference(std::string_view bytes);
+
+}  // namespace pleat

@@ -1,0 +1,26 @@
+#include "core/measure/stage_timer.h"
+
+#include "core/base/check.h"
+
+namespace pleat {
+
+void StageTimer::charge_running() {
+  const double now = watch_.elapsed();
+  if (depth_ > 0) totals_[static_cast<std::size_t>(running_[depth_ - 1])] += now - last_;
+  last_ = now;
+}
+
+void StageTimer::begin(Stage stage) {
+  PLEAT_CHECK(depth_ < kMaxDepth, "parts of a step are nested at most four deep");
+  charge_running();
+  running_[depth_++] = stage;
+}
+
+void StageTimer::end(Stage stage) {
+  PLEAT_CHECK(depth_ > 0 && running_[depth_ - 1] == stage,
+              "the part that ends is the last that began");
+  charge_running();
+  --depth_;
+}
+
+}  // namespace pleat

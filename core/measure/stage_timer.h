@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+
+#include "core/dynamics/stage_observer.h"
+
+namespace pleat {
+
+/// A clock that only moves forward [s]. In a browser its ticks may be as coarse as 0.1 ms.
+class Stopwatch {
+ public:
+  /// Seconds since this watch was made.
+  double elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Adds up the time spent in each part of a step. A part inside another counts for itself alone.
+class StageTimer : public StageObserver {
+ public:
+  void begin(Stage stage) override;
+  void end(Stage stage) override;
+
+  double total(Stage stage) const { return totals_[static_cast<std::size_t>(stage)]; }  ///< [s]
+  void clear() { totals_.fill(0); }
+
+ private:
+  static constexpr std::size_t kMaxDepth = 4;
+
+  void charge_running();
+
+  Stopwatch watch_;
+  double last_ = 0;  // when the running part began or was resumed [s]
+  std::array<double, kStageCount> totals_{};
+  std::array<Stage, kMaxDepth> running_{};
+  std::size_t depth_ = 0;
+};
+
+}  // namespace pleat

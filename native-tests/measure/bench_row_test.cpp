@@ -1,0 +1,89 @@
+#include "core/measure/bench_row.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/scene/json_text.h"
+
+using namespace pleat;
+
+namespace {
+
+BenchRow measured_row() {
+  BenchRow row({"chain-00ff", "planar chain of 64 rigid links", true});
+  row.scene = "swinging \"sheet\"";
+  row.method.stepper = StepperKind::projective;
+  row.method.step = 1.0 / 120;
+  row.method.iterations = 7;
+  row.method.solver = SolverKind::eigen;
+  row.level = 3;
+  row.n_vertices = 4225;
+  row.n_substeps = 1;
+  row.ms_per_frame = 6.2;
+  row.spread_ms = 0.3;
+  row.n_runs = 5;
+  row.parts_ms = {0, 0.1, 0.2, 0, 5.9, 0};
+  row.position_error = 0.013;
+  row.position_error_percent = 0.92;
+  row.rms_stretch = 1.0 / 3;
+  row.largest_stretch = 0.5;
+  row.rms_stretch_error = -1e-5;
+  row.largest_stretch_error = 1e-4;
+  row.residual = 1e-3;
+  row.iterations_per_step = 7;
+  row.target = "native";
+  row.commit = "abc";
+  row.process_peak_memory = 123456789;
+  return row;
+}
+
+}  // namespace
+
+TEST_CASE("bench_row: a row reads back to what was written", "[measure]") {
+  const BenchRow row = measured_row();
+  const std::string line = write_bench_row(row);
+  CHECK(line.find('\n') == std::string::npos);
+  const BenchRow read = read_bench_row(line);
+  CHECK(read.scene == row.scene);
+  CHECK(read.method.stepper == StepperKind::projective);
+  CHECK(read.rms_stretch == row.rms_stretch);
+  CHECK(read.process_peak_memory == row.process_peak_memory);
+  CHECK(write_bench_row(read) == line);
+}
+
+TEST_CASE("bench_row: a row without a reference cannot be made", "[measure]") {
+  CHECK_THROWS_AS(BenchRow(ReferenceLabel{}), ContractError);
+  Json json = parse_json(write_bench_row(measured_row()));
+  json["reference"]["id"] = "";
+  CHECK_THROWS_AS(read_bench_row(json.dump()), InputError);
+  json.erase("reference");
+  CHECK_THROWS_AS(read_bench_row(json.dump()), InputError);
+}
+
+TEST_CASE("bench_row: a failed run is a row with its status and nulls", "[measure]") {
+  BenchRow row({"chain-00ff", "", true});
+  row.status = "not_finite";
+  const Json json = parse_json(write_bench_row(row));
+  CHECK(json.at("position_error_m").is_null());
+  CHECK(json.at("ms_per_simulated_second").is_null());
+  const BenchRow read = read_bench_row(json.dump());
+  CHECK(std::isnan(read.position_error));
+  CHECK_FALSE(read.finished());
+}
+
+TEST_CASE("bench_row: milliseconds per second are sixty frames", "[measure]") {
+  const Json json = parse_json(write_bench_row(measured_row()));
+  CHECK(json.at("ms_per_simulated_second").get<double>() == Approx(60 * 6.2));
+}
+
+TEST_CASE("bench_row: failed rows are on no front", "[measure]") {
+  std::vector<BenchRow> rows(3, measured_row());
+  rows[0].ms_per_frame = 1;
+  rows[0].status = "not_finite";
+  rows[1].ms_per_frame = 2;
+  rows[2].ms_per_frame = 3;
+  CHECK(front_of(rows) == std::vector<std::size_t>{1});
+  const std::string table = markdown_table(rows);
+  CHECK(std::count(table.begin(), table.end(), '*') == 1);
+}
