@@ -344,4 +344,13 @@ TEST_CASE("scene file: the scenes that come with the program have a name and a c
   }
 }
 
+TEST_CASE("scene file: the example of the documentation is a scene", "[scene]") {
+  const std::string page = repository_file("docs/methods/scene_format.md");
+  const std::string fence = "```json\n";
+  const std::size_t begin = page.find(fence) + fence.size();
+  const Scene scene = read(page.substr(begin, page.find("```", begin) - begin));
+  CHECK(write_scene(scene).find("\"swinging sheet\"") != std::string::npos);
+  CHECK(scene.pins.size() == 1);
+}
+
 }  // namespace pleat
