@@ -353,4 +353,21 @@ TEST_CASE("scene file: the example of the documentation is a scene", "[scene]") 
   CHECK(scene.pins.size() == 1);
 }
 
+TEST_CASE("scene file: each number of a scene's own fabric arrives in its place", "[scene]") {
+  const Scene scene = read(R"({"cloth": {"sheet": {}}, "fabric": {"areal_density_kg_per_m2": 0.2,
+      "thickness_m": 0.001, "stretch_warp_n_per_m": 3000, "stretch_weft_n_per_m": 2000,
+      "shear_n_per_m": 40, "bend_warp_n_m": 5e-6, "bend_weft_n_m": 6e-6, "damping_ratio": 0.07,
+      "friction_solid": 0.8}})");
+  CHECK_FALSE(scene.fabric_is_named);
+  CHECK(scene.fabric.areal_density == 0.2);
+  CHECK(scene.fabric.thickness == 0.001);
+  CHECK(scene.fabric.stretch_warp == 3000);
+  CHECK(scene.fabric.stretch_weft == 2000);
+  CHECK(scene.fabric.shear == 40);
+  CHECK(scene.fabric.bend_warp == 5e-6);
+  CHECK(scene.fabric.bend_weft == 6e-6);
+  CHECK(scene.fabric.damping_ratio == 0.07);
+  CHECK(scene.fabric.friction_solid == 0.8);
+}
+
 }  // namespace pleat
