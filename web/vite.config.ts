@@ -1,12 +1,13 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
-import { firstLoadBudget } from './build-checks/first-load-budget';
+import { firstLoadBudget } from './build-steps/first-load-budget.ts';
+import { offlineCopy } from './build-steps/offline-copy.ts';
 
 const repository = fileURLToPath(new URL('..', import.meta.url));
 
 export default defineConfig({
   base: './', // any static folder will do
-  plugins: [firstLoadBudget()],
+  plugins: [offlineCopy(), firstLoadBudget()],
   server: { fs: { allow: [repository] } }, // fabrics and scenes lie in assets/
   worker: { format: 'es' },
   build: {

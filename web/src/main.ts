@@ -119,6 +119,11 @@ window.addEventListener('hashchange', () => {
   store.set({ ...read.link, problem: initialState(read.link, read.problems).problem });
 });
 
+if (import.meta.env.PROD && 'serviceWorker' in navigator) {
+  // Without it (a page opened from an insecure address) the page works, but only while served.
+  navigator.serviceWorker.register('./offline.js').catch(() => undefined);
+}
+
 // For the console and for tests: the state and the present frame, to look at.
 Object.assign(window, {
   pleat: {

@@ -5,7 +5,7 @@ import { BOUND_METHODS, type PleatModule } from '../src/sim/wasm-module';
 import { createWorkerCore } from '../src/sim/worker-core';
 import { fabricsText } from '../src/state/fabric-data';
 import { presetSetting, type Setting, STEPPERS, sceneOf, withStepper } from '../src/state/setting';
-import { sweepPlan } from '../src/state/sweep-plan';
+import { settingOfRow, sweepPlan } from '../src/state/sweep-plan';
 import { createFakeModule } from './support/fake-module';
 
 const wasmFile = new URL('../src/wasm/pleat.wasm', import.meta.url);
@@ -147,8 +147,30 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
     }
     send({ type: 'releaseGrab' });
     send({ type: 'moveGrab', target: [9, 9, 9] });
-    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[0] });
-    expect(Math.max(...frameViews(take('frame').buffer).positions)).toBeLessThan(8);
+    send({ type: 'step', count: 20, wantsNumbers: false, request: 1, buffer: loaded.buffers[0] });
+    const free = frameViews(take('frame').buffer).positions;
+    expect(Math.max(...free)).toBeLessThan(8);
+    const away = [0, 1, 2].map((axis) => (free[3 * vertex + axis] ?? 0) - (target[axis] ?? 0));
+    expect(Math.hypot(...away)).toBeGreaterThan(0.001);
+  });
+
+  it('measures a small sweep: every row with speed, error and reference', async () => {
+    const { send, take, posted } = open(await load());
+    const { scene, methods } = sweepPlan(setting, 0);
+    const plan = { scene, methods: methods.slice(0, 5), levels: [0], duration_s: 0.1, repeats: 1 };
+    send({ type: 'sweep', planText: JSON.stringify(plan) });
+    expect(take('sweepStarted').nRuns).toBe(5);
+    const { report } = posted.at(-1) as Sent<'sweepReport'>;
+    expect(report.done).toBe(true);
+    expect(report.rows).toHaveLength(5);
+    for (const row of report.rows) {
+      expect(row.status).toBe('ok');
+      expect(row.reference.id).not.toBe('');
+      expect(row.reference.converged).toBe(false);
+      expect(row.ms_per_frame).toBeGreaterThan(0);
+      expect(row.position_error_m).toBeGreaterThan(0);
+      expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
+    }
   });
 
   it('drops a buffer of another mesh instead of writing beyond it', async () => {

@@ -10,7 +10,7 @@ const HEADS = ['Setting', 'ms a frame', 'Error', 'RMS stretch'];
 /** Each value with what explains it, by column after the first. */
 function cells(row: BenchRow): [string, string][] {
   return [
-    [milliseconds(row.ms_per_frame), `spread ${digits(row.spread_ms, 2)}`],
+    [milliseconds(row.ms_per_frame), `spread ${milliseconds(row.spread_ms)}`],
     [smallLength(row.position_error_m), `${digits(row.position_error_percent, 2)} % of diagonal`],
     [percent(row.rms_stretch), `largest ${percent(row.largest_stretch)}`],
   ];

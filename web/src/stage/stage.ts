@@ -66,9 +66,11 @@ const POLAR = 1.32;
 function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
   const box = new Box3().setFromArray(positions);
   const reach = box.getSize(new Vector3());
-  // A sheet that lies level at first will hang: leave room for its length below.
-  if (reach.y < 0.25 * Math.max(reach.x, reach.z) && colliders.every((c) => c.shape === 'plane')) {
-    box.min.y -= 0.9 * Math.max(reach.x, reach.z);
+  // A sheet that lies level at first will swing: leave room for its length below and around.
+  const across = Math.max(reach.x, reach.z);
+  if (reach.y < 0.25 * across && colliders.every((collider) => collider.shape === 'plane')) {
+    box.min.y -= 0.8 * across;
+    box.expandByVector(new Vector3(0.15 * across, 0, 0.15 * across));
   }
   for (const collider of colliders) {
     if (collider.shape !== 'sphere') continue;

@@ -129,9 +129,11 @@ export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): 
   const stopSummary = watch(store, ['summary'], ({ summary, setting }) => {
     if (!summary) return;
     const { n_vertices, n_springs, n_bends, built, left_out, notes } = summary;
+    const isAutomatic = setting.stepper === 'explicit' && setting.substeps === 0;
+    const substeps = isAutomatic ? ` One step takes ${summary.substeps} substeps.` : '';
     setText(
       meshNote,
-      `${n_vertices} vertices, ${n_springs} springs, ${n_bends} bends. Each level halves the mesh size.`,
+      `${n_vertices} vertices, ${n_springs} springs, ${n_bends} bends. Each level halves the mesh size.${substeps}`,
     );
     const parts = [
       built.length > 0 ? `Built: ${built.join(', ')}.` : '',

@@ -1,9 +1,15 @@
 // Starts and cancels the sweep, and tells how far it is.
 import type { Sweep } from '../sim/sweep';
 import type { AppState } from '../state/app-state';
-import { LEVELS } from '../state/setting';
 import { type Store, watch } from '../state/store';
 import { choice, element, field, setText } from './element';
+
+/** Finest level of a sweep; each one more takes about ten times as long. */
+const FINEST = [
+  { value: 1, title: '0 to 1, quick' },
+  { value: 2, title: '0 to 2' },
+  { value: 3, title: '0 to 3, takes minutes' },
+];
 
 export function createSweepPanel(
   parent: HTMLElement,
@@ -11,12 +17,9 @@ export function createSweepPanel(
   sweep: Sweep,
 ): () => void {
   let finest = 2;
-  const levels = choice(
-    LEVELS.slice(1).map((level) => ({ value: level, title: `0 to ${level}` })),
-    (level) => {
-      finest = level;
-    },
-  );
+  const levels = choice(FINEST, (level) => {
+    finest = level;
+  });
   levels.select(finest);
   const start = element(
     'button',

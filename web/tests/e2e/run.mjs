@@ -224,7 +224,7 @@ await check('the read-out shows cost in parts, stretch and residual after some p
 
 await check('the sweep fills chart and table, and a click on a point applies it', () =>
   visit('#scene=swinging-sheet&level=0', async (page) => {
-    await choice(page, 'Levels').selectOption({ label: '0 to 1' });
+    await choice(page, 'Levels').selectOption({ label: '0 to 1, quick' });
     await button(page, 'Measure speed and error').click();
     await page.getByRole('progressbar').waitFor();
     await until(page, (state) => state.sweep.rows.length >= 2);
@@ -256,7 +256,7 @@ await check('the sweep fills chart and table, and a click on a point applies it'
 
 await check('a cancelled sweep stops at once and keeps its rows', () =>
   visit('#scene=swinging-sheet&level=0', async (page) => {
-    await choice(page, 'Levels').selectOption({ label: '0 to 1' });
+    await choice(page, 'Levels').selectOption({ label: '0 to 1, quick' });
     await button(page, 'Measure speed and error').click();
     await until(page, (state) => state.sweep.rows.length >= 1);
     await button(page, 'Cancel').click();
@@ -334,6 +334,19 @@ for (const [width, height] of [
     ),
   );
 }
+
+await check('once loaded, the page and its sweep work without a network', () =>
+  visit('#scene=swinging-sheet&level=0', async (page) => {
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await page.context().setOffline(true);
+    await page.reload();
+    await isReady(page);
+    await choice(page, 'Levels').selectOption({ label: '0 to 1, quick' });
+    await button(page, 'Measure speed and error').click();
+    await until(page, (state) => state.sweep.phase === 'running' && state.sweep.progress > 0);
+    await button(page, 'Cancel').click();
+  }),
+);
 
 await check('without WebGL: a sentence, and the numbers still run', async () => {
   const { page, close } = await open('#scene=curtain&level=0', {
