@@ -1,6 +1,6 @@
-// Wiring only: the store, the session, the stage and the panels, and the state in the address.
+// Wiring only: the store, the playback, the stage and the panels, and the state in the address.
 import './design.css';
-import { createSession, type Session } from './sim/session';
+import { createPlayback, type Playback } from './sim/playback';
 import { createSweep } from './sim/sweep';
 import { createStage, type Stage } from './stage/stage';
 import { initialState } from './state/app-state';
@@ -39,18 +39,18 @@ const canvas = element('canvas', {
 });
 stageBox.append(canvas);
 
-let session: Session | null = null;
+let playback: Playback | null = null;
 let stage: Stage | null = null;
 
 function togglePlay(): void {
-  if (store.get().playing) session?.pause();
-  else session?.play();
+  if (store.get().playing) playback?.pause();
+  else playback?.play();
 }
 
 const stageKeys: Record<string, () => void> = {
   ' ': togglePlay,
-  '.': () => session?.step(),
-  r: () => session?.reset(),
+  '.': () => playback?.step(),
+  r: () => playback?.reset(),
 };
 
 const invitation = createInvitation(stageBox, store);
@@ -59,11 +59,11 @@ createHeatLegend(stageBox, store);
 try {
   stage = createStage(stageBox, canvas, {
     grab(vertex) {
-      session?.play();
-      session?.grab(vertex);
+      playback?.play();
+      playback?.grab(vertex);
     },
-    moveGrab: (target) => session?.moveGrab(target),
-    releaseGrab: () => session?.releaseGrab(),
+    moveGrab: (target) => playback?.moveGrab(target),
+    releaseGrab: () => playback?.releaseGrab(),
     key(name) {
       stageKeys[name]?.();
       return name in stageKeys;
@@ -87,11 +87,11 @@ try {
   store.set({ problem: { source: 'browser', sentence } });
 }
 
-session = createSession(store, {
+playback = createPlayback(store, {
   showMesh: (...mesh) => stage?.showMesh(...mesh),
   showFrame: (buffer) => stage?.showFrame(buffer),
 });
-const { play, pause, step, reset } = session;
+const { play, pause, step, reset } = playback;
 const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
 
 createProblemBanner(place('messages'), store, actions);

@@ -1,10 +1,10 @@
 // Play, pause, step, reset, speed, view: one row under the stage.
-import type { Session } from '../sim/session';
+import type { Playback } from '../sim/playback';
 import type { AppState } from '../state/app-state';
 import { type Store, watch } from '../state/store';
 import { choice, element, setText } from './element';
 
-export interface ToolbarActions extends Pick<Session, 'play' | 'pause' | 'step' | 'reset'> {
+export interface ToolbarActions extends Pick<Playback, 'play' | 'pause' | 'step' | 'reset'> {
   homeView(): void;
 }
 

@@ -19,14 +19,14 @@ const LONGEST_AHEAD_MS = 4000;
 /** The pace is measured over this much of the clock [s]. */
 const PACE_WINDOW_S = 1;
 
-export interface SessionView {
+export interface PlaybackView {
   /** A new mesh; its first frame follows at once. */
   showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
   /** The buffer stays valid until the next call. */
   showFrame(buffer: ArrayBuffer): void;
 }
 
-export interface Session {
+export interface Playback {
   play(): void;
   pause(): void;
   step(): void;
@@ -44,7 +44,7 @@ function sentenceOf(failure: Failure): string {
 }
 
 /** Opens the worker, loads the state's setting, and follows the store from then on. */
-export function createSession(store: Store<AppState>, view: SessionView): Session {
+export function createPlayback(store: Store<AppState>, view: PlaybackView): Playback {
   const pacer = createPacer();
   const timer = createStepTimer();
   const client = startWorker(receive, broken);
