@@ -95,10 +95,14 @@ Outcome bench_run(Arguments arguments) {
   const bool wants_parts = arguments.flag("--parts");
   const int n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(60);
   const std::vector<double> times = take_times(arguments);
-  const Scene scene = take_scene(arguments);
+  const SceneInput input = take_scene(arguments);
+  const Scene& scene = input.scene;
   arguments.finish();
-  steps_of_frame(scene.method);
-  Simulation simulation(scene);
+  const auto built = with_file_named(input.file, [&] {
+    steps_of_frame(scene.method);
+    return std::make_unique<Simulation>(scene);
+  });
+  Simulation& simulation = *built;
   StageTimer parts;
   if (wants_parts) simulation.observe(&parts);
   const FrameSeries series = run_frames(simulation, n_frames, times);
@@ -153,13 +157,15 @@ Outcome bench_reference(Arguments arguments) {
     throw InputError("--kind", "expected run or rigid_chain, got \"" + kind + "\"");
   const auto cache = arguments.text("--cache");
   std::vector<double> times = take_times(arguments);
-  const Scene scene = take_scene(arguments);
+  const SceneInput input = take_scene(arguments);
+  const Scene& scene = input.scene;
   arguments.finish();
   if (times.empty()) times = {scene.duration};
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
-  const Reference reference =
-      kind == "run" ? run_reference(scene, times, *store) : chain_reference(scene, times);
+  const Reference reference = with_file_named(input.file, [&] {
+    return kind == "run" ? run_reference(scene, times, *store) : chain_reference(scene, times);
+  });
   Json samples = Json::array();
   for (const Sample& sample : reference.samples) samples.push_back(sample_json(sample));
   const Json json = {{"reference",

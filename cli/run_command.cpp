@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 
 #include "cli/commands.h"
@@ -157,9 +158,12 @@ Outcome run_command(Arguments arguments) {
   const bool wants_drift = arguments.flag("--drift");
   const auto out = arguments.text("--out");
   const auto dump = arguments.text("--dump");
-  const Scene scene = take_scene(arguments);
+  const SceneInput input = take_scene(arguments);
+  const Scene& scene = input.scene;
   arguments.finish();
-  Simulation simulation(scene);
+  const auto built =
+      with_file_named(input.file, [&] { return std::make_unique<Simulation>(scene); });
+  Simulation& simulation = *built;
 
   if (dump) {
     make_folder(*dump);

@@ -62,7 +62,7 @@ FabricLibrary take_fabrics(Arguments& arguments) {
   }
 }
 
-Scene take_scene(Arguments& arguments) {
+SceneInput take_scene(Arguments& arguments) {
   const FabricLibrary fabrics = take_fabrics(arguments);
   std::vector<Override> used;
   std::vector<std::string> values;
@@ -82,7 +82,7 @@ Scene take_scene(Arguments& arguments) {
     // An option may hold bytes that are no text.
     Scene scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics);
     if (n_steps) scene.duration = *n_steps * scene.method.step;
-    return scene;
+    return {std::move(scene), file};
   } catch (const InputError& error) {
     name_source(error, file, used);
   }

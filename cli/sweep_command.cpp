@@ -108,7 +108,8 @@ Outcome sweep_command(Arguments arguments) {
   SweepPlan plan;
   plan.reference = take_reference_kind(arguments);
   plan.n_repeats = arguments.whole_number("--repeat", 1, 1000).value_or(plan.n_repeats);
-  plan.scene = take_scene(arguments);
+  const SceneInput input = take_scene(arguments);
+  plan.scene = input.scene;
   plan.duration = plan.scene.duration;
   plan.levels = take_levels(arguments, plan.scene);
   plan.methods = take_methods(arguments, plan.scene.method);
@@ -120,7 +121,7 @@ Outcome sweep_command(Arguments arguments) {
   {
     Progress progress;
     while (!sweep.done()) {
-      sweep.advance(kSlice);
+      with_file_named(input.file, [&] { sweep.advance(kSlice); });
       progress.show(sweep.progress(), sweep.message());
     }
   }

@@ -1,0 +1,100 @@
+// Rows with speed and error, the table they are printed in, and goal lines.
+
+export function median(values) {
+  const sorted = [...values].sort((a, b) => a - b);
+  const middle = sorted.length >> 1;
+  return sorted.length % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+}
+
+export const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
+
+/** RMS distance of the same vertices, weighted by their masses, which are areas times a constant [m]. */
+export function positionError(positions, right, masses) {
+  let sum = 0;
+  let weight = 0;
+  masses.forEach((mass, i) => {
+    for (let q = 3 * i; q < 3 * i + 3; ++q) sum += mass * (positions[q] - right[q]) ** 2;
+    weight += mass;
+  });
+  return Math.sqrt(sum / weight);
+}
+
+/**
+ * Runs the contestants in turn, `repeat` rounds, so that a change of the machine's speed meets all of them alike, and makes a row
+ * of each. contestants: [{label, scene, level, vertices, method, run: async (times) => run}]; positions are taken in the first round.
+ */
+export async function measure(contestants, { repeat, times, against, masses, commit, tell }) {
+  if (!against?.reference?.id) throw new Error('no error, no row: a row names what it is measured against');
+  const rounds = contestants.map(() => []);
+  for (let round = 0; round < repeat; ++round) {
+    for (const [i, contestant] of contestants.entries()) {
+      tell(`round ${round + 1} of ${repeat}: ${contestant.label}`);
+      rounds[i].push(await contestant.run(round === 0 ? times : []));
+    }
+  }
+  return contestants.map((contestant, i) => makeRow(contestant, rounds[i], { times, against, masses, commit }));
+}
+
+function makeRow(contestant, runs, { times, against, masses, commit }) {
+  const [first] = runs;
+  const frameTimes = runs.map((run) => median(run.ms));
+  const errors = times.map((time, t) =>
+    first.samples[t] ? positionError(first.samples[t], against.samples[t].positions_m, masses ?? first.masses) : null,
+  );
+  const last = errors.at(-1);
+  return {
+    scene: contestant.scene,
+    label: contestant.label,
+    method: contestant.method,
+    n_vertices: contestant.vertices,
+    target: first.target,
+    ms_per_frame: median(frameTimes),
+    ms_per_simulated_second: 60 * median(frameTimes),
+    spread_ms: Math.max(...frameTimes) - Math.min(...frameTimes),
+    n_runs: runs.length,
+    parts_ms: first.parts ?? null,
+    rms_stretch: mean(first.rms),
+    largest_stretch: mean(first.largest),
+    rms_stretch_worst_frame: Math.max(...first.rms),
+    position_errors_m: Object.fromEntries(times.map((time, t) => [`${time} s`, errors[t]])),
+    position_error_m: last,
+    position_error_percent: last === null ? null : (100 * last) / against.rest_diagonal_m,
+    residual: first.residual ?? null,
+    reference: against.reference,
+    status: first.status,
+    message: first.message,
+    commit,
+    process_peak_memory_bytes: first.memory ?? null,
+  };
+}
+
+function short(value) {
+  if (value === null || value === undefined || Number.isNaN(value)) return '-';
+  return Number(value.toPrecision(3)).toString();
+}
+
+export function table(rows) {
+  const head = ['contestant', 'target', 'vertices', 'ms/frame', 'spread', 'rms stretch %', 'largest %', 'errors mm', '% (last)', 'memory MB', 'status'];
+  const lines = rows.map((row) => [
+    row.label,
+    row.target,
+    row.n_vertices,
+    short(row.ms_per_frame),
+    short(row.spread_ms),
+    short(100 * row.rms_stretch),
+    short(100 * row.largest_stretch),
+    Object.values(row.position_errors_m).map((error) => short(error === null ? null : 1e3 * error)).join(' / '),
+    short(row.position_error_percent),
+    short(row.process_peak_memory_bytes && row.process_peak_memory_bytes / 1e6),
+    row.status,
+  ]);
+  const widths = head.map((title, c) => Math.max(title.length, ...lines.map((line) => String(line[c]).length)));
+  const print = (cells) => `| ${cells.map((cell, c) => String(cell).padEnd(widths[c])).join(' | ')} |`;
+  return [print(head), print(widths.map((width) => '-'.repeat(width))), ...lines.map(print)].join('\n');
+}
+
+/** A promised figure: `goal NAME VALUE at-most|at-least BOUND ok|short`. */
+export function goal(name, value, direction, bound) {
+  const ok = direction === 'at-most' ? value <= bound : value >= bound;
+  return { name, ok, line: `goal ${name} ${short(value)} ${direction} ${short(bound)} ${ok ? 'ok' : 'short'}` };
+}
