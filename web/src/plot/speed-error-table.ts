@@ -48,7 +48,7 @@ export function createSpeedErrorTable(
       title,
     );
     const heading = element('th', { scope: 'row' }, use);
-    heading.append(element('small', {}, `${row.n_vertices} vertices`));
+    if (row.n_vertices > 0) heading.append(element('small', {}, `${row.n_vertices} vertices`));
     if (row.status === 'not_converged') heading.append(' (solve cut short)');
     if (isFront) heading.append(' ', element('span', { class: 'badge' }, 'front'));
     const data = hasFinished(row)

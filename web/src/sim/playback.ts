@@ -16,6 +16,9 @@ const NUMBERS_EVERY_MS = 200;
 /** Running ahead of the first picture gives up after this much of the clock [ms]. */
 const LONGEST_AHEAD_MS = 4000;
 
+/** Of a technical reason, as much is quoted. */
+const MOST_REASON = 100;
+
 /** The pace is measured over this much of the clock [s]. */
 const PACE_WINDOW_S = 1;
 
@@ -62,7 +65,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   let paceMark = { clockMs: 0, timeS: 0 };
 
   function broken(reason: string): void {
-    const sentence = `The cloth cannot be computed: ${reason}. It needs WebAssembly with SIMD and exceptions, which current browsers have.`;
+    const sentence = `The cloth cannot be computed: its WebAssembly part did not start (${reason.slice(0, MOST_REASON)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
     store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
   }
 
