@@ -35,7 +35,7 @@ std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptio
       substeps = {1, 4};
       break;
     case StepperKind::projective:
-      method.solver = is_available(SolverKind::cholmod) ? SolverKind::cholmod : SolverKind::eigen;
+      method.solver = best_direct_solver();
       method.iterations = 5;
       substeps = {1, 4};
       break;

@@ -74,6 +74,11 @@ val summary(const pleat::Simulation& simulation) {
   result.set("substeps", simulation.substeps());
   result.set("built", json_array(report.built));
   result.set("left_out", json_array(report.left_out));
+  std::vector<std::string> notes;
+  if (!pleat::is_available(pleat::SolverKind::cholmod))
+    notes.emplace_back(
+        "CHOLMOD's source could not be had when this module was built; Eigen's Cholesky serves.");
+  result.set("notes", json_array(notes));
   return result;
 }
 

@@ -35,6 +35,10 @@ bool is_available(SolverKind kind) {
 #endif
 }
 
+SolverKind best_direct_solver() {
+  return is_available(SolverKind::cholmod) ? SolverKind::cholmod : SolverKind::eigen;
+}
+
 std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, int block_size,
                                                  const SolverOptions& options) {
   PLEAT_CHECK(block_size == 1 || block_size == 3, "the block size must be 1 or 3");

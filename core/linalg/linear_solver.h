@@ -43,6 +43,9 @@ struct SolverOptions {
 /// False for cholmod where SuiteSparse's source could not be had when this was built.
 bool is_available(SolverKind kind);
 
+/// The direct solver to prefer: cholmod where there is one, else eigen.
+SolverKind best_direct_solver();
+
 /// block_size  unknowns per vertex, 1 or 3: cg preconditions by the inverse of these diagonal
 /// blocks and works on
 ///             blocks; the direct solvers ignore it. n must be a multiple of it.

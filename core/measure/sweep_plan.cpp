@@ -95,7 +95,7 @@ Scene finest_scene(const SweepPlan& plan) {
   scene.method = MethodOptions{};
   scene.method.stepper = StepperKind::implicit_euler;
   scene.method.step = kShareOfSmallest * smallest;
-  scene.method.solver = is_available(SolverKind::cholmod) ? SolverKind::cholmod : SolverKind::eigen;
+  scene.method.solver = best_direct_solver();
   return scene;
 }
 

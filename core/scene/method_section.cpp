@@ -63,6 +63,8 @@ void read_method(const JsonReader& reader, MethodOptions& method) {
   if (const auto at = reader.find("substeps")) method.substeps = read_substeps(*at, method.stepper);
   if (const auto at = reader.find("iterations"))
     method.iterations = static_cast<int>(at->integer(1, kMaxIterations));
+  // projective keeps a factor, which the general default has not.
+  if (method.stepper == StepperKind::projective) method.solver = best_direct_solver();
   if (const auto at = reader.find("solver")) method.solver = at->word(kSolvers);
   if (const auto at = reader.find("tolerance")) method.tolerance = at->number(kTolerance);
   if (const auto at = reader.find("constraints")) method.constraints_rigid = at->word(kConstraints);

@@ -68,7 +68,8 @@ struct Scene {
   bool fabric_is_named =
       false;  ///< then fabric.name is a library fabric, else the numbers are the scene's own
   FabricConstants fabric;
-  std::vector<std::string> fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
+  std::vector<std::string>
+      fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   SpringModel model;
   int level = 0;  ///< uniform refinements, 0 to 8
   std::vector<PinRule> pins;

@@ -40,7 +40,8 @@ class Simulation {
 
   const Scene& scene() const { return scene_; }
   const ClothModel& model() const { return model_; }
-  /// The scene's own springs. Those of the model have other rest lengths for kCarryOverTime after carry_over.
+  /// The scene's own springs. Those of the model have other rest lengths for kCarryOverTime after
+  /// carry_over.
   const std::vector<Spring>& springs() const { return springs_; }
   const State& state() const { return state_; }
   const QuadMesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }  ///< null for inline particles
@@ -74,7 +75,8 @@ class Simulation {
   double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
   std::int64_t n_steps_ = 0;
   std::optional<Grab> grab_;
-  std::vector<Spring> springs_;  // the scene's own; the model's rest lengths differ while it takes motion over
+  std::vector<Spring>
+      springs_;  // the scene's own; the model's rest lengths differ while it takes motion over
   std::vector<double>
       carried_rest_lengths_;  // what a carried-over cloth starts from, else empty [m]
   SolveReport ended_;
