@@ -88,7 +88,8 @@ LaneLayout lane_layout(const ClothModel& model) {
       layout.places[static_cast<std::size_t>(rows[r][c])] = {row, column, slot};
     }
   }
-  layout.n_slots = static_cast<int>(rows.size()) * row_slots + 2 * kLanes;
+  layout.n_rows = static_cast<int>(rows.size());
+  layout.n_slots = layout.n_rows * row_slots + 2 * kLanes;
   return layout;
 }
 

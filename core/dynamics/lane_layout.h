@@ -27,7 +27,10 @@ struct LaneLayout {
   };
   std::vector<Place> places;  ///< one per vertex
   int stride = 0;             ///< columns per piece
-  int n_slots = 0;            ///< a multiple of 4, padding included
+  int n_rows = 0;
+  int n_slots = 0;  ///< a multiple of 4, padding included
+
+  int row_slots() const { return 4 * stride; }
 
   int piece_column(const Place& place) const { return place.column % stride; }
 };

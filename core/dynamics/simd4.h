@@ -113,6 +113,12 @@ inline Float4 where_positive(Float4 condition, Float4 a) {
 }
 #endif
 
+inline double sum_of_lanes(Float4 a) {
+  float lanes[4];
+  a.store(lanes);
+  return (static_cast<double>(lanes[0]) + lanes[1]) + (static_cast<double>(lanes[2]) + lanes[3]);
+}
+
 /// Three components of four (or one) vectors.
 template <class Lanes>
 struct Vec3Lanes {

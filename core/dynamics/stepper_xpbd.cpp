@@ -1,6 +1,7 @@
 #include "core/dynamics/stepper_xpbd.h"
 
-#include "core/base/check.h"
+#include <cmath>
+
 #include "core/dynamics/simd4.h"
 
 namespace pleat {
@@ -22,7 +23,9 @@ double step_of(const MethodOptions& options) { return options.step / options.sub
 StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps),
       layout_(lane_layout(model)),
-      program_(model, layout_, options.constraints_rigid, step_of(options)),
+      springs_(model, layout_, options.constraints_rigid, step_of(options)),
+      bends_(model, layout_, step_of(options)),
+      mean_mass_(model.masses.mean()),
       pitch_(pitch_for(layout_.n_slots)),
       data_(pitch_ * kArrays, 0.0f) {
   const double h = step_of(options);
@@ -35,14 +38,13 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
 void StepperXpbd::refresh() {
   float* const inverse_masses = array(inverse_mass);
   for (int i = 0; i < model_.n_vertices(); ++i)
-    inverse_masses[slot_of(VertexId(i))] =
-        static_cast<float>(program_.mean_mass() / model_.masses[i]);
+    inverse_masses[slot_of(VertexId(i))] = static_cast<float>(mean_mass_ / model_.masses[i]);
   for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
   pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
   refresh_rest_lengths();
 }
 
-void StepperXpbd::refresh_rest_lengths() { program_.refresh_rest_lengths(model_); }
+void StepperXpbd::refresh_rest_lengths() { springs_.refresh_rest_lengths(model_); }
 
 LaneView StepperXpbd::view() {
   return {{array(move), array(move + 1), array(move + 2)},
@@ -163,11 +165,19 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
     const StageScope scope(observer_, Stage::solve);
     predict();
     place_pins(time_end, h);
-    const bool last = substeps_left_ == 1;
-    if (last) residual_begin_ = program_.residual_before_sweeps(view());
-    program_.first_sweep(view());
-    for (int sweep = 1; sweep < options().iterations; ++sweep) program_.next_sweep(view());
-    if (last) residual_end_ = program_.residual(view());
+    const LaneView v = view();
+    const bool is_last = substeps_left_ == 1;
+    if (is_last)
+      residual_begin_ = std::sqrt(springs_.squared_residual_before_sweeps(v) +
+                                  bends_.squared_residual_before_sweeps(v));
+    bends_.first_sweep(v);
+    springs_.first_sweep(v);
+    for (int sweep = 1; sweep < options().iterations; ++sweep) {
+      bends_.next_sweep(v);
+      springs_.next_sweep(v);
+    }
+    if (is_last)
+      residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v));
   }
   if (model_.contact) correct_for_contact(state, time_end, h);
   --substeps_left_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/dynamics/constraint_program.h"
+#include "core/dynamics/bend_program.h"
+#include "core/dynamics/spring_program.h"
 #include "core/dynamics/stepper.h"
 
 namespace pleat {
@@ -47,7 +48,9 @@ class StepperXpbd final : public Stepper {
   void correct_for_contact(State& state, double time_end, double h);
 
   LaneLayout layout_;
-  ConstraintProgram program_;
+  SpringProgram springs_;
+  BendProgram bends_;
+  double mean_mass_;             // [kg]
   std::size_t pitch_;            // floats from one array to the next
   std::vector<float> data_;      // see Array
   Vec3 origin_{0, 0, 0};         // of the positions [m]

@@ -1,0 +1,412 @@
+#include "core/dynamics/spring_program.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace pleat {
+namespace {
+
+/// Compliance of a rigid constraint, relative to the inverse masses: far below what their sum
+/// rounds off, but a denominator that never is zero, even between two pinned vertices.
+constexpr float kRigid = 1e-12f;
+constexpr float kEmpty = std::numeric_limits<float>::infinity();
+/// Where a length [m] may be zero, its square is held above this [m^2].
+constexpr float kTinySquare = 1e-30f;
+/// Share of the new direction in the direction along which a constraint moves its vertices; the
+/// rest is the direction at the substep's begin. 0 is second order and undamped, 1 first order and
+/// damped; 1/2 is the smallest share that is stable whatever the tension (docs/methods/xpbd.md).
+constexpr float kNewDirection = 0.5f;
+/// Share by which a line's diagonal is enlarged: a line stretches under its load by this share of
+/// what projecting its springs one by one would leave, and contradicting pins pull it at most
+/// 1/kLineSoftness times as hard.
+constexpr float kLineSoftness = 1e-3f;
+/// Groups of four kept per spring of a line between elimination and substitution.
+constexpr int kLineChannels = 6;
+constexpr int kLanes = Float4::kLanes;
+
+using Block = SpringProgram::Block;
+
+SpringLaw law_of(const ClothModel& model, bool rigid) {
+  if (rigid) return SpringLaw::rigid;
+  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
+                                  [](const Spring& spring) { return spring.damping > 0; });
+  if (!damped) return SpringLaw::elastic;
+  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
+                                                                : SpringLaw::damped;
+}
+
+/// Those that can pull at all.
+std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
+  std::vector<int> active;
+  for (std::size_t s = 0; s < model.springs.size(); ++s) {
+    const Spring& spring = model.springs[s];
+    if (spring.stiffness > 0 || (law != SpringLaw::rigid && spring.damping > 0))
+      active.push_back(static_cast<int>(s));
+  }
+  return active;
+}
+
+constexpr int multiplier_floats(SpringLaw law) {
+  return law == SpringLaw::damped_isotropic ? 4 * kLanes : kLanes;
+}
+
+/// Source: Fowler, Noll & Vo, hash FNV-1a.
+std::uint32_t hash_of(const Block& block) {
+  std::uint32_t hash = 2166136261u;
+  for (const PerLane<float>* lanes : {&block.rest, &block.denominator_share})
+    for (float value : *lanes) {
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, &value, sizeof bits);
+      for (int shift = 0; shift < 32; shift += 8)
+        hash = (hash ^ ((bits >> shift) & 0xff)) * 16777619u;
+    }
+  return hash;
+}
+
+// With d = x_a - x_b at the end of the substep, d_begin at its begin, and the pull acting along
+// g = d_begin + kNewDirection (d - d_begin), corrections x_a += w_a f g, x_b -= w_b f g change the
+// length l = |d| by f (w_a + w_b) d.g/l.
+//   rigid:   (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0
+//   elastic: l - L + alpha lambda = 0, with lambda the multiplier and dlambda = f d.g/l; times l
+// Both read aim = f slope (w_a + w_b + alpha), slope = d.g. The slope is held above L^2/2 or l^2/2:
+// below, the spring turned by more than 60 degrees within a substep or is squeezed to nothing, and
+// the linearisation would throw it far over its aim.
+template <class Lanes>
+struct Linearised {
+  Vec3Lanes<Lanes> d, g;
+  Lanes aim, slope;
+  Lanes length;  // elastic laws only
+};
+
+template <class Lanes, SpringLaw law, bool first>
+Linearised<Lanes> linearise(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& change_of_d,
+                            const Block& block, int lane, const float* multiplier) {
+  Linearised<Lanes> spring;
+  spring.d = d_begin + change_of_d;
+  spring.g = d_begin + Lanes::all(kNewDirection) * change_of_d;
+  const Lanes half_square = Lanes::all(0.5f) * dot(spring.d, spring.d);
+  const Lanes rest = Lanes::load(block.rest.data() + lane);
+  if constexpr (law == SpringLaw::rigid) {
+    spring.aim = rest - half_square;
+    spring.slope = max(dot(spring.d, spring.g), max(rest, half_square));
+  } else {
+    const Lanes tiny = Lanes::all(kTinySquare);
+    spring.length = sqrt(max(half_square + half_square, tiny));
+    Lanes error = rest - spring.length;
+    if constexpr (law != SpringLaw::elastic) {
+      const Lanes length_begin = sqrt(dot(d_begin, d_begin));
+      error = error + Lanes::load(block.damper_share.data() + lane) * (length_begin - rest);
+    }
+    if constexpr (!first)
+      error = error - Lanes::load(block.compliance.data() + lane) * Lanes::load(multiplier);
+    spring.aim = error * spring.length;
+    spring.slope = max(dot(spring.d, spring.g), max(half_square, tiny));
+  }
+  return spring;
+}
+
+/// The part of a relative motion that is across a spring.
+template <class Lanes>
+Vec3Lanes<Lanes> across(const Vec3Lanes<Lanes>& motion, const Vec3Lanes<Lanes>& d) {
+  return motion - (dot(d, motion) / max(dot(d, d), Lanes::all(kTinySquare))) * d;
+}
+
+}  // namespace
+
+SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, bool rigid,
+                             double h)
+    : law_(law_of(model, rigid)), h_(h), mean_mass_(model.masses.mean()) {
+  SpringOrder order = order_springs(model, layout, active_springs(model, law_));
+  // The damper across a spring is not part of a line's equations.
+  if (law_ != SpringLaw::damped_isotropic) lines_ = std::move(order.lines);
+  int n_in_lines = 0;
+  int longest = 0;
+  for (const SpringLine& line : lines_) {
+    n_in_lines += line.n_springs;
+    longest = std::max(longest, line.n_springs);
+  }
+  for (const LaneOperation& operation : order.operations) {
+    const auto index = static_cast<int>(operations_.size());
+    operations_.push_back({operation.first_slots[0], operation.first_slots[1], 0});
+    members_.push_back(operation.members);
+    if (index >= n_in_lines)
+      append_to_stretches(stretches_, index, are_apart(operation.first_slots, 2));
+  }
+  line_scratch_.resize(static_cast<std::size_t>(longest * kLineChannels * kLanes));
+  multipliers_.resize(operations_.size() * static_cast<std::size_t>(multiplier_floats(law_)));
+  blocks_.reserve(operations_.size());
+  fill_blocks(model);
+}
+
+Block SpringProgram::block_of(const ClothModel& model, const LaneMembers& members) const {
+  Block block;
+  block.rest.fill(1);
+  block.compliance.fill(0);
+  block.denominator_share.fill(kEmpty);
+  block.damper_share.fill(0);
+  block.across_compliance.fill(kEmpty);
+  for (std::size_t lane = 0; lane < members.size(); ++lane) {
+    if (members[lane] < 0) continue;
+    const Spring& spring = model.springs[static_cast<std::size_t>(members[lane])];
+    const double rest = spring.rest_length;
+    if (law_ == SpringLaw::rigid) {
+      block.rest[lane] = std::max(static_cast<float>(0.5 * rest * rest), kTinySquare);
+      block.denominator_share[lane] = kRigid;
+      continue;
+    }
+    // k/2 (l - L)^2 + c/(2h) (l - l_begin)^2 is one spring of stiffness k + c/h about a length
+    // between L and l_begin.
+    const double damper = law_ == SpringLaw::elastic ? 0 : spring.damping / h_;  // [N/m]
+    const double stiffness = spring.stiffness + damper;
+    block.rest[lane] = static_cast<float>(rest);
+    block.compliance[lane] = static_cast<float>(mean_mass_ / (stiffness * h_ * h_));
+    block.denominator_share[lane] = block.compliance[lane] + kRigid;
+    block.damper_share[lane] = static_cast<float>(damper / stiffness);
+    if (law_ == SpringLaw::damped_isotropic && damper > 0)
+      block.across_compliance[lane] = static_cast<float>(mean_mass_ / (damper * h_ * h_));
+  }
+  return block;
+}
+
+// Most operations of a regular sheet have equal numbers. A small table finds most of them, and then
+// the numbers of the whole sheet stay in the nearest cache.
+void SpringProgram::fill_blocks(const ClothModel& model) {
+  constexpr std::size_t kRemembered = 256;
+  constexpr std::size_t kProbes = 8;
+  std::array<int, kRemembered> remembered;
+  remembered.fill(-1);
+  blocks_.clear();
+  for (std::size_t i = 0; i < operations_.size(); ++i) {
+    const Block block = block_of(model, members_[i]);
+    const std::size_t hash = hash_of(block);
+    const auto is_other = [&](int place) {
+      return place >= 0 && !(blocks_[static_cast<std::size_t>(place)] == block);
+    };
+    std::size_t at = hash % kRemembered;
+    for (std::size_t probe = 1; probe < kProbes && is_other(remembered[at]); ++probe)
+      at = (hash + probe) % kRemembered;
+    if (remembered[at] < 0 || is_other(remembered[at])) {
+      remembered[at] = static_cast<int>(blocks_.size());
+      blocks_.push_back(block);
+    }
+    operations_[i].block = remembered[at];
+  }
+}
+
+void SpringProgram::refresh_rest_lengths(const ClothModel& model) { fill_blocks(model); }
+
+void SpringProgram::compute_lane_by_lane() {
+  for (OperationStretch& stretch : stretches_) stretch.whole = false;
+  lane_by_lane_ = true;
+}
+
+// All springs of a line at once. The length of spring r changes with the pulls f_{r-1}, f_r,
+// f_{r+1}:
+//   - w_r (d_r.g_{r-1}) f_{r-1} + slope_r (w_r + w_{r+1} + alpha_r) f_r
+//   - w_{r+1} (d_r.g_{r+1}) f_{r+1} = aim_r,
+// solved by elimination from the first end, substitution from the last. A line held at both ends
+// and drawn tight has one pull too many: kLineSoftness keeps the pulls bounded.
+template <class Lanes, SpringLaw law, bool first>
+void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int lane) {
+  const Operation* const operations = operations_.data() + line.first;
+  float* const multipliers = multipliers_.data() + kLanes * line.first + lane;
+  const auto scratch = [&](int row, int channel) {
+    return line_scratch_.data() + (row * kLineChannels + channel) * kLanes + lane;
+  };
+  const Lanes zero = Lanes::all(0);
+  const Vec3Lanes<Lanes> nothing{zero, zero, zero};
+  const int start = operations[0].a + lane;
+
+  Vec3Lanes<Lanes> begin_a = load<Lanes>(v.begins, start);
+  Vec3Lanes<Lanes> move_a = load<Lanes>(v.moves, start);
+  Lanes w_a = Lanes::load(v.inverse_masses + start);
+  Vec3Lanes<Lanes> d_before = nothing;
+  Vec3Lanes<Lanes> g_before = nothing;
+  Lanes inverse_pivot = zero;
+  Lanes solution = zero;
+  for (int row = 0; row < line.n_springs; ++row) {
+    const Block& block = blocks_[static_cast<std::size_t>(operations[row].block)];
+    const int b = operations[row].b + lane;
+    const Vec3Lanes<Lanes> begin_b = load<Lanes>(v.begins, b);
+    const Vec3Lanes<Lanes> move_b = load<Lanes>(v.moves, b);
+    const Lanes w_b = Lanes::load(v.inverse_masses + b);
+    const auto spring = linearise<Lanes, law, first>(begin_a - begin_b, move_a - move_b, block,
+                                                     lane, multipliers + kLanes * row);
+    const Lanes diagonal = spring.slope * (Lanes::all(1 + kLineSoftness) * (w_a + w_b) +
+                                           Lanes::load(block.denominator_share.data() + lane));
+    const Lanes lower = w_a * dot(spring.d, g_before);
+    const Lanes upper = w_a * dot(d_before, spring.g) * inverse_pivot;
+    if (row > 0) upper.store(scratch(row - 1, 0));
+    inverse_pivot =
+        Lanes::all(1.0f) / max(diagonal - lower * upper, Lanes::all(kLineSoftness) * diagonal);
+    solution = (spring.aim + lower * solution) * inverse_pivot;
+    solution.store(scratch(row, 1));
+    spring.g.x.store(scratch(row, 2));
+    spring.g.y.store(scratch(row, 3));
+    spring.g.z.store(scratch(row, 4));
+    if constexpr (law != SpringLaw::rigid) (spring.slope / spring.length).store(scratch(row, 5));
+    begin_a = begin_b;
+    move_a = move_b;
+    w_a = w_b;
+    d_before = spring.d;
+    g_before = spring.g;
+  }
+
+  zero.store(scratch(line.n_springs - 1, 0));
+  Lanes f = zero;
+  Vec3Lanes<Lanes> pull_after = nothing;
+  for (int row = line.n_springs - 1; row >= 0; --row) {
+    const int b = operations[row].b + lane;
+    f = Lanes::load(scratch(row, 1)) + Lanes::load(scratch(row, 0)) * f;
+    const Vec3Lanes<Lanes> pull =
+        f * Vec3Lanes<Lanes>{Lanes::load(scratch(row, 2)), Lanes::load(scratch(row, 3)),
+                             Lanes::load(scratch(row, 4))};
+    if constexpr (law != SpringLaw::rigid)
+      add_to_multiplier<first>(f * Lanes::load(scratch(row, 5)), multipliers + kLanes * row);
+    store(load<Lanes>(v.moves, b) + Lanes::load(v.inverse_masses + b) * (pull_after - pull),
+          v.moves, b);
+    pull_after = pull;
+  }
+  store(load<Lanes>(v.moves, start) + Lanes::load(v.inverse_masses + start) * pull_after, v.moves,
+        start);
+}
+
+template <SpringLaw law, bool first>
+void SpringProgram::project(const LaneView& view) {
+  const LaneView v = view;
+  const Operation* const operations = operations_.data();
+  const Block* const blocks = blocks_.data();
+  float* const multipliers = multipliers_.data();
+  for_each_operation(stretches_, members_, [&](int index, int lane, auto lanes) {
+    using Lanes = decltype(lanes);
+    const int a = operations[index].a + lane;
+    const int b = operations[index].b + lane;
+    const Block& block = blocks[operations[index].block];
+    float* const multiplier = multipliers + multiplier_floats(law) * index + lane;
+    const Vec3Lanes<Lanes> move_a = load<Lanes>(v.moves, a);
+    const Vec3Lanes<Lanes> move_b = load<Lanes>(v.moves, b);
+    const Vec3Lanes<Lanes> change_of_d = move_a - move_b;
+    const Vec3Lanes<Lanes> d_begin = load<Lanes>(v.begins, a) - load<Lanes>(v.begins, b);
+    const Lanes w_a = Lanes::load(v.inverse_masses + a);
+    const Lanes w_b = Lanes::load(v.inverse_masses + b);
+    const Lanes w = w_a + w_b;
+    const auto spring = linearise<Lanes, law, first>(d_begin, change_of_d, block, lane, multiplier);
+    const Lanes f =
+        spring.aim / (spring.slope * (w + Lanes::load(block.denominator_share.data() + lane)));
+    Vec3Lanes<Lanes> pull = f * spring.g;
+    if constexpr (law != SpringLaw::rigid)
+      add_to_multiplier<first>(f * spring.slope / spring.length, multiplier);
+    if constexpr (law == SpringLaw::damped_isotropic) {
+      // Across the spring C = t, the motion across, linear, with compliance 1/(c h).
+      const Lanes gain =
+          Lanes::all(1.0f) / (w + Lanes::load(block.across_compliance.data() + lane));
+      Vec3Lanes<Lanes> change = (Lanes::all(0.0f) - gain) * across(change_of_d, spring.d);
+      if constexpr (!first) {
+        // gain * compliance = 1 - gain w, without infinity times zero in empty lanes
+        const Vec3Lanes<Lanes> last{Lanes::load(multiplier + 4), Lanes::load(multiplier + 8),
+                                    Lanes::load(multiplier + 12)};
+        change = change - (Lanes::all(1.0f) - gain * w) * last;
+      }
+      add_to_multiplier<first>(change.x, multiplier + 4);
+      add_to_multiplier<first>(change.y, multiplier + 8);
+      add_to_multiplier<first>(change.z, multiplier + 12);
+      pull = pull + change;
+    }
+    store(move_a + w_a * pull, v.moves, a);
+    store(move_b - w_b * pull, v.moves, b);
+  });
+}
+
+template <SpringLaw law, bool first>
+void SpringProgram::sweep(const LaneView& view) {
+  if constexpr (law != SpringLaw::damped_isotropic) {
+    for (const SpringLine& line : lines_) {
+      if (!lane_by_lane_) {
+        solve_line<Float4, law, first>(view, line, 0);
+        continue;
+      }
+      for (int lane = 0; lane < kLanes; ++lane) solve_line<Float1, law, first>(view, line, lane);
+    }
+  }
+  project<law, first>(view);
+}
+
+template <bool first>
+void SpringProgram::sweep(const LaneView& view) {
+  switch (law_) {
+    case SpringLaw::rigid:
+      return sweep<SpringLaw::rigid, first>(view);
+    case SpringLaw::elastic:
+      return sweep<SpringLaw::elastic, first>(view);
+    case SpringLaw::damped:
+      return sweep<SpringLaw::damped, first>(view);
+    case SpringLaw::damped_isotropic:
+      return sweep<SpringLaw::damped_isotropic, first>(view);
+  }
+}
+
+void SpringProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
+void SpringProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
+
+template <SpringLaw law, bool with_multipliers>
+double SpringProgram::sum_of_squares(const LaneView& v) const {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  Float4 sum = Float4::all(0);
+  for (std::size_t i = 0; i < operations_.size(); ++i) {
+    const auto [a, b, index] = operations_[i];
+    const Block& block = blocks_[static_cast<std::size_t>(index)];
+    const float* const multiplier =
+        multipliers_.data() + static_cast<std::size_t>(multiplier_floats(law)) * i;
+    const Vec3Lanes<Float4> change_of_d = load<Float4>(v.moves, a) - load<Float4>(v.moves, b);
+    const auto spring = linearise<Float4, law, !with_multipliers>(
+        load<Float4>(v.begins, a) - load<Float4>(v.begins, b), change_of_d, block, 0, multiplier);
+    Float4 error;  // (l^2 - L^2)/2 = (l - L) (l + L)/2
+    if constexpr (law == SpringLaw::rigid) {
+      const Float4 rest = Float4::load(block.rest.data());
+      const Float4 two = Float4::all(2.0f);
+      error = two * spring.aim / (sqrt(dot(spring.d, spring.d)) + sqrt(two * rest));
+    } else {
+      error = spring.aim / spring.length;
+    }
+    Float4 square = error * error;
+    if constexpr (law == SpringLaw::damped_isotropic) {
+      const Float4 compliance = Float4::load(block.across_compliance.data());
+      Vec3Lanes<Float4> motion = across(change_of_d, spring.d);
+      if constexpr (with_multipliers)
+        motion = motion + where_positive(Float4::all(kLargest) - compliance, compliance) *
+                              Vec3Lanes<Float4>{Float4::load(multiplier + 4),
+                                                Float4::load(multiplier + 8),
+                                                Float4::load(multiplier + 12)};
+      square = square + where_positive(Float4::all(kLargest) - compliance, dot(motion, motion));
+    }
+    const Float4 occupied = Float4::all(kLargest) - Float4::load(block.denominator_share.data());
+    sum = sum + where_positive(occupied, square);
+  }
+  return sum_of_lanes(sum);
+}
+
+template <bool with_multipliers>
+double SpringProgram::sum_of_squares(const LaneView& view) const {
+  switch (law_) {
+    case SpringLaw::rigid:
+      return sum_of_squares<SpringLaw::rigid, with_multipliers>(view);
+    case SpringLaw::elastic:
+      return sum_of_squares<SpringLaw::elastic, with_multipliers>(view);
+    case SpringLaw::damped:
+      return sum_of_squares<SpringLaw::damped, with_multipliers>(view);
+    case SpringLaw::damped_isotropic:
+      return sum_of_squares<SpringLaw::damped_isotropic, with_multipliers>(view);
+  }
+  return 0;
+}
+
+double SpringProgram::squared_residual(const LaneView& view) const {
+  return sum_of_squares<true>(view);
+}
+double SpringProgram::squared_residual_before_sweeps(const LaneView& view) const {
+  return sum_of_squares<false>(view);
+}
+
+}  // namespace pleat
