@@ -6,8 +6,8 @@ import { choice, element, field } from './element';
 
 const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
   { value: 'off', title: 'Fabric' },
-  { value: 'magnitude', title: 'Stretch: how much' },
-  { value: 'signed', title: 'Stretch: longer or shorter' },
+  { value: 'magnitude', title: 'Stretch' },
+  { value: 'signed', title: 'Stretch with sign' },
 ];
 
 export function createDrawingPanel(parent: HTMLElement, store: Store<AppState>): () => void {
