@@ -8,7 +8,10 @@ export function median(values) {
 
 export const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
 
-/** RMS distance of the same vertices, weighted by their masses, which are areas times a constant [m]. */
+/**
+ * RMS distance of the same vertices, weighted by their masses, which are areas times a constant
+ * [m].
+ */
 export function positionError(positions, right, masses) {
   let sum = 0;
   let weight = 0;
@@ -20,11 +23,14 @@ export function positionError(positions, right, masses) {
 }
 
 /**
- * Runs the contestants in turn, `repeat` rounds, so that a change of the machine's speed meets all of them alike, and makes a row
- * of each. contestants: [{label, scene, level, vertices, method, run: async (times) => run}]; positions are taken in the first round.
+ * Runs the contestants in turn, `repeat` rounds, so that a change of the machine's speed meets all
+ * of them alike, and makes a row of each. Positions are taken in the first round.
+ *
+ * contestants: [{label, scene, vertices, method, run: async (times) => run}]
  */
 export async function measure(contestants, { repeat, times, against, masses, commit, tell }) {
-  if (!against?.reference?.id) throw new Error('no error, no row: a row names what it is measured against');
+  if (!against?.reference?.id)
+    throw new Error('no error, no row: a row names what it is measured against');
   const rounds = contestants.map(() => []);
   for (let round = 0; round < repeat; ++round) {
     for (const [i, contestant] of contestants.entries()) {
@@ -32,14 +38,18 @@ export async function measure(contestants, { repeat, times, against, masses, com
       rounds[i].push(await contestant.run(round === 0 ? times : []));
     }
   }
-  return contestants.map((contestant, i) => makeRow(contestant, rounds[i], { times, against, masses, commit }));
+  return contestants.map((contestant, i) =>
+    makeRow(contestant, rounds[i], { times, against, masses, commit }),
+  );
 }
 
 function makeRow(contestant, runs, { times, against, masses, commit }) {
   const [first] = runs;
   const frameTimes = runs.map((run) => median(run.ms));
-  const errors = times.map((time, t) =>
-    first.samples[t] ? positionError(first.samples[t], against.samples[t].positions_m, masses ?? first.masses) : null,
+  const errors = times.map((_, t) =>
+    first.samples[t]
+      ? positionError(first.samples[t], against.samples[t].positions_m, masses ?? first.masses)
+      : null,
   );
   const last = errors.at(-1);
   return {
@@ -68,13 +78,26 @@ function makeRow(contestant, runs, { times, against, masses, commit }) {
   };
 }
 
-function short(value) {
+/** Three significant digits, or a dash for what could not be measured. */
+export function short(value) {
   if (value === null || value === undefined || Number.isNaN(value)) return '-';
   return Number(value.toPrecision(3)).toString();
 }
 
 export function table(rows) {
-  const head = ['contestant', 'target', 'vertices', 'ms/frame', 'spread', 'rms stretch %', 'largest %', 'errors mm', '% (last)', 'memory MB', 'status'];
+  const head = [
+    'contestant',
+    'target',
+    'vertices',
+    'ms/frame',
+    'spread',
+    'rms stretch %',
+    'largest %',
+    'errors mm',
+    '% (last)',
+    'memory MB',
+    'status',
+  ];
   const lines = rows.map((row) => [
     row.label,
     row.target,
@@ -83,18 +106,29 @@ export function table(rows) {
     short(row.spread_ms),
     short(100 * row.rms_stretch),
     short(100 * row.largest_stretch),
-    Object.values(row.position_errors_m).map((error) => short(error === null ? null : 1e3 * error)).join(' / '),
+    Object.values(row.position_errors_m)
+      .map((error) => short(error === null ? null : 1e3 * error))
+      .join(' / '),
     short(row.position_error_percent),
     short(row.process_peak_memory_bytes && row.process_peak_memory_bytes / 1e6),
     row.status,
   ]);
-  const widths = head.map((title, c) => Math.max(title.length, ...lines.map((line) => String(line[c]).length)));
-  const print = (cells) => `| ${cells.map((cell, c) => String(cell).padEnd(widths[c])).join(' | ')} |`;
-  return [print(head), print(widths.map((width) => '-'.repeat(width))), ...lines.map(print)].join('\n');
+  const widths = head.map((title, c) =>
+    Math.max(title.length, ...lines.map((line) => String(line[c]).length)),
+  );
+  const print = (cells) =>
+    `| ${cells.map((cell, c) => String(cell).padEnd(widths[c])).join(' | ')} |`;
+  return [print(head), print(widths.map((width) => '-'.repeat(width))), ...lines.map(print)].join(
+    '\n',
+  );
 }
 
 /** A promised figure: `goal NAME VALUE at-most|at-least BOUND ok|short`. */
 export function goal(name, value, direction, bound) {
   const ok = direction === 'at-most' ? value <= bound : value >= bound;
-  return { name, ok, line: `goal ${name} ${short(value)} ${direction} ${short(bound)} ${ok ? 'ok' : 'short'}` };
+  return {
+    name,
+    ok,
+    line: `goal ${name} ${short(value)} ${direction} ${short(bound)} ${ok ? 'ok' : 'short'}`,
+  };
 }

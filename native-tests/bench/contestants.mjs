@@ -1,13 +1,14 @@
-// Runs of one scene by different programs, all told alike: a run has milliseconds and stretch per frame of 1/60 s, positions at
-// the wanted times, and how it ended. Every run builds its state anew, and its first frame is not on the clock.
+// Runs of one scene by different programs, all told alike: a run has milliseconds and stretch per
+// frame of 1/60 s, positions at the wanted times, and how it ended. Every run builds its state
+// anew, and its first frame is not on the clock.
 import { execFileSync } from 'node:child_process';
-import { readFileSync, writeFileSync, mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import v8 from 'node:v8';
 
-import { frame as yardstickFrame, makeSheet, stretch as yardstickStretch } from './yardstick.mjs';
+import { makeSheet, frame as yardstickFrame, stretch as yardstickStretch } from './yardstick.mjs';
 
 const kFrame = 1 / 60; // [s]
 const kMaxOutput = 2 ** 30; // [bytes]; positions are printed as text
@@ -39,16 +40,39 @@ function ask(words) {
   }
 }
 
-/** Positions that are taken for right: `kind` is "rigid_chain", or "run" for the scene's own method. Kept in build/references. */
+/**
+ * Positions that are taken for right: `kind` is "rigid_chain", or "run" for the scene's own
+ * method. Kept in build/references.
+ */
 export function reference(scene, kind, times) {
   return withSceneFile(scene, (file) =>
-    ask(['bench', 'reference', file, '--kind', kind, '--times', times.join(), '--cache', cacheFolder]),
+    ask([
+      'bench',
+      'reference',
+      file,
+      '--kind',
+      kind,
+      '--times',
+      times.join(),
+      '--cache',
+      cacheFolder,
+    ]),
   );
 }
 
 export function nativeRun(scene, frames, times, options = []) {
   const run = withSceneFile(scene, (file) =>
-    ask(['bench', 'run', file, '--frames', frames, ...(times.length ? ['--times', times.join()] : []), ...options].map(String)),
+    ask(
+      [
+        'bench',
+        'run',
+        file,
+        '--frames',
+        frames,
+        ...(times.length ? ['--times', times.join()] : []),
+        ...options,
+      ].map(String),
+    ),
   );
   return {
     target: 'native',
@@ -67,10 +91,41 @@ export function nativeRun(scene, frames, times, options = []) {
   };
 }
 
+/** The rows of `pleat sweep`. A setting that was refused or ended early is a row too. */
+export function nativeSweep(scene, { levels, repeat, reference: kind, duration }) {
+  return withSceneFile(scene, (file) => {
+    const rows = join(dirname(file), 'rows.jsonl');
+    const words = [
+      'sweep',
+      file,
+      '--levels',
+      levels,
+      '--repeat',
+      repeat,
+      '--reference',
+      kind,
+      '--duration',
+      duration,
+    ];
+    const options = ['--out', rows, '--cache', cacheFolder];
+    try {
+      execFileSync(command, [...words, ...options].map(String), {
+        stdio: ['ignore', 'ignore', 'inherit'],
+      });
+    } catch (error) {
+      if (error.status !== 1) throw error;
+    }
+    return readFileSync(rows, 'utf8')
+      .trim()
+      .split('\n')
+      .map((line) => JSON.parse(line));
+  });
+}
+
 let compiled;
 
 /** A module of its own for each run, so that memory and state are the run's alone. */
-async function freshModule() {
+export async function wasmModule() {
   if (!compiled) {
     // V8 would begin with unoptimised code and swap it at a moment of its own.
     v8.setFlagsFromString('--no-liftoff');
@@ -95,16 +150,21 @@ export function fabricsText() {
   return readFileSync(join(root, 'assets', 'fabrics', 'fabrics.json'), 'utf8');
 }
 
-export async function wasmModule() {
-  return freshModule();
-}
-
 export async function wasmRun(scene, frames, times) {
-  const module = await freshModule();
+  const module = await wasmModule();
   const simulation = new module.Simulation(fabricsText());
   answer(simulation.load(JSON.stringify(scene)));
   const stepsPerFrame = Math.round(kFrame / scene.method.step_s);
-  const run = { target: 'wasm', ms: [], rms: [], largest: [], samples: [], residual: 0, status: 'ok', message: '' };
+  const run = {
+    target: 'wasm',
+    ms: [],
+    rms: [],
+    largest: [],
+    samples: [],
+    residual: 0,
+    status: 'ok',
+    message: '',
+  };
   for (let f = 0; f < frames && run.status !== 'not_finite'; ++f) {
     const begin = performance.now();
     simulation.step(stepsPerFrame);
@@ -125,11 +185,22 @@ export async function wasmRun(scene, frames, times) {
   return run;
 }
 
-/** The plain JavaScript loop on the same sheet, with the masses of ours where its own are not pinned. */
+/**
+ * The plain JavaScript loop on the same sheet, with the masses of ours where its own are not
+ * pinned.
+ */
 export function yardstickRun(n, substeps, order, frames, times, masses) {
   const sheet = makeSheet(n, order);
-  if (masses) masses.forEach((mass, i) => sheet.w[i] > 0 && (sheet.w[i] = 1 / mass));
-  const run = { target: 'javascript', ms: [], rms: [], largest: [], samples: [], status: 'ok', message: '' };
+  for (const [i, mass] of (masses ?? []).entries()) if (sheet.w[i] > 0) sheet.w[i] = 1 / mass;
+  const run = {
+    target: 'javascript',
+    ms: [],
+    rms: [],
+    largest: [],
+    samples: [],
+    status: 'ok',
+    message: '',
+  };
   for (let f = 0; f < frames; ++f) {
     const begin = performance.now();
     yardstickFrame(sheet, substeps);
@@ -138,7 +209,8 @@ export function yardstickRun(n, substeps, order, frames, times, masses) {
     const now = yardstickStretch(sheet);
     run.rms.push(now.rms);
     run.largest.push(now.max);
-    if (run.samples.length < times.length && (f + 1.5) * kFrame > times[run.samples.length]) run.samples.push(Array.from(sheet.x));
+    if (run.samples.length < times.length && (f + 1.5) * kFrame > times[run.samples.length])
+      run.samples.push(Array.from(sheet.x));
   }
   run.constraints = sheet.rest.length;
   return run;

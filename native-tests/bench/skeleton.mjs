@@ -1,6 +1,7 @@
 // ./pleat bench skeleton [--json FILE] [--check] [--repeat N] [--only PART,...]
-// Speed and error of every stepper against each other, the same core as WebAssembly, and a plain JavaScript loop. Bounds in
-// milliseconds hold where that loop (sheet 65x65, 100 substeps, row order) takes 20 ms, and are scaled by what it takes here.
+// Speed and error of every stepper against each other, the same core as WebAssembly, and a plain
+// JavaScript loop. Bounds in milliseconds hold where that loop (sheet 65x65, 100 substeps, row
+// order) takes 20 ms, and are scaled by what it takes here.
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -29,7 +30,9 @@ if (!Number.isInteger(repeat) || repeat < 1) {
 
 const commit = (() => {
   try {
-    return execFileSync('git', ['-C', root, 'describe', '--always', '--dirty'], { encoding: 'utf8' }).trim();
+    return execFileSync('git', ['-C', root, 'describe', '--always', '--dirty'], {
+      encoding: 'utf8',
+    }).trim();
   } catch {
     return 'unknown';
   }
@@ -37,13 +40,22 @@ const commit = (() => {
 const tell = (text) => process.stderr.write(process.stderr.isTTY ? `\r\x1b[K${text}` : `${text}\n`);
 const settings = (times) => ({ repeat, times, commit, tell });
 
-/** A sheet of n x n vertices let go from the horizontal, its upper edge held. Vertices are numbered as the yardstick's are. */
+/**
+ * A sheet of n x n vertices let go from the horizontal, its upper edge held. Vertices are numbered
+ * as the yardstick's are.
+ */
 function swingingSheet(n, method, more = {}) {
   return {
     name: `swinging sheet ${n}x${n}`,
     cloth: {
       sheet: {
-        width_m: 1, height_m: 1, columns: n - 1, rows: n - 1, origin_m: [0, 0, 0], warp_direction: [0, 0, 1], weft_direction: [1, 0, 0],
+        width_m: 1,
+        height_m: 1,
+        columns: n - 1,
+        rows: n - 1,
+        origin_m: [0, 0, 0],
+        warp_direction: [0, 0, 1],
+        weft_direction: [1, 0, 0],
       },
     },
     fabric: { name: 'fine cotton' },
@@ -56,12 +68,23 @@ function swingingSheet(n, method, more = {}) {
 
 /** 65x65 vertices hung by two corners that come together to half their distance within a second. */
 function cornersMeet(method) {
-  const comeTogether = (offset) => ({ kind: 'ease', offset_m: [offset, 0, 0], begin_s: 0, end_s: 1 });
+  const comeTogether = (offset) => ({
+    kind: 'ease',
+    offset_m: [offset, 0, 0],
+    begin_s: 0,
+    end_s: 1,
+  });
   return {
     name: 'corners meet 65x65',
     cloth: {
       sheet: {
-        width_m: 1, height_m: 1, columns: 64, rows: 64, origin_m: [-0.5, 1.5, 0], warp_direction: [0, -0.94, 0.342], weft_direction: [1, 0, 0],
+        width_m: 1,
+        height_m: 1,
+        columns: 64,
+        rows: 64,
+        origin_m: [-0.5, 1.5, 0],
+        warp_direction: [0, -0.94, 0.342],
+        weft_direction: [1, 0, 0],
       },
     },
     fabric: { name: 'fine cotton' },
@@ -76,7 +99,13 @@ function cornersMeet(method) {
 
 function contestant(target, label, scene, n, frames = kFrames) {
   const run = target === 'wasm' ? wasmRun : nativeRun;
-  return { label: `${scene.name}, ${label}`, scene: scene.name, method: scene.method, vertices: n * n, run: (times) => run(scene, frames, times) };
+  return {
+    label: `${scene.name}, ${label}`,
+    scene: scene.name,
+    method: scene.method,
+    vertices: n * n,
+    run: (times) => run(scene, frames, times),
+  };
 }
 
 function yardstick(n, substeps, order, masses) {
@@ -98,7 +127,9 @@ function machineScale() {
   }
   const ms = median(times.map((run) => median(run.ms)));
   const nsPerConstraint = (1e6 * ms) / (100 * times[0].constraints);
-  console.log(`yardstick 65x65, 100 substeps, rows: ${ms.toFixed(2)} ms, ${nsPerConstraint.toFixed(2)} ns per constraint;`);
+  console.log(
+    `yardstick 65x65, 100 substeps, rows: ${ms.toFixed(2)} ms, ${nsPerConstraint.toFixed(2)} ns per constraint;`,
+  );
   console.log(`bounds in ms are scaled by ${(ms / kYardstickMs).toFixed(3)}\n`);
   return ms / kYardstickMs;
 }
@@ -127,14 +158,36 @@ async function againstYardstick() {
       const name = `xpbd_${n}_${substeps}`;
       const least = (value) => Math.min(value(byRows), value(coloured));
       goals.push(
-        goal(`${name}_times_faster_than_rows`, byRows.ms_per_frame / ours.ms_per_frame, 'at-least', 4),
-        goal(`${name}_times_faster_than_coloured`, coloured.ms_per_frame / ours.ms_per_frame, 'at-least', 3),
-        goal(`${name}_rms_stretch`, ours.rms_stretch, 'at-most', least((row) => row.rms_stretch)),
-        goal(`${name}_largest_stretch`, ours.largest_stretch, 'at-most', least((row) => row.largest_stretch)),
+        goal(
+          `${name}_times_faster_than_rows`,
+          byRows.ms_per_frame / ours.ms_per_frame,
+          'at-least',
+          4,
+        ),
+        goal(
+          `${name}_times_faster_than_coloured`,
+          coloured.ms_per_frame / ours.ms_per_frame,
+          'at-least',
+          3,
+        ),
+        goal(
+          `${name}_rms_stretch`,
+          ours.rms_stretch,
+          'at-most',
+          least((row) => row.rms_stretch),
+        ),
+        goal(
+          `${name}_largest_stretch`,
+          ours.largest_stretch,
+          'at-most',
+          least((row) => row.largest_stretch),
+        ),
       );
       for (const time of kTimes) {
         const error = (row) => row.position_errors_m[`${time} s`];
-        goals.push(goal(`${name}_position_error_m_at_${time}_s`, error(ours), 'at-most', least(error)));
+        goals.push(
+          goal(`${name}_position_error_m_at_${time}_s`, error(ours), 'at-most', least(error)),
+        );
       }
     }
   }
@@ -161,7 +214,12 @@ async function projective(scale) {
     goals: [
       goal('projective_rms_stretch_percent', 100 * ours.rms_stretch_worst_frame, 'at-most', 0.4),
       goal('projective_ms_per_frame_wasm', ours.ms_per_frame, 'at-most', 6 * scale),
-      goal('projective_position_error_m_at_1_s', ours.position_error_m, 'at-most', implicitRow.position_error_m),
+      goal(
+        'projective_position_error_m_at_1_s',
+        ours.position_error_m,
+        'at-most',
+        implicitRow.position_error_m,
+      ),
     ],
   };
 }
@@ -178,7 +236,12 @@ async function implicit(scale) {
     ],
     { ...settings(kTimes), against: reference(loose, 'rigid_chain', kTimes) },
   );
-  return { rows, goals: [goal('implicit_100x100_cg_1e-2_ms_native', rows[0].ms_per_frame, 'at-most', 60 * scale)] };
+  return {
+    rows,
+    goals: [
+      goal('implicit_100x100_cg_1e-2_ms_native', rows[0].ms_per_frame, 'at-most', 60 * scale),
+    ],
+  };
 }
 
 /** The float64 steppers in both builds on the same scene. */
@@ -201,12 +264,17 @@ async function targets() {
       { ...settings(times), against: reference(scene, 'rigid_chain', times) },
     );
     rows.push(...found);
-    goals.push(goal(`wasm_over_native_${name}`, found[0].ms_per_frame / found[1].ms_per_frame, 'at-most', 2));
+    goals.push(
+      goal(`wasm_over_native_${name}`, found[0].ms_per_frame / found[1].ms_per_frame, 'at-most', 2),
+    );
   }
   return { rows, goals };
 }
 
-/** What a scene does not ask for costs nothing: without it a frame is no slower than with it, there but without effect. */
+/**
+ * What a scene does not ask for costs nothing: without it a frame is no slower than with it, there
+ * but without effect.
+ */
 async function absent() {
   const n = 65;
   const kNoise = 1.05; // interleaved medians differ by less
@@ -229,7 +297,12 @@ async function absent() {
   return {
     rows,
     goals: others.map((row, i) =>
-      goal(`absent_${Object.keys(scenes)[i + 1]}_costs`, plain.ms_per_frame / row.ms_per_frame, 'at-most', kNoise),
+      goal(
+        `absent_${Object.keys(scenes)[i + 1]}_costs`,
+        plain.ms_per_frame / row.ms_per_frame,
+        'at-most',
+        kNoise,
+      ),
     ),
   };
 }
@@ -238,7 +311,9 @@ const parts = { yardstick: againstYardstick, projective, implicit, targets, abse
 const wanted = options.only.split(',');
 const unknown = wanted.find((name) => !(name in parts));
 if (unknown !== undefined) {
-  console.error(`bench: --only: expected some of ${Object.keys(parts).join(', ')}, got "${unknown}"`);
+  console.error(
+    `bench: --only: expected some of ${Object.keys(parts).join(', ')}, got "${unknown}"`,
+  );
   process.exit(2);
 }
 const scale = machineScale();
@@ -247,11 +322,14 @@ const goals = [];
 for (const name of wanted) {
   const part = await parts[name](scale);
   if (process.stderr.isTTY) tell('');
-  console.log(`${name}: errors against ${[...new Set(part.rows.map((row) => row.reference.description))].join('; ')}\n`);
+  console.log(
+    `${name}: errors against ${[...new Set(part.rows.map((row) => row.reference.description))].join('; ')}\n`,
+  );
   console.log(`${table(part.rows)}\n`);
   rows.push(...part.rows);
   goals.push(...part.goals);
 }
 for (const { line } of goals) console.log(line);
-if (options.json) writeFileSync(options.json, rows.map((row) => `${JSON.stringify(row)}\n`).join(''));
+if (options.json)
+  writeFileSync(options.json, rows.map((row) => `${JSON.stringify(row)}\n`).join(''));
 if (options.check && goals.some(({ ok }) => !ok)) process.exitCode = 1;
