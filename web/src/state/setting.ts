@@ -60,8 +60,6 @@ export interface StepperTraits {
   meaning: string;
   /** The counts the stepper listens to, each with what it starts from. */
   counts: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
-  /** The one a scene has to name, because the format's own default does not fit. */
-  solver?: 'cholmod';
 }
 
 export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
@@ -80,7 +78,6 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
       substeps: { start: 1, least: 1, meaning: 'More substeps damp less.' },
       iterations: { start: 10, least: 1, meaning: 'More rounds come closer to Implicit.' },
     },
-    solver: 'cholmod',
   },
   xpbd: {
     title: 'XPBD',
@@ -147,8 +144,7 @@ export function withStepper(setting: Setting, stepper: Stepper): Setting {
 export function methodOf(setting: Setting): Record<string, unknown> {
   const own = PRESETS[setting.preset].scene.method;
   const method: Record<string, unknown> = own.stepper === setting.stepper ? { ...own } : {};
-  const { counts, solver } = STEPPER_TRAITS[setting.stepper];
-  if (solver) method.solver ??= solver;
+  const { counts } = STEPPER_TRAITS[setting.stepper];
   method.stepper = setting.stepper;
   method.step_s = setting.stepS;
   for (const count of COUNTS) if (counts[count]) method[count] = setting[count];

@@ -15,7 +15,6 @@ export interface PlannedMethod {
   step_s: number;
   substeps?: number;
   iterations?: number;
-  solver?: string;
 }
 
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
@@ -25,8 +24,8 @@ const DURATION_S = 1;
 const METHODS: readonly PlannedMethod[] = [
   { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
   { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
-  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5, solver: 'cholmod' },
-  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 30, solver: 'cholmod' },
+  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5 },
+  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 30 },
   { stepper: 'xpbd', step_s: 1 / 60, substeps: 10, iterations: 1 },
   { stepper: 'xpbd', step_s: 1 / 60, substeps: 60, iterations: 1 },
   // Finer levels need many more and are refused: such a row says how many would do.
