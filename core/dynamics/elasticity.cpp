@@ -60,7 +60,7 @@ void add_damping_forces(const ClothModel& model, const Eigen::Ref<const Position
 }
 
 void add_gravity(const ClothModel& model, Eigen::Ref<Positions> forces) {
-  forces += model.gravity * model.masses.transpose();
+  forces.noalias() += model.gravity * model.masses.transpose();
 }
 
 }  // namespace pleat

@@ -18,6 +18,14 @@ VertexId first_not_finite(const State& state) {
   return VertexId();
 }
 
+SolveReport not_finite_report(VertexId vertex, double time) {
+  SolveReport report;
+  report.status = SolveStatus::not_finite;
+  report.message = "vertex " + std::to_string(vertex.value) +
+                   " is no longer finite in the step from " + std::to_string(time) + " s";
+  return report;
+}
+
 }  // namespace
 
 const char* name(StepperKind kind) {
@@ -56,6 +64,8 @@ SolveReport Stepper::advance(State& state, double time) {
   PLEAT_CHECK(state.positions.cols() == model_.n_vertices() &&
                   state.velocities.cols() == model_.n_vertices(),
               "a state has the model's vertices");
+  if (const VertexId bad = first_not_finite(state); bad.valid())
+    return not_finite_report(bad, time);
   last_finite_ = state;
   const double h = options_.step / substeps_;
   SolveReport report;
@@ -75,11 +85,7 @@ SolveReport Stepper::advance(State& state, double time) {
   }
   store(state, report);
   const VertexId bad = first_not_finite(state);
-  if (bad.valid()) {
-    report.status = SolveStatus::not_finite;
-    report.message = "vertex " + std::to_string(bad.value) +
-                     " is no longer finite in the step from " + std::to_string(time) + " s";
-  }
+  if (bad.valid()) report = not_finite_report(bad, time);
   if (!report.ok() && report.status != SolveStatus::not_converged) state = last_finite_;
   return report;
 }

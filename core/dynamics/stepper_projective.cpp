@@ -168,10 +168,11 @@ void StepperProjective::store(State&, SolveReport& report) {
   double first = 0;
   double last = 0;
   for (int c = 0; c < 3; ++c) {
-    column_ = A * solution_.col(c);
+    column_.noalias() = A * solution_.col(c);
     first += column_.squaredNorm();
     solution_.col(c) = positions_.row(c).transpose();
-    column_ = right_side_.col(c) - A * solution_.col(c);
+    column_ = right_side_.col(c);
+    column_.noalias() -= A * solution_.col(c);
     last += column_.squaredNorm();
   }
   report.relative_residual = first > 0 ? std::sqrt(last / first) : 0;
