@@ -1,51 +1,172 @@
 #include "core/dynamics/carry_over.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "core/base/check.h"
 
 namespace pleat {
 namespace {
 
-constexpr int kKinds = 4;  // of SpringKind
+/// Components along uu, vv and uv: of membrane resultants [N/m], or of strains with the engineering
+/// shear.
+using Membrane = Eigen::Vector3d;
 
-/// One column per vertex, one row per spring kind.
-using VertexStrains = Eigen::Matrix<double, kKinds, Eigen::Dynamic>;
+/// One column per vertex.
+using Resultants = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-int row(const Spring& spring) { return static_cast<int>(spring.kind); }
+/// Strain of a spring = projection . strain of the sheet, from its direction in the rest
+/// coordinates.
+Membrane projection(const Spring& spring, const RestCoordinates& uv) {
+  const Eigen::Vector2d d = (uv.col(spring.a) - uv.col(spring.b)).normalized();
+  return {d.x() * d.x(), d.y() * d.y(), d.x() * d.y()};
+}
 
-/// Mean strain of the springs of each kind around each vertex.
-VertexStrains vertex_strains(const ClothModel& model, const Positions& positions) {
-  VertexStrains sums = VertexStrains::Zero(kKinds, positions.cols());
-  VertexStrains counts = sums;
-  for (const Spring& spring : model.springs) {
-    if (spring.rest_length == 0) continue;
-    const double length = (positions.col(spring.a) - positions.col(spring.b)).norm();
-    for (const VertexId v : {spring.a, spring.b}) {
-      sums.col(v)[row(spring)] += length / spring.rest_length - 1;
-      counts.col(v)[row(spring)] += 1;
+/// Without its negative principal values, since cloth holds no compression but folds, and scaled so
+/// that the largest one is at most `largest` [N/m].
+Membrane tensile_part(const Membrane& resultants, double largest) {
+  const double mean = (resultants[0] + resultants[1]) / 2;
+  const double half = (resultants[0] - resultants[1]) / 2;
+  const double radius = std::hypot(half, resultants[2]);
+  const double major = mean + radius;
+  if (major <= 0) return Membrane::Zero();
+  const double scale = std::min(1.0, largest / major);
+  if (mean >= radius) return scale * resultants;
+  // What is left is major n n, with n at half the angle of (half, uv).
+  const double cosine = half / radius;
+  return scale * major / 2 * Membrane(1 + cosine, 1 - cosine, resultants[2] / radius);
+}
+
+/// What the whole sheet's weight and swing can ask for: areal density (g l + v^2), with its rest
+/// diagonal l and largest speed v [N/m]. Stretch beyond that is what a stepper has not worked off
+/// yet, and no force: in a softer fabric it would be a catapult.
+double largest_resultant(const MovingSheet& sheet, double area) {
+  const RestCoordinates& uv = sheet.mesh.rest_coordinates();
+  const double diagonal = (uv.rowwise().maxCoeff() - uv.rowwise().minCoeff()).norm();
+  const double speed_squared = sheet.state.velocities.colwise().squaredNorm().maxCoeff();
+  return sheet.model.masses.sum() / area * (sheet.model.gravity.norm() * diagonal + speed_squared);
+}
+
+/// Membrane resultants around each vertex: (1/A) sum of 1/2 T L d d over the springs that end
+/// there, T their tension and d their direction; the tensile part.
+Resultants vertex_resultants(const MovingSheet& sheet) {
+  const Positions& x = sheet.state.positions;
+  Resultants sums = Resultants::Zero(3, x.cols());
+  for (const Spring& spring : sheet.model.springs) {
+    const double length = (x.col(spring.a) - x.col(spring.b)).norm();
+    const double tension = spring.stiffness * (length - spring.rest_length);
+    const Membrane share =
+        0.5 * tension * spring.rest_length * projection(spring, sheet.model.rest_coordinates);
+    sums.col(spring.a) += share;
+    sums.col(spring.b) += share;
+  }
+  const Eigen::VectorXd areas = sheet.mesh.vertex_areas();
+  const double largest = largest_resultant(sheet, areas.sum());
+  for (Eigen::Index i = 0; i < sums.cols(); ++i)
+    sums.col(i) = tensile_part(sums.col(i) / areas[i], largest);
+  return sums;
+}
+
+/// Resultants per strain: (1/A) sum of k L^2 p p over all springs, p their projections [N/m].
+Mat3 membrane_stiffness(const MovingSheet& sheet) {
+  Mat3 sum = Mat3::Zero();
+  for (const Spring& spring : sheet.model.springs) {
+    const Membrane p = projection(spring, sheet.model.rest_coordinates);
+    sum += spring.stiffness * spring.rest_length * spring.rest_length * p * p.transpose();
+  }
+  return sum / sheet.mesh.vertex_areas().sum();
+}
+
+/// Mesh lines of one refinement level: the vertices before and after each along warp and weft.
+class MeshLines {
+ public:
+  MeshLines(const QuadMesh& mesh, int level)
+      : neighbours_(static_cast<std::size_t>(mesh.n_vertices())) {
+    for (const QuadFace& face : mesh.faces()) {
+      if (face.level != level) continue;
+      const auto& c = face.corners;
+      join(c[0], c[1], kWarp);
+      join(c[3], c[2], kWarp);
+      join(c[0], c[3], kWeft);
+      join(c[1], c[2], kWeft);
     }
   }
-  return (counts.array() > 0).select(sums.array() / counts.array().max(1), 0.0);
-}
 
-/// Stiffness of an inner spring of each kind. It is the modulus times the cell's aspect, which
-/// refinement keeps.
-std::array<double, kKinds> inner_stiffness(const ClothModel& model) {
-  std::array<double, kKinds> stiffness{};
-  for (const Spring& spring : model.springs) {
-    double& largest = stiffness[static_cast<std::size_t>(row(spring))];
-    largest = std::max(largest, spring.stiffness);
+  enum Thread { kWarp = 0, kWeft = 2 };
+  VertexId before(VertexId v, Thread thread) const { return neighbours_[v][thread]; }
+  VertexId after(VertexId v, Thread thread) const { return neighbours_[v][thread + 1]; }
+
+ private:
+  void join(VertexId from, VertexId to, Thread thread) {
+    neighbours_[from][thread + 1] = to;
+    neighbours_[to][thread] = from;
   }
-  return stiffness;
+
+  std::vector<std::array<VertexId, 4>> neighbours_;  // warp before, after, weft before, after
+};
+
+/// Fills the middle of the edge from a to b by the cubic through four vertices of the mesh line,
+/// or the parabola through three at its end; straight when there are but two.
+void fill_middle(const MeshLines& lines, MeshLines::Thread thread, VertexId a, VertexId b,
+                 VertexId middle, Positions& columns) {
+  const VertexId before = lines.before(a, thread);
+  const VertexId after = lines.after(b, thread);
+  const Vec3 at_a = columns.col(a);
+  const Vec3 at_b = columns.col(b);
+  if (before.valid() && after.valid())
+    columns.col(middle) = (9 * (at_a + at_b) - columns.col(before) - columns.col(after)) / 16;
+  else if (after.valid())
+    columns.col(middle) = (3 * at_a + 6 * at_b - columns.col(after)) / 8;
+  else if (before.valid())
+    columns.col(middle) = (6 * at_a + 3 * at_b - columns.col(before)) / 8;
+  else
+    columns.col(middle) = (at_a + at_b) / 2;
 }
 
-/// Copies the columns that both meshes share and fills the others with the mean of their parents,
-/// which come earlier.
-template <class Columns>
-Columns carried_columns(const Columns& old, const QuadMesh& mesh) {
-  Columns fresh(old.rows(), mesh.n_vertices());
+/// Fills the vertices that split a face, as far as they are new: edge middles along their mesh
+/// lines, the centre as Coons' patch between them.
+void fill_face(const QuadMesh& mesh, const QuadFace& face, const MeshLines& lines,
+               Eigen::Index n_shared, Positions& columns) {
+  const auto& c = face.corners;
+  const auto& first = mesh.faces()[static_cast<std::size_t>(face.children[0].value)].corners;
+  const auto& third = mesh.faces()[static_cast<std::size_t>(face.children[2].value)].corners;
+  const VertexId m01 = first[1];
+  const VertexId centre = first[2];
+  const VertexId m30 = first[3];
+  const VertexId m12 = third[1];
+  const VertexId m23 = third[3];
+  if (centre < n_shared) return;
+  fill_middle(lines, MeshLines::kWarp, c[0], c[1], m01, columns);
+  fill_middle(lines, MeshLines::kWarp, c[3], c[2], m23, columns);
+  fill_middle(lines, MeshLines::kWeft, c[0], c[3], m30, columns);
+  fill_middle(lines, MeshLines::kWeft, c[1], c[2], m12, columns);
+  columns.col(centre) =
+      (columns.col(m01) + columns.col(m12) + columns.col(m23) + columns.col(m30)) / 2 -
+      (columns.col(c[0]) + columns.col(c[1]) + columns.col(c[2]) + columns.col(c[3])) / 4;
+}
+
+/// Copies the columns that both meshes share and interpolates the others, level by level.
+Positions carried_smoothly(const Positions& old, const QuadMesh& mesh) {
+  Positions fresh(3, mesh.n_vertices());
+  const Eigen::Index n_shared = std::min(old.cols(), fresh.cols());
+  fresh.leftCols(n_shared) = old.leftCols(n_shared);
+  int level = -1;
+  std::optional<MeshLines> lines;
+  for (const QuadFace& face : mesh.faces()) {  // coarser levels come first
+    if (face.active()) continue;
+    if (face.level != level) lines.emplace(mesh, level = face.level);
+    fill_face(mesh, face, *lines, n_shared, fresh);
+  }
+  return fresh;
+}
+
+/// Copies the columns that both meshes share; the others are means of their parents, which come
+/// earlier, so that no new extremes appear.
+Resultants carried_means(const Resultants& old, const QuadMesh& mesh) {
+  Resultants fresh(3, mesh.n_vertices());
   const Eigen::Index n_shared = std::min(old.cols(), fresh.cols());
   fresh.leftCols(n_shared) = old.leftCols(n_shared);
   for (Eigen::Index i = n_shared; i < fresh.cols(); ++i) {
@@ -60,24 +181,22 @@ Columns carried_columns(const Columns& old, const QuadMesh& mesh) {
 }  // namespace
 
 State carried_state(const MovingSheet& old, const QuadMesh& mesh) {
-  return {carried_columns(old.state.positions, mesh), carried_columns(old.state.velocities, mesh)};
+  return {carried_smoothly(old.state.positions, mesh),
+          carried_smoothly(old.state.velocities, mesh)};
 }
 
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh) {
-  const VertexStrains strains =
-      carried_columns(vertex_strains(old.model, old.state.positions), fresh.mesh);
-  const std::array<double, kKinds> old_stiffness = inner_stiffness(old.model);
-  const std::array<double, kKinds> fresh_stiffness = inner_stiffness(fresh.model);
+  const Resultants resultants = carried_means(vertex_resultants(old), fresh.mesh);
   const double mass_ratio = fresh.model.masses.sum() / old.model.masses.sum();
+  // Without shear springs nothing answers a shear: the least strain then is the one to take.
+  const Mat3 strain_per_resultant =
+      membrane_stiffness(fresh).completeOrthogonalDecomposition().pseudoInverse();
   std::vector<double> rest_lengths;
   for (const Spring& spring : fresh.model.springs) {
-    const auto kind = static_cast<std::size_t>(row(spring));
-    const double old_strain =
-        0.5 * (strains.col(spring.a)[row(spring)] + strains.col(spring.b)[row(spring)]);
+    const Membrane mean = 0.5 * (resultants.col(spring.a) + resultants.col(spring.b));
     const double strain =
-        fresh_stiffness[kind] > 0
-            ? old_strain * mass_ratio * old_stiffness[kind] / fresh_stiffness[kind]
-            : 0;
+        mass_ratio *
+        projection(spring, fresh.model.rest_coordinates).dot(strain_per_resultant * mean);
     const double length =
         (fresh.state.positions.col(spring.a) - fresh.state.positions.col(spring.b)).norm();
     rest_lengths.push_back(std::max(0.0, length - strain * spring.rest_length));

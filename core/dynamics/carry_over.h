@@ -15,13 +15,17 @@ struct MovingSheet {
 };
 
 /// The state of `old` on another refinement of the same base mesh. Vertices that both share keep
-/// position and velocity to the bit; others take the mean of their parents.
+/// position and velocity to the bit; others are interpolated along the mesh lines, exactly where the
+/// cloth is a surface of second degree.
+///
+/// Source: docs/methods/carry_over.md.
 State carried_state(const MovingSheet& old, const QuadMesh& mesh);
 
 /// Rest lengths [m], one per spring of `fresh`, with which the new cloth starts on the
-/// accelerations that the old one had: force per width and mass goes on as it was, whatever the new
-/// mesh and fabric. Relax them to the model's own slowly, and the change of mesh or fabric does not
-/// shake the cloth.
+/// accelerations that the old one had: tension per width and mass goes on as it was, whatever the
+/// new mesh and fabric. Compression does not, nor stretch beyond what the sheet's weight and swing
+/// can ask for. Relax them to the model's own slowly, and the change of mesh or fabric does not
+/// shake the cloth. Both models have rest coordinates.
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh);
 
 }  // namespace pleat
