@@ -15,8 +15,8 @@ struct MovingSheet {
 };
 
 /// The state of `old` on another refinement of the same base mesh. Vertices that both share keep
-/// position and velocity to the bit; others are interpolated along the mesh lines, exactly where the
-/// cloth is a surface of second degree.
+/// position and velocity to the bit; others are interpolated along the mesh lines, exactly where
+/// the cloth is a surface of second degree.
 ///
 /// Source: docs/methods/carry_over.md.
 State carried_state(const MovingSheet& old, const QuadMesh& mesh);
