@@ -4,11 +4,14 @@
 
 namespace pleat {
 
-AirDrag::AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices)
+AirDrag::AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices,
+                 double share)
     : triangles_(std::move(triangles)),
       options_(options),
+      share_(share),
       drag_(3, n_vertices),
       resistance_(6, n_vertices) {
+  PLEAT_CHECK(share > 0 && share <= 1, "a triangle counts with a positive share of its area");
   PLEAT_CHECK(options.density > 0, "air has a positive density");
   PLEAT_CHECK(options.normal_coefficient >= 0 && options.tangent_coefficient >= 0,
               "drag coefficients are not negative");
@@ -28,7 +31,7 @@ void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
     if (area == 0 || speed == 0) continue;
     const Vec3 normal = doubled_area / (2 * area);
     // f = R u with R = r [C_t I + (C_n - C_t) n n^T], r = 1/2 rho A |u|.
-    const double r = 0.5 * options_.density * area * speed;
+    const double r = 0.5 * options_.density * strength_ * share_ * area * speed;
     const double tangent = r * options_.tangent_coefficient;
     const double extra = r * (options_.normal_coefficient - options_.tangent_coefficient);
     const Vec3 third = (tangent * u + extra * normal.dot(u) * normal) / 3;

@@ -16,7 +16,9 @@ struct AirOptions {
 /// triangle's velocity and u_n, u_t its normal and tangential parts; a third of f on each corner.
 class AirDrag {
  public:
-  AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices);
+  /// share  of each triangle's area that counts: 1/2 for triangles that cover the cloth twice.
+  AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices,
+          double share = 1);
 
   /// Adds drag to `forces` [N].
   ///
@@ -28,11 +30,17 @@ class AirDrag {
                   const Eigen::Ref<const Positions>& velocities, const Eigen::VectorXd& masses,
                   double h, Eigen::Ref<Positions> forces);
 
+  /// Factor on the force, 1 to begin with: lets drag keep up while motion is carried over to cloth
+  /// of another weight.
+  void set_strength(double factor) { strength_ = factor; }
+
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
   std::vector<Triangle> triangles_;
   AirOptions options_;
+  double share_;
+  double strength_ = 1;
   Positions drag_;                                       // force of the air alone [N]
   Eigen::Matrix<double, 6, Eigen::Dynamic> resistance_;  // lumped D, xx yy zz xy xz yz [N s/m]
 };

@@ -25,6 +25,17 @@ void check_shape(const SheetShape& shape) {
               "warp and weft directions are orthonormal");
 }
 
+void append_halves(const std::array<VertexId, 4>& c, bool diagonal_02,
+                   std::vector<Triangle>& triangles) {
+  if (diagonal_02) {
+    triangles.push_back({c[0], c[1], c[2]});
+    triangles.push_back({c[0], c[2], c[3]});
+  } else {
+    triangles.push_back({c[0], c[1], c[3]});
+    triangles.push_back({c[1], c[2], c[3]});
+  }
+}
+
 }  // namespace
 
 QuadMesh QuadMesh::sheet(const SheetShape& shape) {
@@ -117,16 +128,17 @@ void QuadMesh::refine_uniformly(int levels) {
 
 std::vector<Triangle> QuadMesh::triangles() const {
   std::vector<Triangle> result;
+  for (const QuadFace& face : faces_)
+    if (face.active()) append_halves(face.corners, face.diagonal_02, result);
+  return result;
+}
+
+std::vector<Triangle> QuadMesh::crossed_triangles() const {
+  std::vector<Triangle> result;
   for (const QuadFace& face : faces_) {
     if (!face.active()) continue;
-    const auto& c = face.corners;
-    if (face.diagonal_02) {
-      result.push_back({c[0], c[1], c[2]});
-      result.push_back({c[0], c[2], c[3]});
-    } else {
-      result.push_back({c[0], c[1], c[3]});
-      result.push_back({c[1], c[2], c[3]});
-    }
+    append_halves(face.corners, true, result);
+    append_halves(face.corners, false, result);
   }
   return result;
 }

@@ -70,6 +70,10 @@ class QuadMesh {
   /// a symmetric sheet stays symmetric.
   std::vector<Triangle> triangles() const;
 
+  /// Four per active face, wound like it: its two triangles by either diagonal, so that the face is
+  /// covered twice and every corner alike.
+  std::vector<Triangle> crossed_triangles() const;
+
   /// Rest area of each vertex: a quarter of each active face around it [m^2].
   Eigen::VectorXd vertex_areas() const;
 

@@ -116,7 +116,11 @@ ClothModel scene_model(const Scene& scene, const QuadMesh* mesh,
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
   model.pins = scene_pins(scene, mesh, positions);
-  if (scene.air && !triangles.empty()) model.air.emplace(triangles, *scene.air, model.n_vertices());
+  // A sheet's quads are split both ways, so that drag is shared among corners as mass is.
+  if (scene.air && mesh)
+    model.air.emplace(mesh->crossed_triangles(), *scene.air, model.n_vertices(), 0.5);
+  else if (scene.air && !triangles.empty())
+    model.air.emplace(triangles, *scene.air, model.n_vertices());
   if (!scene.colliders.empty()) {
     const ContactOptions options{scene.fabric.thickness / 2,
                                  largest_circumradius(triangles, positions)};

@@ -57,13 +57,14 @@ void Simulation::reset() {
   release_grab();
   carried_rest_lengths_.clear();
   model_.springs = springs_;
+  if (model_.air) model_.air->set_strength(1);
   start();
 }
 
 SolveReport Simulation::step() {
   if (has_ended(ended_)) return ended_;
   if (grab_) place_grab_pins();
-  if (!carried_rest_lengths_.empty()) relax_rest_lengths();
+  if (!carried_rest_lengths_.empty()) relax_carried();
   ended_ = stepper_->advance(state_, time());
   if (!has_ended(ended_)) ++n_steps_;
   return ended_;
@@ -78,6 +79,7 @@ void Simulation::carry_over(const Simulation& old) {
   const MovingSheet from{*old.mesh_, old.model_, old.state_};
   state_ = carried_state(from, *mesh_);
   carried_rest_lengths_ = carried_rest_lengths(from, {*mesh_, model_, state_});
+  carried_mass_ratio_ = model_.masses.sum() / old.model_.masses.sum();
   time_begin_ = old.time();
   n_steps_ = 0;
   if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {
@@ -86,12 +88,13 @@ void Simulation::carry_over(const Simulation& old) {
   }
 }
 
-void Simulation::relax_rest_lengths() {
+void Simulation::relax_carried() {
   const double share = carried_share(time() - time_begin_);
   for (std::size_t s = 0; s < springs_.size(); ++s)
     model_.springs[s].rest_length =
         springs_[s].rest_length + share * (carried_rest_lengths_[s] - springs_[s].rest_length);
   stepper_->refresh_rest_lengths();
+  if (model_.air) model_.air->set_strength(1 + share * (carried_mass_ratio_ - 1));
   if (share == 0) carried_rest_lengths_.clear();
 }
 

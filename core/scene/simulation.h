@@ -63,7 +63,7 @@ class Simulation {
 
   void start();
   void place_grab_pins();
-  void relax_rest_lengths();
+  void relax_carried();
 
   Scene scene_;
   std::optional<QuadMesh> mesh_;
@@ -78,7 +78,8 @@ class Simulation {
   std::vector<Spring>
       springs_;  // the scene's own; the model's rest lengths differ while it takes motion over
   std::vector<double>
-      carried_rest_lengths_;  // what a carried-over cloth starts from, else empty [m]
+      carried_rest_lengths_;       // what a carried-over cloth starts from, else empty [m]
+  double carried_mass_ratio_ = 1;  // of the cloth to the one whose motion it took over
   SolveReport ended_;
 };
 

@@ -70,6 +70,20 @@ TEST_CASE("air_drag: damped over a step h, it comes to the plain law in first or
   CHECK(coarse / fine == Approx(10).epsilon(0.02));
 }
 
+TEST_CASE("air_drag: with quads split both ways it is shared among vertices as mass is",
+          "[dynamics]") {
+  const QuadMesh mesh = square_sheet(GENERATE(1, 2, 5));
+  AirDrag air(mesh.crossed_triangles(), kAir, mesh.n_vertices(), 0.5);
+  const Positions v = everywhere({0.3, -1, 2}, mesh);
+  Positions forces = Positions::Zero(3, mesh.n_vertices());
+  air.add_forces(mesh.rest_positions(), v, mesh.vertex_areas(), 0, forces);
+  const Eigen::VectorXd areas = mesh.vertex_areas();
+  const Vec3 per_area = forces.rowwise().sum() / areas.sum();
+  CHECK(per_area.norm() > 0);
+  for (int i = 0; i < mesh.n_vertices(); ++i)
+    CHECK((forces.col(i) / areas[i] - per_area).norm() <= 1e-12 * per_area.norm());
+}
+
 TEST_CASE("air_drag: however long the step, damped drag only takes energy", "[dynamics]") {
   const double h = std::pow(10.0, GENERATE(-3, -2, -1, 0, 2, 6));
   Random random(GENERATE(1, 2, 3, 4, 5));
