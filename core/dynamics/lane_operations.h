@@ -80,7 +80,7 @@ void append_to_stretches(std::vector<OperationStretch>& stretches, int index, bo
 /// Calls work(index, lane, Float4 or Float1) over all stretches, in order.
 template <class Work>
 void for_each_operation(const std::vector<OperationStretch>& stretches,
-                        const std::vector<LaneMembers>& members, Work&& work) {
+                        const std::vector<LaneMembers>& members, Work work) {
   for (const OperationStretch& stretch : stretches) {
     if (stretch.whole) {
       for (int i = stretch.begin; i < stretch.end; ++i) work(i, 0, Float4{});

@@ -29,6 +29,9 @@ inline Float1 sqrt(Float1 a) { return {std::sqrt(a.value)}; }
 /// The larger of a and b; a when it is not a number, so that an error is not hidden.
 inline Float1 max(Float1 a, Float1 b) { return {a.value < b.value ? b.value : a.value}; }
 
+/// The smaller of a and b; a when it is not a number.
+inline Float1 min(Float1 a, Float1 b) { return {b.value < a.value ? b.value : a.value}; }
+
 /// `a` where `condition` is positive, else zero.
 inline Float1 where_positive(Float1 condition, Float1 a) {
   return {condition.value > 0 ? a.value : 0.0f};
@@ -69,6 +72,7 @@ inline Float4 operator*(Float4 a, Float4 b) { return {wasm_f32x4_mul(a.value, b.
 inline Float4 operator/(Float4 a, Float4 b) { return {wasm_f32x4_div(a.value, b.value)}; }
 inline Float4 sqrt(Float4 a) { return {wasm_f32x4_sqrt(a.value)}; }
 inline Float4 max(Float4 a, Float4 b) { return {wasm_f32x4_pmax(a.value, b.value)}; }
+inline Float4 min(Float4 a, Float4 b) { return {wasm_f32x4_pmin(a.value, b.value)}; }
 inline Float4 where_positive(Float4 condition, Float4 a) {
   return {wasm_v128_and(wasm_f32x4_gt(condition.value, wasm_f32x4_splat(0)), a.value)};
 }
@@ -80,6 +84,7 @@ inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.value, b.valu
 inline Float4 sqrt(Float4 a) { return {_mm_sqrt_ps(a.value)}; }
 // The instruction returns its second operand when either is not a number: hence the exchange.
 inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(b.value, a.value)}; }
+inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(b.value, a.value)}; }
 inline Float4 where_positive(Float4 condition, Float4 a) {
   return {_mm_and_ps(_mm_cmpgt_ps(condition.value, _mm_setzero_ps()), a.value)};
 }
@@ -107,6 +112,9 @@ inline Float4 sqrt(Float4 a) {
 }
 inline Float4 max(Float4 a, Float4 b) {
   return lane_by_lane(a, b, [](Float1 p, Float1 q) { return max(p, q); });
+}
+inline Float4 min(Float4 a, Float4 b) {
+  return lane_by_lane(a, b, [](Float1 p, Float1 q) { return min(p, q); });
 }
 inline Float4 where_positive(Float4 condition, Float4 a) {
   return lane_by_lane(condition, a, [](Float1 p, Float1 q) { return where_positive(p, q); });

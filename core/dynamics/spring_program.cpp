@@ -14,14 +14,15 @@ constexpr float kRigid = 1e-12f;
 constexpr float kEmpty = std::numeric_limits<float>::infinity();
 /// Where a length [m] may be zero, its square is held above this [m^2].
 constexpr float kTinySquare = 1e-30f;
-/// Share of the new direction in the direction along which a constraint moves its vertices; the
-/// rest is the direction at the substep's begin. 0 is second order and undamped, 1 first order and
-/// damped; 1/2 is the smallest share that is stable whatever the tension (docs/methods/xpbd.md).
-constexpr float kNewDirection = 0.5f;
 /// Share by which a line's diagonal is enlarged: a line stretches under its load by this share of
 /// what projecting its springs one by one would leave, and contradicting pins pull it at most
 /// 1/kLineSoftness times as hard.
 constexpr float kLineSoftness = 1e-3f;
+/// Largest pull f of a line, times twice the largest inverse mass in it. A pull moves vertices
+/// across the line too, along directions from before the solution; from 1/2 on, waves across the
+/// line pass more than a link per substep and grow (docs/methods/xpbd.md). Projecting a spring
+/// alone reaches 1/4 however far it is stretched.
+constexpr float kLargestPull = 0.3f;
 /// Groups of four kept per spring of a line between elimination and substitution.
 constexpr int kLineChannels = 6;
 constexpr int kLanes = Float4::kLanes;
@@ -65,14 +66,15 @@ std::uint32_t hash_of(const Block& block) {
   return hash;
 }
 
-// With d = x_a - x_b at the end of the substep, d_begin at its begin, and the pull acting along
-// g = d_begin + kNewDirection (d - d_begin), corrections x_a += w_a f g, x_b -= w_b f g change the
-// length l = |d| by f (w_a + w_b) d.g/l.
+// With d = x_a - x_b at the end of the substep and d_begin at its begin, the pull acts along their
+// mean, of which g = d + d_begin is twice: all of it along d damps, less than half along d is not
+// stable under high tension (docs/methods/xpbd.md). Corrections x_a += w_a f g, x_b -= w_b f g
+// change the length l = |d| by f (w_a + w_b) d.g/l.
 //   rigid:   (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0
 //   elastic: l - L + alpha lambda = 0, with lambda the multiplier and dlambda = f d.g/l; times l
-// Both read aim = f slope (w_a + w_b + alpha), slope = d.g. The slope is held above L^2/2 or l^2/2:
-// below, the spring turned by more than 60 degrees within a substep or is squeezed to nothing, and
-// the linearisation would throw it far over its aim.
+// Both read aim = f slope (w_a + w_b + alpha), slope = d.g. The slope, 2 l^2 when nothing turns, is
+// held above L^2 or l^2: below, the spring turned by more than 60 degrees within a substep or is
+// squeezed to nothing, and the linearisation would throw it far over its aim.
 template <class Lanes>
 struct Linearised {
   Vec3Lanes<Lanes> d, g;
@@ -85,15 +87,15 @@ Linearised<Lanes> linearise(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lan
                             const Block& block, int lane, const float* multiplier) {
   Linearised<Lanes> spring;
   spring.d = d_begin + change_of_d;
-  spring.g = d_begin + Lanes::all(kNewDirection) * change_of_d;
-  const Lanes half_square = Lanes::all(0.5f) * dot(spring.d, spring.d);
+  spring.g = spring.d + d_begin;
+  const Lanes square = dot(spring.d, spring.d);
   const Lanes rest = Lanes::load(block.rest.data() + lane);
   if constexpr (law == SpringLaw::rigid) {
-    spring.aim = rest - half_square;
-    spring.slope = max(dot(spring.d, spring.g), max(rest, half_square));
+    spring.aim = Lanes::all(0.5f) * (rest - square);
+    spring.slope = max(dot(spring.d, spring.g), max(rest, square));
   } else {
     const Lanes tiny = Lanes::all(kTinySquare);
-    spring.length = sqrt(max(half_square + half_square, tiny));
+    spring.length = sqrt(max(square, tiny));
     Lanes error = rest - spring.length;
     if constexpr (law != SpringLaw::elastic) {
       const Lanes length_begin = sqrt(dot(d_begin, d_begin));
@@ -102,7 +104,7 @@ Linearised<Lanes> linearise(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lan
     if constexpr (!first)
       error = error - Lanes::load(block.compliance.data() + lane) * Lanes::load(multiplier);
     spring.aim = error * spring.length;
-    spring.slope = max(dot(spring.d, spring.g), max(half_square, tiny));
+    spring.slope = max(dot(spring.d, spring.g), max(square, tiny));
   }
   return spring;
 }
@@ -152,7 +154,7 @@ Block SpringProgram::block_of(const ClothModel& model, const LaneMembers& member
     const Spring& spring = model.springs[static_cast<std::size_t>(members[lane])];
     const double rest = spring.rest_length;
     if (law_ == SpringLaw::rigid) {
-      block.rest[lane] = std::max(static_cast<float>(0.5 * rest * rest), kTinySquare);
+      block.rest[lane] = std::max(static_cast<float>(rest * rest), kTinySquare);
       block.denominator_share[lane] = kRigid;
       continue;
     }
@@ -226,6 +228,7 @@ void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int la
   Vec3Lanes<Lanes> g_before = nothing;
   Lanes inverse_pivot = zero;
   Lanes solution = zero;
+  Lanes w_largest = w_a + Lanes::all(kRigid);
   for (int row = 0; row < line.n_springs; ++row) {
     const Block& block = blocks_[static_cast<std::size_t>(operations[row].block)];
     const int b = operations[row].b + lane;
@@ -250,16 +253,19 @@ void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int la
     begin_a = begin_b;
     move_a = move_b;
     w_a = w_b;
+    w_largest = max(w_largest, w_b);
     d_before = spring.d;
     g_before = spring.g;
   }
 
+  const Lanes largest = Lanes::all(0.5f * kLargestPull) / w_largest;
   zero.store(scratch(line.n_springs - 1, 0));
   Lanes f = zero;
   Vec3Lanes<Lanes> pull_after = nothing;
   for (int row = line.n_springs - 1; row >= 0; --row) {
     const int b = operations[row].b + lane;
     f = Lanes::load(scratch(row, 1)) + Lanes::load(scratch(row, 0)) * f;
+    f = max(min(f, largest), zero - largest);
     const Vec3Lanes<Lanes> pull =
         f * Vec3Lanes<Lanes>{Lanes::load(scratch(row, 2)), Lanes::load(scratch(row, 3)),
                              Lanes::load(scratch(row, 4))};
@@ -279,7 +285,7 @@ void SpringProgram::project(const LaneView& view) {
   const Operation* const operations = operations_.data();
   const Block* const blocks = blocks_.data();
   float* const multipliers = multipliers_.data();
-  for_each_operation(stretches_, members_, [&](int index, int lane, auto lanes) {
+  for_each_operation(stretches_, members_, [=](int index, int lane, auto lanes) {
     using Lanes = decltype(lanes);
     const int a = operations[index].a + lane;
     const int b = operations[index].b + lane;
@@ -365,8 +371,7 @@ double SpringProgram::sum_of_squares(const LaneView& v) const {
     Float4 error;  // (l^2 - L^2)/2 = (l - L) (l + L)/2
     if constexpr (law == SpringLaw::rigid) {
       const Float4 rest = Float4::load(block.rest.data());
-      const Float4 two = Float4::all(2.0f);
-      error = two * spring.aim / (sqrt(dot(spring.d, spring.d)) + sqrt(two * rest));
+      error = Float4::all(2.0f) * spring.aim / (sqrt(dot(spring.d, spring.d)) + sqrt(rest));
     } else {
       error = spring.aim / spring.length;
     }

@@ -45,7 +45,7 @@ class SpringProgram {
 
   /// The numbers of the springs in the lanes of an operation.
   struct Block {
-    PerLane<float> rest;               ///< L [m]; for the rigid law L^2/2 [m^2]
+    PerLane<float> rest;               ///< L [m]; for the rigid law L^2 [m^2]
     PerLane<float> compliance;         ///< mean mass / (stiffness h^2); 0 in empty lanes
     PerLane<float> denominator_share;  ///< the same; infinite in empty lanes: nothing moves there
     PerLane<float> damper_share;       ///< of the stiffness k + c/h, what is c/h
