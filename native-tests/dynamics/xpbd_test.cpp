@@ -216,6 +216,37 @@ TEST_CASE("xpbd: free fall is exact to rounding however small the substep", "[dy
   CHECK(fallen == Approx(0.5 * 9.81 * (1 + h)).epsilon(rounding));  // symplectic Euler's sum
 }
 
+TEST_CASE("xpbd: slow motion is not lost in rounding", "[dynamics]") {
+  System system = particles(Positions::Constant(3, 2, 0.7));
+  system.state.positions.col(1).setConstant(-0.7);
+  system.model.gravity.setZero();
+  const double speed = 1e-5;  // [m/s]: a substep's move is a fortieth of the last bit of a position
+  system.state.velocities(0, 0) = speed;
+  const double start = system.state.positions(0, 0);
+  StepperXpbd stepper(system.model, rigid_options(100));
+  advance(stepper, system.state, 60);
+  CHECK(system.state.positions(0, 0) - start == Approx(speed).epsilon(1e-3));
+}
+
+TEST_CASE("xpbd: only the isotropic damper brakes motion across a spring", "[dynamics]") {
+  const bool isotropic = GENERATE(false, true);
+  CAPTURE(isotropic);
+  Positions positions(3, 2);
+  positions << 0, 0, 0, -1, 0, 0;
+  System system = particles(positions);
+  system.model.gravity.setZero();
+  if (isotropic) system.model.damping_direction = DampingDirection::isotropic;
+  const double damping = 0.1;  // [N s/m]
+  system.model.springs.push_back(spring_between(positions, 0, 1, 40, damping));
+  const double speed = 1e-3;  // too slow to turn the spring
+  system.state.velocities(0, 0) = speed;
+  system.state.velocities(0, 1) = -speed;
+  StepperXpbd stepper(system.model, xpbd_options(100));
+  advance(stepper, system.state, 3);
+  const double rate = isotropic ? damping / (0.5 * 0.01) : 0;  // c over the reduced mass [1/s]
+  CHECK(system.state.velocities(0, 0) == Approx(speed * std::exp(-rate * 3 / 60)).epsilon(5e-3));
+}
+
 TEST_CASE("xpbd: projections keep momentum", "[dynamics]") {
   const std::uint64_t seed = GENERATE(1u, 2u, 3u);
   const bool rigid = GENERATE(false, true);
