@@ -84,7 +84,7 @@ TEST_CASE("steppers: a flat sheet without weight stays where it is to rounding",
 }
 
 TEST_CASE("steppers: a sheet that hangs at rest stays so for 10 s in any order of its springs",
-          "[dynamics]") {
+          "[dynamics][long]") {
   const auto seed = GENERATE(1u, 2u);
   CAPTURE(seed);
   Random random(seed);

@@ -46,7 +46,7 @@ TEST_CASE("chain_reference: the rows of the sheet stay level and keep their dist
 // side, where the rigidity of fine cotton moves the sheet by centimetres. What is left is stretch,
 // 0.01 % rms.
 TEST_CASE("chain_reference: fine cotton swings as a chain of rigid links, within 2 mm",
-          "[measure]") {
+          "[measure][long]") {
   Scene scene = swinging_scene(GENERATE(8, 16));
   scene.model.bending = BendingModel::none;
   scene.method.stepper = StepperKind::explicit_euler;

@@ -47,7 +47,7 @@ TEST_CASE("contact: a sheet shot at a ball or a floor at 50 m/s never enters it"
   }
 }
 
-TEST_CASE("contact: cloth dropped flat on a floor comes to rest there", "[scene]") {
+TEST_CASE("contact: cloth dropped flat on a floor comes to rest there", "[scene][long]") {
   for (const MethodOptions& method : everyday_methods()) {
     CAPTURE(name(method.stepper));
     Scene scene = falling_scene(method, 0.05);

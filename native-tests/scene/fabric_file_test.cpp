@@ -104,7 +104,8 @@ TEST_CASE("fabric file: a missing number is refused by name", "[scene]") {
 TEST_CASE(
     "fabric file: the published weights of recovery, stretch and bend are there and sum to a whole",
     "[scene]") {
-  for (const json& fabric : fabric_document().at("fabrics")) {
+  const json document = fabric_document();
+  for (const json& fabric : document.at("fabrics")) {
     CAPTURE(fabric.at("name_en").get<std::string>());
     const json& table = fabric.at("seed_table");
     const double sum = table.at("weight_recovery_percent").get<double>() +
