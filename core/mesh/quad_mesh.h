@@ -49,7 +49,7 @@ using Triangle = std::array<VertexId, 3>;
 /// A mesh of quads refined by quadtrees. New vertices are appended, so vertex i of the base mesh is
 /// vertex i of every refinement.
 ///
-/// Source: Shi et al., example-based multi-resolution cloth on quad meshes;
+/// Source: the multi-resolution quad cloth listed as M in docs/reproduction.md;
 /// docs/methods/quad_mesh.md.
 class QuadMesh {
  public:
