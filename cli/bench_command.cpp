@@ -141,12 +141,11 @@ Reference run_reference(const Scene& scene, const std::vector<double>& times,
   if (run.failed())
     throw InputError("/method", "expected a run to its end, got: " + run.report().message);
   const MethodOptions& method = run.simulation().scene().method;
-  const Reference reference{
-      {id,
-       std::string(name(method.stepper)) + " with " + name(method.solver) + ", step " +
-           Json(method.step / run.simulation().substeps()).dump() + " s",
-       false},
-      run.samples()};
+  const Reference reference{{id,
+                             std::string(name(method.stepper)) + " with " + name(method.solver) +
+                                 ", step " + step_phrase(method.step / run.simulation().substeps()),
+                             false},
+                            run.samples()};
   store.keep(reference);
   return reference;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/measure/core_version.h"
 #include "core/measure/error_norms.h"
 #include "core/measure/stage_timer.h"
 #include "core/measure/sweep.h"
@@ -307,7 +308,7 @@ class Experiment {
     return guarded([&](val& envelope) {
       pleat::SweepPlan plan = pleat::read_sweep_plan(plan_text, pleat::read_fabrics(fabrics_json_));
       const int n_runs = plan.n_settings();
-      sweep_.emplace(std::move(plan), references_, "");
+      sweep_.emplace(std::move(plan), references_, pleat::core_version());
       envelope.set("n_runs", n_runs);
     });
   }

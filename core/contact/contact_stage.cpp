@@ -69,13 +69,18 @@ Vec3 tangential(const Vec3& vector, const Vec3& normal) {
 }  // namespace
 
 ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions& options)
-    : colliders_(std::move(colliders)), options_(options) {
-  PLEAT_CHECK(options_.half_thickness >= 0 && std::isfinite(options_.half_thickness),
-              "the cloth's half thickness must not be negative");
-  PLEAT_CHECK(options_.face_circumradius >= 0 && std::isfinite(options_.face_circumradius),
-              "the faces' circumradius must not be negative");
+    : colliders_(std::move(colliders)) {
+  set_options(options);
   for (const Collider& collider : colliders_) validate(collider);
   solids_.resize(colliders_.size());
+}
+
+void ContactStage::set_options(const ContactOptions& options) {
+  PLEAT_CHECK(options.half_thickness >= 0 && std::isfinite(options.half_thickness),
+              "the cloth's half thickness must not be negative");
+  PLEAT_CHECK(options.face_circumradius >= 0 && std::isfinite(options.face_circumradius),
+              "the faces' circumradius must not be negative");
+  options_ = options;
 }
 
 double ContactStage::clearance(const Collider& collider) const {

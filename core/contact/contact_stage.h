@@ -39,6 +39,10 @@ class ContactStage {
   /// friction or sizes.
   ContactStage(std::vector<Collider> colliders, const ContactOptions& options);
 
+  const ContactOptions& options() const { return options_; }
+  /// Throws ContractError for negative sizes.
+  void set_options(const ContactOptions& options);
+
   /// Distance from the solid's surface at which vertices are held [m]: half the thickness, and for
   /// a sphere of radius R also the sagitta sqrt(R^2 + c^2) - R of a face of circumradius c.
   double clearance(const Collider& collider) const;

@@ -33,6 +33,7 @@ class AirDrag {
   /// Factor on the force, 1 to begin with: lets drag keep up while motion is carried over to cloth
   /// of another weight.
   void set_strength(double factor) { strength_ = factor; }
+  double strength() const { return strength_; }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
 

@@ -70,7 +70,7 @@ std::string method_phrase(const BenchRow& row) {
   std::string text = name(method.stepper);
   if (method.stepper == StepperKind::implicit_euler || method.stepper == StepperKind::projective)
     text += std::string(" ") + name(method.solver);
-  text += ", 1/" + short_number(1 / method.step) + " s x " + std::to_string(row.n_substeps);
+  text += ", " + step_phrase(method.step) + " x " + std::to_string(row.n_substeps);
   if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
   return text;
 }

@@ -1,7 +1,9 @@
 #include "core/measure/reference.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 
 #include "core/base/check.h"
@@ -50,6 +52,18 @@ Reference read_header(const Json& json) {
 }
 
 }  // namespace
+
+std::string step_phrase(double step) {
+  constexpr double kRounding = 1e-9;  // relative; what 1/n written in 15 digits has
+  const double per_second = 1 / step;
+  const bool is_whole_part = std::abs(std::round(per_second) - per_second) < kRounding * per_second;
+  char text[32];
+  if (is_whole_part && per_second > 0.5)
+    std::snprintf(text, sizeof text, "1/%.0f s", per_second);
+  else
+    std::snprintf(text, sizeof text, "%.3g s", step);
+  return text;
+}
 
 std::string content_hash(std::string_view bytes) {
   constexpr char kDigits[] = "0123456789abcdef";

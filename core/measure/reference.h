@@ -19,6 +19,9 @@ struct ReferenceLabel {
       false;  ///< halving its mesh or step would change the errors by less than a quarter
 };
 
+/// A step [s] for such phrases: "1/960 s" where it is a whole part of a second, else "0.35 s".
+std::string step_phrase(double step);
+
 /// Positions at given times that are taken for right.
 struct Reference {
   ReferenceLabel label;

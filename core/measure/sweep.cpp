@@ -136,8 +136,7 @@ void Sweep::make_reference(double budget) {
   if (!run_->done()) return;
   reference_.label = {id,
                       "implicit with " + std::string(name(scene.method.solver)) + ", level " +
-                          std::to_string(scene.level) + ", step " + Json(scene.method.step).dump() +
-                          " s",
+                          std::to_string(scene.level) + ", step " + step_phrase(scene.method.step),
                       false};
   reference_.samples = run_->samples();
   if (run_->failed())

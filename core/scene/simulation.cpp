@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/dynamics/carry_over.h"
 
 namespace pleat {
 namespace {
@@ -16,12 +15,6 @@ bool has_ended(const SolveReport& report) {
   return !report.ok() && report.status != SolveStatus::not_converged;
 }
 
-/// A smooth step from 1 to 0 over the carry-over time.
-double carried_share(double seconds) {
-  const double s = std::clamp(seconds / kCarryOverTime, 0.0, 1.0);
-  return 1 - s * s * (3 - 2 * s);
-}
-
 double rest_diagonal(const SheetShape& shape) { return std::hypot(shape.width, shape.height); }
 
 }  // namespace
@@ -31,7 +24,6 @@ Simulation::Simulation(const Scene& scene)
       mesh_(scene_mesh(scene)),
       triangles_(scene_triangles(scene, mesh_)),
       model_(scene_model(scene, mesh(), triangles_)) {
-  springs_ = model_.springs;
   start();
 }
 
@@ -55,16 +47,20 @@ Positions Simulation::rest_positions() const { return scene_state(scene_, mesh()
 
 void Simulation::reset() {
   release_grab();
-  carried_rest_lengths_.clear();
-  model_.springs = springs_;
-  if (model_.air) model_.air->set_strength(1);
+  end_transition();
   start();
 }
 
 SolveReport Simulation::step() {
   if (has_ended(ended_)) return ended_;
   if (grab_) place_grab_pins();
-  if (!carried_rest_lengths_.empty()) relax_carried();
+  if (transition_) {
+    const double since = time() - time_begin_;
+    if (since < kTransitionTime)
+      transition_->apply(since, model_, *stepper_);
+    else
+      end_transition();
+  }
   ended_ = stepper_->advance(state_, time());
   if (!has_ended(ended_)) ++n_steps_;
   return ended_;
@@ -76,10 +72,10 @@ void Simulation::carry_over(const Simulation& old) {
   PLEAT_CHECK(
       shape && old_shape && shape->columns == old_shape->columns && shape->rows == old_shape->rows,
       "motion is carried over between refinements of one sheet");
+  end_transition();
   const MovingSheet from{*old.mesh_, old.model_, old.state_};
   state_ = carried_state(from, *mesh_);
-  carried_rest_lengths_ = carried_rest_lengths(from, {*mesh_, model_, state_});
-  carried_mass_ratio_ = model_.masses.sum() / old.model_.masses.sum();
+  transition_.emplace(from, MovingSheet{*mesh_, model_, state_});
   time_begin_ = old.time();
   n_steps_ = 0;
   if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {
@@ -88,14 +84,10 @@ void Simulation::carry_over(const Simulation& old) {
   }
 }
 
-void Simulation::relax_carried() {
-  const double share = carried_share(time() - time_begin_);
-  for (std::size_t s = 0; s < springs_.size(); ++s)
-    model_.springs[s].rest_length =
-        springs_[s].rest_length + share * (carried_rest_lengths_[s] - springs_[s].rest_length);
-  stepper_->refresh_rest_lengths();
-  if (model_.air) model_.air->set_strength(1 + share * (carried_mass_ratio_ - 1));
-  if (share == 0) carried_rest_lengths_.clear();
+void Simulation::end_transition() {
+  if (!transition_) return;
+  transition_->apply(kTransitionTime, model_, *stepper_);
+  transition_.reset();
 }
 
 void Simulation::grab(VertexId vertex) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/transition.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_model.h"
 
@@ -24,10 +24,9 @@ class Simulation {
   void reset();
 
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
-  /// the bit, new ones are interpolated along the mesh lines. Internal forces per width and mass go
-  /// on where they were and relax to this scene's own within kCarryOverTime, so that a change of
-  /// mesh or fabric does not shake the cloth. Throws ContractError unless both are sheets with the
-  /// same base mesh.
+  /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
+  /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
+  /// shake the cloth. Throws ContractError unless both are sheets with the same base mesh.
   void carry_over(const Simulation& old);
 
   /// Holds every vertex within the hand's radius (kHandRadius of the sheet's rest diagonal, at
@@ -39,10 +38,12 @@ class Simulation {
   void release_grab();
 
   const Scene& scene() const { return scene_; }
+  /// For kTransitionTime after carry_over it is on its way to the scene's own.
   const ClothModel& model() const { return model_; }
-  /// The scene's own springs. Those of the model have other rest lengths for kCarryOverTime after
-  /// carry_over.
-  const std::vector<Spring>& springs() const { return springs_; }
+  /// The scene's own springs, which stretch is measured by.
+  const std::vector<Spring>& springs() const {
+    return transition_ ? transition_->own_springs() : model_.springs;
+  }
   const State& state() const { return state_; }
   const QuadMesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }  ///< null for inline particles
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -63,7 +64,7 @@ class Simulation {
 
   void start();
   void place_grab_pins();
-  void relax_carried();
+  void end_transition();
 
   Scene scene_;
   std::optional<QuadMesh> mesh_;
@@ -75,15 +76,10 @@ class Simulation {
   double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
   std::int64_t n_steps_ = 0;
   std::optional<Grab> grab_;
-  std::vector<Spring>
-      springs_;  // the scene's own; the model's rest lengths differ while it takes motion over
-  std::vector<double>
-      carried_rest_lengths_;       // what a carried-over cloth starts from, else empty [m]
-  double carried_mass_ratio_ = 1;  // of the cloth to the one whose motion it took over
+  std::optional<Transition> transition_;
   SolveReport ended_;
 };
 
-constexpr double kCarryOverTime = 2;  ///< [s]
 constexpr double kHandRadius = 0.03;  ///< of the rest diagonal
 
 }  // namespace pleat

@@ -123,6 +123,22 @@ TEST_CASE("steppers: the same start gives the same bits", "[dynamics]") {
   }
 }
 
+TEST_CASE("steppers: rest lengths may change between steps", "[dynamics]") {
+  for (const MethodOptions& options : everyday_methods()) {
+    CAPTURE(name(options.stepper));
+    ClothModel model = held_model({});
+    const auto stepper = make_stepper(model, options);
+    for (Spring& spring : model.springs) spring.rest_length *= 1.01;
+    stepper->refresh_rest_lengths();
+    State refreshed = tossed_state();
+    stepper->advance(refreshed, 0);
+    const State built_anew = advanced(model, options, tossed_state(), 1);
+    CHECK(refreshed.positions == built_anew.positions);
+    ClothModel other = held_model({});
+    CHECK(refreshed.positions != advanced(other, options, tossed_state(), 1).positions);
+  }
+}
+
 TEST_CASE("steppers: a state that is not finite ends the step and is named", "[dynamics]") {
   const double bad =
       GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());

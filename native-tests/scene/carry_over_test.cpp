@@ -185,4 +185,22 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
   CHECK(after <= 1.5 * before);
 }
 
+TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[dynamics]") {
+  const auto stepper = GENERATE(StepperKind::implicit_euler, StepperKind::projective);
+  Simulation old(moving_scene("tablecloth", stepper, 1, "silk"));
+  for (int s = 0; s < 10; ++s) old.step();
+  const Scene scene = moving_scene("tablecloth", stepper, 0, "leather");
+  Simulation changed(scene);
+  const ClothModel own = changed.model();
+  const Collider& ball = own.contact->colliders().back();
+  changed.carry_over(old);
+  changed.step();
+  CHECK(changed.model().springs[0].rest_length != own.springs[0].rest_length);
+  CHECK(changed.model().contact->clearance(ball) < own.contact->clearance(ball));
+  while (changed.time() - old.time() < kTransitionTime + scene.method.step) changed.step();
+  for (std::size_t s = 0; s < own.springs.size(); ++s)
+    CHECK(changed.model().springs[s].rest_length == own.springs[s].rest_length);
+  CHECK(changed.model().contact->clearance(ball) == own.contact->clearance(ball));
+}
+
 }  // namespace pleat
