@@ -204,4 +204,11 @@ std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingShe
   return rest_lengths;
 }
 
+Positions carried_forces(const Positions& forces, const MovingSheet& old,
+                         const MovingSheet& fresh) {
+  if (forces.cols() == 0) return Positions::Zero(3, fresh.mesh.n_vertices());
+  const Positions accelerations = forces * old.model.masses.cwiseInverse().asDiagonal();
+  return carried_means(accelerations, fresh.mesh) * fresh.model.masses.asDiagonal();
+}
+
 }  // namespace pleat

@@ -28,4 +28,8 @@ State carried_state(const MovingSheet& old, const QuadMesh& mesh);
 /// shake the cloth. Both models have rest coordinates.
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh);
 
+/// Forces on the vertices of `old` [N], one column each, or none at all, as forces on those of
+/// `fresh` that accelerate them alike.
+Positions carried_forces(const Positions& forces, const MovingSheet& old, const MovingSheet& fresh);
+
 }  // namespace pleat

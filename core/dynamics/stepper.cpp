@@ -1,6 +1,9 @@
 #include "core/dynamics/stepper.h"
 
+#include <cstdio>
+
 #include "core/base/check.h"
+#include "core/dynamics/elasticity.h"
 #include "core/dynamics/stepper_explicit.h"
 #include "core/dynamics/stepper_implicit.h"
 #include "core/dynamics/stepper_projective.h"
@@ -9,20 +12,28 @@
 namespace pleat {
 namespace {
 
-/// The first vertex whose position or velocity is not finite; invalid when all are.
-VertexId first_not_finite(const State& state) {
-  if (state.positions.allFinite() && state.velocities.allFinite()) return VertexId();
+/// False for NaN too.
+bool is_within_bounds(const Eigen::Ref<const Positions>& columns) {
+  return (columns.array().abs() <= kLargestCoordinate).all();
+}
+
+/// The first vertex that has left all bounds; invalid when none has.
+VertexId first_lost(const State& state) {
+  if (is_within_bounds(state.positions) && is_within_bounds(state.velocities)) return VertexId();
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
-    if (!state.positions.col(i).allFinite() || !state.velocities.col(i).allFinite())
+    if (!is_within_bounds(state.positions.col(i)) || !is_within_bounds(state.velocities.col(i)))
       return VertexId(i);
   return VertexId();
 }
 
-SolveReport not_finite_report(VertexId vertex, double time) {
+SolveReport lost_report(VertexId vertex, double time) {
+  char sentence[120];
+  std::snprintf(sentence, sizeof sentence,
+                "vertex %d diverged in the step from %.6g s: beyond %.0g m or m/s, or not finite",
+                vertex.value, time, kLargestCoordinate);
   SolveReport report;
   report.status = SolveStatus::not_finite;
-  report.message = "vertex " + std::to_string(vertex.value) +
-                   " is no longer finite in the step from " + std::to_string(time) + " s";
+  report.message = sentence;
   return report;
 }
 
@@ -49,11 +60,21 @@ void MethodOptions::validate() const {
   PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
 }
 
-Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps)
-    : model_(model), options_(options), substeps_(substeps) {
+Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
+                 ContactMemory memory)
+    : model_(model),
+      options_(options),
+      substeps_(substeps),
+      memory_(model.contact ? memory : ContactMemory::none) {
   options.validate();
   model.validate();
-  if (model.contact) contact_forces_ = Positions::Zero(3, model.n_vertices());
+  if (memory_ != ContactMemory::none) contact_forces_ = Positions::Zero(3, model.n_vertices());
+}
+
+void Stepper::start_from_contact_forces(const Eigen::Ref<const Positions>& forces) {
+  if (memory_ == ContactMemory::none) return;
+  PLEAT_CHECK(forces.cols() == model_.n_vertices(), "a contact force for every vertex");
+  contact_forces_ = forces;
 }
 
 void Stepper::load(const State&) {}
@@ -64,8 +85,7 @@ SolveReport Stepper::advance(State& state, double time) {
   PLEAT_CHECK(state.positions.cols() == model_.n_vertices() &&
                   state.velocities.cols() == model_.n_vertices(),
               "a state has the model's vertices");
-  if (const VertexId bad = first_not_finite(state); bad.valid())
-    return not_finite_report(bad, time);
+  if (const VertexId bad = first_lost(state); bad.valid()) return lost_report(bad, time);
   last_finite_ = state;
   const double h = options_.step / substeps_;
   SolveReport report;
@@ -84,41 +104,51 @@ SolveReport Stepper::advance(State& state, double time) {
       break;
   }
   store(state, report);
-  const VertexId bad = first_not_finite(state);
-  if (bad.valid()) report = not_finite_report(bad, time);
+  const VertexId bad = first_lost(state);
+  if (bad.valid()) report = lost_report(bad, time);
   if (!report.ok() && report.status != SolveStatus::not_converged) state = last_finite_;
   return report;
 }
 
-void Stepper::add_contact_forces(Eigen::Ref<Positions> forces) const {
-  if (model_.contact) forces += contact_forces_;
+void Stepper::set_external_forces(const State& state, double h, Positions& forces) {
+  const StageScope scope(observer_, Stage::forces);
+  forces.setZero();
+  add_gravity(model_, forces);
+  if (memory_ != ContactMemory::none) forces += contact_forces_;
+  if (model_.air)
+    model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces);
 }
 
-// With f the remembered force, the proposed place and velocity without it are x - h^2 f/m and v - h
-// f/m: what the vertex would do were it let go. The contact acts on those, so that the new force, m
-// dv/h, is the whole one: never pulling, and inside Coulomb's cone. It equals f where the vertex is
-// held in equilibrium and vanishes where it leaves.
+// With f the remembered force, zero without memory, the proposed place and velocity without it are
+// x - h^2 f/m and v - h f/m: what the vertex would do were it let go. The contact acts on those, so
+// that the new force, m dv/h, is the whole one: never pulling, and inside Coulomb's cone. It equals
+// f where the vertex is held in equilibrium and vanishes where it leaves.
 void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double time_end,
                                double h) {
   if (!model_.contact) return;
   const StageScope scope(observer_, Stage::contact);
+  const bool remembers = memory_ != ContactMemory::none;
   model_.contact->begin_substep(time_end - h, time_end);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
     const double mobility = h / model_.masses[i];
-    const Vec3 free_velocity = state.velocities.col(i) - mobility * contact_forces_.col(i);
-    Vec3 position = state.positions.col(i) - h * mobility * contact_forces_.col(i);
-    Vec3 velocity = free_velocity;
+    Vec3 position = state.positions.col(i);
+    Vec3 velocity = state.velocities.col(i);
+    if (remembers) {
+      velocity -= mobility * contact_forces_.col(i);
+      position -= h * mobility * contact_forces_.col(i);
+    }
+    const Vec3 free_velocity = velocity;
     model_.contact->resolve(positions_begin.col(i), position, velocity);
     state.positions.col(i) = position;
     state.velocities.col(i) = velocity;
-    contact_forces_.col(i) = (velocity - free_velocity) / mobility;
+    if (remembers) contact_forces_.col(i) = (velocity - free_velocity) / mobility;
   }
   // A pin wins over a solid: it is where the scene puts it.
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) =
         (state.positions.col(pin.vertex) - positions_begin.col(pin.vertex)) / h;
-    contact_forces_.col(pin.vertex).setZero();
+    if (remembers) contact_forces_.col(pin.vertex).setZero();
   }
 }
 

@@ -13,6 +13,13 @@ namespace pleat {
 
 enum class StepperKind { explicit_euler, implicit_euler, projective, xpbd };
 
+/// The most substeps of a step: with steps of 1/60 s, 17 ns each.
+constexpr int kMaxSubsteps = 1000000;
+
+/// Further from the origin [m], or faster [m/s], than any cloth: a run that has come here has
+/// diverged, though its numbers are finite still.
+constexpr double kLargestCoordinate = 1e12;
+
 /// As scenes write it: "explicit", "implicit", "projective", "xpbd".
 const char* name(StepperKind kind);
 
@@ -42,20 +49,32 @@ class Stepper {
 
   /// From `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at their
   /// pins. After each substep the model's contact corrects the result. The report's residual is
-  /// that of the last substep's own equations, its iterations the sum. A state that is not finite
-  /// ends the step: `state` then holds the last finite one. Allocates nothing after the first call.
+  /// that of the last substep's own equations, its iterations the sum. A state that is not finite,
+  /// or beyond kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates
+  /// nothing after the first call.
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;
   /// For steppers that keep rest lengths in a layout of their own.
   virtual void refresh_rest_lengths() {}
 
+  /// By which solids held the vertices in the last substep [N]; zero for steppers that do not
+  /// remember them.
+  const Positions& contact_forces() const { return contact_forces_; }
+  void start_from_contact_forces(const Eigen::Ref<const Positions>& forces);
+
   void observe(StageObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }
   int substeps() const { return substeps_; }
 
  protected:
-  Stepper(ClothModel& model, const MethodOptions& options, int substeps);
+  /// Whether the force with which a solid held a vertex in one substep is among the forces of the
+  /// next. What a stepper that solves for the end of a substep rests on is then in its equations:
+  /// it comes to rest in equilibrium instead of falling into the solid and being put back in every
+  /// substep.
+  enum class ContactMemory { none, last_substep };
+
+  Stepper(ClothModel& model, const MethodOptions& options, int substeps, ContactMemory memory);
 
   /// Takes the state over at the begin of a step and gives it back at its end; steppers with a
   /// layout of their own convert here. `store` may also complete the report: the residual is worth
@@ -67,14 +86,10 @@ class Stepper {
 
   /// The shared way a substep ends for steppers that work on `State` itself: contact on every
   /// vertex.
-  ///
-  /// The force with which a solid held a vertex is remembered, and a stepper that solves for the
-  /// end of a substep adds it to its forces in the next one. What a held cloth rests on is then in
-  /// its equations: it comes to rest in equilibrium instead of falling into the solid and being put
-  /// back in every substep.
   void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h);
-  /// Adds the remembered forces [N].
-  void add_contact_forces(Eigen::Ref<Positions> forces) const;
+  /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
+  /// [s] (0: explicit), remembered contact [N].
+  void set_external_forces(const State& state, double h, Positions& forces);
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
@@ -82,12 +97,13 @@ class Stepper {
  private:
   MethodOptions options_;
   int substeps_;
+  ContactMemory memory_;
   State last_finite_;
-  Positions contact_forces_;  // by which solids held the vertices in the last substep [N]
+  Positions contact_forces_;
 };
 
 /// Throws InputError when the method cannot run on this model (explicit beyond its stability bound
-/// with substeps given, xpbd or projective asked for a solver that is not available).
+/// or kMaxSubsteps, implicit or projective asked for a solver that this build or they do not have).
 std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options);
 
 }  // namespace pleat

@@ -1,5 +1,6 @@
 #include "core/dynamics/stepper_explicit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -15,25 +16,23 @@ constexpr double kStepShare = 0.9;  // of the bound, used when the substeps are 
 /// Substeps of a step: as asked, or as many as the bound needs.
 int explicit_substeps(const ClothModel& model, const MethodOptions& options) {
   const double bound = StepperExplicit::largest_stable_step(model);
-  if (options.substeps == 0)
-    return std::max(1, static_cast<int>(std::ceil(options.step / (kStepShare * bound))));
-  const double h = options.step / options.substeps;
-  if (h > bound) {
-    char sentence[200];
-    std::snprintf(sentence, sizeof sentence,
-                  "expected explicit substeps of at most %.3g s, the stability bound of this "
-                  "cloth, found %.3g s "
-                  "(%d substeps would do)",
-                  bound, h, static_cast<int>(std::ceil(options.step / (kStepShare * bound))));
-    throw InputError("/method/substeps", sentence);
-  }
-  return options.substeps;
+  const double enough = std::max(1.0, std::ceil(options.step / (kStepShare * bound)));
+  const bool is_ours = options.substeps == 0;
+  if (is_ours ? enough <= kMaxSubsteps : options.step / options.substeps <= bound)
+    return is_ours ? static_cast<int>(enough) : options.substeps;
+  char sentence[200];
+  std::snprintf(sentence, sizeof sentence,
+                "expected explicit substeps of at most %.3g s, the stability bound of this cloth, "
+                "got %.3g s (%.7g substeps would do, %d are the most)",
+                bound, options.step / (is_ours ? kMaxSubsteps : options.substeps), enough,
+                kMaxSubsteps);
+  throw InputError("/method/substeps", sentence);
 }
 
 }  // namespace
 
 StepperExplicit::StepperExplicit(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, explicit_substeps(model, options)),
+    : Stepper(model, options, explicit_substeps(model, options), ContactMemory::none),
       forces_(3, model.n_vertices()),
       positions_begin_(3, model.n_vertices()) {}
 
@@ -64,14 +63,11 @@ double StepperExplicit::largest_stable_step(const ClothModel& model) {
 
 SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
+  set_external_forces(state, 0, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
-    forces_.setZero();
     add_elastic_forces(model_, state.positions, forces_);
     add_damping_forces(model_, state.positions, state.velocities, forces_);
-    add_gravity(model_, forces_);
-    if (model_.air)
-      model_.air->add_forces(state.positions, state.velocities, model_.masses, 0, forces_);
   }
   {
     const StageScope scope(observer_, Stage::solve);

@@ -21,7 +21,7 @@ std::unique_ptr<LinearSolver> available_solver(const MethodOptions& options) {
 }  // namespace
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, options.substeps),
+    : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       matrix_(model),
       solver_(available_solver(options)),
       forces_(3, model.n_vertices()),
@@ -69,15 +69,8 @@ void StepperImplicit::assemble(const State& state, double h) {
 
 SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
-  {
-    const StageScope scope(observer_, Stage::forces);
-    forces_.setZero();
-    add_gravity(model_, forces_);
-    add_contact_forces(forces_);
-    if (model_.air)
-      model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces_);
-    forces_ *= h;
-  }
+  set_external_forces(state, h, forces_);
+  forces_ *= h;
   assemble(state, h);
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     const Pin& pin = model_.pins[p];

@@ -28,7 +28,7 @@ bool damps_along_spring(const ClothModel& model) {
 }  // namespace
 
 StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, options.substeps),
+    : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       solver_(factor_solver(options)),
       targets_(model.springs.size()),
       forces_(3, model.n_vertices()),
@@ -125,13 +125,9 @@ void StepperProjective::set_right_side(double time_end, double h) {
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
   if (!factor_report_.ok()) return factor_report_;
   positions_begin_ = state.positions;
+  set_external_forces(state, h, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
-    forces_.setZero();
-    add_gravity(model_, forces_);
-    add_contact_forces(forces_);
-    if (model_.air)
-      model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces_);
     for (int i = 0; i < model_.n_vertices(); ++i)
       predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
                           h * h / model_.masses[i] * forces_.col(i);

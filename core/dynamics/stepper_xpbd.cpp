@@ -21,7 +21,7 @@ double step_of(const MethodOptions& options) { return options.step / options.sub
 }  // namespace
 
 StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, options.substeps),
+    : Stepper(model, options, options.substeps, ContactMemory::none),
       layout_(lane_layout(model)),
       springs_(model, layout_, options.constraints_rigid, step_of(options)),
       bends_(model, layout_, step_of(options)),

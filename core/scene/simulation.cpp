@@ -75,7 +75,9 @@ void Simulation::carry_over(const Simulation& old) {
   end_transition();
   const MovingSheet from{*old.mesh_, old.model_, old.state_};
   state_ = carried_state(from, *mesh_);
-  transition_.emplace(from, MovingSheet{*mesh_, model_, state_});
+  const MovingSheet to{*mesh_, model_, state_};
+  transition_.emplace(from, to);
+  stepper_->start_from_contact_forces(carried_forces(old.stepper_->contact_forces(), from, to));
   time_begin_ = old.time();
   n_steps_ = 0;
   if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {

@@ -136,12 +136,21 @@ TEST_CASE("explicit: the refusal names the bound and a count of substeps that ru
     const std::string text = error.what();
     CAPTURE(text);
     CHECK(error.where() == "/method/substeps");
-    CHECK(text.find("found 0.00833 s") != std::string::npos);
+    CHECK(text.find("got 0.00833 s") != std::string::npos);
     const std::size_t bracket = text.find('(');
     REQUIRE(bracket != std::string::npos);
     count = std::stoi(text.substr(bracket + 1));
   }
   CHECK_NOTHROW(make_stepper(model, explicit_method(1.0 / 60, count)));
+}
+
+TEST_CASE("explicit: cloth that needs more substeps than there can be is refused", "[dynamics]") {
+  const int substeps = GENERATE(0, 1, kMaxSubsteps);
+  CAPTURE(substeps);
+  ClothModel model = pair_model(0);
+  model.masses.setConstant(1e-15);
+  for (Spring& spring : model.springs) spring.stiffness = 9e11;
+  CHECK_THROWS_AS(make_stepper(model, explicit_method(1.0 / 60, substeps)), InputError);
 }
 
 TEST_CASE("explicit: left to choose, it takes the fewest substeps within its share of the bound",

@@ -83,7 +83,7 @@ TEST_CASE("steppers: a flat sheet without weight stays where it is to rounding",
   }
 }
 
-TEST_CASE("steppers: a sheet that hangs at rest stays so for 10 s in any order of its springs",
+TEST_CASE("steppers: a sheet that hangs at rest stays so in any order of its springs",
           "[dynamics][long]") {
   const auto seed = GENERATE(1u, 2u);
   CAPTURE(seed);
@@ -97,15 +97,14 @@ TEST_CASE("steppers: a sheet that hangs at rest stays so for 10 s in any order o
   REQUIRE(hanging.velocities.cwiseAbs().maxCoeff() < 1e-9);
   for (MethodOptions options : everyday_methods()) {
     if (options.stepper == StepperKind::xpbd) continue;  // xpbd_test.cpp has its own
-    // 10 s; explicit needs substeps by the hundred, and a third of a second must do. Each begins
-    // from what its own equations, as far as it solves them, hold for rest.
-    const int n_steps = options.stepper == StepperKind::explicit_euler ? 20 : 600;
     CAPTURE(name(options.stepper));
     options.tolerance = 1e-10;
-    options.iterations = 5;
-    const State settled = advanced(model, options, hanging, n_steps);
-    const State end = advanced(model, options, settled, n_steps);
-    CHECK((end.positions - settled.positions).cwiseAbs().maxCoeff() < 1e-7);
+    // 10 s; explicit, which takes hundreds of substeps, 1 s.
+    const int n_steps = options.stepper == StepperKind::explicit_euler ? 60 : 600;
+    const State end = advanced(model, options, hanging, n_steps);
+    // Ten rounds from where the sheet would fall in a step do not lift it all of the way back.
+    const double sag = options.stepper == StepperKind::projective ? 5e-5 : 1e-7;  // [m]
+    CHECK((end.positions - hanging.positions).cwiseAbs().maxCoeff() < sag);
     CHECK(end.velocities.cwiseAbs().maxCoeff() < 1e-7);
   }
 }
@@ -154,6 +153,21 @@ TEST_CASE("steppers: a state that is not finite ends the step and is named", "[d
     CHECK(report.status == SolveStatus::not_finite);
     CAPTURE(report.message);
     CHECK(report.message.find("vertex 3") != std::string::npos);
+  }
+}
+
+TEST_CASE("steppers: cloth that flies further than any cloth has diverged", "[dynamics]") {
+  for (const MethodOptions& options : everyday_methods()) {
+    CAPTURE(name(options.stepper));
+    ClothModel model = held_model({});
+    State state = tossed_state();
+    state.velocities.col(17) *= 1e15;
+    const State start = state;
+    const SolveReport report = make_stepper(model, options)->advance(state, 1.5);
+    CHECK(report.status == SolveStatus::not_finite);
+    CHECK(report.message.find("vertex 17 ") == 0);
+    CHECK(report.message.find("from 1.5 s") != std::string::npos);
+    CHECK(state.positions == start.positions);
   }
 }
 

@@ -144,6 +144,25 @@ TEST_CASE("carry_over: compression does not go on", "[dynamics]") {
   CHECK(forces.cwiseAbs().maxCoeff() < 1e-9);
 }
 
+TEST_CASE("carry_over: forces accelerate the new cloth as they did the old", "[dynamics]") {
+  const int old_level = GENERATE(0, 2);
+  const int new_level = GENERATE(0, 1, 3);
+  CAPTURE(old_level, new_level);
+  const QuadMesh coarse = refined(old_level);
+  const QuadMesh fine = refined(new_level);
+  const ClothModel old_model = sheet_model(coarse, library_fabric("silk"));
+  const ClothModel fresh_model = sheet_model(fine, library_fabric("leather"));
+  const State old_state{coarse.rest_positions(), Positions::Zero(3, coarse.n_vertices())};
+  const MovingSheet old{coarse, old_model, old_state};
+  const State fresh_state = carried_state(old, fine);
+  const MovingSheet fresh{fine, fresh_model, fresh_state};
+  const Vec3 lift(1, 9.81, -2);
+  const Positions forces = lift * old_model.masses.transpose();
+  const Positions carried = carried_forces(forces, old, fresh);
+  CHECK((carried - lift * fresh_model.masses.transpose()).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK(carried_forces({}, old, fresh).isZero(0));
+}
+
 TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before", "[dynamics]") {
   struct Change {
     const char* scene;

@@ -1,0 +1,80 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/dynamics/stepper.h"
+#include "native-tests/support/models.h"
+#include "native-tests/support/particle.h"
+
+namespace pleat {
+namespace {
+
+/// Every stepper with substeps of 1/1000 s or less.
+std::vector<MethodOptions> fine_methods() {
+  std::vector<MethodOptions> methods = everyday_methods();
+  for (MethodOptions& options : methods) {
+    options.step = 0.01;
+    options.substeps = 20;
+  }
+  return methods;
+}
+
+ClothModel particle_on(const Collider& collider) {
+  ClothModel model;
+  model.masses = Eigen::VectorXd::Constant(1, 0.3);
+  model.contact.emplace(std::vector<Collider>{collider}, ContactOptions{});
+  return model;
+}
+
+State state_at(const Vec3& position) {
+  State state{position, Positions::Zero(3, 1)};
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("contact: a particle leaves a smooth ball where cos = 2/3, with every stepper",
+          "[contact]") {
+  for (const MethodOptions& options : fine_methods()) {
+    CAPTURE(name(options.stepper));
+    ClothModel model = particle_on(ball_collider(Vec3::Zero(), 1, 0));
+    const auto stepper = make_stepper(model, options);
+    State state = state_at({std::sin(0.1), std::cos(0.1), 0});
+    double left_at = 0;
+    for (int s = 0; left_at == 0 && s < 300; ++s) {
+      REQUIRE(stepper->advance(state, s * options.step).ok());
+      if (state.positions.norm() > 1 + 1e-5) left_at = state.positions.col(0).normalized().y();
+    }
+    // From rest at cos 0.1. It hops by 1e-6 m per substep, and is a little lower when it is clear.
+    CHECK(left_at == Approx(2.0 / 3 * std::cos(0.1)).margin(0.05));
+  }
+}
+
+TEST_CASE("contact: a particle that has rested for long is lifted at once", "[contact]") {
+  for (const MethodOptions& options : fine_methods()) {
+    CAPTURE(name(options.stepper));
+    ClothModel model = particle_on(floor_collider(0.5));
+    const auto stepper = make_stepper(model, options);
+    State state = state_at({0, 0, 0});
+    int s = 0;
+    for (; s < 200; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    CHECK(state.positions.col(0).norm() < 1e-12);
+    state.velocities.col(0) = Vec3(0, 2, 0);
+    for (; s < 210; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    CHECK(state.positions(1, 0) == Approx(2 * 0.1 - 9.81 * 0.01 / 2).epsilon(0.01));
+  }
+}
+
+TEST_CASE("contact: friction stops a sliding particle after v^2 / (2 mu g)", "[contact]") {
+  for (const MethodOptions& options : fine_methods()) {
+    CAPTURE(name(options.stepper));
+    ClothModel model = particle_on(floor_collider(0.4));
+    const auto stepper = make_stepper(model, options);
+    State state = state_at({0, 0, 0});
+    state.velocities.col(0) = Vec3(1, 0, 0);
+    for (int s = 0; s < 100; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    CHECK(state.velocities.norm() < 1e-9);
+    CHECK(state.positions(0, 0) == Approx(1 / (2 * 0.4 * 9.81)).epsilon(0.01));
+  }
+}
+
+}  // namespace pleat
