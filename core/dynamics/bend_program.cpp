@@ -1,16 +1,11 @@
 #include "core/dynamics/bend_program.h"
 
 #include <cmath>
-#include <limits>
 
 namespace pleat {
 namespace {
 
-constexpr int kPanelRows = 4;  // as for springs
-constexpr float kEmpty = std::numeric_limits<float>::infinity();
 constexpr int kMultiplierFloats = 12;
-/// Keeps the denominator from being zero between three pinned vertices; relative to inverse masses.
-constexpr float kTinyCompliance = 1e-12f;
 
 std::vector<LaneCandidate> candidates_of(const ClothModel& model, const LaneLayout& layout) {
   std::vector<LaneCandidate> candidates;
@@ -39,13 +34,12 @@ std::vector<LaneCandidate> candidates_of(const ClothModel& model, const LaneLayo
 BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, double h) {
   const double mean_mass = model.masses.mean();
   for (const LaneOperation& operation : compile_operations(candidates_of(model, layout))) {
-    append_to_stretches(stretches_, static_cast<int>(operations_.size()),
-                        are_apart(operation.first_slots, 3));
+    append_to_stretches(stretches_, static_cast<int>(operations_.size()), operation.first_slots, 3);
     operations_.push_back(
         {operation.first_slots[0], operation.first_slots[1], operation.first_slots[2]});
     members_.push_back(operation.members);
     Block block;
-    block.denominator_share.fill(kEmpty);
+    block.denominator_share.fill(kEmptyLane);
     for (std::size_t lane = 0; lane < operation.members.size(); ++lane) {
       if (operation.members[lane] < 0) continue;
       const BendElement& bend = model.bends[static_cast<std::size_t>(operation.members[lane])];
@@ -54,7 +48,7 @@ BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, doub
       block.before[lane] = static_cast<float>(bend.weights[0] / middle);
       block.after[lane] = static_cast<float>(bend.weights[2] / middle);
       block.compliance[lane] = static_cast<float>(mean_mass / (stiffness * h * h));
-      block.denominator_share[lane] = block.compliance[lane] + kTinyCompliance;
+      block.denominator_share[lane] = block.compliance[lane] + kRigidCompliance;
     }
     blocks_.push_back(block);
   }

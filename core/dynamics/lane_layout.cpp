@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/dynamics/simd4.h"
+
 namespace pleat {
 namespace {
 
-constexpr int kLanes = 4;
+constexpr int kLanes = Float4::kLanes;
 /// A piece of fewer columns would lie within one shifted group of its neighbour.
 constexpr int kSmallestStride = 3;
 /// Rest coordinates closer than this share of the extent are the same row.

@@ -6,6 +6,10 @@
 
 namespace pleat {
 
+/// Rows whose work along the row is interleaved. Along a row every operation waits for the one
+/// before it; four rows hide that wait.
+constexpr int kPanelRows = 4;
+
 /// Where each vertex lies in arrays that are computed with four floats at a time.
 ///
 /// The sheet is cut into rows of equal rest coordinate, the row nearest to the pins first. A row of
@@ -31,8 +35,6 @@ struct LaneLayout {
   int n_slots = 0;  ///< a multiple of 4, padding included
 
   int row_slots() const { return 4 * stride; }
-
-  int piece_column(const Place& place) const { return place.column % stride; }
 };
 
 /// Allocates; meant for once per model.

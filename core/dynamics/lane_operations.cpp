@@ -1,6 +1,19 @@
 #include "core/dynamics/lane_operations.h"
 
 namespace pleat {
+namespace {
+
+/// True where no two of the groups overlap.
+bool are_apart(const std::array<int, 3>& first_slots, int n_groups) {
+  for (int i = 0; i < n_groups; ++i)
+    for (int j = 0; j < i; ++j)
+      if (std::abs(first_slots[static_cast<std::size_t>(i)] -
+                   first_slots[static_cast<std::size_t>(j)]) < Float4::kLanes)
+        return false;
+  return true;
+}
+
+}  // namespace
 
 std::vector<LaneOperation> compile_operations(std::vector<LaneCandidate> candidates) {
   std::sort(candidates.begin(), candidates.end(),
@@ -30,16 +43,9 @@ std::vector<LaneOperation> compile_operations(std::vector<LaneCandidate> candida
   return operations;
 }
 
-bool are_apart(const std::array<int, 3>& first_slots, int n_groups) {
-  for (int i = 0; i < n_groups; ++i)
-    for (int j = 0; j < i; ++j)
-      if (std::abs(first_slots[static_cast<std::size_t>(i)] -
-                   first_slots[static_cast<std::size_t>(j)]) < Float4::kLanes)
-        return false;
-  return true;
-}
-
-void append_to_stretches(std::vector<OperationStretch>& stretches, int index, bool whole) {
+void append_to_stretches(std::vector<OperationStretch>& stretches, int index,
+                         const std::array<int, 3>& first_slots, int n_groups) {
+  const bool whole = are_apart(first_slots, n_groups);
   if (stretches.empty() || stretches.back().whole != whole || stretches.back().end != index)
     stretches.push_back({index, index, whole});
   stretches.back().end = index + 1;

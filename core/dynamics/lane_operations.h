@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "core/dynamics/simd4.h"
 
 namespace pleat {
+
+/// Compliance of a rigid constraint, relative to the inverse masses: far below what their sum
+/// rounds off, but a denominator that never is zero, even between pinned vertices.
+constexpr float kRigidCompliance = 1e-12f;
+/// What stands in a lane without an element for its share of the denominator: nothing moves there.
+constexpr float kEmptyLane = std::numeric_limits<float>::infinity();
 
 /// The vertices in lane order, as projections see them: each is at begin + move. A move is small
 /// against a position, so that what a projection adds to it is not rounded to the position's last
@@ -71,11 +78,9 @@ struct OperationStretch {
 /// Puts candidates that touch the same groups into one operation and orders these by rank.
 std::vector<LaneOperation> compile_operations(std::vector<LaneCandidate> candidates);
 
-/// True where no two of the groups overlap.
-bool are_apart(const std::array<int, 3>& first_slots, int n_groups);
-
-/// Appends operation `index` to the last stretch, or begins one.
-void append_to_stretches(std::vector<OperationStretch>& stretches, int index, bool whole);
+/// Appends operation `index`, which works on these groups, to the last stretch, or begins one.
+void append_to_stretches(std::vector<OperationStretch>& stretches, int index,
+                         const std::array<int, 3>& first_slots, int n_groups);
 
 /// Calls work(index, lane, Float4 or Float1) over all stretches, in order.
 template <class Work>

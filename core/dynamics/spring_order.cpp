@@ -3,15 +3,12 @@
 namespace pleat {
 namespace {
 
-/// Rows whose work along the row is interleaved. Along a row every operation waits for the one
-/// before it; four rows hide that wait.
-constexpr int kPanelRows = 4;
 constexpr int kNone = -1;
 
-/// Diagonals first, then along the rows, then across them, where each of these may look only a few
-/// rows ahead: the order is the same as with three passes over the cloth, but a row is still in the
-/// cache when it is needed again. Within a pair of rows the diagonals of every second column come
-/// first, so that none waits for its neighbour.
+/// Diagonals first, then along the rows, then across them (as far as those are in no line), where
+/// each of these may look only a few rows ahead: the order is the same as with three passes over
+/// the cloth, but a row is still in the cache when it is needed again. Within a pair of rows the
+/// diagonals of every second column come first, so that none waits for its neighbour.
 std::array<int, 5> rank_of(const LaneLayout& layout, const LaneLayout::Place& a,
                            const LaneLayout::Place& b) {
   const int column = std::min(a.column, b.column) % layout.stride;

@@ -8,10 +8,6 @@
 namespace pleat {
 namespace {
 
-/// Compliance of a rigid constraint, relative to the inverse masses: far below what their sum
-/// rounds off, but a denominator that never is zero, even between two pinned vertices.
-constexpr float kRigid = 1e-12f;
-constexpr float kEmpty = std::numeric_limits<float>::infinity();
 /// Where a length [m] may be zero, its square is held above this [m^2].
 constexpr float kTinySquare = 1e-30f;
 /// Share by which a line's diagonal is enlarged: a line stretches under its load by this share of
@@ -23,20 +19,13 @@ constexpr float kLineSoftness = 1e-3f;
 /// line pass more than a link per substep and grow (docs/methods/xpbd.md). Projecting a spring
 /// alone reaches 1/4 however far it is stretched.
 constexpr float kLargestPull = 0.3f;
-/// Groups of four kept per spring of a line between elimination and substitution.
-constexpr int kLineChannels = 6;
+/// Groups of four kept per spring of a line between elimination and substitution: its pull as far
+/// as the rows before it say, the share of the next pull in it, its direction g, and what its
+/// multiplier changes by per pull.
+enum LineChannel { kSolution, kUpper, kDirection, kMultiplierShare = 5, kLineChannels };
 constexpr int kLanes = Float4::kLanes;
 
 using Block = SpringProgram::Block;
-
-SpringLaw law_of(const ClothModel& model, bool rigid) {
-  if (rigid) return SpringLaw::rigid;
-  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
-                                  [](const Spring& spring) { return spring.damping > 0; });
-  if (!damped) return SpringLaw::elastic;
-  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
-                                                                : SpringLaw::damped;
-}
 
 /// Those that can pull at all.
 std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
@@ -117,9 +106,9 @@ Vec3Lanes<Lanes> across(const Vec3Lanes<Lanes>& motion, const Vec3Lanes<Lanes>& 
 
 }  // namespace
 
-SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, bool rigid,
+SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
                              double h)
-    : law_(law_of(model, rigid)), h_(h), mean_mass_(model.masses.mean()) {
+    : law_(law), h_(h), mean_mass_(model.masses.mean()) {
   SpringOrder order = order_springs(model, layout, active_springs(model, law_));
   // The damper across a spring is not part of a line's equations.
   if (law_ != SpringLaw::damped_isotropic) lines_ = std::move(order.lines);
@@ -133,8 +122,7 @@ SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, 
     const auto index = static_cast<int>(operations_.size());
     operations_.push_back({operation.first_slots[0], operation.first_slots[1], 0});
     members_.push_back(operation.members);
-    if (index >= n_in_lines)
-      append_to_stretches(stretches_, index, are_apart(operation.first_slots, 2));
+    if (index >= n_in_lines) append_to_stretches(stretches_, index, operation.first_slots, 2);
   }
   line_scratch_.resize(static_cast<std::size_t>(longest * kLineChannels * kLanes));
   multipliers_.resize(operations_.size() * static_cast<std::size_t>(multiplier_floats(law_)));
@@ -146,16 +134,16 @@ Block SpringProgram::block_of(const ClothModel& model, const LaneMembers& member
   Block block;
   block.rest.fill(1);
   block.compliance.fill(0);
-  block.denominator_share.fill(kEmpty);
+  block.denominator_share.fill(kEmptyLane);
   block.damper_share.fill(0);
-  block.across_compliance.fill(kEmpty);
+  block.across_compliance.fill(kEmptyLane);
   for (std::size_t lane = 0; lane < members.size(); ++lane) {
     if (members[lane] < 0) continue;
     const Spring& spring = model.springs[static_cast<std::size_t>(members[lane])];
     const double rest = spring.rest_length;
     if (law_ == SpringLaw::rigid) {
       block.rest[lane] = std::max(static_cast<float>(rest * rest), kTinySquare);
-      block.denominator_share[lane] = kRigid;
+      block.denominator_share[lane] = kRigidCompliance;
       continue;
     }
     // k/2 (l - L)^2 + c/(2h) (l - l_begin)^2 is one spring of stiffness k + c/h about a length
@@ -164,7 +152,7 @@ Block SpringProgram::block_of(const ClothModel& model, const LaneMembers& member
     const double stiffness = spring.stiffness + damper;
     block.rest[lane] = static_cast<float>(rest);
     block.compliance[lane] = static_cast<float>(mean_mass_ / (stiffness * h_ * h_));
-    block.denominator_share[lane] = block.compliance[lane] + kRigid;
+    block.denominator_share[lane] = block.compliance[lane] + kRigidCompliance;
     block.damper_share[lane] = static_cast<float>(damper / stiffness);
     if (law_ == SpringLaw::damped_isotropic && damper > 0)
       block.across_compliance[lane] = static_cast<float>(mean_mass_ / (damper * h_ * h_));
@@ -204,6 +192,10 @@ void SpringProgram::compute_lane_by_lane() {
   lane_by_lane_ = true;
 }
 
+float* SpringProgram::line_scratch(int row, int channel) {
+  return line_scratch_.data() + (row * kLineChannels + channel) * kLanes;
+}
+
 // All springs of a line at once. The length of spring r changes with the pulls f_{r-1}, f_r,
 // f_{r+1}:
 //   - w_r (d_r.g_{r-1}) f_{r-1} + slope_r (w_r + w_{r+1} + alpha_r) f_r
@@ -212,23 +204,25 @@ void SpringProgram::compute_lane_by_lane() {
 // and drawn tight has one pull too many: kLineSoftness keeps the pulls bounded.
 template <class Lanes, SpringLaw law, bool first>
 void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int lane) {
-  const Operation* const operations = operations_.data() + line.first;
-  float* const multipliers = multipliers_.data() + kLanes * line.first + lane;
-  const auto scratch = [&](int row, int channel) {
-    return line_scratch_.data() + (row * kLineChannels + channel) * kLanes + lane;
-  };
-  const Lanes zero = Lanes::all(0);
-  const Vec3Lanes<Lanes> nothing{zero, zero, zero};
-  const int start = operations[0].a + lane;
+  const Lanes w_largest = eliminate<Lanes, law, first>(v, line, lane);
+  substitute<Lanes, law, first>(v, line, lane, Lanes::all(0.5f * kLargestPull) / w_largest);
+}
 
+/// Leaves per row what substitution needs. Returns the largest inverse mass of the line.
+template <class Lanes, SpringLaw law, bool first>
+Lanes SpringProgram::eliminate(const LaneView& v, const SpringLine& line, int lane) {
+  const Operation* const operations = operations_.data() + line.first;
+  const float* const multipliers = multipliers_.data() + kLanes * line.first + lane;
+  const Lanes zero = Lanes::all(0);
+  const int start = operations[0].a + lane;
   Vec3Lanes<Lanes> begin_a = load<Lanes>(v.begins, start);
   Vec3Lanes<Lanes> move_a = load<Lanes>(v.moves, start);
   Lanes w_a = Lanes::load(v.inverse_masses + start);
-  Vec3Lanes<Lanes> d_before = nothing;
-  Vec3Lanes<Lanes> g_before = nothing;
+  Vec3Lanes<Lanes> d_before{zero, zero, zero};
+  Vec3Lanes<Lanes> g_before = d_before;
   Lanes inverse_pivot = zero;
   Lanes solution = zero;
-  Lanes w_largest = w_a + Lanes::all(kRigid);
+  Lanes w_largest = w_a + Lanes::all(kRigidCompliance);
   for (int row = 0; row < line.n_springs; ++row) {
     const Block& block = blocks_[static_cast<std::size_t>(operations[row].block)];
     const int b = operations[row].b + lane;
@@ -241,15 +235,16 @@ void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int la
                                            Lanes::load(block.denominator_share.data() + lane));
     const Lanes lower = w_a * dot(spring.d, g_before);
     const Lanes upper = w_a * dot(d_before, spring.g) * inverse_pivot;
-    if (row > 0) upper.store(scratch(row - 1, 0));
+    if (row > 0) upper.store(line_scratch(row - 1, kUpper) + lane);
     inverse_pivot =
         Lanes::all(1.0f) / max(diagonal - lower * upper, Lanes::all(kLineSoftness) * diagonal);
     solution = (spring.aim + lower * solution) * inverse_pivot;
-    solution.store(scratch(row, 1));
-    spring.g.x.store(scratch(row, 2));
-    spring.g.y.store(scratch(row, 3));
-    spring.g.z.store(scratch(row, 4));
-    if constexpr (law != SpringLaw::rigid) (spring.slope / spring.length).store(scratch(row, 5));
+    solution.store(line_scratch(row, kSolution) + lane);
+    spring.g.x.store(line_scratch(row, kDirection) + lane);
+    spring.g.y.store(line_scratch(row, kDirection + 1) + lane);
+    spring.g.z.store(line_scratch(row, kDirection + 2) + lane);
+    if constexpr (law != SpringLaw::rigid)
+      (spring.slope / spring.length).store(line_scratch(row, kMultiplierShare) + lane);
     begin_a = begin_b;
     move_a = move_b;
     w_a = w_b;
@@ -257,24 +252,35 @@ void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int la
     d_before = spring.d;
     g_before = spring.g;
   }
+  zero.store(line_scratch(line.n_springs - 1, kUpper) + lane);
+  return w_largest;
+}
 
-  const Lanes largest = Lanes::all(0.5f * kLargestPull) / w_largest;
-  zero.store(scratch(line.n_springs - 1, 0));
+template <class Lanes, SpringLaw law, bool first>
+void SpringProgram::substitute(const LaneView& v, const SpringLine& line, int lane,
+                               Lanes largest_pull) {
+  const Operation* const operations = operations_.data() + line.first;
+  float* const multipliers = multipliers_.data() + kLanes * line.first + lane;
+  const Lanes zero = Lanes::all(0);
+  const auto kept = [&](int row, int channel) {
+    return Lanes::load(line_scratch(row, channel) + lane);
+  };
   Lanes f = zero;
-  Vec3Lanes<Lanes> pull_after = nothing;
+  Vec3Lanes<Lanes> pull_after{zero, zero, zero};
   for (int row = line.n_springs - 1; row >= 0; --row) {
     const int b = operations[row].b + lane;
-    f = Lanes::load(scratch(row, 1)) + Lanes::load(scratch(row, 0)) * f;
-    f = max(min(f, largest), zero - largest);
+    f = kept(row, kSolution) + kept(row, kUpper) * f;
+    f = max(min(f, largest_pull), zero - largest_pull);
     const Vec3Lanes<Lanes> pull =
-        f * Vec3Lanes<Lanes>{Lanes::load(scratch(row, 2)), Lanes::load(scratch(row, 3)),
-                             Lanes::load(scratch(row, 4))};
+        f * Vec3Lanes<Lanes>{kept(row, kDirection), kept(row, kDirection + 1),
+                             kept(row, kDirection + 2)};
     if constexpr (law != SpringLaw::rigid)
-      add_to_multiplier<first>(f * Lanes::load(scratch(row, 5)), multipliers + kLanes * row);
+      add_to_multiplier<first>(f * kept(row, kMultiplierShare), multipliers + kLanes * row);
     store(load<Lanes>(v.moves, b) + Lanes::load(v.inverse_masses + b) * (pull_after - pull),
           v.moves, b);
     pull_after = pull;
   }
+  const int start = operations[0].a + lane;
   store(load<Lanes>(v.moves, start) + Lanes::load(v.inverse_masses + start) * pull_after, v.moves,
         start);
 }

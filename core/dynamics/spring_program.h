@@ -22,7 +22,7 @@ enum class SpringLaw {
 class SpringProgram {
  public:
   /// h  substep [s]
-  SpringProgram(const ClothModel& model, const LaneLayout& layout, bool rigid, double h);
+  SpringProgram(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h);
 
   /// Takes over changed rest lengths. Allocates nothing.
   void refresh_rest_lengths(const ClothModel& model);
@@ -40,7 +40,6 @@ class SpringProgram {
   void compute_lane_by_lane();
 
   std::size_t n_operations() const { return operations_.size(); }
-  std::size_t n_lines() const { return lines_.size(); }
   std::size_t n_blocks() const { return blocks_.size(); }
 
   /// The numbers of the springs in the lanes of an operation.
@@ -69,6 +68,11 @@ class SpringProgram {
   void sweep(const LaneView& view);
   template <class Lanes, SpringLaw law, bool first>
   void solve_line(const LaneView& view, const SpringLine& line, int lane);
+  template <class Lanes, SpringLaw law, bool first>
+  Lanes eliminate(const LaneView& view, const SpringLine& line, int lane);
+  template <class Lanes, SpringLaw law, bool first>
+  void substitute(const LaneView& view, const SpringLine& line, int lane, Lanes largest_pull);
+  float* line_scratch(int row, int channel);
   template <SpringLaw law, bool first>
   void project(const LaneView& view);
   template <bool with_multipliers>

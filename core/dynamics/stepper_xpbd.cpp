@@ -1,5 +1,6 @@
 #include "core/dynamics/stepper_xpbd.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/dynamics/simd4.h"
@@ -16,6 +17,15 @@ std::size_t pitch_for(int n_slots) {
   return (lines | 1) * kFloatsPerLine;
 }
 
+SpringLaw spring_law(const ClothModel& model, const MethodOptions& options) {
+  if (options.constraints_rigid) return SpringLaw::rigid;
+  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
+                                  [](const Spring& spring) { return spring.damping > 0; });
+  if (!damped) return SpringLaw::elastic;
+  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
+                                                                : SpringLaw::damped;
+}
+
 double step_of(const MethodOptions& options) { return options.step / options.substeps; }
 
 }  // namespace
@@ -23,7 +33,7 @@ double step_of(const MethodOptions& options) { return options.step / options.sub
 StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::none),
       layout_(lane_layout(model)),
-      springs_(model, layout_, options.constraints_rigid, step_of(options)),
+      springs_(model, layout_, spring_law(model, options), step_of(options)),
       bends_(model, layout_, step_of(options)),
       mean_mass_(model.masses.mean()),
       pitch_(pitch_for(layout_.n_slots)),

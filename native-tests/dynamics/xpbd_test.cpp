@@ -318,9 +318,10 @@ TEST_CASE("xpbd: nothing is allocated after the first step", "[dynamics]") {
 
 TEST_CASE("xpbd: four lanes together give what they give one by one, to the bit", "[dynamics]") {
   const int n = GENERATE(2, 4, 9, 14);
-  const bool rigid = GENERATE(false, true);
+  const SpringLaw law = GENERATE(SpringLaw::rigid, SpringLaw::elastic, SpringLaw::damped,
+                                 SpringLaw::damped_isotropic);
   const bool shuffled = GENERATE(false, true);
-  CAPTURE(n, rigid, shuffled);
+  CAPTURE(n, static_cast<int>(law), shuffled);
   Random random(7);
   std::vector<int> numbers = in_order(n * n);
   if (shuffled) shuffle(numbers, random);
@@ -330,7 +331,7 @@ TEST_CASE("xpbd: four lanes together give what they give one by one, to the bit"
   const LaneLayout layout = lane_layout(system.model);
   std::vector<float> ends[2];
   for (std::vector<float>& end : ends) {
-    SpringProgram springs(system.model, layout, rigid, 1e-3);
+    SpringProgram springs(system.model, layout, law, 1e-3);
     BendProgram bends(system.model, layout, 1e-3);
     if (&end == &ends[1]) {
       springs.compute_lane_by_lane();
@@ -370,7 +371,7 @@ TEST_CASE("xpbd: a regular sheet fills its lanes", "[dynamics]") {
   CAPTURE(n);
   const System system = swinging_sheet(n);
   const LaneLayout layout = lane_layout(system.model);
-  const SpringProgram program(system.model, layout, true, 1e-3);
+  const SpringProgram program(system.model, layout, SpringLaw::rigid, 1e-3);
   const auto n_springs = static_cast<double>(system.model.springs.size());
   CHECK(n_springs / static_cast<double>(4 * program.n_operations()) > 0.88);
   CHECK(program.n_blocks() < 40);
