@@ -143,7 +143,7 @@ ContactStage::Meeting ContactStage::earliest_meeting(const Vec3& begin, const Ve
 // of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
 // new one, in the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as
 // well; then it is clear of both.
-bool ContactStage::resolve(const Vec3& position_begin, Vec3& position, Vec3& velocity) const {
+bool ContactStage::resolve(const Vec3& position_begin, Vec3& position, Vec3& velocity) {
   Meeting meeting = earliest_meeting(position_begin, position, 0, nullptr);
   if (!meeting.solid || !velocity.allFinite()) return false;
   const Solid* before = nullptr;

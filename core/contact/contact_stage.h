@@ -56,7 +56,7 @@ class ContactStage {
   /// velocity        at time_end [m/s]; corrected
   /// Returns true when a contact acted. Never allocates. A vertex that is not finite is left as it
   /// is.
-  bool resolve(const Vec3& position_begin, Vec3& position, Vec3& velocity) const;
+  bool resolve(const Vec3& position_begin, Vec3& position, Vec3& velocity);
 
   /// How often, since construction, solids closed in on a vertex from sides so opposed, or so many,
   /// that it was left inside one of them.
@@ -84,7 +84,7 @@ class ContactStage {
   std::vector<Collider> colliders_;
   ContactOptions options_;
   std::vector<Solid> solids_;  // one per collider
-  mutable std::int64_t n_unresolved_ = 0;
+  std::int64_t n_unresolved_ = 0;
 };
 
 }  // namespace pleat
