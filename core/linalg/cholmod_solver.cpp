@@ -7,7 +7,6 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/linalg/call_order.h"
 
 namespace pleat {
 namespace {
@@ -77,22 +76,14 @@ class CholmodSolver final : public LinearSolver {
   CholmodSolver(const CholmodSolver&) = delete;
   CholmodSolver& operator=(const CholmodSolver&) = delete;
 
-  void analyze(const SparseMatrix& lower) override {
-    order_.analyzed(lower);
-    if (lower.rows() == 0) return;
+  void do_analyze(const SparseMatrix& lower) override {
     cholmod_free_factor(&factor_, &common_);
     cholmod_sparse A = view(lower);
     factor_ = cholmod_analyze(&A, &common_);
     check_memory();
   }
 
-  SolveReport factorize(const SparseMatrix& lower) override {
-    order_.begin_factorize(lower);
-    if (auto report = report_not_finite(lower)) return *report;
-    if (lower.rows() == 0) {
-      order_.factorized();
-      return {};
-    }
+  SolveReport do_factorize(const SparseMatrix& lower) override {
     cholmod_sparse A = view(lower);
     cholmod_factorize(&A, factor_, &common_);
     check_memory();
@@ -102,15 +93,11 @@ class CholmodSolver final : public LinearSolver {
       return {SolveStatus::not_positive_definite, 0, 0,
               "pivot of row " + std::to_string(permutation[factor_->minor]) + " is not positive"};
     }
-    order_.factorized();
     return {};
   }
 
-  SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                    Eigen::Ref<Eigen::MatrixXd> solution) override {
-    order_.check_solve(rhs, solution);
-    if (auto report = report_not_finite(rhs, "right-hand side")) return *report;
-    if (rhs.size() == 0) return {};
+  SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                       Eigen::Ref<Eigen::MatrixXd> solution) override {
     cholmod_dense B = view(rhs);
     restore_width(Y_);
     const int solved =
@@ -128,7 +115,6 @@ class CholmodSolver final : public LinearSolver {
     PLEAT_CHECK(common_.status >= 0, "CHOLMOD reports a wrong call");
   }
 
-  CallOrder order_;
   cholmod_common common_{};
   cholmod_factor* factor_ = nullptr;
   cholmod_dense* X_ = nullptr;  // the solution and two work arrays, kept from solve to solve

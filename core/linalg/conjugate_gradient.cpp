@@ -8,7 +8,7 @@
 
 #include "core/base/check.h"
 #include "core/linalg/block_matrix.h"
-#include "core/linalg/call_order.h"
+#include "core/linalg/finite_check.h"
 
 namespace pleat {
 namespace {
@@ -61,8 +61,7 @@ class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(const SolverOptions& options) : options_(options) {}
 
-  void analyze(const SparseMatrix& lower) override {
-    order_.analyzed(lower);
+  void do_analyze(const SparseMatrix& lower) override {
     A_.analyze(lower);
     const auto n = static_cast<std::size_t>(lower.rows());
     inverses_.resize(static_cast<std::size_t>(A_.n_rows()) * kPackedSize<N>);
@@ -72,9 +71,7 @@ class ConjugateGradient final : public LinearSolver {
     image_.resize(n);
   }
 
-  SolveReport factorize(const SparseMatrix& lower) override {
-    order_.begin_factorize(lower);
-    if (auto report = report_not_finite(lower)) return *report;
+  SolveReport do_factorize(const SparseMatrix& lower) override {
     A_.set_values(lower);
     for (int row = 0; row < A_.n_rows(); ++row) {
       double* inverse = inverses_.data() + row * kPackedSize<N>;
@@ -83,14 +80,11 @@ class ConjugateGradient final : public LinearSolver {
                 "diagonal block of row " + std::to_string(row * N) + " is not positive definite"};
       }
     }
-    order_.factorized();
     return {};
   }
 
-  SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                    Eigen::Ref<Eigen::MatrixXd> solution) override {
-    order_.check_solve(rhs, solution);
-    if (auto report = report_not_finite(rhs, "right-hand side")) return *report;
+  SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                       Eigen::Ref<Eigen::MatrixXd> solution) override {
     if (auto report = report_not_finite(solution, "starting guess")) return *report;
     SolveReport total;
     for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
@@ -200,7 +194,6 @@ class ConjugateGradient final : public LinearSolver {
   }
 
   SolverOptions options_;
-  CallOrder order_;
   BlockMatrix<N> A_;
   std::vector<double> inverses_;        // packed, one per diagonal block
   std::vector<double> residual_;        // r

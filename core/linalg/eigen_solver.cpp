@@ -2,37 +2,22 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "core/linalg/call_order.h"
-
 namespace pleat {
 namespace {
 
 class EigenSolver final : public LinearSolver {
  public:
-  void analyze(const SparseMatrix& lower) override {
-    order_.analyzed(lower);
-    if (lower.rows() > 0) factor_.analyzePattern(lower);
-  }
+  void do_analyze(const SparseMatrix& lower) override { factor_.analyzePattern(lower); }
 
-  SolveReport factorize(const SparseMatrix& lower) override {
-    order_.begin_factorize(lower);
-    if (auto report = report_not_finite(lower)) return *report;
-    if (lower.rows() > 0) {
-      factor_.factorize(lower);
-      if (factor_.info() != Eigen::Success) {
-        return {SolveStatus::not_positive_definite, 0, 0, "a pivot is not positive"};
-      }
-    }
-    order_.factorized();
-    return {};
+  SolveReport do_factorize(const SparseMatrix& lower) override {
+    factor_.factorize(lower);
+    if (factor_.info() == Eigen::Success) return {};
+    return {SolveStatus::not_positive_definite, 0, 0, "a pivot is not positive"};
   }
 
   // Eigen's own solve() makes a temporary each time; the same steps on a kept array do not.
-  SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                    Eigen::Ref<Eigen::MatrixXd> solution) override {
-    order_.check_solve(rhs, solution);
-    if (auto report = report_not_finite(rhs, "right-hand side")) return *report;
-    if (rhs.size() == 0) return {};
+  SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                       Eigen::Ref<Eigen::MatrixXd> solution) override {
     permuted_.resize(rhs.rows(), rhs.cols());
     const bool reordered = factor_.permutationP().size() > 0;
     if (reordered) {
@@ -51,7 +36,6 @@ class EigenSolver final : public LinearSolver {
   }
 
  private:
-  CallOrder order_;
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
   Eigen::MatrixXd permuted_;  // n x m, in the order of elimination
 };

@@ -18,15 +18,29 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
 
-  virtual void analyze(const SparseMatrix& lower) = 0;
+  /// `lower` is compressed, without entries above the diagonal and with every diagonal entry.
+  void analyze(const SparseMatrix& lower);
 
   /// `lower` has the pattern last analysed.
-  virtual SolveReport factorize(const SparseMatrix& lower) = 0;
+  SolveReport factorize(const SparseMatrix& lower);
 
   /// rhs       n x m right-hand sides
   /// solution  n x m; an iterative solver starts from what it holds
-  virtual SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                            Eigen::Ref<Eigen::MatrixXd> solution) = 0;
+  SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                    Eigen::Ref<Eigen::MatrixXd> solution);
+
+ protected:
+  /// The same, once order and sizes are known to be right, n and m positive, and the entries of
+  /// matrix and right-hand sides finite.
+  virtual void do_analyze(const SparseMatrix& lower) = 0;
+  virtual SolveReport do_factorize(const SparseMatrix& lower) = 0;
+  virtual SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                               Eigen::Ref<Eigen::MatrixXd> solution) = 0;
+
+ private:
+  Eigen::Index n_ = -1;  // -1 before the first analyze
+  Eigen::Index n_entries_ = 0;
+  bool factorized_ = false;
 };
 
 enum class SolverKind { cholmod, eigen, cg };

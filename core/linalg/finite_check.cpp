@@ -1,9 +1,7 @@
-#include "core/linalg/call_order.h"
+#include "core/linalg/finite_check.h"
 
 #include <cmath>
 #include <limits>
-
-#include "core/base/check.h"
 
 namespace pleat {
 namespace {
@@ -21,35 +19,6 @@ SolveReport not_finite(const std::string& message) {
 }
 
 }  // namespace
-
-void CallOrder::analyzed(const SparseMatrix& lower) {
-  PLEAT_CHECK(lower.rows() == lower.cols(), "the matrix must be square");
-  PLEAT_CHECK(lower.isCompressed(), "the matrix must be compressed");
-  for (Eigen::Index column = 0; column < lower.cols(); ++column) {
-    SparseMatrix::InnerIterator entry(lower, column);
-    PLEAT_CHECK(entry && entry.row() == column,
-                "each column of the lower triangle must start with its diagonal entry");
-  }
-  n_ = lower.rows();
-  n_entries_ = lower.nonZeros();
-  factorized_ = false;
-}
-
-void CallOrder::begin_factorize(const SparseMatrix& lower) {
-  PLEAT_CHECK(n_ >= 0, "analyze comes before factorize");
-  PLEAT_CHECK(lower.isCompressed() && lower.rows() == n_ && lower.cols() == n_ &&
-                  lower.nonZeros() == n_entries_,
-              "factorize needs the pattern last analysed");
-  factorized_ = false;
-}
-
-void CallOrder::check_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                            const Eigen::Ref<const Eigen::MatrixXd>& solution) const {
-  PLEAT_CHECK(factorized_, "solve needs a factorisation that succeeded");
-  PLEAT_CHECK(rhs.rows() == n_, "the right-hand sides must have as many rows as the matrix");
-  PLEAT_CHECK(rhs.rows() == solution.rows() && rhs.cols() == solution.cols(),
-              "right-hand sides and solution must have the same size");
-}
 
 std::optional<SolveReport> report_not_finite(const SparseMatrix& lower) {
   if (all_finite(lower.valuePtr(), lower.nonZeros())) return std::nullopt;
