@@ -8,8 +8,8 @@ import type {
   SimulationHandle,
 } from '../../src/sim/wasm-module';
 
-/** As many steps as this and the run ends with a status, when the scene's name is "fragile". */
-const FRAGILE_STEPS = 10;
+/** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
+export const FRAGILE_STEPS = 10;
 
 interface FakeScene {
   name: string;
@@ -79,9 +79,9 @@ class FakeSimulation implements SimulationHandle {
 
   step(count: number): number {
     for (let step = 0; step < count; ++step) {
-      this.steps += 1;
-      this.ended ||= this.scene?.name === 'fragile' && this.steps > FRAGILE_STEPS;
+      this.ended ||= this.scene?.name === 'fragile' && this.steps >= FRAGILE_STEPS;
       if (this.ended) return 3;
+      this.steps += 1;
       for (let v = 0; v < this.x.length / 3; ++v) {
         const depth = Math.floor(v / this.side) / (this.side - 1);
         this.x[3 * v + 2] = 0.3 * depth * Math.sin(0.1 * this.steps);
@@ -92,7 +92,7 @@ class FakeSimulation implements SimulationHandle {
 
   status(): string {
     return this.ended
-      ? ok({ status: 'not_finite', message: 'vertex 3' })
+      ? ok({ status: 'not_finite', message: 'vertex 3 is no longer finite' })
       : ok({ status: 'ok', message: '' });
   }
 
@@ -105,6 +105,7 @@ class FakeSimulation implements SimulationHandle {
       residual: 1e-4,
       iterations: 7,
       parts_ms: { forces: 0.5 * this.steps, solve: 1.5 * this.steps },
+      steps_ms: 2.5 * this.steps,
       steps_timed: this.steps,
     });
   }
@@ -113,7 +114,6 @@ class FakeSimulation implements SimulationHandle {
   exactPositions = () => Float64Array.from(this.x);
   masses = () => new Float64Array(this.x.length / 3).fill(0.001);
   stretch = () => new Float32Array(this.x.length / 3).fill(this.steps === 0 ? 0 : 0.002);
-  restCoordinates = () => new Float32Array((2 * this.x.length) / 3);
 
   triangles(): Uint32Array {
     const corners: number[] = [];
