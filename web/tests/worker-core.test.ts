@@ -4,7 +4,16 @@ import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol'
 import { BOUND_METHODS, type PleatModule, type RunNumbers } from '../src/sim/wasm-module';
 import { createWorkerCore } from '../src/sim/worker-core';
 import { fabricsText } from '../src/state/fabric-data';
-import { presetSetting, type Setting, STEPPERS, sceneOf, withStepper } from '../src/state/setting';
+import {
+  PRESET_IDS,
+  PRESETS,
+  presetSetting,
+  type Setting,
+  STEPPER_TRAITS,
+  STEPPERS,
+  sceneOf,
+  withStepper,
+} from '../src/state/setting';
 import { settingOfRow, sweepPlan } from '../src/state/sweep-plan';
 import { createFakeModule } from './support/fake-module';
 
@@ -168,6 +177,7 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
       expect(row.ms_per_frame).toBeGreaterThan(0);
       expect(row.position_error_m).toBeGreaterThan(0);
       expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
+      if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
     }
   });
 
@@ -227,6 +237,55 @@ describe('worker-core', () => {
     expect(alive()).toBe(2);
     core.close();
     expect(alive()).toBe(0);
+  });
+});
+
+describe('worker-core with a module that lacks CHOLMOD', () => {
+  const { module } = createFakeModule({ hasCholmod: false });
+
+  it('loads every preset with every stepper, and says what serves instead', () => {
+    const { send, take } = open(module);
+    for (const preset of PRESET_IDS) {
+      for (const stepper of STEPPERS) {
+        const text = JSON.stringify(sceneOf(withStepper(presetSetting(preset), stepper)));
+        send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+        expect(take('loaded').summary.notes).toEqual(['Eigen serves.']);
+      }
+    }
+  });
+
+  it('sweeps with Eigen, in the reference and in projective, and its rows can be applied', () => {
+    const { send, take, posted } = open(module);
+    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
+    const { rows } = (posted.at(-1) as Sent<'sweepReport'>).report;
+    expect(rows.every((row) => row.reference.description === 'implicit with eigen')).toBe(true);
+    const projective = rows.filter((row) => row.method.stepper === 'projective');
+    expect(projective.map((row) => row.method.solver)).toEqual([
+      'eigen',
+      'eigen',
+      'eigen',
+      'eigen',
+    ]);
+    posted.length = 0;
+    for (const row of rows) {
+      const text = JSON.stringify(sceneOf(settingOfRow(row, setting)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 3 });
+      take('loaded');
+    }
+  });
+
+  it('refuses what names CHOLMOD', () => {
+    const { send, take } = open(module);
+    const scene = sceneOf(withStepper(setting, 'projective'));
+    const method = { ...(scene.method as object), solver: 'cholmod' };
+    const text = JSON.stringify({ ...scene, method });
+    send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+    expect(take('refused').failure.where).toBe('/method/solver');
+  });
+
+  it('has no option and no word that names it', () => {
+    const words = JSON.stringify([STEPPER_TRAITS, PRESETS]);
+    expect(words.toLowerCase()).not.toContain('cholmod');
   });
 });
 

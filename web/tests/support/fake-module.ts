@@ -11,15 +11,28 @@ import type {
 /** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
 export const FRAGILE_STEPS = 10;
 
+type FakeMethod = BenchRow['method'] & { solver?: string };
+
 interface FakeScene {
   name: string;
   refinement: { level: number };
-  method: { stepper: string; step_s: number; substeps?: number };
+  method: FakeMethod;
+}
+
+/** What the module is built with. */
+interface FakeBuild {
+  hasCholmod: boolean;
 }
 
 const ok = (payload: object = {}) => JSON.stringify({ ok: true, ...payload });
 const refuse = (where: string, what: string) =>
   JSON.stringify({ ok: false, kind: 'input', where, what });
+
+/** The direct solver that a method gets when it names none; null when it names one that is not there. */
+function directSolver({ hasCholmod }: FakeBuild, method: FakeMethod): string | null {
+  const solver = method.solver ?? (hasCholmod ? 'cholmod' : 'eigen');
+  return solver === 'cholmod' && !hasCholmod ? null : solver;
+}
 
 class FakeSimulation implements SimulationHandle {
   private side = 0;
@@ -29,7 +42,10 @@ class FakeSimulation implements SimulationHandle {
   private held: number | null = null;
   private ended = false;
 
-  constructor(private readonly onDelete: () => void) {}
+  constructor(
+    private readonly build: FakeBuild,
+    private readonly onDelete: () => void,
+  ) {}
 
   private summary() {
     const n = this.side * this.side;
@@ -44,6 +60,7 @@ class FakeSimulation implements SimulationHandle {
         substeps: 1,
         built: ['springs'],
         left_out: ['contact'],
+        notes: this.build.hasCholmod ? [] : ['Eigen serves.'],
       },
     });
   }
@@ -52,6 +69,9 @@ class FakeSimulation implements SimulationHandle {
     const scene = JSON.parse(text) as FakeScene;
     if (scene.method.stepper === 'explicit' && scene.method.substeps === 1) {
       return refuse('/method/substeps', 'expected at least 300 substeps, found 1');
+    }
+    if (directSolver(this.build, scene.method) === null) {
+      return refuse('/method/solver', 'expected a solver of this build, found cholmod');
     }
     this.scene = scene;
     this.side = 2 ** (scene.refinement.level + 1) + 1;
@@ -150,12 +170,28 @@ class FakeSimulation implements SimulationHandle {
 class FakeExperiment implements ExperimentHandle {
   private rows: BenchRow[] = [];
 
-  constructor(private readonly onDelete: () => void) {}
+  constructor(
+    private readonly build: FakeBuild,
+    private readonly onDelete: () => void,
+  ) {}
 
   start(text: string): string {
-    const plan = JSON.parse(text) as { levels: number[]; methods: BenchRow['method'][] };
+    const plan = JSON.parse(text) as { levels: number[]; methods: FakeMethod[]; scene?: FakeScene };
     if (plan.levels.length === 0) return refuse('/levels', 'expected a level, found none');
-    this.rows = plan.levels.flatMap((level) => plan.methods.map((method) => row(level, method)));
+    for (const method of [...plan.methods, ...(plan.scene ? [plan.scene.method] : [])]) {
+      if (directSolver(this.build, method) === null) return refuse('/methods', 'found cholmod');
+    }
+    const reference = `implicit with ${this.build.hasCholmod ? 'cholmod' : 'eigen'}`;
+    this.rows = plan.levels.flatMap((level) =>
+      plan.methods.map((method) => {
+        const solver = directSolver(this.build, method);
+        return row(
+          level,
+          method.stepper === 'projective' ? { ...method, solver } : method,
+          reference,
+        );
+      }),
+    );
     return ok({ n_runs: this.rows.length });
   }
 
@@ -178,7 +214,7 @@ class FakeExperiment implements ExperimentHandle {
   }
 }
 
-function row(level: number, method: BenchRow['method']): BenchRow {
+function row(level: number, method: BenchRow['method'], reference: string): BenchRow {
   return {
     scene: 'fake',
     method,
@@ -193,7 +229,7 @@ function row(level: number, method: BenchRow['method']): BenchRow {
     position_error_percent: 1 / 2 ** level,
     rms_stretch: 0.004,
     largest_stretch: 0.01,
-    reference: { id: 'fake', converged: false, description: 'the finest level of the grid' },
+    reference: { id: 'fake', converged: false, description: reference },
     status: 'ok',
     message: '',
     target: 'wasm',
@@ -201,7 +237,10 @@ function row(level: number, method: BenchRow['method']): BenchRow {
 }
 
 /** The module, and how many of its objects are still alive. */
-export function createFakeModule(): { module: PleatModule; alive: () => number } {
+export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
+  module: PleatModule;
+  alive: () => number;
+} {
   let nAlive = 0;
   const born = () => {
     nAlive += 1;
@@ -220,12 +259,12 @@ export function createFakeModule(): { module: PleatModule; alive: () => number }
   }
   class Simulation extends FakeSimulation {
     constructor() {
-      super(born());
+      super(build, born());
     }
   }
   class Experiment extends FakeExperiment {
     constructor() {
-      super(born());
+      super(build, born());
     }
   }
   return { module: { Scene, Simulation, Experiment }, alive: () => nAlive };
