@@ -310,11 +310,9 @@ class Experiment {
   explicit Experiment(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
 
   std::string start(const std::string& plan_text) {
-    return guarded([&](val& envelope) {
-      pleat::SweepPlan plan = pleat::read_sweep_plan(plan_text, pleat::read_fabrics(fabrics_json_));
-      const int n_runs = plan.n_settings();
-      sweep_.emplace(std::move(plan), references_, pleat::core_version());
-      envelope.set("n_runs", n_runs);
+    return guarded([&](val&) {
+      sweep_.emplace(pleat::read_sweep_plan(plan_text, pleat::read_fabrics(fabrics_json_)),
+                     references_, pleat::core_version());
     });
   }
 
