@@ -8,6 +8,8 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import v8 from 'node:v8';
 
+import { BadInput } from './bench-options.mjs';
+import { hasFinished } from './bench-rows.mjs';
 import { makeSheet, frame as yardstickFrame, stretch as yardstickStretch } from './yardstick.mjs';
 
 const kFrame = 1 / 60; // [s]
@@ -113,6 +115,7 @@ export function nativeSweep(scene, { levels, repeat, reference: kind, duration }
         stdio: ['ignore', 'ignore', 'inherit'],
       });
     } catch (error) {
+      if (error.status === 2) throw new BadInput(''); // the command has said why
       if (error.status !== 1) throw error;
     }
     return readFileSync(rows, 'utf8')
@@ -165,17 +168,18 @@ export async function wasmRun(scene, frames, times) {
     status: 'ok',
     message: '',
   };
-  for (let f = 0; f < frames && run.status !== 'not_finite'; ++f) {
+  for (let f = 0; f < frames; ++f) {
     const begin = performance.now();
     simulation.step(stepsPerFrame);
     const ms = performance.now() - begin;
+    const state = answer(simulation.status());
+    if (state.status !== 'ok') [run.status, run.message] = [state.status, state.message];
+    if (!hasFinished(run)) break;
     if (f > 0) run.ms.push(ms);
     const numbers = answer(simulation.numbers());
     run.rms.push(numbers.rms_stretch);
     run.largest.push(numbers.largest_stretch);
     run.residual = Math.max(run.residual, numbers.residual);
-    const state = answer(simulation.status());
-    if (state.status !== 'ok') [run.status, run.message] = [state.status, state.message];
     if (run.samples.length < times.length && (f + 1.5) * kFrame > times[run.samples.length])
       run.samples.push(Array.from(simulation.exactPositions()));
   }

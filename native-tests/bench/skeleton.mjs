@@ -1,11 +1,10 @@
-// ./pleat bench skeleton [--json FILE] [--check] [--repeat N] [--only PART,...]
+// ./pleat bench skeleton (--help tells the options)
 // Speed and error of every stepper against each other, the same core as WebAssembly, and a plain
 // JavaScript loop. Bounds in milliseconds hold where that loop (sheet 65x65, 100 substeps, row
 // order) takes 20 ms, and are scaled by what it takes here.
 import { execFileSync } from 'node:child_process';
-import { writeFileSync } from 'node:fs';
-import { parseArgs } from 'node:util';
 
+import { oneOf, readOptions, rowsFile, runBench, wholeNumber } from './bench-options.mjs';
 import { goal, measure, median, table } from './bench-rows.mjs';
 import { nativeRun, reference, root, wasmRun, yardstickRun } from './contestants.mjs';
 
@@ -14,19 +13,15 @@ const kStep = 1 / 60; // [s]
 const kTimes = [0.5, 1]; // [s]
 const kYardstickMs = 20; // that the bounds in ms are made for
 
-const { values: options } = parseArgs({
-  options: {
-    json: { type: 'string' },
-    check: { type: 'boolean', default: false },
-    repeat: { type: 'string', default: '5' },
-    only: { type: 'string', default: 'yardstick,projective,implicit,targets,absent' },
-  },
-});
-const repeat = Number(options.repeat);
-if (!Number.isInteger(repeat) || repeat < 1) {
-  console.error(`bench: --repeat: expected a whole number of at least 1, got "${options.repeat}"`);
-  process.exit(2);
-}
+const kUsage = `./pleat bench skeleton   speed and error, and the goals they have to meet
+  --only PART,...   of PARTS (default: all)
+  --repeat N        runs of each contestant, in turn (default 5)
+  --json FILE       write the rows as JSON lines
+  --check           exit status 1 when a goal is short
+Exit status: 0 done, 1 a goal is short (with --check), 2 bad input.`;
+
+// Cloth without bending is what the chain of rigid links is the limit of.
+const kLimp = { model: { bending: 'none' } };
 
 const commit = (() => {
   try {
@@ -38,7 +33,9 @@ const commit = (() => {
   }
 })();
 const tell = (text) => process.stderr.write(process.stderr.isTTY ? `\r\x1b[K${text}` : `${text}\n`);
-const settings = (times) => ({ repeat, times, commit, tell });
+
+/** How the rows of a part are measured: `repeat` rounds, positions at `times` [s]. */
+const settings = (repeat, times) => ({ repeat, times, commit, tell });
 
 /**
  * A sheet of n x n vertices let go from the horizontal, its upper edge held. Vertices are numbered
@@ -122,7 +119,7 @@ function yardstick(n, substeps, order, masses) {
 }
 
 /** What the yardstick takes here, over what the bounds were made for. */
-function machineScale() {
+function machineScale(repeat) {
   const times = [];
   for (let round = 0; round < repeat; ++round) {
     tell(`yardstick, round ${round + 1} of ${repeat}`);
@@ -137,105 +134,113 @@ function machineScale() {
   return ms / kYardstickMs;
 }
 
+/** xpbd in both builds and the loop in both orders, on n x n vertices. */
+async function yardstickRows(repeat, n, substeps) {
+  const method = { stepper: 'xpbd', substeps, iterations: 1, constraints: 'rigid' };
+  const scene = swingingSheet(n, method, kLimp);
+  const { masses } = nativeRun(scene, 2, []);
+  const label = `xpbd, ${substeps} substeps`;
+  return measure(
+    [
+      contestant('wasm', label, scene, n),
+      contestant('native', label, scene, n),
+      yardstick(n, substeps, 'rows', masses),
+      yardstick(n, substeps, 'coloured', masses),
+    ],
+    { ...settings(repeat, kTimes), against: reference(scene, 'rigid_chain', kTimes), masses },
+  );
+}
+
+/** Three and four times as fast as the loop, and as right as the better of its orders. */
+function yardstickGoals(name, [ours, , byRows, coloured]) {
+  const faster = (order, row, bound) =>
+    goal(
+      `${name}_times_faster_than_${order}`,
+      row.ms_per_frame / ours.ms_per_frame,
+      'at-least',
+      bound,
+      [ours, row],
+    );
+  const noLarger = (what, measureOf) =>
+    goal(
+      `${name}_${what}`,
+      measureOf(ours),
+      'at-most',
+      Math.min(measureOf(byRows), measureOf(coloured)),
+      [ours, byRows, coloured],
+    );
+  return [
+    faster('rows', byRows, 4),
+    faster('coloured', coloured, 3),
+    noLarger('rms_stretch', (row) => row.rms_stretch),
+    noLarger('largest_stretch', (row) => row.largest_stretch),
+    ...kTimes.map((time) =>
+      noLarger(`position_error_m_at_${time}_s`, (row) => row.position_errors_m[`${time} s`]),
+    ),
+  ];
+}
+
 /** xpbd against the yardstick: same substeps, constraints and masses, no bending, compliance 0. */
-async function againstYardstick() {
+async function againstYardstick({ repeat }) {
   const rows = [];
   const goals = [];
   for (const n of [33, 65, 129]) {
     for (const substeps of [30, 100]) {
-      const method = { stepper: 'xpbd', substeps, iterations: 1, constraints: 'rigid' };
-      const scene = swingingSheet(n, method, { model: { bending: 'none' } });
-      const { masses } = nativeRun(scene, 2, []);
-      const label = `xpbd, ${substeps} substeps`;
-      const found = await measure(
-        [
-          contestant('wasm', label, scene, n),
-          contestant('native', label, scene, n),
-          yardstick(n, substeps, 'rows', masses),
-          yardstick(n, substeps, 'coloured', masses),
-        ],
-        { ...settings(kTimes), against: reference(scene, 'rigid_chain', kTimes), masses },
-      );
+      const found = await yardstickRows(repeat, n, substeps);
       rows.push(...found);
-      const [ours, , byRows, coloured] = found;
-      const name = `xpbd_${n}_${substeps}`;
-      const least = (value) => Math.min(value(byRows), value(coloured));
-      goals.push(
-        goal(
-          `${name}_times_faster_than_rows`,
-          byRows.ms_per_frame / ours.ms_per_frame,
-          'at-least',
-          4,
-        ),
-        goal(
-          `${name}_times_faster_than_coloured`,
-          coloured.ms_per_frame / ours.ms_per_frame,
-          'at-least',
-          3,
-        ),
-        goal(
-          `${name}_rms_stretch`,
-          ours.rms_stretch,
-          'at-most',
-          least((row) => row.rms_stretch),
-        ),
-        goal(
-          `${name}_largest_stretch`,
-          ours.largest_stretch,
-          'at-most',
-          least((row) => row.largest_stretch),
-        ),
-      );
-      for (const time of kTimes) {
-        const error = (row) => row.position_errors_m[`${time} s`];
-        goals.push(
-          goal(`${name}_position_error_m_at_${time}_s`, error(ours), 'at-most', least(error)),
-        );
-      }
+      goals.push(...yardstickGoals(`xpbd_${n}_${substeps}`, found));
     }
   }
   return { rows, goals };
 }
 
-async function projective(scale) {
+function projectiveGoals(begin, scale, [ours, , implicitRow]) {
+  return [
+    goal(
+      `projective_rms_stretch_percent_${begin}`,
+      100 * ours.rms_stretch_worst_frame,
+      'at-most',
+      0.4,
+      [ours],
+    ),
+    goal(`projective_ms_per_frame_wasm_${begin}`, ours.ms_per_frame, 'at-most', 6 * scale, [ours]),
+    goal(
+      `projective_position_error_m_at_1_s_${begin}`,
+      ours.position_error_m,
+      'at-most',
+      implicitRow.position_error_m,
+      [ours, implicitRow],
+    ),
+  ];
+}
+
+async function projective({ repeat, scale }) {
   const times = [1];
   // One round in each of ten substeps: more substeps answer sooner than more rounds.
   const method = { stepper: 'projective', substeps: 10, iterations: 1 };
   const coarse = { stepper: 'implicit', solver: 'cholmod', substeps: 1 };
   const label = 'projective, 10 substeps of 1 round';
   const rows = [];
+  const goals = [];
   for (const begin of ['horizontal', 'hanging']) {
     const fine = cornersMeet({ ...coarse, substeps: 16 }, begin);
-    rows.push(
-      ...(await measure(
-        [
-          contestant('wasm', label, cornersMeet(method, begin), 65),
-          contestant('native', label, cornersMeet(method, begin), 65),
-          contestant('native', 'implicit, 1/60 s', cornersMeet(coarse, begin), 65),
-        ],
-        { ...settings(times), against: reference(fine, 'run', times) },
-      )),
+    const found = await measure(
+      [
+        contestant('wasm', label, cornersMeet(method, begin), 65),
+        contestant('native', label, cornersMeet(method, begin), 65),
+        contestant('native', 'implicit, 1/60 s', cornersMeet(coarse, begin), 65),
+      ],
+      { ...settings(repeat, times), against: reference(fine, 'run', times) },
     );
+    rows.push(...found);
+    goals.push(...projectiveGoals(begin, scale, found));
   }
-  const [ours, , implicitRow] = rows;
-  return {
-    rows,
-    goals: [
-      goal('projective_rms_stretch_percent', 100 * ours.rms_stretch_worst_frame, 'at-most', 0.4),
-      goal('projective_ms_per_frame_wasm', ours.ms_per_frame, 'at-most', 6 * scale),
-      goal(
-        'projective_position_error_m_at_1_s',
-        ours.position_error_m,
-        'at-most',
-        implicitRow.position_error_m,
-      ),
-    ],
-  };
+  return { rows, goals };
 }
 
-async function implicit(scale) {
+async function implicit({ repeat, scale }) {
   const n = 100;
-  const method = (more) => swingingSheet(n, { stepper: 'implicit', substeps: 1, ...more });
+  const method = (more) => swingingSheet(n, { stepper: 'implicit', substeps: 1, ...more }, kLimp);
   const loose = method({ solver: 'cg', tolerance: 1e-2 });
   const rows = await measure(
     [
@@ -243,18 +248,20 @@ async function implicit(scale) {
       contestant('native', 'implicit, cg to 1e-3', method({ solver: 'cg', tolerance: 1e-3 }), n),
       contestant('native', 'implicit, cholmod', method({ solver: 'cholmod' }), n),
     ],
-    { ...settings(kTimes), against: reference(loose, 'rigid_chain', kTimes) },
+    { ...settings(repeat, kTimes), against: reference(loose, 'rigid_chain', kTimes) },
   );
   return {
     rows,
     goals: [
-      goal('implicit_100x100_cg_1e-2_ms_native', rows[0].ms_per_frame, 'at-most', 60 * scale),
+      goal('implicit_100x100_cg_1e-2_ms_native', rows[0].ms_per_frame, 'at-most', 60 * scale, [
+        rows[0],
+      ]),
     ],
   };
 }
 
 /** The float64 steppers in both builds on the same scene. */
-async function targets() {
+async function targets({ repeat }) {
   const n = 33;
   const methods = {
     explicit: { stepper: 'explicit', substeps: 'stable' },
@@ -265,42 +272,42 @@ async function targets() {
   const rows = [];
   const goals = [];
   for (const [name, method] of Object.entries(methods)) {
-    const scene = swingingSheet(n, method);
+    const scene = swingingSheet(n, method, kLimp);
     const frames = name === 'explicit' ? 6 : kFrames; // of 12 000 substeps each
     const times = name === 'explicit' ? [0.1] : kTimes;
     const found = await measure(
       [contestant('wasm', name, scene, n, frames), contestant('native', name, scene, n, frames)],
-      { ...settings(times), against: reference(scene, 'rigid_chain', times) },
+      { ...settings(repeat, times), against: reference(scene, 'rigid_chain', times) },
     );
     rows.push(...found);
-    goals.push(
-      goal(`wasm_over_native_${name}`, found[0].ms_per_frame / found[1].ms_per_frame, 'at-most', 2),
-    );
+    const [wasm, native] = found;
+    const ratio = wasm.ms_per_frame / native.ms_per_frame;
+    goals.push(goal(`wasm_over_native_${name}`, ratio, 'at-most', 2, found));
   }
   return { rows, goals };
 }
 
 /**
  * What a scene does not ask for costs nothing: without it a frame is no slower than with it, there
- * but without effect.
+ * but without effect. For bending that is a rigidity of 1e-15 N m, far below any fabric's: all
+ * four sheets are as limp as the chain.
  */
-async function absent() {
+async function absent({ repeat }) {
   const n = 65;
   const kNoise = 1.05; // interleaved medians differ by less
   const method = { stepper: 'xpbd', substeps: 30, iterations: 1 };
-  const limp = { model: { bending: 'none' } };
   const faint = { name: 'fine cotton', overrides: { bend_warp_n_m: 1e-15, bend_weft_n_m: 1e-15 } };
   const farBelow = { plane: { point_m: [0, -100, 0], normal: [0, 1, 0] } };
   const scenes = {
-    plain: swingingSheet(n, method, limp),
+    plain: swingingSheet(n, method, kLimp),
     bending: swingingSheet(n, method, { fabric: faint }),
-    air: swingingSheet(n, method, { ...limp, world: { air: { density_kg_per_m3: 1e-9 } } }),
-    contact: swingingSheet(n, method, { ...limp, world: { colliders: [farBelow] } }),
+    air: swingingSheet(n, method, { ...kLimp, world: { air: { density_kg_per_m3: 1e-9 } } }),
+    contact: swingingSheet(n, method, { ...kLimp, world: { colliders: [farBelow] } }),
   };
   const against = reference(scenes.plain, 'rigid_chain', kTimes);
   const rows = await measure(
     Object.entries(scenes).map(([name, scene]) => contestant('wasm', `xpbd, ${name}`, scene, n)),
-    { ...settings(kTimes), against },
+    { ...settings(repeat, kTimes), against },
   );
   const [plain, ...others] = rows;
   return {
@@ -311,34 +318,40 @@ async function absent() {
         plain.ms_per_frame / row.ms_per_frame,
         'at-most',
         kNoise,
+        [plain, row],
       ),
     ),
   };
 }
 
 const parts = { yardstick: againstYardstick, projective, implicit, targets, absent };
-const wanted = options.only.split(',');
-const unknown = wanted.find((name) => !(name in parts));
-if (unknown !== undefined) {
-  console.error(
-    `bench: --only: expected some of ${Object.keys(parts).join(', ')}, got "${unknown}"`,
-  );
-  process.exit(2);
-}
-const scale = machineScale();
-const rows = [];
-const goals = [];
-for (const name of wanted) {
-  const part = await parts[name](scale);
-  if (process.stderr.isTTY) tell('');
-  console.log(
-    `${name}: errors against ${[...new Set(part.rows.map((row) => row.reference.description))].join('; ')}\n`,
-  );
-  console.log(`${table(part.rows)}\n`);
-  rows.push(...part.rows);
-  goals.push(...part.goals);
-}
-for (const { line } of goals) console.log(line);
-if (options.json)
-  writeFileSync(options.json, rows.map((row) => `${JSON.stringify(row)}\n`).join(''));
-if (options.check && goals.some(({ ok }) => !ok)) process.exitCode = 1;
+
+await runBench('skeleton', async (words) => {
+  const names = Object.keys(parts);
+  const options = readOptions(words, kUsage.replace('PARTS', names.join(', ')), {
+    only: { type: 'string', default: names.join() },
+    repeat: { type: 'string', default: '5' },
+    json: { type: 'string' },
+    check: { type: 'boolean', default: false },
+  });
+  if (options === null) return;
+  const repeat = wholeNumber('--repeat', options.repeat, 1);
+  const wanted = options.only.split(',').map((name) => oneOf('--only', name, names));
+  const file = rowsFile(options.json);
+  const scale = machineScale(repeat);
+  const rows = [];
+  const goals = [];
+  for (const name of wanted) {
+    const part = await parts[name]({ repeat, scale });
+    if (process.stderr.isTTY) tell('');
+    console.log(
+      `${name}: errors against ${[...new Set(part.rows.map((row) => row.reference.description))].join('; ')}\n`,
+    );
+    console.log(`${table(part.rows)}\n`);
+    rows.push(...part.rows);
+    goals.push(...part.goals);
+    file.write(rows);
+  }
+  for (const { line } of goals) console.log(line);
+  if (options.check && goals.some(({ ok }) => !ok)) process.exitCode = 1;
+});

@@ -1,46 +1,69 @@
-// ./pleat bench sweep [SCENE.json] [--levels 0,1,2] [--repeat N] [--json FILE]
-//   [--reference rigid_chain|finest]
+// ./pleat bench sweep (--help tells the options)
 // The same sweep by the native command and by WebAssembly: stepper x level, milliseconds, stretch
 // and position error.
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { parseArgs } from 'node:util';
 
+import {
+  BadInput,
+  oneOf,
+  readOptions,
+  reasonOf,
+  rowsFile,
+  runBench,
+  wholeNumber,
+} from './bench-options.mjs';
 import { short } from './bench-rows.mjs';
 import { fabricsText, nativeSweep, root, wasmModule } from './contestants.mjs';
 
 const kSliceMs = 200; // between reports of progress
-
-const { values: options, positionals } = parseArgs({
-  allowPositionals: true,
-  options: {
-    levels: { type: 'string', default: '0,1,2' },
-    repeat: { type: 'string', default: '5' },
-    reference: { type: 'string', default: 'rigid_chain' },
-    json: { type: 'string' },
-  },
-});
-const file = positionals[0] ?? join(root, 'assets', 'scenes', 'swinging_sheet.json');
 const kDuration = 1; // [s]
+const kUsage = `./pleat bench sweep [SCENE.json]   one sweep natively and as WebAssembly
+  SCENE.json        default: assets/scenes/swinging_sheet.json
+  --levels 0,1,2    refinement levels (default 0,1,2)
+  --repeat N        timed runs of each setting (default 5)
+  --reference KIND  rigid_chain (default; bending is then left out) or finest
+  --json FILE       write the rows as JSON lines
+Exit status: 0 done, 2 bad input.`;
 
-/** The scene without what the chain has not. */
-function comparableScene() {
-  const scene = JSON.parse(readFileSync(file, 'utf8'));
-  if (options.reference === 'rigid_chain') scene.model = { ...scene.model, bending: 'none' };
+function readScene(file) {
+  let text;
+  try {
+    text = readFileSync(file, 'utf8');
+  } catch (error) {
+    throw new BadInput(`${file}: expected a scene file, got ${reasonOf(error)}`);
+  }
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new BadInput(`${file}: expected JSON, got ${error.message}`);
+  }
+}
+
+/** The scene of a file that the core can read. */
+async function checkedScene(file, reference) {
+  const scene = readScene(file);
+  const module = await wasmModule();
+  const reader = new module.Scene(fabricsText());
+  const answer = JSON.parse(reader.parse(JSON.stringify(scene)));
+  reader.delete();
+  if (!answer.ok) throw new BadInput(`${file}: ${answer.where}: ${answer.what}`);
+  // The chain does not bend.
+  if (reference === 'rigid_chain') scene.model = { ...scene.model, bending: 'none' };
   return scene;
 }
 
-async function wasmSweep(scene, nativeRows) {
+async function wasmSweep(scene, { levels, repeat, reference }, nativeRows) {
   const methods = [
     ...new Map(nativeRows.map((row) => [JSON.stringify(row.method), row.method])).values(),
   ];
   const plan = {
     scene,
-    levels: options.levels.split(',').map(Number),
+    levels: levels.split(',').map(Number),
     methods,
     duration_s: kDuration,
-    repeats: Number(options.repeat),
-    reference: options.reference,
+    repeats: repeat,
+    reference,
   };
   const module = await wasmModule();
   const experiment = new module.Experiment(fabricsText());
@@ -60,38 +83,65 @@ function describe(method, substeps) {
   return `${method.stepper}${solver}, ${substeps} substeps${method.iterations > 1 ? ` x ${method.iterations}` : ''}`;
 }
 
-const scene = comparableScene();
-const native = nativeSweep(scene, { ...options, duration: kDuration });
-const wasm = await wasmSweep(scene, native);
-const same = (row) =>
-  wasm.find(
-    (other) =>
-      other.level === row.level && JSON.stringify(other.method) === JSON.stringify(row.method),
-  );
-
-console.log(
-  `${scene.name}, ${kDuration} s, frames of 1/60 s; errors against ${native[0].reference.description}\n`,
-);
-console.log(
-  '| method | level | vertices | native ms/frame | wasm ms/frame | position error mm | % | rms stretch % | largest % |',
-);
-console.log('|---|---|---|---|---|---|---|---|---|');
-for (const row of native) {
-  const cells = [
-    describe(row.method, row.n_substeps),
-    row.level,
-    row.n_vertices,
-    short(row.ms_per_frame),
-    short(same(row)?.ms_per_frame),
-    short(row.position_error_m === null ? null : 1e3 * row.position_error_m),
-    short(row.position_error_percent),
-    short(100 * row.rms_stretch),
-    short(100 * row.largest_stretch),
-  ];
-  console.log(`| ${cells.join(' | ')} |`);
+/** A number of a row times a factor; a dash for what the row has not. */
+function scaled(value, factor) {
+  return short(value === null ? Number.NaN : factor * value);
 }
-if (options.json)
-  writeFileSync(
-    options.json,
-    [...native, ...wasm].map((row) => `${JSON.stringify(row)}\n`).join(''),
+
+function printTable(native, wasm) {
+  const same = (row) =>
+    wasm.find(
+      (other) =>
+        other.level === row.level && JSON.stringify(other.method) === JSON.stringify(row.method),
+    );
+  console.log(
+    '| method | level | vertices | native ms/frame | wasm ms/frame | position error mm | % | rms stretch % | largest % | status |',
   );
+  console.log('|---|---|---|---|---|---|---|---|---|---|');
+  for (const row of native) {
+    const cells = [
+      describe(row.method, row.n_substeps),
+      row.level,
+      row.n_vertices,
+      short(row.ms_per_frame),
+      short(same(row)?.ms_per_frame),
+      scaled(row.position_error_m, 1e3),
+      short(row.position_error_percent),
+      scaled(row.rms_stretch, 100),
+      scaled(row.largest_stretch, 100),
+      row.status,
+    ];
+    console.log(`| ${cells.join(' | ')} |`);
+  }
+}
+
+await runBench('sweep', async (words) => {
+  const options = readOptions(
+    words,
+    kUsage,
+    {
+      levels: { type: 'string', default: '0,1,2' },
+      repeat: { type: 'string', default: '5' },
+      reference: { type: 'string', default: 'rigid_chain' },
+      json: { type: 'string' },
+    },
+    1,
+  );
+  if (options === null) return;
+  const reference = oneOf('--reference', options.reference, ['rigid_chain', 'finest']);
+  const repeat = wholeNumber('--repeat', options.repeat, 1);
+  for (const level of options.levels.split(',')) wholeNumber('--levels', level, 0);
+  const file = rowsFile(options.json);
+  const [sceneFile = join(root, 'assets', 'scenes', 'swinging_sheet.json')] = options.words;
+  const scene = await checkedScene(sceneFile, reference);
+  const plan = { levels: options.levels, repeat, reference };
+
+  const native = nativeSweep(scene, { ...plan, duration: kDuration });
+  file.write(native);
+  const wasm = await wasmSweep(scene, plan, native);
+  console.log(
+    `${scene.name}, ${kDuration} s, frames of 1/60 s; errors against ${native[0].reference.description}\n`,
+  );
+  printTable(native, wasm);
+  file.write([...native, ...wasm]);
+});

@@ -9,7 +9,7 @@ import {
   sceneOf,
   withStepper,
 } from '../src/state/setting';
-import { rowOfSetting, settingOfRow, sweepPlan } from '../src/state/sweep-plan';
+import { FINEST_EXPLICIT, rowOfSetting, settingOfRow, sweepPlan } from '../src/state/sweep-plan';
 
 const start = presetSetting('curtain');
 
@@ -61,10 +61,19 @@ describe('setting', () => {
 });
 
 describe('sweep-plan', () => {
-  it('measures every stepper at every level up to the finest', () => {
-    const plan = sweepPlan(start, 3);
-    expect(plan.levels).toEqual([0, 1, 2, 3]);
-    expect(new Set(plan.methods.map((method) => method.stepper))).toEqual(new Set(STEPPERS));
+  const steppersOf = (finest: number) =>
+    new Set(sweepPlan(start, finest).methods.map((method) => method.stepper));
+
+  it('measures every level up to the finest, with every stepper that can keep up', () => {
+    expect(sweepPlan(start, 3).levels).toEqual([0, 1, 2, 3]);
+    expect(steppersOf(FINEST_EXPLICIT)).toEqual(new Set(STEPPERS));
+    const others = STEPPERS.filter((stepper) => stepper !== 'explicit');
+    expect(steppersOf(FINEST_EXPLICIT + 1)).toEqual(new Set(others));
+  });
+
+  it('gives explicit as many substeps as each level asks for', () => {
+    const explicit = sweepPlan(start, 1).methods.find(({ stepper }) => stepper === 'explicit');
+    expect(explicit?.substeps).toBe('stable');
   });
 
   it('finds the row of a setting that a row was applied from', () => {

@@ -1,10 +1,19 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
-import { BOUND_METHODS, type PleatModule } from '../src/sim/wasm-module';
+import { BOUND_METHODS, type PleatModule, type RunNumbers } from '../src/sim/wasm-module';
 import { createWorkerCore } from '../src/sim/worker-core';
 import { fabricsText } from '../src/state/fabric-data';
-import { presetSetting, type Setting, STEPPERS, sceneOf, withStepper } from '../src/state/setting';
+import {
+  PRESET_IDS,
+  PRESETS,
+  presetSetting,
+  type Setting,
+  STEPPER_TRAITS,
+  STEPPERS,
+  sceneOf,
+  withStepper,
+} from '../src/state/setting';
 import { settingOfRow, sweepPlan } from '../src/state/sweep-plan';
 import { createFakeModule } from './support/fake-module';
 
@@ -59,7 +68,6 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
     expect(loaded.request).toBe(1);
     expect(positions.length).toBe(3 * loaded.summary.n_vertices);
     expect(stretch.length).toBe(loaded.summary.n_vertices);
-    expect(loaded.restCoordinates.length).toBe(2 * loaded.summary.n_vertices);
     expect(loaded.triangles.length).toBe(3 * loaded.summary.n_triangles);
     expect(Math.max(...loaded.triangles)).toBe(loaded.summary.n_vertices - 1);
     expect(loaded.buffers[1].byteLength).toBe(loaded.buffers[0].byteLength);
@@ -155,11 +163,10 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
   });
 
   it('measures a small sweep: every row with speed, error and reference', async () => {
-    const { send, take, posted } = open(await load());
+    const { send, posted } = open(await load());
     const { scene, methods } = sweepPlan(setting, 0);
     const plan = { scene, methods: methods.slice(0, 5), levels: [0], duration_s: 0.1, repeats: 1 };
     send({ type: 'sweep', planText: JSON.stringify(plan) });
-    expect(take('sweepStarted').nRuns).toBe(5);
     const { report } = posted.at(-1) as Sent<'sweepReport'>;
     expect(report.done).toBe(true);
     expect(report.rows).toHaveLength(5);
@@ -170,6 +177,7 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
       expect(row.ms_per_frame).toBeGreaterThan(0);
       expect(row.position_error_m).toBeGreaterThan(0);
       expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
+      if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
     }
   });
 
@@ -205,7 +213,6 @@ describe('worker-core', () => {
     send({ type: 'open', fabricsText });
     take('ready');
     send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
-    expect(take('sweepStarted').nRuns).toBe(14);
     const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
     expect(reports.map((report) => report.rows.length)).toEqual(
       Array.from({ length: 14 }, (_, index) => index + 1),
@@ -230,6 +237,84 @@ describe('worker-core', () => {
     expect(alive()).toBe(2);
     core.close();
     expect(alive()).toBe(0);
+  });
+});
+
+describe('worker-core with a module that lacks CHOLMOD', () => {
+  const { module } = createFakeModule({ hasCholmod: false });
+
+  it('loads every preset with every stepper, and says what serves instead', () => {
+    const { send, take } = open(module);
+    for (const preset of PRESET_IDS) {
+      for (const stepper of STEPPERS) {
+        const text = JSON.stringify(sceneOf(withStepper(presetSetting(preset), stepper)));
+        send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+        expect(take('loaded').summary.notes).toEqual(['Eigen serves.']);
+      }
+    }
+  });
+
+  it('sweeps with Eigen, in the reference and in projective, and its rows can be applied', () => {
+    const { send, take, posted } = open(module);
+    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
+    const { rows } = (posted.at(-1) as Sent<'sweepReport'>).report;
+    expect(rows.every((row) => row.reference.description === 'implicit with eigen')).toBe(true);
+    const projective = rows.filter((row) => row.method.stepper === 'projective');
+    expect(projective.map((row) => row.method.solver)).toEqual([
+      'eigen',
+      'eigen',
+      'eigen',
+      'eigen',
+    ]);
+    posted.length = 0;
+    for (const row of rows) {
+      const text = JSON.stringify(sceneOf(settingOfRow(row, setting)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 3 });
+      take('loaded');
+    }
+  });
+
+  it('refuses what names CHOLMOD', () => {
+    const { send, take } = open(module);
+    const scene = sceneOf(withStepper(setting, 'projective'));
+    const method = { ...(scene.method as object), solver: 'cholmod' };
+    const text = JSON.stringify({ ...scene, method });
+    send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+    expect(take('refused').failure.where).toBe('/method/solver');
+  });
+
+  it('has no option and no word that names it', () => {
+    const words = JSON.stringify([STEPPER_TRAITS, PRESETS]);
+    expect(words.toLowerCase()).not.toContain('cholmod');
+  });
+});
+
+describe.runIf(hasModule)('the cost of a step', () => {
+  async function projectiveRun() {
+    const module = await loadRealModule();
+    const simulation = new module.Simulation(fabricsText);
+    const method = withStepper({ ...setting, level: 3 }, 'projective');
+    simulation.load(JSON.stringify(sceneOf({ ...method, iterations: 1 })));
+    simulation.step(1);
+    const readNumbers = () => JSON.parse(simulation.numbers()) as RunNumbers;
+    return { simulation, readNumbers };
+  }
+
+  it('is the wall time of the whole step, of which parts are a part', async () => {
+    const { simulation, readNumbers } = await projectiveRun();
+    const begin = performance.now();
+    simulation.step(60);
+    const clockMs = performance.now() - begin;
+    const { steps_ms, steps_timed, parts_ms } = readNumbers();
+    expect(steps_timed).toBe(60);
+    expect(steps_ms).toBeLessThan(clockMs);
+    expect(steps_ms).toBeGreaterThan(0.85 * clockMs);
+    expect(Object.values(parts_ms).reduce((sum, ms) => sum + ms, 0)).toBeLessThan(steps_ms);
+  });
+
+  it('leaves out the first step, which builds what the others keep', async () => {
+    const { readNumbers } = await projectiveRun();
+    expect(readNumbers()).toMatchObject({ steps_timed: 0, steps_ms: 0, parts_ms: {} });
   });
 });
 

@@ -5,14 +5,20 @@ import { element } from '../views/element';
 import { digits, milliseconds, percent, smallLength } from '../views/quantity';
 import { type PlotContent, titleOf } from './speed-error-plot';
 
-const HEADS = ['Setting', 'ms a frame', 'Error', 'RMS stretch'];
+/** Each column's title, and what its second line is. */
+const HEADS: readonly [string, string][] = [
+  ['Setting', ''],
+  ['A frame', 'spread'],
+  ['Error', 'of diagonal'],
+  ['RMS stretch', 'largest'],
+];
 
-/** Each value with what explains it, by column after the first. */
+/** Both lines of each column after the first. */
 function cells(row: BenchRow): [string, string][] {
   return [
-    [milliseconds(row.ms_per_frame), `spread ${milliseconds(row.spread_ms)}`],
-    [smallLength(row.position_error_m), `${digits(row.position_error_percent, 2)} % of diagonal`],
-    [percent(row.rms_stretch), `largest ${percent(row.largest_stretch)}`],
+    [milliseconds(row.ms_per_frame), milliseconds(row.spread_ms)],
+    [smallLength(row.position_error_m), `${digits(row.position_error_percent, 2)} %`],
+    [percent(row.rms_stretch), percent(row.largest_stretch)],
   ];
 }
 
@@ -29,7 +35,13 @@ export function createSpeedErrorTable(
       element(
         'thead',
         {},
-        element('tr', {}, ...HEADS.map((head) => element('th', { scope: 'col' }, head))),
+        element(
+          'tr',
+          {},
+          ...HEADS.map(([title, detail]) =>
+            element('th', { scope: 'col' }, title, ' ', element('small', {}, detail)),
+          ),
+        ),
       ),
       body,
     ),

@@ -6,7 +6,13 @@ import { type Setting, sceneOf } from '../state/setting';
 import type { Store } from '../state/store';
 import { startWorker } from './client';
 import { createPacer } from './pacer';
-import type { FrameMessage, FromWorker, LoadedMessage, RunReport } from './protocol';
+import {
+  type FrameMessage,
+  type FromWorker,
+  frameViews,
+  type LoadedMessage,
+  type RunReport,
+} from './protocol';
 import { createStepTimer } from './step-timing';
 import type { Failure, Triple } from './wasm-module';
 
@@ -44,6 +50,23 @@ function sentenceOf(failure: Failure): string {
   const place = failure.where && !failure.what.includes(failure.where) ? `${failure.where}: ` : '';
   const prefix = failure.kind === 'internal' ? 'The program failed: ' : '';
   return `${prefix}${place}${failure.what}`;
+}
+
+/** Where the vertex that a message names was in a frame, in words; nothing when it names none. */
+function placeOf(message: string, frame: ArrayBuffer): string {
+  const vertex = Number(/^vertex (\d+)/.exec(message)?.[1] ?? Number.NaN);
+  const place = frameViews(frame).positions.subarray(3 * vertex, 3 * vertex + 3);
+  if (place.length < 3) return '';
+  return ` It was last at (${Array.from(place, (metres) => metres.toFixed(2)).join(', ')}) m.`;
+}
+
+/** What ended a run: in which step and where. `frame` is the last finite one. */
+function endOf(report: RunReport | null, frame: ArrayBuffer): string {
+  const rest = 'The last good frame stays; reset to start again.';
+  if (!report) return `The run stopped without a report. ${rest}`;
+  const { numbers, status, message } = report;
+  const reason = `${status.replaceAll('_', ' ')}: ${message.replace(/[.]$/, '')}`;
+  return `The run stopped in step ${numbers.step + 1}, ${reason}.${placeOf(message, frame)} ${rest}`;
 }
 
 /** Opens the worker, loads the state's setting, and follows the store from then on. */
@@ -152,16 +175,12 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     if (report) receiveReport(report);
     if (!hasEnded) return aheadSinceMs === null ? goOn() : runAhead();
     aheadSinceMs = null;
-    const reason = report
-      ? `${report.status.replaceAll('_', ' ')}: ${report.message}`
-      : 'no report';
-    const sentence = `The run stopped, ${reason}. The last good frame stays; reset to start again.`;
     store.set({
       phase: 'stopped',
       playing: false,
       held: false,
       ahead: null,
-      problem: { source: 'run', sentence },
+      problem: { source: 'run', sentence: endOf(report, buffer) },
     });
   }
 

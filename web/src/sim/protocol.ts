@@ -20,8 +20,6 @@ export interface LoadedMessage {
   request: number;
   summary: SceneSummary;
   triangles: Uint32Array;
-  /** Two numbers a vertex [m]. */
-  restCoordinates: Float32Array;
   /** Two frame buffers that belong to the page from now on; the first holds the present frame. */
   buffers: [ArrayBuffer, ArrayBuffer];
   numbers: RunNumbers;
@@ -55,7 +53,6 @@ export type FromWorker =
   | FrameMessage
   /** A load, reset or sweep that was refused; `request` is -1 when the message had none. */
   | { type: 'refused'; request: number; failure: Failure }
-  | { type: 'sweepStarted'; nRuns: number }
   | { type: 'sweepReport'; report: SweepReport };
 
 export type Post = (message: FromWorker, transfer: Transferable[]) => void;

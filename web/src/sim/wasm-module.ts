@@ -34,8 +34,10 @@ export interface RunNumbers {
   /** Relative residual of the last step's own equations. */
   residual: number;
   iterations: number;
-  /** Total wall time of each part since load [ms]. */
+  /** Total wall time since load, the first step not counted: of each part that was timed [ms]. */
   parts_ms: Record<string, number>;
+  /** And of the steps as a whole [ms], of which there were `steps_timed`. */
+  steps_ms: number;
   steps_timed: number;
 }
 
@@ -121,7 +123,6 @@ export interface SimulationHandle {
   /** Signed mean strain of the springs at each vertex, as a ratio. */
   stretch(): Float32Array;
   triangles(): Uint32Array;
-  restCoordinates(): Float32Array;
   colliders(): string;
   grab(vertex: number): string;
   /** Target of the held patch [m]. */
@@ -162,7 +163,6 @@ export const BOUND_METHODS: Record<keyof PleatModule, string[]> = {
     masses: true,
     stretch: true,
     triangles: true,
-    restCoordinates: true,
     colliders: true,
     grab: true,
     moveGrab: true,

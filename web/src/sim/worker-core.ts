@@ -87,12 +87,11 @@ export function createWorkerCore(
     const buffers: [ArrayBuffer, ArrayBuffer] = [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)];
     fill(run, buffers[0]);
     const triangles = run.triangles().slice();
-    const restCoordinates = run.restCoordinates().slice();
     const colliders = readColliders(run);
-    post(
-      { type: 'loaded', request, summary, triangles, restCoordinates, buffers, numbers, colliders },
-      [triangles.buffer, restCoordinates.buffer, ...buffers],
-    );
+    post({ type: 'loaded', request, summary, triangles, buffers, numbers, colliders }, [
+      triangles.buffer,
+      ...buffers,
+    ]);
   }
 
   function load(run: SimulationHandle, message: Extract<ToWorker, { type: 'load' }>): void {
@@ -127,9 +126,8 @@ export function createWorkerCore(
     if (fabricsText === null) return refuse(-1, internalFailure('sweep before open'));
     experiment?.delete();
     experiment = new module.Experiment(fabricsText);
-    const started = read<{ n_runs: number }>(experiment.start(planText));
+    const started = read<object>(experiment.start(planText));
     if (!started.ok) return refuse(-1, started);
-    post({ type: 'sweepStarted', nRuns: started.n_runs }, []);
     for (let done = false; !done; ) {
       const report = read<SweepReport>(experiment.advance(SWEEP_SLICE_MS));
       if (!report.ok) return refuse(-1, report);

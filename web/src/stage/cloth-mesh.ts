@@ -17,7 +17,10 @@ import { frameViews } from '../sim/protocol';
 import type { HeatScale } from '../state/app-state';
 import type { HeatMap } from '../state/url-codec';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
-import type { FabricLook } from './fabric-look';
+import { type FabricLook, SHEEN_ROUGHNESS } from './fabric-look';
+
+/** A still cloth has no stretch: the scale then ends at 0.01 %, not at nothing. */
+const LEAST_REACH = 1e-4;
 
 /** Each edge once, as pairs of vertices. */
 function edgesOf(triangles: Uint32Array): Uint32Array {
@@ -136,8 +139,7 @@ export function createClothMesh(): ClothMesh {
       least = Math.min(least, value);
       most = Math.max(most, value);
     }
-    // A still cloth has no stretch: the scale then ends at 0.01 %, not at nothing.
-    const reach = Math.max(Math.abs(least), Math.abs(most), 1e-4);
+    const reach = Math.max(Math.abs(least), Math.abs(most), LEAST_REACH);
     const high = heatRange === 'auto' ? roundedUp(reach) : heatRange / 100;
     const low = heatMap === 'signed' ? -high : 0;
     scale = { map: heatMap, low, high, least, most };
@@ -191,7 +193,7 @@ export function createClothMesh(): ClothMesh {
         material.color.set(colour);
         material.roughness = look.roughness;
         material.sheen = look.sheen;
-        material.sheenRoughness = 0.4;
+        material.sheenRoughness = SHEEN_ROUGHNESS;
         material.sheenColor.set(look.sheenColour);
         material.transparent = look.opacity < 1;
         material.opacity = look.opacity;

@@ -13,6 +13,9 @@ export interface FabricLook {
   opacity: number;
 }
 
+/** How wide the sheen spreads: as wide as velvet's on all, as only its strength tells them apart. */
+export const SHEEN_ROUGHNESS = 0.4;
+
 function look(
   front: string,
   back: string,
@@ -24,7 +27,7 @@ function look(
   return { front, back, roughness, sheen, sheenColour, opacity };
 }
 
-/** By id in the fabric file. */
+/** By id in the fabric file: front, back, roughness, sheen and its colour, opacity. */
 const LOOKS: readonly FabricLook[] = [
   look('#3a9db8', '#9fcfd9', 0.85, 0.25, '#d9f2f7'), // fine cotton, lake blue
   look('#34548a', '#a9b6cc', 0.95, 0.1, '#93a7cc'), // denim, blue with a pale wrong side
@@ -43,6 +46,7 @@ const LOOKS: readonly FabricLook[] = [
   look('#7fae5f', '#5d7f4a', 0.9, 1.0, '#e3ffce'), // velvet, light green
 ];
 
+/** Grey and matt, for an id that the table has not. */
 const PLAIN = look('#8a8f98', '#b5b9c0', 0.9, 0, '#ffffff');
 
 export function lookOf(fabricId: number): FabricLook {

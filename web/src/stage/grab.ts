@@ -24,6 +24,8 @@ export interface HandEvents {
   /** A vertex to take by keyboard when none lies in the middle of the picture. */
   fallbackVertex(): number;
   cloth(): { positions: Float32Array; triangles: Uint32Array };
+  /** Nothing is pulled below this height [m], whether the scene has a solid floor or not. */
+  floor(): number;
   onChange(): void;
 }
 
@@ -61,6 +63,7 @@ export function createHand(
   }
 
   function send(): void {
+    target.y = Math.max(target.y, events.floor());
     events.move([target.x, target.y, target.z]);
     events.onChange();
   }

@@ -62,15 +62,32 @@ const MOST_PIXEL_RATIO = 2;
 const AZIMUTH = 0.55;
 const POLAR = 1.32;
 
+/** A cloth lower than this part of its width lies level: let go, it will swing or fall. */
+const LEVEL_HEIGHT = 0.25;
+/** A sheet that swings from its edge hangs almost its length below it; its free edge whips past. */
+const SWING_BELOW = 0.8;
+const SWING_AROUND = 0.15;
+
+/** A plane tilted by less than 8 degrees, as a cosine, is a floor. */
+const FLOOR_COSINE = 0.99;
+
+/** A metre lower counts for the invitation as much as two metres nearer: free corners hang low. */
+const LOW_OVER_NEAR = 2;
+
+/** Radius of the marker of the held point, as a part of its distance: some 6 pixels on a screen. */
+const MARKER_RADIUS = 0.006;
+
 /** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
 function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
   const box = new Box3().setFromArray(positions);
   const reach = box.getSize(new Vector3());
-  // A sheet that lies level at first will swing: leave room for its length below and around.
   const across = Math.max(reach.x, reach.z);
-  if (reach.y < 0.25 * across && colliders.every((collider) => collider.shape === 'plane')) {
-    box.min.y -= 0.8 * across;
-    box.expandByVector(new Vector3(0.15 * across, 0, 0.15 * across));
+  if (
+    reach.y < LEVEL_HEIGHT * across &&
+    colliders.every((collider) => collider.shape === 'plane')
+  ) {
+    box.min.y -= SWING_BELOW * across;
+    box.expandByVector(new Vector3(SWING_AROUND * across, 0, SWING_AROUND * across));
   }
   for (const collider of colliders) {
     if (collider.shape !== 'sphere') continue;
@@ -84,7 +101,7 @@ function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
 /** The floor is the level plane of the scene, or a little under everything that is seen [m]. */
 function floorHeight(sphere: Sphere, colliders: Collider[]): number {
   for (const collider of colliders) {
-    if (collider.shape === 'plane' && collider.normal[1] > 0.99) return collider.point[1];
+    if (collider.shape === 'plane' && collider.normal[1] > FLOOR_COSINE) return collider.point[1];
   }
   return Math.min(0, sphere.center.y - sphere.radius);
 }
@@ -96,7 +113,7 @@ function invitingVertex(positions: Float32Array, towards: Vector3): number {
   const place = new Vector3();
   for (let v = 0; 3 * v < positions.length; ++v) {
     place.fromArray(positions, 3 * v);
-    const score = place.dot(towards) - 2 * place.y;
+    const score = place.dot(towards) - LOW_OVER_NEAR * place.y;
     if (score > bestScore) {
       bestScore = score;
       best = v;
@@ -137,6 +154,7 @@ export function createStage(
   let awaitsFraming = false;
   let isFreshMesh = false;
   let inviting = 0;
+  let floor = 0; // height of what is drawn as the floor [m]
   let drawHandle = 0;
 
   const control = createCameraControl(canvas, camera, redraw);
@@ -152,6 +170,7 @@ export function createStage(
     },
     fallbackVertex: () => inviting,
     cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
+    floor: () => floor,
     onChange: redraw,
   });
 
@@ -166,7 +185,7 @@ export function createStage(
     if (vertex === null) return;
     const place = new Vector3().fromArray(cloth.positions(), 3 * vertex);
     marker.position.copy(place);
-    marker.scale.setScalar(0.006 * camera.position.distanceTo(place));
+    marker.scale.setScalar(MARKER_RADIUS * camera.position.distanceTo(place));
     place.toArray(threadEnds.array, 0);
     hand.target().toArray(threadEnds.array, 3);
     threadEnds.needsUpdate = true;
@@ -191,7 +210,8 @@ export function createStage(
 
   function frameScene(): void {
     const sphere = framedSphere(cloth.positions(), colliders);
-    surroundings.frame(sphere.center, sphere.radius, floorHeight(sphere, colliders));
+    floor = floorHeight(sphere, colliders);
+    surroundings.frame(sphere.center, sphere.radius, floor);
     control.frame({ centre: sphere.center, radius: sphere.radius, azimuth: AZIMUTH, polar: POLAR });
     chooseInviting();
   }

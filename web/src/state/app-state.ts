@@ -10,7 +10,10 @@ export interface Problem {
   sentence: string;
 }
 
-/** Times of one step, from differences of running totals over at least 50 ms of work. */
+/**
+ * Times of one step, from differences of running totals over at least 50 ms of work. The parts add
+ * up to the total: the last one is the rest.
+ */
 export interface StepTiming {
   totalMs: number;
   parts: { name: string; ms: number }[];

@@ -6,7 +6,7 @@ import { element, setText } from './element';
 import { percent } from './quantity';
 
 const LEGEND_MEANING =
-  'Mean strain of the springs at each vertex: change of length over rest length.';
+  'Change of length over rest length, averaged over the threads that meet at each point: where one is longer and another shorter, they cancel.';
 
 export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): () => void {
   const title = element('p', { class: 'legend-title' });
@@ -21,6 +21,7 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
     bar,
     element('p', { class: 'legend-ends' }, low, high),
     present,
+    element('p', { class: 'legend-present' }, 'mean of the threads at a point'),
   );
   parent.append(legend);
   return watch(store, ['heatScale', 'heatRange'], ({ heatScale: scale, heatRange }) => {
@@ -32,8 +33,8 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
     bar.style.background = (isSigned ? SIGNED_MAP : MAGNITUDE_MAP).gradient;
     setText(low, percent(scale.low));
     setText(high, percent(scale.high));
-    // Next to the largest value, rounding noise is zero.
-    const isNoise = Math.abs(scale.least) < 1e-3 * Math.abs(scale.most);
+    // Beside two digits of the largest value, less than a hundredth of it is zero.
+    const isNoise = Math.abs(scale.least) < 1e-2 * Math.abs(scale.most);
     const least = isNoise ? '0 %' : percent(scale.least);
     setText(present, `now ${least} to ${percent(scale.most)}`);
   });

@@ -45,13 +45,13 @@ const ITEMS: readonly Item[] = [
   {
     title: 'Cost of a step',
     width: 'wide',
-    meaning: 'Wall time of one step on this device, in parts, over at least 50 ms of work.',
+    meaning:
+      'Wall time of one step on this device, from its begin to its end, in parts; mean over at least 50 ms of work.',
     text: ({ timing }) => (timing ? milliseconds(timing.totalMs) : '–'),
     detail: ({ timing }) =>
       timing
         ? timing.parts
             .filter(({ ms }) => ms >= LEAST_PART * timing.totalMs)
-            .slice(0, 3)
             .map(({ name, ms }) => `${name.replaceAll('_', ' ')} ${digits(ms, 2)}`)
             .join(' · ')
         : 'play to measure',

@@ -36,6 +36,7 @@ export function smallLength(metres: number | null): string {
 }
 
 export function milliseconds(ms: number | null): string {
+  if (ms === null) return '–';
   return `${digits(ms, 2)} ms`;
 }
 

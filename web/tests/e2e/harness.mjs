@@ -80,8 +80,8 @@ export const stateOf = (page) => page.evaluate(() => window.pleat.state());
 export const positionsOf = (page) => page.evaluate(() => window.pleat.positions());
 
 /** Waits until `probe`, asked again and again, answers true. */
-export async function eventually(probe, what) {
-  const end = performance.now() + PATIENCE_MS;
+export async function eventually(probe, what, patienceMs = PATIENCE_MS) {
+  const end = performance.now() + patienceMs;
   while (!(await probe())) {
     if (performance.now() > end) throw new Error(`waited in vain: ${what}`);
     await new Promise((resume) => setTimeout(resume, 50));
@@ -89,12 +89,16 @@ export async function eventually(probe, what) {
 }
 
 /** Waits until the page's state fulfils `test`. */
-export async function until(page, test) {
+export async function until(page, test, patienceMs = PATIENCE_MS) {
   let state = null;
-  await eventually(async () => {
-    state = await page.evaluate(() => window.pleat?.state() ?? null);
-    return state !== null && test(state);
-  }, test.toString());
+  await eventually(
+    async () => {
+      state = await page.evaluate(() => window.pleat?.state() ?? null);
+      return state !== null && test(state);
+    },
+    test.toString(),
+    patienceMs,
+  );
   return state;
 }
 

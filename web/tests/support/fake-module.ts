@@ -8,18 +8,31 @@ import type {
   SimulationHandle,
 } from '../../src/sim/wasm-module';
 
-/** As many steps as this and the run ends with a status, when the scene's name is "fragile". */
-const FRAGILE_STEPS = 10;
+/** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
+export const FRAGILE_STEPS = 10;
+
+type FakeMethod = BenchRow['method'] & { solver?: string };
 
 interface FakeScene {
   name: string;
   refinement: { level: number };
-  method: { stepper: string; step_s: number; substeps?: number };
+  method: FakeMethod;
+}
+
+/** What the module is built with. */
+interface FakeBuild {
+  hasCholmod: boolean;
 }
 
 const ok = (payload: object = {}) => JSON.stringify({ ok: true, ...payload });
 const refuse = (where: string, what: string) =>
   JSON.stringify({ ok: false, kind: 'input', where, what });
+
+/** The direct solver that a method gets when it names none; null when it names one that is not there. */
+function directSolver({ hasCholmod }: FakeBuild, method: FakeMethod): string | null {
+  const solver = method.solver ?? (hasCholmod ? 'cholmod' : 'eigen');
+  return solver === 'cholmod' && !hasCholmod ? null : solver;
+}
 
 class FakeSimulation implements SimulationHandle {
   private side = 0;
@@ -29,7 +42,10 @@ class FakeSimulation implements SimulationHandle {
   private held: number | null = null;
   private ended = false;
 
-  constructor(private readonly onDelete: () => void) {}
+  constructor(
+    private readonly build: FakeBuild,
+    private readonly onDelete: () => void,
+  ) {}
 
   private summary() {
     const n = this.side * this.side;
@@ -44,6 +60,7 @@ class FakeSimulation implements SimulationHandle {
         substeps: 1,
         built: ['springs'],
         left_out: ['contact'],
+        notes: this.build.hasCholmod ? [] : ['Eigen serves.'],
       },
     });
   }
@@ -52,6 +69,9 @@ class FakeSimulation implements SimulationHandle {
     const scene = JSON.parse(text) as FakeScene;
     if (scene.method.stepper === 'explicit' && scene.method.substeps === 1) {
       return refuse('/method/substeps', 'expected at least 300 substeps, found 1');
+    }
+    if (directSolver(this.build, scene.method) === null) {
+      return refuse('/method/solver', 'expected a solver of this build, found cholmod');
     }
     this.scene = scene;
     this.side = 2 ** (scene.refinement.level + 1) + 1;
@@ -79,9 +99,9 @@ class FakeSimulation implements SimulationHandle {
 
   step(count: number): number {
     for (let step = 0; step < count; ++step) {
-      this.steps += 1;
-      this.ended ||= this.scene?.name === 'fragile' && this.steps > FRAGILE_STEPS;
+      this.ended ||= this.scene?.name === 'fragile' && this.steps >= FRAGILE_STEPS;
       if (this.ended) return 3;
+      this.steps += 1;
       for (let v = 0; v < this.x.length / 3; ++v) {
         const depth = Math.floor(v / this.side) / (this.side - 1);
         this.x[3 * v + 2] = 0.3 * depth * Math.sin(0.1 * this.steps);
@@ -92,7 +112,7 @@ class FakeSimulation implements SimulationHandle {
 
   status(): string {
     return this.ended
-      ? ok({ status: 'not_finite', message: 'vertex 3' })
+      ? ok({ status: 'not_finite', message: 'vertex 3 is no longer finite' })
       : ok({ status: 'ok', message: '' });
   }
 
@@ -105,6 +125,7 @@ class FakeSimulation implements SimulationHandle {
       residual: 1e-4,
       iterations: 7,
       parts_ms: { forces: 0.5 * this.steps, solve: 1.5 * this.steps },
+      steps_ms: 2.5 * this.steps,
       steps_timed: this.steps,
     });
   }
@@ -113,7 +134,6 @@ class FakeSimulation implements SimulationHandle {
   exactPositions = () => Float64Array.from(this.x);
   masses = () => new Float64Array(this.x.length / 3).fill(0.001);
   stretch = () => new Float32Array(this.x.length / 3).fill(this.steps === 0 ? 0 : 0.002);
-  restCoordinates = () => new Float32Array((2 * this.x.length) / 3);
 
   triangles(): Uint32Array {
     const corners: number[] = [];
@@ -150,13 +170,29 @@ class FakeSimulation implements SimulationHandle {
 class FakeExperiment implements ExperimentHandle {
   private rows: BenchRow[] = [];
 
-  constructor(private readonly onDelete: () => void) {}
+  constructor(
+    private readonly build: FakeBuild,
+    private readonly onDelete: () => void,
+  ) {}
 
   start(text: string): string {
-    const plan = JSON.parse(text) as { levels: number[]; methods: BenchRow['method'][] };
+    const plan = JSON.parse(text) as { levels: number[]; methods: FakeMethod[]; scene?: FakeScene };
     if (plan.levels.length === 0) return refuse('/levels', 'expected a level, found none');
-    this.rows = plan.levels.flatMap((level) => plan.methods.map((method) => row(level, method)));
-    return ok({ n_runs: this.rows.length });
+    for (const method of [...plan.methods, ...(plan.scene ? [plan.scene.method] : [])]) {
+      if (directSolver(this.build, method) === null) return refuse('/methods', 'found cholmod');
+    }
+    const reference = `implicit with ${this.build.hasCholmod ? 'cholmod' : 'eigen'}`;
+    this.rows = plan.levels.flatMap((level) =>
+      plan.methods.map((method) => {
+        const solver = directSolver(this.build, method);
+        return row(
+          level,
+          method.stepper === 'projective' ? { ...method, solver } : method,
+          reference,
+        );
+      }),
+    );
+    return ok();
   }
 
   private shown = 0;
@@ -178,7 +214,7 @@ class FakeExperiment implements ExperimentHandle {
   }
 }
 
-function row(level: number, method: BenchRow['method']): BenchRow {
+function row(level: number, method: BenchRow['method'], reference: string): BenchRow {
   return {
     scene: 'fake',
     method,
@@ -193,7 +229,7 @@ function row(level: number, method: BenchRow['method']): BenchRow {
     position_error_percent: 1 / 2 ** level,
     rms_stretch: 0.004,
     largest_stretch: 0.01,
-    reference: { id: 'fake', converged: false, description: 'the finest level of the grid' },
+    reference: { id: 'fake', converged: false, description: reference },
     status: 'ok',
     message: '',
     target: 'wasm',
@@ -201,7 +237,10 @@ function row(level: number, method: BenchRow['method']): BenchRow {
 }
 
 /** The module, and how many of its objects are still alive. */
-export function createFakeModule(): { module: PleatModule; alive: () => number } {
+export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
+  module: PleatModule;
+  alive: () => number;
+} {
   let nAlive = 0;
   const born = () => {
     nAlive += 1;
@@ -220,12 +259,12 @@ export function createFakeModule(): { module: PleatModule; alive: () => number }
   }
   class Simulation extends FakeSimulation {
     constructor() {
-      super(born());
+      super(build, born());
     }
   }
   class Experiment extends FakeExperiment {
     constructor() {
-      super(born());
+      super(build, born());
     }
   }
   return { module: { Scene, Simulation, Experiment }, alive: () => nAlive };

@@ -1,0 +1,136 @@
+import { existsSync, readFileSync } from 'node:fs';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { createPlayback } from '../src/sim/playback';
+import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
+import type { PleatModule } from '../src/sim/wasm-module';
+import { createWorkerCore } from '../src/sim/worker-core';
+import { initialState } from '../src/state/app-state';
+import { createStore } from '../src/state/store';
+import { decodeLink } from '../src/state/url-codec';
+import diverging from './support/diverging.json';
+import { createFakeModule, FRAGILE_STEPS } from './support/fake-module';
+
+// The worker is a core in this thread, whose answers come later, as a worker's do.
+let module: PleatModule;
+let changeScene = (scene: Record<string, unknown>) => scene;
+vi.mock('../src/sim/client', () => ({
+  startWorker(receive: (message: FromWorker) => void) {
+    const core = createWorkerCore(module, (message) => queueMicrotask(() => receive(message)));
+    return {
+      send(message: ToWorker) {
+        if (message.type !== 'load') return core.receive(message);
+        const scene = changeScene(JSON.parse(message.sceneText));
+        core.receive({ ...message, sceneText: JSON.stringify(scene) });
+      },
+      terminate: () => core.close(),
+    };
+  },
+}));
+
+const wasmFile = new URL('../src/wasm/pleat.wasm', import.meta.url);
+const glueFile = new URL('../src/wasm/pleat.mjs', import.meta.url);
+
+async function realModule(): Promise<PleatModule> {
+  const { default: createPleat } = await import(/* @vite-ignore */ glueFile.href);
+  return createPleat({ wasmBinary: readFileSync(wasmFile) });
+}
+
+/** A playback at a link, with the frame that is shown. */
+function open(hash: string) {
+  const { link, problems } = decodeLink(hash);
+  const store = createStore(initialState(link, problems));
+  let shown = new Float32Array(0);
+  const playback = createPlayback(store, {
+    showMesh: () => undefined,
+    showFrame(buffer) {
+      shown = frameViews(buffer).positions.slice();
+    },
+  });
+  return { store, playback, shown: () => shown };
+}
+
+const phaseOf = ({ store }: ReturnType<typeof open>) => store.get().phase;
+
+beforeEach(() => {
+  vi.stubGlobal('requestAnimationFrame', (work: () => void) => setTimeout(work, 1));
+  vi.stubGlobal('cancelAnimationFrame', clearTimeout);
+});
+
+describe('playback of a run that diverges', () => {
+  it('says in which step and where, keeps the last finite frame, and resets', async () => {
+    module = createFakeModule().module;
+    changeScene = (scene) => ({ ...scene, name: 'fragile' });
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const start = page.shown();
+    page.playback.play();
+    await vi.waitUntil(() => phaseOf(page) === 'stopped');
+    const { problem, playing, numbers } = page.store.get();
+    expect(playing).toBe(false);
+    expect(numbers?.step).toBe(FRAGILE_STEPS);
+    expect(problem?.source).toBe('run');
+    expect(problem?.sentence).toContain(`in step ${FRAGILE_STEPS + 1}`);
+    expect(problem?.sentence).toContain('vertex 3');
+    const place = Array.from(page.shown().subarray(9, 12), (metres) => metres.toFixed(2));
+    expect(problem?.sentence).toContain(`(${place.join(', ')}) m`);
+    expect(page.shown()).not.toEqual(start);
+
+    page.playback.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({ problem: null, numbers: { step: 0 } });
+    expect(page.shown()).toEqual(start);
+    page.playback.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+  });
+
+  it.runIf(existsSync(wasmFile))('does so with the WebAssembly module', async () => {
+    module = await realModule();
+    changeScene = (scene) => ({ ...scene, ...diverging });
+    const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const start = page.shown();
+    page.playback.play();
+    await vi.waitUntil(() => phaseOf(page) === 'stopped', 20000);
+    const { problem, numbers } = page.store.get();
+    expect(numbers?.time_s).toBeCloseTo(0.2, 9);
+    expect(problem?.sentence).toMatch(/in step 13, .*vertex \d+ .*0\.2.* It was last at \(/);
+    expect(page.shown().every((metres) => Math.abs(metres) < 3)).toBe(true);
+    page.playback.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+    expect(page.shown()).toEqual(start);
+  });
+});
+
+describe('playback', () => {
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+  });
+
+  it('keeps the motion over a change of level, and not over one of the scene', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.playback.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    const { setting } = page.store.get();
+    page.store.set({ setting: { ...setting, level: 1 } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(1);
+    page.store.set({ setting: { ...setting, preset: 'tablecloth' } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(0);
+  });
+
+  it('answers a refused setting with the sentence, and the next good one clears it', async () => {
+    const page = open('#scene=curtain&level=0&stepper=explicit');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const { setting } = page.store.get();
+    page.store.set({ setting: { ...setting, substeps: 1 } });
+    await vi.waitUntil(() => phaseOf(page) === 'refused');
+    expect(page.store.get().problem?.sentence).toContain('expected at least 300 substeps');
+    page.store.set({ setting });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+  });
+});
