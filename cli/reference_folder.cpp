@@ -1,6 +1,6 @@
 #include "cli/reference_folder.h"
 
-#include "cli/text_file.h"
+#include "core/scene/whole_file.h"
 #include "core/base/check.h"
 
 namespace pleat {

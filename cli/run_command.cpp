@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
-#include "cli/text_file.h"
+#include "core/scene/whole_file.h"
 #include "core/dynamics/system_matrix.h"
 #include "core/measure/core_version.h"
 #include "core/measure/energy_ledger.h"

@@ -1,6 +1,6 @@
 #include "cli/scene_input.h"
 
-#include "cli/text_file.h"
+#include "core/scene/whole_file.h"
 #include "core/base/check.h"
 #include "core/scene/json_text.h"
 

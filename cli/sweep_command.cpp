@@ -5,7 +5,7 @@
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
-#include "cli/text_file.h"
+#include "core/scene/whole_file.h"
 #include "core/base/check.h"
 #include "core/measure/core_version.h"
 #include "core/measure/sweep.h"

@@ -1,4 +1,4 @@
-#include "cli/text_file.h"
+#include "core/scene/whole_file.h"
 
 #include <fstream>
 #include <iterator>
