@@ -15,7 +15,6 @@ namespace pleat {
 namespace {
 
 constexpr double kSlice = 0.1;  // [s] between reports of progress
-constexpr int kMaxLevel = 8;
 
 constexpr StepperKind kSteppers[] = {StepperKind::explicit_euler, StepperKind::implicit_euler,
                                      StepperKind::projective, StepperKind::xpbd};
