@@ -6,6 +6,8 @@
 #include <cstdlib>
 
 #include "core/base/check.h"
+#include "core/scene/json_text.h"
+#include "core/scene/nearest_word.h"
 
 namespace pleat {
 namespace {
@@ -22,7 +24,7 @@ int parse_whole_number(const std::string& text, const std::string& where, int lo
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stop != end || value < low || value > high)
     throw InputError(where, "expected a whole number from " + std::to_string(low) + " to " +
-                                std::to_string(high) + ", got \"" + text + "\"");
+                                std::to_string(high) + ", got " + abbreviated(Json(text)));
   return value;
 }
 
@@ -30,32 +32,32 @@ double parse_positive_number(const std::string& text, const std::string& where) 
   char* stop = nullptr;
   const double value = std::strtod(text.c_str(), &stop);
   if (text.empty() || *stop != '\0' || !std::isfinite(value) || value <= 0)
-    throw InputError(where, "expected a number > 0, got \"" + text + "\"");
+    throw InputError(where, "expected a number > 0, got " + abbreviated(Json(text)));
   return value;
 }
 
+std::vector<std::string>::iterator Arguments::find(const char* option) {
+  asked_.push_back(option);
+  return std::find(words_.begin(), words_.end(), option);
+}
+
 bool Arguments::flag(const char* option) {
-  const auto place = std::find(words_.begin(), words_.end(), option);
+  const auto place = find(option);
   if (place == words_.end()) return false;
   words_.erase(place);
   return true;
 }
 
 std::optional<std::string> Arguments::text(const char* option) {
-  const auto place = std::find(words_.begin(), words_.end(), option);
+  const auto place = find(option);
   if (place == words_.end()) return std::nullopt;
   const auto value = place + 1;
   if (value == words_.end() || is_option(*value))
     throw InputError(option, "expected a value after it, got none");
+  if (value->empty()) throw InputError(option, "expected a value after it, got an empty one");
   std::string text = *value;
   words_.erase(place, value + 1);
   return text;
-}
-
-std::optional<double> Arguments::positive_number(const char* option) {
-  const std::optional<std::string> value = text(option);
-  if (!value) return std::nullopt;
-  return parse_positive_number(*value, option);
 }
 
 std::optional<int> Arguments::whole_number(const char* option, int low, int high) {
@@ -73,28 +75,45 @@ std::vector<std::string> Arguments::list(const char* option) {
     const std::size_t end = std::min(value->find(',', begin), value->size());
     entries.push_back(value->substr(begin, end - begin));
     if (entries.back().empty())
-      throw InputError(option,
-                       "expected entries separated by single commas, got \"" + *value + "\"");
+      throw InputError(
+          option, "expected entries separated by single commas, got " + abbreviated(Json(*value)));
     begin = end + 1;
   }
   return entries;
 }
 
-std::string Arguments::word(const char* what) {
-  const auto place = std::find_if_not(words_.begin(), words_.end(), is_option);
-  if (place == words_.end())
-    throw InputError("", std::string("expected ") + what + ", got nothing");
-  std::string word = *place;
-  words_.erase(place);
+void Arguments::refuse_options() const {
+  const auto option = std::find_if(words_.begin(), words_.end(), is_option);
+  if (option == words_.end()) return;
+  if (std::find(asked_.begin(), asked_.end(), *option) != asked_.end())
+    throw InputError(*option, "expected this option once, got it twice");
+  std::vector<const char*> known;  // without dashes, which would make all of them alike
+  for (const char* asked : asked_) known.push_back(asked + 2);
+  const std::string_view near = nearest_word(option->substr(2), known);
+  throw InputError(cut(*option),
+                   near.empty() ? "unknown option; \"pleat help\" lists what each command takes"
+                                : "unknown option; the nearest is --" + std::string(near));
+}
+
+std::string Arguments::first_word(const char* what) {
+  if (words_.empty() || is_option(words_.front()))
+    throw InputError("", std::string("expected ") + what + ", got " +
+                             (words_.empty() ? "nothing" : abbreviated(Json(words_.front()))));
+  std::string word = words_.front();
+  words_.erase(words_.begin());
   return word;
 }
 
+std::string Arguments::word(const char* what) {
+  refuse_options();
+  return first_word(what);
+}
+
 void Arguments::finish() const {
+  refuse_options();
   if (words_.empty()) return;
-  const char* kind =
-      is_option(words_.front()) ? "unknown option or given twice" : "one word too many";
-  throw InputError(words_.front(),
-                   std::string(kind) + "; \"pleat help\" lists what each command takes");
+  throw InputError(cut(words_.front()),
+                   "one word too many; \"pleat help\" lists what each command takes");
 }
 
 }  // namespace pleat

@@ -2,33 +2,37 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace pleat {
 
-/// The words after a command's name. Each one is asked for once; `finish` refuses what nobody asked
-/// for. Everything here throws InputError naming the option.
+/// The words after a command's name. Each one is asked for once, options before words; `word` and
+/// `finish` refuse what nobody asked for. Everything here throws InputError naming the option.
 class Arguments {
  public:
   explicit Arguments(std::vector<std::string> words) : words_(std::move(words)) {}
 
   bool flag(const char* option);
-  /// The word after an option, or nothing.
+  /// The word after an option, not empty, or nothing.
   std::optional<std::string> text(const char* option);
-  std::optional<double> positive_number(const char* option);
   std::optional<int> whole_number(const char* option, int low, int high);
   /// Separated by commas, none empty.
   std::vector<std::string> list(const char* option);
 
-  /// The next word that is no option; `what` names it when it is missing.
+  /// The first word, before any option is asked for; `what` names it when it is missing.
+  std::string first_word(const char* what);
+  /// The next word, once no option is left; `what` names it when it is missing.
   std::string word(const char* what);
 
   /// Refuses words that are left over.
   void finish() const;
 
  private:
+  std::vector<std::string>::iterator find(const char* option);
+  void refuse_options() const;
+
   std::vector<std::string> words_;
+  std::vector<const char*> asked_;  // options
 };
 
 /// The number that a whole text says. Throws InputError{where} unless it is in [low, high].

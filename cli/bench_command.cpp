@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/progress.h"
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
@@ -18,6 +18,7 @@ namespace pleat {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
+constexpr double kSlice = 0.1;       // [s] between reports of progress
 
 std::vector<double> take_times(Arguments& arguments) {
   std::vector<double> times;
@@ -38,7 +39,7 @@ Json sample_json(const Sample& sample) {
 
 std::int64_t steps_of_frame(const MethodOptions& method) {
   constexpr double kTolerance = 1e-9;  // [s]
-  const std::int64_t n_steps = std::llround(kFrame / method.step);
+  const std::int64_t n_steps = whole_steps(kFrame, method.step);
   if (std::abs(static_cast<double>(n_steps) * method.step - kFrame) > kTolerance)
     throw InputError("/method/step_s",
                      "expected 1/60 s or a whole part of it, got " + Json(method.step).dump());
@@ -48,6 +49,7 @@ std::int64_t steps_of_frame(const MethodOptions& method) {
 /// Wall time, stretch and parts of a run, frame by frame, and its positions at the end of some
 /// frames.
 struct FrameSeries {
+  int n_frames = 0;        // whole ones
   std::vector<double> ms;  // the first frame is not among them
   std::vector<double> rms_stretch;
   std::vector<double> largest_stretch;
@@ -58,10 +60,11 @@ struct FrameSeries {
 FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<double>& times) {
   const std::int64_t n_steps = steps_of_frame(simulation.scene().method);
   FrameSeries series;
+  Progress progress;
   std::size_t next = 0;
   for (int frame = 0; frame < n_frames; ++frame) {
     const Stopwatch watch;
-    for (std::int64_t step = 0; step < n_steps; ++step) {
+    for (std::int64_t step = 0; step < n_steps && !series.report.ends_run(); ++step) {
       SolveReport report = simulation.step();
       series.report.iterations += report.iterations;
       series.report.relative_residual =
@@ -71,15 +74,18 @@ FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<d
       series.report.message = std::move(report.message);
     }
     const double seconds = watch.elapsed();
+    if (series.report.ends_run()) break;
+    series.n_frames = frame + 1;
     if (frame > 0) series.ms.push_back(1e3 * seconds);
     const Positions& positions = simulation.state().positions;
-    const Stretch now = stretch(simulation.model().springs, positions);
+    const Stretch now = stretch(simulation.springs(), positions);
     series.rms_stretch.push_back(now.rms);
     series.largest_stretch.push_back(now.largest);
     if (next < times.size() && simulation.time() > times[next] - kFrame / 2) {
       series.samples.push_back(sample_json({simulation.time(), positions, now}));
       ++next;
     }
+    progress.show(static_cast<double>(series.n_frames) / n_frames, simulation.scene().name);
   }
   return series;
 }
@@ -91,21 +97,19 @@ Json parts_json(const StageTimer& parts, int n_frames) {
   return json;
 }
 
-Outcome bench_run(Arguments arguments) {
-  const bool wants_parts = arguments.flag("--parts");
-  const int n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(60);
-  const std::vector<double> times = take_times(arguments);
-  const SceneInput input = take_scene(arguments);
-  const Scene& scene = input.scene;
-  arguments.finish();
-  const auto built = with_file_named(input.file, [&] {
-    steps_of_frame(scene.method);
-    return std::make_unique<Simulation>(scene);
-  });
-  Simulation& simulation = *built;
+struct BenchOptions {
+  bool wants_parts = false;
+  int n_frames = 60;
+  std::vector<double> times;
+};
+
+Outcome run_bench(const Scene& scene, const BenchOptions& options) {
+  steps_of_frame(scene.method);
+  Simulation simulation(scene);
   StageTimer parts;
-  if (wants_parts) simulation.observe(&parts);
-  const FrameSeries series = run_frames(simulation, n_frames, times);
+  if (options.wants_parts) simulation.observe(&parts);
+  const FrameSeries series = run_frames(simulation, options.n_frames, options.times);
+  const int n_frames = std::max(1, series.n_frames);
   const auto& masses = simulation.model().masses;
   Json json = {{"scene", scene.name},
                {"method", json_method(scene.method)},
@@ -123,23 +127,41 @@ Outcome bench_run(Arguments arguments) {
                {"core", core_version()},
                {"samples", series.samples},
                {"masses_kg", std::vector<double>(masses.data(), masses.data() + masses.size())}};
-  if (wants_parts) json["parts_ms"] = parts_json(parts, n_frames);
+  if (options.wants_parts) json["parts_ms"] = parts_json(parts, n_frames);
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
-  return series.report.ok() || series.report.status == SolveStatus::not_converged
-             ? Outcome::ok
-             : Outcome::check_failed;
+  return series.report.ends_run() ? Outcome::check_failed : Outcome::ok;
 }
 
-/// The scene's own run, for taking it as a reference: its method is the one that makes it.
-Reference run_reference(const Scene& scene, const std::vector<double>& times,
-                        ReferenceStore& store) {
+Outcome bench_run(Arguments arguments) {
+  BenchOptions options;
+  options.wants_parts = arguments.flag("--parts");
+  options.n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(options.n_frames);
+  options.times = take_times(arguments);
+  const SceneInput input = take_scene(arguments);
+  arguments.finish();
+  return with_source_named(input, [&] { return run_bench(input.scene, options); });
+}
+
+/// The scene's own run, for taking it as a reference: its method is the one that makes it. Nothing,
+/// with a sentence on stderr, when the numbers ended the run.
+std::optional<Reference> run_reference(const Scene& scene, const std::vector<double>& times,
+                                       ReferenceStore& store) {
   const std::string id = reference_id("run", scene, times);
-  if (auto known = store.find(id)) return *known;
+  if (auto known = store.find(id)) return known;
   SampledRun run(scene, times, SampledRun::Parts::untimed);
-  run.advance(std::numeric_limits<double>::infinity());
-  if (run.failed())
-    throw InputError("/method", "expected a run to its end, got: " + run.report().message);
+  {
+    Progress progress;
+    while (!run.done()) {
+      run.advance(kSlice);
+      progress.show(run.progress(), scene.name);
+    }
+  }
+  if (run.failed()) {
+    std::fprintf(stderr, "pleat: no reference, as its run ended early: %s\n",
+                 run.report().message.c_str());
+    return std::nullopt;
+  }
   const MethodOptions& method = run.simulation().scene().method;
   const Reference reference{{id,
                              std::string(name(method.stepper)) + " with " + name(method.solver) +
@@ -153,24 +175,27 @@ Reference run_reference(const Scene& scene, const std::vector<double>& times,
 Outcome bench_reference(Arguments arguments) {
   const std::string kind = arguments.text("--kind").value_or("run");
   if (kind != "run" && kind != "rigid_chain")
-    throw InputError("--kind", "expected run or rigid_chain, got \"" + kind + "\"");
+    throw InputError("--kind", "expected run or rigid_chain, got " + abbreviated(Json(kind)));
   const auto cache = arguments.text("--cache");
   std::vector<double> times = take_times(arguments);
   const SceneInput input = take_scene(arguments);
   const Scene& scene = input.scene;
   arguments.finish();
   if (times.empty()) times = {scene.duration};
+  if (times.back() > static_cast<double>(kMaxSteps) * scene.method.step)
+    throw InputError("--times", "expected at most 1e9 steps of the scene, got more");
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
-  const Reference reference = with_file_named(input.file, [&] {
+  const std::optional<Reference> reference = with_source_named(input, [&] {
     return kind == "run" ? run_reference(scene, times, *store) : chain_reference(scene, times);
   });
+  if (!reference) return Outcome::check_failed;
   Json samples = Json::array();
-  for (const Sample& sample : reference.samples) samples.push_back(sample_json(sample));
+  for (const Sample& sample : reference->samples) samples.push_back(sample_json(sample));
   const Json json = {{"reference",
-                      {{"id", reference.label.id},
-                       {"description", reference.label.description},
-                       {"converged", reference.label.converged}}},
+                      {{"id", reference->label.id},
+                       {"description", reference->label.description},
+                       {"converged", reference->label.converged}}},
                      {"rest_diagonal_m", rest_diagonal(scene)},
                      {"samples", samples}};
   std::printf("%s\n", json.dump().c_str());
@@ -180,11 +205,11 @@ Outcome bench_reference(Arguments arguments) {
 }  // namespace
 
 Outcome bench_command(Arguments arguments) {
+  const std::string kind = arguments.first_word("what to measure: run or reference");
   arguments.flag("--json");  // its only form
-  const std::string kind = arguments.word("what to measure: run or reference");
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
-  throw InputError(kind, "expected run or reference");
+  throw InputError(cut(kind), "expected run or reference");
 }
 
 }  // namespace pleat

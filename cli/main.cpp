@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "core/base/check.h"
 #include "core/measure/core_version.h"
+#include "core/scene/json_text.h"
 
 namespace pleat {
 namespace {
@@ -16,10 +17,11 @@ constexpr int kExitOwnFault = 3;
 
 constexpr const char* kHelp =
     R"(pleat run SCENE.json     compute a scene
-  --out DIR              write frames and metrics.json into this folder
+  --out DIR              write frames and metrics.json into this folder, which holds none yet
+  --overwrite            remove those of an earlier run from it first
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
   --drift                account for the energy: what no force explains is the method's own
-  --steps N | --duration S
+  --steps N | --duration S    the latter rounded to whole steps
 pleat sweep SCENE.json   compute it with many settings: milliseconds against error
   --levels 0,1,2         refinement levels (default: the scene's)
   --steppers A,B         of explicit, implicit, projective, xpbd (default: all)
@@ -39,7 +41,10 @@ Changes to the scene, for every command:
   --level N  --fabric NAME  --stepper NAME  --step S  --substeps N  --iterations N
   --solver NAME  --tolerance X
   --fabrics FILE         read the fabrics from here
---json prints for machines. Exit status: 0 done, 1 ran but a check failed, 2 bad input.
+--json prints for machines.
+--stepper leaves out settings of the scene's method that the new one cannot take, and --fabric all
+of its own numbers. Exit status: 0 done, 1 ran but a check failed, 2 bad input, 3 a fault of the
+program.
 )";
 
 Outcome dispatch(const std::string& command, Arguments arguments) {
@@ -54,7 +59,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
     std::printf("pleat %s\n", core_version());
     return Outcome::ok;
   }
-  throw InputError(command, "unknown command; the commands are run, sweep, bench and help");
+  throw InputError(cut(command), "unknown command; the commands are run, sweep, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {
@@ -73,7 +78,7 @@ int main(int argc, char** argv) {
     return pleat::run(std::vector<std::string>(argv + 1, argv + argc));
   } catch (const pleat::InputError& error) {
     const std::string place = error.where().empty() ? "" : error.where() + ": ";
-    std::fprintf(stderr, "pleat: %s%s\n", place.c_str(), error.what());
+    std::fprintf(stderr, "pleat: %s\n", pleat::printable(place + error.what()).c_str());
     return pleat::kExitBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pleat: this is a fault of the program: %s\n", error.what());

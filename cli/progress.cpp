@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "core/scene/json_text.h"
+
 namespace pleat {
 namespace {
 
@@ -24,7 +26,7 @@ void Progress::show(double share, const std::string& message) {
   if (now < next_) return;
   next_ = now + (on_terminal_ ? kTerminalInterval : kLogInterval);
   std::fprintf(stderr, on_terminal_ ? "\r\x1b[K%3.0f %% %s" : "%3.0f %% %s\n", 100 * share,
-               message.c_str());
+               printable(message).c_str());
   std::fflush(stderr);
   line_is_open_ = on_terminal_;
 }

@@ -1,9 +1,13 @@
 #include "cli/reference_folder.h"
 
-#include "cli/text_file.h"
-#include "core/base/check.h"
+#include "core/scene/whole_file.h"
 
 namespace pleat {
+
+ReferenceFolder::ReferenceFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+  make_folder(folder_);
+  check_writable(path("any"));
+}
 
 std::filesystem::path ReferenceFolder::path(const std::string& id) const {
   return folder_ / (id + ".reference");
@@ -21,7 +25,6 @@ std::optional<Reference> ReferenceFolder::find(const std::string& id) {
 }
 
 void ReferenceFolder::keep(const Reference& reference) {
-  make_folder(folder_);
   write_file(path(reference.label.id), write_reference(reference));
 }
 

@@ -10,8 +10,8 @@ namespace pleat {
 /// meets an old one.
 class ReferenceFolder : public ReferenceStore {
  public:
-  /// Made when the first reference is kept.
-  explicit ReferenceFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// Makes the folder. Throws FileError when nothing can be kept in it.
+  explicit ReferenceFolder(std::filesystem::path folder);
 
   /// A file that cannot be read as a reference counts as none.
   std::optional<Reference> find(const std::string& id) override;

@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -6,7 +6,6 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
-#include "cli/text_file.h"
 #include "core/dynamics/system_matrix.h"
 #include "core/measure/core_version.h"
 #include "core/measure/energy_ledger.h"
@@ -29,8 +28,51 @@ struct RunSummary {
   int n_frames = 0;
 };
 
-bool has_ended(const SolveReport& report) {
-  return !report.ok() && report.status != SolveStatus::not_converged;
+/// The folder after --dump and the files in it.
+struct Dump {
+  std::filesystem::path folder;
+  std::filesystem::path mass = folder / "mass.mtx";
+  std::filesystem::path stiffness_begin = folder / "stiffness_begin.mtx";
+  std::filesystem::path stiffness_end = folder / "stiffness_end.mtx";
+
+  void prepare() const {
+    make_folder(folder);
+    for (const auto* file : {&mass, &stiffness_begin, &stiffness_end}) check_writable(*file);
+  }
+};
+
+/// The folder after --out.
+struct Output {
+  std::filesystem::path folder;
+  std::filesystem::path metrics = folder / "metrics.json";
+
+  /// Files of an earlier run.
+  std::vector<std::filesystem::path> old_files() const {
+    std::vector<std::filesystem::path> files = frame_files(folder);
+    if (std::filesystem::exists(metrics)) files.push_back(metrics);
+    return files;
+  }
+
+  /// Frames of two runs side by side would pass for those of one.
+  void prepare(bool overwrite) const {
+    const std::vector<std::filesystem::path> old = old_files();
+    if (!old.empty() && !overwrite)
+      throw FileError(folder, "expected a folder without a run's files, got " +
+                                  old.front().filename().string() +
+                                  "; --overwrite removes those of the earlier run");
+    make_folder(folder);
+    check_writable(metrics);
+    for (const std::filesystem::path& file : old) check_writable(file);
+  }
+};
+
+void check_frame_count(const Scene& scene) {
+  if (scene.record.format == FrameFormat::none) return;
+  const std::int64_t n_frames = 1 + whole_steps(scene.duration, scene.method.step) /
+                                        whole_steps(scene.record.every, scene.method.step);
+  if (n_frames > kMaxFrames)
+    throw InputError("/record/every_s", "expected at most " + std::to_string(kMaxFrames) +
+                                            " frames, got " + std::to_string(n_frames));
 }
 
 void write_stiffness(const Simulation& simulation, const std::filesystem::path& path) {
@@ -46,7 +88,7 @@ void add_step(const Simulation& simulation, SolveReport report, RunSummary& summ
     summary.report.status = report.status;
     summary.report.message = std::move(report.message);
   }
-  summary.last_stretch = stretch(simulation.model().springs, simulation.state().positions);
+  summary.last_stretch = stretch(simulation.springs(), simulation.state().positions);
   summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
   summary.rms_stretch_sum += summary.last_stretch.rms;
 }
@@ -55,8 +97,8 @@ void add_step(const Simulation& simulation, SolveReport report, RunSummary& summ
 RunSummary run_to_end(Simulation& simulation, FrameWriter* frames, EnergyLedger* ledger) {
   const Scene& scene = simulation.scene();
   const double step = scene.method.step;
-  const auto n_steps = std::max<std::int64_t>(1, std::llround(scene.duration / step));
-  const auto steps_per_frame = std::max<std::int64_t>(1, std::llround(scene.record.every / step));
+  const std::int64_t n_steps = whole_steps(scene.duration, step);
+  const std::int64_t steps_per_frame = whole_steps(scene.record.every, step);
   RunSummary summary;
   Progress progress;
   State begin;
@@ -64,7 +106,7 @@ RunSummary run_to_end(Simulation& simulation, FrameWriter* frames, EnergyLedger*
   while (simulation.n_steps() < n_steps) {
     if (ledger != nullptr) begin = simulation.state();
     const SolveReport report = simulation.step();
-    const bool ended = has_ended(report);
+    const bool ended = report.ends_run();
     add_step(simulation, report, summary);
     if (ledger != nullptr && !ended)
       ledger->record(begin, simulation.state(), simulation.time(), step);
@@ -131,16 +173,24 @@ std::string joined(const std::vector<std::string>& words) {
   return text.empty() ? "nothing" : text;
 }
 
+/// What a long run is waited for.
+void print_beginning(const Simulation& simulation) {
+  std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n",
+               name(simulation.scene().method.stepper), simulation.substeps(),
+               simulation.model().n_vertices());
+}
+
 void print_summary(const Simulation& simulation, const RunSummary& summary,
                    const EnergyLedger* ledger) {
   const Scene& scene = simulation.scene();
   const BuildReport built = build_report(simulation.model());
-  std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n", scene.name.c_str(),
-              scene.fabric.name.c_str(), scene.level, simulation.model().n_vertices(),
-              name(scene.method.stepper), scene.method.step, simulation.substeps());
+  std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n",
+              printable(scene.name).c_str(), printable(scene.fabric.name).c_str(), scene.level,
+              simulation.model().n_vertices(), name(scene.method.stepper), scene.method.step,
+              simulation.substeps());
   std::printf("built: %s\nleft out: %s\n", joined(built.built).c_str(),
               joined(built.left_out).c_str());
-  std::printf("%lld steps to %.4g s, status %s\n", static_cast<long long>(simulation.n_steps()),
+  std::printf("%lld steps to %.10g s, status %s\n", static_cast<long long>(simulation.n_steps()),
               simulation.time(), name(summary.report.status));
   std::printf("stretch at the end: rms %.3g %%, largest %.3g %%; largest of all %.3g %%\n",
               100 * summary.last_stretch.rms, 100 * summary.last_stretch.largest,
@@ -151,30 +201,29 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
                 100 * ledger->relative_drift());
 }
 
-}  // namespace
+struct RunOptions {
+  bool for_machines = false;
+  bool wants_drift = false;
+  bool overwrite = false;
+  std::optional<Output> out;
+  std::optional<Dump> dump;
+};
 
-Outcome run_command(Arguments arguments) {
-  const bool for_machines = arguments.flag("--json");
-  const bool wants_drift = arguments.flag("--drift");
-  const auto out = arguments.text("--out");
-  const auto dump = arguments.text("--dump");
-  const SceneInput input = take_scene(arguments);
-  const Scene& scene = input.scene;
-  arguments.finish();
-  const auto built =
-      with_file_named(input.file, [&] { return std::make_unique<Simulation>(scene); });
-  Simulation& simulation = *built;
-
+Outcome run_scene(const Scene& scene, const RunOptions& options) {
+  const auto& [for_machines, wants_drift, overwrite, out, dump] = options;
+  if (out) check_frame_count(scene);
+  Simulation simulation(scene);
+  if (dump) dump->prepare();
+  if (out) out->prepare(overwrite);
+  if (!for_machines) print_beginning(simulation);
   if (dump) {
-    make_folder(*dump);
-    write_file(std::filesystem::path(*dump) / "mass.mtx",
-               matrix_market_text(mass_matrix(simulation.model())));
-    write_stiffness(simulation, std::filesystem::path(*dump) / "stiffness_begin.mtx");
+    write_file(dump->mass, matrix_market_text(mass_matrix(simulation.model())));
+    write_stiffness(simulation, dump->stiffness_begin);
   }
   std::optional<FrameWriter> frames;
   if (out) {
-    make_folder(*out);
-    frames.emplace(*out, scene.record.format,
+    for (const std::filesystem::path& file : out->old_files()) remove_file(file);
+    frames.emplace(out->folder.string(), scene.record.format,
                    FrameMesh{simulation.model().rest_coordinates, simulation.triangles()});
   }
   std::optional<EnergyLedger> ledger;
@@ -182,18 +231,32 @@ Outcome run_command(Arguments arguments) {
   RunSummary summary =
       run_to_end(simulation, frames ? &*frames : nullptr, ledger ? &*ledger : nullptr);
   if (frames) summary.n_frames = frames->n_frames();
-  if (dump) write_stiffness(simulation, std::filesystem::path(*dump) / "stiffness_end.mtx");
 
   const Json metrics = metrics_json(simulation, summary, ledger ? &*ledger : nullptr);
-  if (out) write_file(std::filesystem::path(*out) / "metrics.json", format_json(metrics) + "\n");
   if (for_machines)
     std::printf("%s\n", metrics.dump().c_str());
   else
     print_summary(simulation, summary, ledger ? &*ledger : nullptr);
-  if (!has_ended(summary.report)) return Outcome::ok;
+  if (out) write_file(out->metrics, format_json(metrics));
+  if (dump) write_stiffness(simulation, dump->stiffness_end);
+  if (!summary.report.ends_run()) return Outcome::ok;
   std::fprintf(stderr, "pleat: stopped in step %lld: %s; the last finite frame is kept\n",
                static_cast<long long>(simulation.n_steps() + 1), summary.report.message.c_str());
   return Outcome::check_failed;
+}
+
+}  // namespace
+
+Outcome run_command(Arguments arguments) {
+  RunOptions options;
+  options.for_machines = arguments.flag("--json");
+  options.wants_drift = arguments.flag("--drift");
+  options.overwrite = arguments.flag("--overwrite");
+  if (const auto folder = arguments.text("--out")) options.out = Output{*folder};
+  if (const auto folder = arguments.text("--dump")) options.dump = Dump{*folder};
+  const SceneInput input = take_scene(arguments);
+  arguments.finish();
+  return with_source_named(input, [&] { return run_scene(input.scene, options); });
 }
 
 }  // namespace pleat

@@ -1,7 +1,9 @@
 #include "cli/scene_input.h"
 
-#include "cli/text_file.h"
-#include "core/base/check.h"
+#include <algorithm>
+#include <utility>
+
+#include "core/scene/cloth_section.h"
 #include "core/scene/json_text.h"
 
 namespace pleat {
@@ -14,10 +16,10 @@ struct Override {
   const char* pointer;
 };
 constexpr Override kOverrides[] = {
-    {"--level", "/refinement/level"},       {"--stepper", "/method/stepper"},
-    {"--step", "/method/step_s"},           {"--substeps", "/method/substeps"},
-    {"--iterations", "/method/iterations"}, {"--solver", "/method/solver"},
-    {"--tolerance", "/method/tolerance"},   {"--fabric", "/fabric/name"},
+    {"--fabric", "/fabric/name"},       {"--level", "/refinement/level"},
+    {"--stepper", "/method/stepper"},   {"--step", "/method/step_s"},
+    {"--substeps", "/method/substeps"}, {"--iterations", "/method/iterations"},
+    {"--solver", "/method/solver"},     {"--tolerance", "/method/tolerance"},
     {"--duration", "/duration_s"},
 };
 
@@ -41,51 +43,90 @@ void replace(Json& scene, const std::string& pointer, Json value) {
   replace(scene[key], pointer.substr(slash), std::move(value));
 }
 
-/// "in FILE", or the option when that is what set the value.
-[[noreturn]] void name_source(const InputError& error, const std::string& file,
-                              const std::vector<Override>& used) {
-  for (const Override& entry : used)
-    if (error.where() == entry.pointer) throw InputError(entry.option, error.what());
-  throw InputError(error.where().empty() ? file : file + ": " + error.where(), error.what());
+/// Makes room for another fabric's name; rigidity stays that at rest or in motion.
+void clear_fabric(Json& scene) {
+  if (!scene.is_object() || !scene.contains("fabric")) return;
+  const Json old = std::move(scene["fabric"]);
+  scene["fabric"] = Json::object();
+  if (old.is_object() && old.contains("name") && old.contains("bending"))
+    scene["fabric"]["bending"] = old["bending"];
+}
+
+/// Takes out of the method what another stepper cannot take.
+void clear_method(Json& scene, const std::string& stepper) {
+  if (!scene.is_object()) return;
+  Json& method = scene.emplace("method", Json::object()).first.value();
+  if (!method.is_object() || method.value("stepper", Json("implicit")) == stepper) return;
+  if (stepper == "explicit") {
+    method["substeps"] = "stable";
+  } else if (method.contains("substeps") && method["substeps"].is_string()) {
+    method.erase("substeps");
+  }
+  if (stepper == "projective" && method.value("solver", Json()) == "cg") method.erase("solver");
 }
 
 }  // namespace
 
+bool SceneInput::is_set_by(std::string_view option) const {
+  return std::find(options.begin(), options.end(), option) != options.end();
+}
+
+void SceneInput::throw_with_source(const InputError& error) const {
+  const std::string& where = error.where();
+  for (const Override& entry : kOverrides) {
+    // The numbers of a fabric come with its name.
+    const bool sets_it = where == entry.pointer || where + "/name" == entry.pointer;
+    if (sets_it && is_set_by(entry.option)) throw InputError(entry.option, error.what());
+  }
+  throw InputError(where.empty() ? file : file + ": " + where, error.what());
+}
+
+void SceneInput::throw_out_of_memory() const {
+  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
+  const std::int64_t n =
+      shape != nullptr ? n_sheet_vertices(*shape, scene.level) : n_base_vertices(scene);
+  throw InputError(file, "not enough memory for " + std::to_string(n) + " vertices");
+}
+
 FabricLibrary take_fabrics(Arguments& arguments) {
   const auto file = arguments.text("--fabrics");
   if (!file) return read_fabrics(embedded_fabrics());
+  const std::string text = read_file(*file);
   try {
-    return read_fabrics(read_file(*file));
+    return read_fabrics(text);
   } catch (const InputError& error) {
-    if (error.where() == *file) throw;
-    name_source(error, *file, {});
+    throw InputError(error.where().empty() ? *file : *file + ": " + error.where(), error.what());
   }
 }
 
 SceneInput take_scene(Arguments& arguments) {
   const FabricLibrary fabrics = take_fabrics(arguments);
-  std::vector<Override> used;
-  std::vector<std::string> values;
+  SceneInput input;
+  std::vector<std::pair<Override, std::string>> overrides;
   for (const Override& entry : kOverrides) {
     if (const auto value = arguments.text(entry.option)) {
-      used.push_back(entry);
-      values.push_back(*value);
+      overrides.emplace_back(entry, *value);
+      input.options.push_back(entry.option);
     }
   }
-  const auto n_steps = arguments.whole_number("--steps", 1, 1'000'000'000);
-  const std::string file = arguments.word("a scene file");
-  const std::string text = read_file(file);
-  try {
+  const auto n_steps = arguments.whole_number("--steps", 1, kMaxSteps);
+  if (n_steps && input.is_set_by("--duration"))
+    throw InputError("--steps", "expected either this or --duration, got both");
+  input.file = arguments.word("a scene file");
+  const std::string text = read_file(input.file);
+  with_source_named(input, [&] {
     Json json = parse_json(text);
-    for (std::size_t i = 0; i < used.size(); ++i)
-      replace(json, used[i].pointer, option_value(values[i]));
+    for (const auto& [entry, value] : overrides) {
+      const std::string_view option = entry.option;
+      if (option == "--fabric") clear_fabric(json);
+      if (option == "--stepper") clear_method(json, value);
+      replace(json, entry.pointer, option_value(value));
+    }
     // An option may hold bytes that are no text.
-    Scene scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics);
-    if (n_steps) scene.duration = *n_steps * scene.method.step;
-    return {std::move(scene), file};
-  } catch (const InputError& error) {
-    name_source(error, file, used);
-  }
+    input.scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics);
+  });
+  if (n_steps) input.scene.duration = *n_steps * input.scene.method.step;
+  return input;
 }
 
 }  // namespace pleat

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/arguments.h"
-#include "core/base/check.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/whole_file.h"
 
 namespace pleat {
 
@@ -15,24 +17,40 @@ std::string_view embedded_fabrics();
 /// The fabrics of the file after --fabrics, else the embedded ones.
 FabricLibrary take_fabrics(Arguments& arguments);
 
+/// A scene and where its values came from.
 struct SceneInput {
   Scene scene;
-  std::string file;  ///< that it came from
+  std::string file;
+  std::vector<std::string_view> options;  ///< that changed the scene
+
+  bool is_set_by(std::string_view option) const;
+  /// Throws InputError naming the option that set the value at fault, else the file with the JSON
+  /// pointer.
+  [[noreturn]] void throw_with_source(const InputError& error) const;
+  /// Throws InputError that says for how many vertices.
+  [[noreturn]] void throw_out_of_memory() const;
 };
 
 /// The scene of the file that the next word names, changed by the options --level, --stepper,
-/// --step, --substeps,
-/// --iterations, --solver, --tolerance, --fabric, --duration and --steps. Throws InputError naming
-/// the file with the JSON pointer, or the option.
+/// --step, --substeps, --iterations, --solver, --tolerance, --fabric, --duration and --steps.
+///
+/// --fabric replaces the whole fabric, but for "bending" beside a name. With another stepper than
+/// the scene's, what that cannot take (a solver without a factor for projective, substeps "stable"
+/// or not) falls back to its default. Throws InputError naming the file with the JSON pointer, or
+/// the option.
 SceneInput take_scene(Arguments& arguments);
 
-/// Does `work`; bad input that it meets in the scene is told with the scene's file.
+/// Does `work` on the scene; bad input that it meets there is told with its source.
 template <class Work>
-auto with_file_named(const std::string& file, Work&& work) {
+auto with_source_named(const SceneInput& input, Work&& work) {
   try {
     return work();
+  } catch (const FileError&) {
+    throw;
   } catch (const InputError& error) {
-    throw InputError(file + ": " + error.where(), error.what());
+    input.throw_with_source(error);
+  } catch (const std::bad_alloc&) {
+    input.throw_out_of_memory();
   }
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -5,23 +7,23 @@
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
-#include "cli/text_file.h"
 #include "core/base/check.h"
 #include "core/measure/core_version.h"
 #include "core/measure/sweep.h"
+#include "core/scene/cloth_section.h"
 #include "core/scene/method_section.h"
+#include "core/scene/whole_file.h"
 
 namespace pleat {
 namespace {
 
 constexpr double kSlice = 0.1;  // [s] between reports of progress
-constexpr int kMaxLevel = 8;
 
 constexpr StepperKind kSteppers[] = {StepperKind::explicit_euler, StepperKind::implicit_euler,
                                      StepperKind::projective, StepperKind::xpbd};
 
-/// The settings of a stepper worth comparing, with step 1/60 s or the scene's own: each twice to
-/// four times as dear as the one before.
+/// The settings of a stepper worth comparing, with the scene's own step: each about three times as
+/// dear as the one before.
 std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptions& scene_method) {
   MethodOptions method = scene_method;
   method.stepper = stepper;
@@ -51,28 +53,36 @@ std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptio
   return settings;
 }
 
-std::vector<MethodOptions> take_methods(Arguments& arguments, const MethodOptions& scene_method) {
-  std::vector<std::string> names = arguments.list("--steppers");
+std::vector<MethodOptions> plan_methods(std::vector<std::string> names,
+                                        const MethodOptions& scene_method) {
   if (names.empty())
     for (const StepperKind kind : kSteppers) names.emplace_back(name(kind));
   std::vector<MethodOptions> methods;
-  for (const std::string& wanted : names) {
+  for (auto name_at = names.begin(); name_at != names.end(); ++name_at) {
+    const std::string& wanted = *name_at;
+    if (std::find(names.begin(), name_at, wanted) != name_at)
+      throw InputError("--steppers", "expected each stepper once, got " + wanted + " twice");
     const auto* known = std::find_if(std::begin(kSteppers), std::end(kSteppers),
                                      [&](StepperKind kind) { return wanted == name(kind); });
     if (known == std::end(kSteppers))
-      throw InputError("--steppers",
-                       "expected explicit, implicit, projective or xpbd, got \"" + wanted + "\"");
+      throw InputError("--steppers", "expected explicit, implicit, projective or xpbd, got " +
+                                         abbreviated(Json(wanted)));
     for (const MethodOptions& method : usual_settings(*known, scene_method))
       methods.push_back(method);
   }
   return methods;
 }
 
-std::vector<int> take_levels(Arguments& arguments, const Scene& scene) {
-  const int highest = std::holds_alternative<SheetShape>(scene.cloth) ? kMaxLevel : 0;
+std::vector<int> plan_levels(const std::vector<std::string>& entries, const Scene& scene) {
   std::vector<int> levels;
-  for (const std::string& entry : arguments.list("--levels"))
-    levels.push_back(parse_whole_number(entry, "--levels", 0, highest));
+  for (const std::string& entry : entries) {
+    const int level = parse_whole_number(entry, "--levels", 0, kMaxLevel);
+    check_level(scene, level, "--levels");
+    if (std::find(levels.begin(), levels.end(), level) != levels.end())
+      throw InputError("--levels",
+                       "expected each level once, got " + std::to_string(level) + " twice");
+    levels.push_back(level);
+  }
   if (levels.empty()) levels.push_back(scene.level);
   return levels;
 }
@@ -81,7 +91,7 @@ ReferenceKind take_reference_kind(Arguments& arguments) {
   const std::string kind = arguments.text("--reference").value_or("finest");
   if (kind == "finest") return ReferenceKind::finest;
   if (kind == "rigid_chain") return ReferenceKind::rigid_chain;
-  throw InputError("--reference", "expected finest or rigid_chain, got \"" + kind + "\"");
+  throw InputError("--reference", "expected finest or rigid_chain, got " + abbreviated(Json(kind)));
 }
 
 std::string json_lines(const std::vector<BenchRow>& rows) {
@@ -92,10 +102,25 @@ std::string json_lines(const std::vector<BenchRow>& rows) {
 
 void print_table(const Sweep& sweep) {
   const ReferenceLabel& reference = sweep.rows().front().reference;
-  std::printf("%s, %.4g s; errors against %s: %s (%s)\n\n", sweep.plan().scene.name.c_str(),
-              sweep.plan().duration, reference.id.c_str(), reference.description.c_str(),
+  std::printf("%s, %.4g s; errors against %s: %s (%s)\n\n",
+              printable(sweep.plan().scene.name).c_str(), sweep.plan().duration,
+              reference.id.c_str(), reference.description.c_str(),
               reference.converged ? "converged" : "not converged");
   std::fputs(markdown_table(sweep.rows()).c_str(), stdout);
+}
+
+/// Says on stderr when there was nothing to compare with.
+Outcome judged(const std::vector<BenchRow>& rows) {
+  const auto lacks_error = [](const BenchRow& row) {
+    return row.finished() && !std::isfinite(row.position_error);
+  };
+  const auto unmeasured = std::find_if(rows.begin(), rows.end(), lacks_error);
+  if (unmeasured != rows.end())
+    std::fprintf(stderr, "pleat: no errors, as the reference is %s\n",
+                 unmeasured->reference.description.c_str());
+  const bool all_finished =
+      std::all_of(rows.begin(), rows.end(), [](const BenchRow& row) { return row.finished(); });
+  return all_finished && unmeasured == rows.end() ? Outcome::ok : Outcome::check_failed;
 }
 
 }  // namespace
@@ -105,34 +130,37 @@ Outcome sweep_command(Arguments arguments) {
   const auto out = arguments.text("--out");
   const auto cache = arguments.text("--cache");
   const std::string commit = arguments.text("--commit").value_or(core_version());
+  const std::vector<std::string> levels = arguments.list("--levels");
+  const std::vector<std::string> steppers = arguments.list("--steppers");
   SweepPlan plan;
   plan.reference = take_reference_kind(arguments);
   plan.n_repeats = arguments.whole_number("--repeat", 1, 1000).value_or(plan.n_repeats);
-  const SceneInput input = take_scene(arguments);
+  SceneInput input = take_scene(arguments);
+  arguments.finish();
   plan.scene = input.scene;
   plan.duration = plan.scene.duration;
-  plan.levels = take_levels(arguments, plan.scene);
-  plan.methods = take_methods(arguments, plan.scene.method);
-  arguments.finish();
+  plan.levels = plan_levels(levels, plan.scene);
+  plan.methods = plan_methods(steppers, plan.scene.method);
+  with_source_named(input, [&] { check_duration(plan); });
+  input.scene = finest_scene(plan);  // the most memory
 
+  if (out) check_writable(*out);
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
   Sweep sweep(plan, *store, commit);
   {
     Progress progress;
     while (!sweep.done()) {
-      with_file_named(input.file, [&] { sweep.advance(kSlice); });
+      with_source_named(input, [&] { sweep.advance(kSlice); });
       progress.show(sweep.progress(), sweep.message());
     }
   }
-  if (out) write_file(*out, json_lines(sweep.rows()));
   if (for_machines)
     std::fputs(json_lines(sweep.rows()).c_str(), stdout);
   else
     print_table(sweep);
-  for (const BenchRow& row : sweep.rows())
-    if (!row.finished()) return Outcome::check_failed;
-  return Outcome::ok;
+  if (out) write_file(*out, json_lines(sweep.rows()));
+  return judged(sweep.rows());
 }
 
 }  // namespace pleat

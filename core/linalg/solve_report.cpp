@@ -12,8 +12,6 @@ const char* name(SolveStatus status) {
       return "not_positive_definite";
     case SolveStatus::not_finite:
       return "not_finite";
-    case SolveStatus::unstable_step:
-      return "unstable_step";
   }
   return "";
 }

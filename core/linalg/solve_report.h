@@ -10,7 +10,6 @@ enum class SolveStatus {
   not_converged,          ///< the iteration cap was reached; the result is the best one so far
   not_positive_definite,  ///< the factorisation met a pivot that is not positive
   not_finite,             ///< NaN or infinity appeared; the message names the first bad entry
-  unstable_step,          ///< the step exceeds the method's stability bound
 };
 
 const char* name(SolveStatus status);
@@ -22,6 +21,8 @@ struct SolveReport {
   std::string message;           ///< empty when ok
 
   bool ok() const { return status == SolveStatus::ok; }
+  /// True when the numbers cannot go on from the result.
+  bool ends_run() const { return !ok() && status != SolveStatus::not_converged; }
 };
 
 }  // namespace pleat

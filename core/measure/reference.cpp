@@ -33,8 +33,10 @@ Json header_json(const Reference& reference) {
           {"samples", samples}};
 }
 
-Reference read_header(const Json& json) {
+/// n_bytes  that follow the header: what they cannot fill is not allocated
+Reference read_header(const Json& json, std::size_t n_bytes) {
   constexpr std::int64_t kMostVertices = 100'000'000;
+  auto n_left = static_cast<std::int64_t>(n_bytes / (3 * sizeof(double)));  // vertices
   const JsonReader header(json);
   header.allow_keys({"id", "description", "converged", "samples"});
   Reference reference;
@@ -43,7 +45,10 @@ Reference read_header(const Json& json) {
   if (reference.label.id.empty()) header.at("id").fail("an id");
   for (const JsonReader& entry : header.at("samples").elements()) {
     Sample sample{entry.at("time_s").number(kPositive), {}, {}};
-    sample.positions.resize(3, entry.at("n_vertices").integer(1, kMostVertices));
+    const std::int64_t n_vertices = entry.at("n_vertices").integer(1, kMostVertices);
+    if (n_vertices > n_left) throw InputError("", "the reference's positions are cut short");
+    n_left -= n_vertices;
+    sample.positions.resize(3, n_vertices);
     sample.stretch = {entry.at("rms_stretch").number(kNotNegative),
                       entry.at("largest_stretch").number(kNotNegative)};
     reference.samples.push_back(std::move(sample));
@@ -101,11 +106,10 @@ std::string write_reference(const Reference& reference) {
 
 Reference read_reference(std::string_view bytes) {
   const std::size_t line = std::min(bytes.find('\n'), bytes.size());
-  Reference reference = read_header(parse_json(bytes.substr(0, line)));
   std::size_t at = std::min(line + 1, bytes.size());
+  Reference reference = read_header(parse_json(bytes.substr(0, line)), bytes.size() - at);
   for (Sample& sample : reference.samples) {
     const std::size_t size = static_cast<std::size_t>(sample.positions.size()) * sizeof(double);
-    if (bytes.size() - at < size) throw InputError("", "the reference's positions are cut short");
     std::memcpy(sample.positions.data(), bytes.data() + at, size);
     at += size;
   }

@@ -11,10 +11,6 @@ namespace {
 constexpr double kTimeTolerance =
     1e-9;  // of a step: sample times that differ less from its end are at its end
 
-bool ends_run(const SolveReport& report) {
-  return !report.ok() && report.status != SolveStatus::not_converged;
-}
-
 /// Cubic Hermite interpolation between two states `step` [s] apart; share in [0, 1].
 Positions interpolated(const State& begin, const State& end, double step, double share) {
   const double s = share;
@@ -33,7 +29,7 @@ SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts part
   if (parts == Parts::timed) simulation_.observe(&parts_);
 }
 
-bool SampledRun::failed() const { return ends_run(report_); }
+bool SampledRun::failed() const { return report_.ends_run(); }
 
 bool SampledRun::sample_is_due() const {
   const double step = simulation_.scene().method.step;

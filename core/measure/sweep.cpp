@@ -67,26 +67,31 @@ bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_fra
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// Rough, for progress alone: vertices times substeps, weighted by what a substep of each method
-/// costs.
+/// What a substep costs per vertex, roughly, in units of what the forces of explicit cost.
+double substep_cost(const MethodOptions& method) {
+  switch (method.stepper) {
+    case StepperKind::explicit_euler:
+      return 1;
+    case StepperKind::implicit_euler:
+      if (method.solver == SolverKind::cg) return 80;  // some ten products with a 3x3-block matrix
+      return 300;                                      // a factorisation
+    case StepperKind::projective:
+      return 10 * method.iterations;  // a kept factor's two triangular solves a round
+    case StepperKind::xpbd:
+      return 0.2 * method.iterations;  // float32, four springs at a time, no forces
+  }
+  return 1;
+}
+
+/// For progress alone: vertices times substeps times their cost.
 double expected_run_work(const Scene& scene) {
+  constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
   double vertices = 1;
   if (const auto* sheet = std::get_if<SheetShape>(&scene.cloth))
     vertices = std::ldexp(sheet->rows, scene.level) * std::ldexp(sheet->columns, scene.level);
-  const bool is_direct = scene.method.solver != SolverKind::cg;
-  constexpr double kExplicitSubsteps = 100;  // where the stability bound chooses
-  switch (scene.method.stepper) {
-    case StepperKind::explicit_euler:
-      return vertices / scene.method.step *
-             (scene.method.substeps > 0 ? scene.method.substeps : kExplicitSubsteps);
-    case StepperKind::implicit_euler:
-      return vertices / scene.method.step * scene.method.substeps * (is_direct ? 300 : 80);
-    case StepperKind::projective:
-      return vertices / scene.method.step * scene.method.substeps * scene.method.iterations * 10;
-    case StepperKind::xpbd:
-      return vertices / scene.method.step * scene.method.substeps * scene.method.iterations * 0.2;
-  }
-  return vertices;
+  const MethodOptions& method = scene.method;
+  const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
+  return vertices / method.step * substeps * substep_cost(method);
 }
 
 std::string phrase(const Scene& scene) {

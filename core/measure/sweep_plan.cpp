@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/scene/cloth_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
 
 namespace pleat {
 namespace {
 
-constexpr int kMaxLevel = 8;
 constexpr int kMaxRepeats = 1000;
 constexpr std::array<Word<ReferenceKind>, 2> kReferenceWords = {
     {{"finest", ReferenceKind::finest}, {"rigid_chain", ReferenceKind::rigid_chain}}};
@@ -29,10 +29,11 @@ Scene read_plan_scene(const JsonReader& reader, const Json& json, const FabricLi
 }
 
 std::vector<int> read_levels(const JsonReader& reader, const Scene& scene) {
-  const bool is_sheet = std::holds_alternative<SheetShape>(scene.cloth);
   std::vector<int> levels;
-  for (const JsonReader& level : reader.elements())
-    levels.push_back(static_cast<int>(level.integer(0, is_sheet ? kMaxLevel : 0)));
+  for (const JsonReader& level : reader.elements()) {
+    levels.push_back(static_cast<int>(level.integer(0, kMaxLevel)));
+    check_level(scene, levels.back(), level.pointer());
+  }
   if (levels.empty()) reader.fail("at least one level");
   return levels;
 }
@@ -61,6 +62,7 @@ SweepPlan read_sweep_plan(std::string_view json_text, const FabricLibrary& fabri
     plan.n_repeats = static_cast<int>(repeats->integer(1, kMaxRepeats));
   if (const auto reference = reader.find("reference"))
     plan.reference = reference->word(kReferenceWords);
+  check_duration(plan);
   return plan;
 }
 
@@ -73,6 +75,12 @@ std::string write_sweep_plan(const SweepPlan& plan) {
                       {"duration_s", plan.duration},
                       {"repeats", plan.n_repeats},
                       {"reference", word_for(kReferenceWords, plan.reference)}});
+}
+
+void check_duration(const SweepPlan& plan) {
+  for (const MethodOptions& method : plan.methods) check_duration(plan.duration, method.step);
+  if (plan.reference == ReferenceKind::finest)
+    check_duration(plan.duration, finest_scene(plan).method.step);
 }
 
 std::vector<double> sweep_sample_times(double duration) {

@@ -36,6 +36,10 @@ SweepPlan read_sweep_plan(std::string_view json_text, const FabricLibrary& fabri
 
 std::string write_sweep_plan(const SweepPlan& plan);
 
+/// Throws InputError at /duration_s when a run of the plan, its reference included, has more than
+/// kMaxSteps steps.
+void check_duration(const SweepPlan& plan);
+
 /// The times at which a sweep of this duration [s] compares: ten, equally spaced, the last at its
 /// end.
 std::vector<double> sweep_sample_times(double duration);

@@ -7,7 +7,6 @@
 namespace pleat {
 namespace {
 
-constexpr int kMaxLevels = 8;
 constexpr double kDirectionTolerance = 1e-9;  // of unit length and right angle
 
 std::uint64_t edge_key(VertexId a, VertexId b) {
@@ -115,7 +114,7 @@ void QuadMesh::split(FaceId id) {
 }
 
 void QuadMesh::refine_uniformly(int levels) {
-  PLEAT_CHECK(levels >= 0 && levels <= kMaxLevels, "between 0 and 8 refinements");
+  PLEAT_CHECK(levels >= 0 && levels <= kMaxLevel, "between 0 and 8 refinements");
   for (int level = 0; level < levels; ++level) {
     const std::size_t n_faces = faces_.size();
     for (std::size_t f = 0; f < n_faces; ++f) {

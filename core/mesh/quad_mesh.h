@@ -46,6 +46,9 @@ struct SheetShape {
 
 using Triangle = std::array<VertexId, 3>;
 
+/// Most uniform refinements of a sheet; they make 65536 faces of one.
+constexpr int kMaxLevel = 8;
+
 /// A mesh of quads refined by quadtrees. New vertices are appended, so vertex i of the base mesh is
 /// vertex i of every refinement.
 ///
@@ -57,7 +60,7 @@ class QuadMesh {
   /// Throws ContractError unless sizes and counts are positive and the directions orthonormal.
   static QuadMesh sheet(const SheetShape& shape);
 
-  /// Splits every active face, `levels` times (0 to 8).
+  /// Splits every active face, `levels` times (0 to kMaxLevel).
   void refine_uniformly(int levels);
 
   int n_vertices() const { return static_cast<int>(parents_.size()); }

@@ -181,6 +181,17 @@ std::int64_t n_sheet_vertices(const SheetShape& shape, int level) {
   return (shape.columns * cells_per_side + 1) * (shape.rows * cells_per_side + 1);
 }
 
+void check_level(const Scene& scene, int level, const std::string& where) {
+  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
+  if (shape == nullptr && level > 0)
+    throw InputError(where,
+                     "expected 0, as particles cannot be refined, got " + std::to_string(level));
+  if (shape != nullptr && n_sheet_vertices(*shape, level) > kMaxVertices)
+    throw InputError(where, "expected a level with at most " + std::to_string(kMaxVertices) +
+                                " vertices, got " + std::to_string(level) + " with " +
+                                std::to_string(n_sheet_vertices(*shape, level)));
+}
+
 std::int64_t n_base_vertices(const Scene& scene) {
   if (const auto* shape = std::get_if<SheetShape>(&scene.cloth)) return n_sheet_vertices(*shape, 0);
   return std::get<InlineCloth>(scene.cloth).positions.cols();

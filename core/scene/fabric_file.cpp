@@ -66,27 +66,11 @@ SourcedValue read_value(const JsonReader& reader, const NumberRange& range,
 }
 
 Fabric read_fabric(const JsonReader& reader, const Sources& sources) {
-  reader.allow_keys({"id",
-                     "name_en",
-                     "name_zh",
-                     "use_en",
-                     "use_zh",
-                     "colour_en",
-                     "assumed_construction",
-                     "areal_density_kg_per_m2",
-                     "thickness_m",
-                     "stretch_warp_n_per_m",
-                     "stretch_weft_n_per_m",
-                     "shear_n_per_m",
-                     "bend_warp_n_m",
-                     "bend_weft_n_m",
-                     "bend_hysteresis_2hb_n",
-                     "damping_ratio",
-                     "friction_fabric_fabric",
-                     "friction_fabric_solid",
-                     "drape_coefficient_percent",
-                     "derived",
-                     "seed_table"});
+  std::vector<const char*> keys{
+      "id",      "name_en",   "name_zh", "use_en", "use_zh", "colour_en", "assumed_construction",
+      "derived", "seed_table"};
+  for (const NumberField& number : kNumberFields) keys.push_back(number.key);
+  reader.allow_keys(keys);
   Fabric fabric;
   fabric.id = static_cast<int>(reader.at("id").integer(0, 1000000));
   fabric.name = reader.at("name_en").text();
@@ -94,13 +78,11 @@ Fabric read_fabric(const JsonReader& reader, const Sources& sources) {
   fabric.construction = reader.at("assumed_construction").text();
   for (const NumberField& number : kNumberFields)
     fabric.*number.field = read_value(reader.at(number.key), number.range, sources);
-  // The membrane stiffness [[K_u, G], [G, K_v]] has to resist every stretch.
-  const double largest_shear = std::sqrt(fabric.stretch_warp.value * fabric.stretch_weft.value);
-  if (fabric.shear.value >= largest_shear)
+  const double bound = shear_bound(fabric.stretch_warp.value, fabric.stretch_weft.value);
+  if (fabric.shear.value >= bound)
     reader.at("shear_n_per_m")
         .at("value")
-        .fail("less than the geometric mean of the stretch stiffnesses, " +
-              Json(largest_shear).dump());
+        .fail("less than the geometric mean of the stretch stiffnesses, " + Json(bound).dump());
   return fabric;
 }
 
@@ -113,6 +95,10 @@ const Fabric& FabricLibrary::find(std::string_view name) const {
     known += (known.empty() ? "" : ", ") + fabric.name;
   }
   throw InputError("/fabric/name", "expected one of " + known + ", got " + abbreviated(Json(name)));
+}
+
+double shear_bound(double stretch_warp, double stretch_weft) {
+  return std::sqrt(stretch_warp) * std::sqrt(stretch_weft);
 }
 
 FabricLibrary read_fabrics(std::string_view json_text) {

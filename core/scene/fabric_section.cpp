@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/base/check.h"
 
@@ -30,9 +29,9 @@ constexpr std::array<NumberField, 9> kNumberFields{
 
 /// Reads the numbers that are there; the others stay as they are. Returns the keys read.
 std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants& fabric) {
-  reader.allow_keys({"areal_density_kg_per_m2", "thickness_m", "stretch_warp_n_per_m",
-                     "stretch_weft_n_per_m", "shear_n_per_m", "bend_warp_n_m", "bend_weft_n_m",
-                     "damping_ratio", "friction_solid"});
+  std::vector<const char*> known;
+  for (const NumberField& number : kNumberFields) known.push_back(number.key);
+  reader.allow_keys(known);
   std::vector<std::string> keys;
   for (const NumberField& number : kNumberFields) {
     const auto at = reader.find(number.key);
@@ -40,12 +39,11 @@ std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants&
     fabric.*number.field = at->number(number.range);
     keys.emplace_back(number.key);
   }
-  // The membrane stiffness [[K_u, G], [G, K_v]] has to resist every stretch.
-  const double largest_shear = std::sqrt(fabric.stretch_warp) * std::sqrt(fabric.stretch_weft);
-  if (fabric.shear >= largest_shear)
+  const double bound = shear_bound(fabric.stretch_warp, fabric.stretch_weft);
+  if (fabric.shear >= bound)
     throw InputError(reader.pointer() + "/shear_n_per_m",
                      "expected less than the geometric mean of the stretch stiffnesses, " +
-                         Json(largest_shear).dump() + ", got " + Json(fabric.shear).dump());
+                         Json(bound).dump() + ", got " + Json(fabric.shear).dump());
   return keys;
 }
 

@@ -1,18 +1,20 @@
 #include "core/scene/frame_file.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <iterator>
 #include <system_error>
 
 #include "core/base/check.h"
 #include "core/scene/json_reader.h"
+#include "core/scene/whole_file.h"
 
 namespace pleat {
 namespace {
 
 constexpr const char* kBinaryName = "frames.bin";
+constexpr std::string_view kNumberedName = "frame_";
+constexpr std::size_t kDigits = 6;  // of a frame's number, enough for kMaxFrames
 constexpr const char* kBinaryFormat = "pleat frames 1";
 constexpr std::size_t kDoubleSize = 8;  // bytes
 
@@ -48,28 +50,17 @@ std::string numbers_line(const char* keyword, const double* numbers, int n) {
 }
 
 std::string frame_path(const std::string& folder, int frame, const char* extension) {
-  constexpr std::size_t kDigits = 6;
   std::string number = std::to_string(frame);
-  number.insert(0, number.size() < kDigits ? kDigits - number.size() : 0, '0');
-  return folder + "/frame_" + number + extension;
+  number.insert(0, kDigits - number.size(), '0');
+  return folder + "/" + std::string(kNumberedName) + number + extension;
 }
 
-[[noreturn]] void throw_not_written(const std::string& path) {
-  throw InputError(path, "expected a place that can be written to");
-}
-
-void write_frame(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw_not_written(path);
-}
-
-std::string read_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError(path, "expected a file that can be read, got none");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+bool is_frame_name(const std::string& name) {
+  if (name == kBinaryName) return true;
+  const std::size_t dot = kNumberedName.size() + kDigits;
+  return name.size() == dot + 4 && name.rfind(kNumberedName, 0) == 0 &&
+         name.find_first_not_of("0123456789", kNumberedName.size()) == dot &&
+         (name.substr(dot) == ".obj" || name.substr(dot) == ".ply");
 }
 
 /// The header line, or an error that says it is missing.
@@ -132,9 +123,7 @@ std::string ply_bytes(const FrameMesh& mesh, const Positions& positions) {
 FrameWriter::FrameWriter(std::string folder, FrameFormat format, FrameMesh mesh)
     : folder_(std::move(folder)), format_(format), mesh_(std::move(mesh)) {
   if (format_ == FrameFormat::none) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (!std::filesystem::is_directory(folder_, error)) throw_not_written(folder_);
+  make_folder(folder_);
 }
 
 void FrameWriter::append_binary(const Positions& positions, double time) {
@@ -149,10 +138,11 @@ void FrameWriter::append_binary(const Positions& positions, double time) {
   for (const double coordinate : positions.reshaped()) append_double(coordinate, bytes);
   binary_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   binary_.flush();
-  if (!binary_) throw_not_written(path);
+  if (!binary_) throw FileError(path, "expected a place that can be written to");
 }
 
 void FrameWriter::write(const Positions& positions, double time) {
+  PLEAT_CHECK(n_frames_ < kMaxFrames, "a frame's number has six digits");
   if (n_frames_ == 0) n_vertices_ = positions.cols();
   PLEAT_CHECK(positions.cols() == n_vertices_, "every frame has the same vertices");
   PLEAT_CHECK(mesh_.rest_coordinates.cols() == 0 || mesh_.rest_coordinates.cols() == n_vertices_,
@@ -162,10 +152,10 @@ void FrameWriter::write(const Positions& positions, double time) {
     case FrameFormat::none:
       break;
     case FrameFormat::obj:
-      write_frame(frame_path(folder_, n_frames_, ".obj"), obj_text(mesh_, positions));
+      write_file(frame_path(folder_, n_frames_, ".obj"), obj_text(mesh_, positions));
       break;
     case FrameFormat::ply:
-      write_frame(frame_path(folder_, n_frames_, ".ply"), ply_bytes(mesh_, positions));
+      write_file(frame_path(folder_, n_frames_, ".ply"), ply_bytes(mesh_, positions));
       break;
     case FrameFormat::binary:
       append_binary(positions, time);
@@ -174,8 +164,17 @@ void FrameWriter::write(const Positions& positions, double time) {
   ++n_frames_;
 }
 
+std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (is_frame_name(entry.path().filename().string())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 RecordedFrames read_frames(const std::string& path) {
-  const std::string file = read_bytes(path);
+  const std::string file = read_file(path);
   const std::size_t line_end = file.find('\n');
   const std::size_t n_vertices = read_n_vertices(path, std::string_view(file).substr(0, line_end));
   const std::string_view body =

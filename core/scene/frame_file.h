@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ std::string obj_text(const FrameMesh& mesh, const Positions& positions);
 /// triangles as lists of ints.
 std::string ply_bytes(const FrameMesh& mesh, const Positions& positions);
 
+/// More frames of one run are refused: six digits number their files, so that names sort by time.
+constexpr int kMaxFrames = 1'000'000;
+
 /// Writes the frames of a run into a folder: frame_000000.obj (or .ply) and so on, or all of them
 /// into frames.bin. Same frames, same bytes.
 ///
@@ -31,11 +35,11 @@ std::string ply_bytes(const FrameMesh& mesh, const Positions& positions);
 class FrameWriter {
  public:
   /// Makes the folder when it is not there. Files of these names in it are replaced, others stay.
-  /// Throws InputError naming the folder or file that cannot be written.
+  /// Throws FileError naming the folder or file that cannot be written.
   FrameWriter(std::string folder, FrameFormat format, FrameMesh mesh);
 
-  /// Throws ContractError unless the frame is finite and all frames have as many vertices as the
-  /// mesh.
+  /// Throws ContractError unless the frame is finite, all frames have as many vertices as the mesh
+  /// and there are at most kMaxFrames.
   void write(const Positions& positions, double time);
 
   int n_frames() const { return n_frames_; }
@@ -50,6 +54,9 @@ class FrameWriter {
   Eigen::Index n_vertices_ = -1;  // known from the first frame on
   int n_frames_ = 0;
 };
+
+/// The files in the folder that bear names of frames, sorted; none when there is no such folder.
+std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder);
 
 struct RecordedFrames {
   std::vector<double> times;  ///< [s]

@@ -2,52 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "core/base/check.h"
+#include "core/scene/nearest_word.h"
 
 namespace pleat {
 namespace {
 
-/// How many letters have to be inserted, deleted or replaced to turn a into b.
-/// Source: Wagner & Fischer, The string-to-string correction problem, J. ACM 21, 1974.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
-/// The known key that is most likely meant; empty when none is near. A key that lacks its unit
-/// ("width") is closest to the one that has it ("width_m").
-std::string_view nearest(std::string_view key, std::initializer_list<const char*> known) {
-  constexpr std::size_t kLongestKey = 64;  // letters worth comparing; the comparison is quadratic
-  const std::string_view begin = key.substr(0, kLongestKey);
-  std::string_view best;
-  std::size_t best_distance = begin.size() / 2 + 1;  // half of the letters wrong is another word
-  for (const std::string_view candidate : known) {
-    const bool lacks_unit = !begin.empty() && candidate.substr(0, begin.size()) == begin;
-    const std::size_t distance = lacks_unit ? 0 : edit_distance(begin, candidate);
-    if (distance >= best_distance) continue;
-    best = candidate;
-    best_distance = distance;
-  }
-  return best;
-}
-
 std::string number_text(double number) { return Json(number).dump(); }
 
 std::string description(const NumberRange& range) {
-  const bool open = range.ends == NumberRange::Ends::excluded;
+  const bool open = range.ends != NumberRange::Ends::included;
   if (range.low == -kLargestNumber && range.high == kLargestNumber) return "a number";
   if (range.high == kLargestNumber)
     return std::string("a number ") + (open ? "> " : ">= ") + number_text(range.low);
@@ -55,7 +20,7 @@ std::string description(const NumberRange& range) {
          (open ? ", both excluded" : "");
 }
 
-std::string listed(std::initializer_list<const char*> keys) {
+std::string listed(std::span<const char* const> keys) {
   std::string text;
   for (const char* key : keys) text += (text.empty() ? "\"" : ", \"") + std::string(key) + '"';
   return text;
@@ -67,11 +32,11 @@ void JsonReader::fail(const std::string& expected) const {
   throw InputError(pointer_, "expected " + expected + ", got " + abbreviated(*json_));
 }
 
-void JsonReader::allow_keys(std::initializer_list<const char*> keys) const {
+void JsonReader::allow_keys(std::span<const char* const> keys) const {
   if (!json_->is_object()) fail("an object");
   for (const auto& item : json_->items()) {
     if (std::find(keys.begin(), keys.end(), item.key()) != keys.end()) continue;
-    const std::string_view near = nearest(item.key(), keys);
+    const std::string_view near = nearest_word(item.key(), keys);
     const std::string expected =
         near.empty() ? (keys.size() == 1 ? "only the key " : "one of the keys ") + listed(keys)
                      : "the key \"" + std::string(near) + '"';
@@ -99,13 +64,13 @@ std::size_t JsonReader::only_one_of(std::initializer_list<const char*> keys) con
   for (const char* key : keys) {
     if (find(key)) {
       if (found)
-        throw InputError(pointer_,
-                         "expected only one of the keys " + listed(keys) + ", got several");
+        throw InputError(pointer_, "expected only one of the keys " +
+                                       listed({keys.begin(), keys.size()}) + ", got several");
       found = index;
     }
     ++index;
   }
-  if (!found) fail("one of the keys " + listed(keys));
+  if (!found) fail("one of the keys " + listed({keys.begin(), keys.size()}));
   return *found;
 }
 
@@ -114,10 +79,11 @@ double JsonReader::number(const NumberRange& range) const {
   const double number = json_->get<double>();
   if (!std::isfinite(number) || std::abs(number) > kLargestNumber)
     fail("a number of at most 1e12 in size");
-  const bool inside = range.ends == NumberRange::Ends::included
-                          ? number >= range.low && number <= range.high
-                          : number > range.low && number < range.high;
-  if (!inside) fail(description(range));
+  const bool above =
+      range.ends == NumberRange::Ends::included ? number >= range.low : number > range.low;
+  const bool below =
+      range.ends == NumberRange::Ends::excluded ? number < range.high : number <= range.high;
+  if (!above || !below) fail(description(range));
   return number;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,14 +18,14 @@ constexpr double kLargestNumber = 1e12;
 
 /// Which numbers a key takes.
 struct NumberRange {
-  enum class Ends { included, excluded };
+  enum class Ends { included, low_excluded, excluded };
   double low = -kLargestNumber;
   double high = kLargestNumber;
   Ends ends = Ends::included;
 };
 constexpr NumberRange kAnyNumber{};
 constexpr NumberRange kNotNegative{0, kLargestNumber, NumberRange::Ends::included};
-constexpr NumberRange kPositive{0, kLargestNumber, NumberRange::Ends::excluded};
+constexpr NumberRange kPositive{0, kLargestNumber, NumberRange::Ends::low_excluded};
 
 /// A word of the file format and what it stands for.
 template <class Value>
@@ -50,7 +51,10 @@ class JsonReader {
   const std::string& pointer() const { return pointer_; }
 
   /// Refuses anything but an object with no other keys than these.
-  void allow_keys(std::initializer_list<const char*> keys) const;
+  void allow_keys(std::span<const char* const> keys) const;
+  void allow_keys(std::initializer_list<const char*> keys) const {
+    allow_keys(std::span<const char* const>(keys.begin(), keys.size()));
+  }
   /// The value of a key that has to be there.
   JsonReader at(const char* key) const;
   /// Nothing when the key is absent.

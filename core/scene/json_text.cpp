@@ -1,6 +1,7 @@
 #include "core/scene/json_text.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 32;  // of nesting; a scene needs 7, and recursion stays shallow
 constexpr std::size_t kLineLength = 100;   // columns
-constexpr std::size_t kMaxQuotation = 60;  // characters of a value repeated in a sentence
+constexpr std::size_t kMaxQuotation = 60;  // bytes of a value or key repeated in a sentence
 
 /// An object or array that the parser is inside of.
 struct OpenValue {
@@ -97,7 +98,7 @@ std::string between(const std::string& text, std::string_view begin, std::string
 [[noreturn]] void throw_input_error(const Json::out_of_range& error, std::string_view text) {
   const std::string number = between(error.what(), "'", "'");
   throw InputError(line_and_column(text, text.find(number)),
-                   "expected a number of at most 1.8e308 in size, got " + number);
+                   "expected a number of at most 1.8e308 in size, got " + cut(number));
 }
 
 std::string scalar_text(const Json& json) {
@@ -138,6 +139,14 @@ void append(const Json& json, std::size_t indent, std::size_t column, std::strin
 
 }  // namespace
 
+std::string cut(const std::string& text) {
+  if (text.size() <= kMaxQuotation) return text;
+  std::size_t length = kMaxQuotation;
+  while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0U) == 0x80U)
+    --length;  // whole UTF-8 characters
+  return text.substr(0, length) + "...";
+}
+
 std::string pointer_token(std::string_view key) {
   std::string token;
   for (const char c : key) {
@@ -149,7 +158,25 @@ std::string pointer_token(std::string_view key) {
       token += c;
     }
   }
-  return token;
+  return cut(token);
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : '\0');
+    const bool is_c1 = byte == 0xc2 && next >= 0x80 && next < 0xa0;  // U+0080 to U+009F
+    if (byte >= 0x20 && byte != 0x7f && !is_c1) {
+      result += text[i];
+      continue;
+    }
+    char escape[8];
+    std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(is_c1 ? next : byte));
+    result += escape;
+    if (is_c1) ++i;
+  }
+  return result;
 }
 
 std::string abbreviated(const Json& json) {
@@ -157,12 +184,7 @@ std::string abbreviated(const Json& json) {
   if (json.is_object()) return json.empty() ? "an empty object" : "an object";
   if (json.is_array())
     return "an array of " + std::to_string(json.size()) + (json.size() == 1 ? " value" : " values");
-  std::string text = scalar_text(json);
-  if (text.size() <= kMaxQuotation) return text;
-  std::size_t length = kMaxQuotation;
-  while ((static_cast<unsigned char>(text[length]) & 0xc0U) == 0x80U)
-    --length;  // whole UTF-8 characters
-  return text.substr(0, length) + "...";
+  return cut(scalar_text(json));
 }
 
 std::string format_json(const Json& json) {

@@ -18,10 +18,17 @@ Json parse_json(std::string_view text);
 /// Numbers are written with the fewest digits that read back to the same bits.
 std::string format_json(const Json& json);
 
-/// One value on one line, cut to a length that fits into a sentence.
+/// A text cut to a length that fits into a sentence.
+std::string cut(const std::string& text);
+
+/// One value on one line, cut.
 std::string abbreviated(const Json& json);
 
-/// A key as one token of a JSON pointer (RFC 6901: "~" and "/" are escaped).
+/// A key as one token of a JSON pointer (RFC 6901: "~" and "/" are escaped), cut like a value.
 std::string pointer_token(std::string_view key);
+
+/// Control characters written as JSON escapes them, so that no text from outside moves a terminal's
+/// cursor or begins a line of its own.
+std::string printable(std::string_view text);
 
 }  // namespace pleat

@@ -71,7 +71,7 @@ struct Scene {
   std::vector<std::string>
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   SpringModel model;
-  int level = 0;  ///< uniform refinements, 0 to 8
+  int level = 0;  ///< uniform refinements, 0 to kMaxLevel
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;

@@ -1,5 +1,6 @@
 #include "core/scene/scene_file.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/check.h"
@@ -11,30 +12,28 @@
 namespace pleat {
 namespace {
 
-constexpr int kMaxLevel = 8;
-constexpr double kMaxSteps = 1e9;  // a week of the fastest step; more is a mistake in the unit
-
 int read_refinement(const JsonReader& reader, const Scene& scene) {
   reader.allow_keys({"level"});
   const auto at = reader.find("level");
   if (!at) return scene.level;
   const int level = static_cast<int>(at->integer(0, kMaxLevel));
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  if (!shape && level > 0) at->fail("0, as inline particles cannot be refined");
-  if (shape && n_sheet_vertices(*shape, level) > kMaxVertices)
-    at->fail("a level with at most " + std::to_string(kMaxVertices) + " vertices");
+  check_level(scene, level, at->pointer());
   return level;
 }
 
-void check_run_length(const Scene& scene) {
-  const double n_steps = scene.duration / scene.method.step;
-  if (n_steps > kMaxSteps)
-    throw InputError("/duration_s", "expected at most 1e9 steps of " +
-                                        Json(scene.method.step).dump() + " s, got " +
-                                        Json(n_steps).dump());
+}  // namespace
+
+void check_duration(double duration, double step) {
+  const double n_steps = duration / step;
+  if (n_steps > static_cast<double>(kMaxSteps))
+    throw InputError("/duration_s", "expected at most 1e9 steps of " + Json(step).dump() +
+                                        " s, got " + Json(n_steps).dump());
 }
 
-}  // namespace
+std::int64_t whole_steps(double duration, double step) {
+  const double n_steps = std::min(duration / step, static_cast<double>(kMaxSteps));
+  return std::max<std::int64_t>(1, std::llround(n_steps));
+}
 
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics) {
   const Json document = parse_json(json_text);
@@ -54,7 +53,7 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics) {
   if (const auto at = root.find("method")) read_method(*at, scene.method);
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);
-  check_run_length(scene);
+  check_duration(scene.duration, scene.method.step);
   return scene;
 }
 

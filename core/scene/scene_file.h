@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,15 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics);
 
 /// The same scene with every default written out. read_scene(write_scene(s)) gives s again.
 std::string write_scene(const Scene& scene);
+
+/// A week of the fastest step; more is a mistake in the unit.
+constexpr std::int64_t kMaxSteps = 1'000'000'000;
+
+/// Throws InputError at /duration_s when `duration` [s] is more than kMaxSteps steps of `step` [s].
+void check_duration(double duration, double step);
+
+/// `duration` [s] rounded to whole steps of `step` [s]: at least one, at most kMaxSteps.
+std::int64_t whole_steps(double duration, double step);
 
 /// The JSON schema of the format, as text.
 std::string_view scene_schema();

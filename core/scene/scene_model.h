@@ -18,7 +18,7 @@ std::optional<QuadMesh> scene_mesh(const Scene& scene);
 ClothModel scene_model(const Scene& scene, const QuadMesh* mesh,
                        const std::vector<Triangle>& triangles);
 
-/// The state at time 0: at rest in the rest shape, or as the inline particles say.
+/// The state at time 0: the rest shape with the initial velocity, or as the inline particles say.
 State scene_state(const Scene& scene, const QuadMesh* mesh);
 
 /// What scene_model built, and what it left out because the scene does not ask for it.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,14 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+/// Every file below a folder and what is in it.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> texts;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) texts[entry.path().string()] = text_of(entry.path());
+  return texts;
+}
+
 void write(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
@@ -53,9 +62,10 @@ struct Ending {
   std::string error;
 };
 
-/// Runs the command with these words.
-Ending pleat_command(const Folder& folder, const std::vector<std::string>& words) {
-  std::string line = "'" PLEAT_COMMAND "'";
+/// Runs the command with these words, `before` it in the same shell.
+Ending pleat_command(const Folder& folder, const std::vector<std::string>& words,
+                     const std::string& before = "") {
+  std::string line = before + "'" PLEAT_COMMAND "'";
   for (const std::string& word : words) line += " '" + word + "'";
   line += " >'" + (folder / "stdout").string() + "' 2>'" + (folder / "stderr").string() + "'";
   const int status = std::system(line.c_str());
@@ -72,11 +82,32 @@ constexpr const char* kScene = R"({
   "duration_s": 0.2
 })";
 
-/// A folder with that scene in it.
+// Drag grows with the square of the speed, which the explicit method's stability bound does not
+// cover: in dense enough air each step throws the triangle back faster than it came.
+constexpr const char* kWildScene = R"({
+  "cloth": {"particles": {
+    "positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
+    "velocities_m_per_s": [[0, 1, 0], [0, 1, 0], [0, 1, 0]],
+    "masses_kg": [0.1, 0.1, 0.1],
+    "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}],
+    "triangles": [[0, 1, 2]]}},
+  "method": {"stepper": "explicit", "step_s": 0.016666666666666666, "substeps": 1},
+  "world": {"air": {"density_kg_per_m3": 10000}},
+  "duration_s": 1,
+  "record": {"every_s": 0.01, "format": "binary"}
+})";
+
+/// The scene with a part of its text replaced.
+std::string scene_with(const std::string& from, const std::string& to) {
+  std::string text = kScene;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// A folder with a scene in it.
 struct SmallScene {
   Folder folder;
   std::string file = (folder / "scene.json").string();
-  SmallScene() { write(file, kScene); }
+  explicit SmallScene(const std::string& text = kScene) { write(file, text); }
 
   Ending run(std::vector<std::string> words) const {
     words.insert(words.begin() + 1, file);
@@ -200,7 +231,18 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"run", "another.json"}, "another.json: "},
       {{"run", "--json", "--json"}, "--json: "},
       {{"run", "--out", "/proc/nowhere"}, "/proc/nowhere: "},
-      {{"run", "--stepper", "explicit"}, "scene.json: /method/substeps: "},
+      {{"run", "--duraton", "3"}, "--duraton: unknown option; the nearest is --duration"},
+      {{"run", "--xyzzy", "3"}, "--xyzzy: unknown option; \"pleat help\""},
+      {{"run", "--out", ""}, "--out: "},
+      {{"run", "--steps", "3", "--duration", "1"}, "--steps: "},
+      {{"run", "--stepper", "projective", "--solver", "cg"}, "pleat: --solver: "},
+      {{"run", "--stepper", "explicit", "--substeps", "1"}, "pleat: --substeps: "},
+      {{"run", "--out", "/dev/null/o", "--duration", "100000"}, "scene.json: /record/every_s: "},
+      {{"sweep", "--cache", "/dev/null/c"}, "pleat: /dev/null/c: "},
+      {{"sweep", "--out", "/dev/null/c"}, "pleat: /dev/null/c: "},
+      {{"sweep", "--levels", "0,1,00"}, "--levels: "},
+      {{"sweep", "--steppers", "xpbd,xpbd"}, "--steppers: "},
+      {{"sweep", "--duration", "1e7"}, "pleat: --duration: "},
       {{"sweep", "--levels", "0,x"}, "--levels: "},
       {{"sweep", "--levels", "0,,1"}, "--levels: "},
       {{"sweep", "--steppers", "magic"}, "--steppers: "},
@@ -226,18 +268,14 @@ TEST_CASE("command: a bad scene is told with its file and place, and nothing is 
     std::string place;
   };
   const std::string whole = kScene;
-  const auto replaced = [&](const std::string& from, const std::string& to) {
-    std::string text = whole;
-    return text.replace(text.find(from), from.size(), to);
-  };
   const std::vector<Bad> cases = {
       {whole.substr(0, whole.size() / 2), "line 5"},
       {"", "line 1"},
-      {replaced("\"rows\": 2", "\"rows\": 0"), "/cloth/sheet/rows"},
-      {replaced("\"rows\": 2", "\"rows\": \"two\""), "/cloth/sheet/rows"},
-      {replaced("\"step_s\": 0.02", "\"step_s\": NaN"), "line 6"},
-      {replaced("\"step_s\": 0.02", "\"step_s\": 0"), "/method/step_s"},
-      {replaced("\"pins\"", "\"pinz\""), "/pinz"},
+      {scene_with("\"rows\": 2", "\"rows\": 0"), "/cloth/sheet/rows"},
+      {scene_with("\"rows\": 2", "\"rows\": \"two\""), "/cloth/sheet/rows"},
+      {scene_with("\"step_s\": 0.02", "\"step_s\": NaN"), "line 6"},
+      {scene_with("\"step_s\": 0.02", "\"step_s\": 0"), "/method/step_s"},
+      {scene_with("\"pins\"", "\"pinz\""), "/pinz"},
   };
   for (const Bad& bad : cases) {
     const Folder folder;
@@ -254,23 +292,10 @@ TEST_CASE("command: a bad scene is told with its file and place, and nothing is 
   }
 }
 
-// Drag grows with the square of the speed, which the explicit method's stability bound does not
-// cover: in dense enough air each step throws the triangle back faster than it came.
 TEST_CASE("command: a run that diverges stops, says where, and keeps the last finite frame",
           "[cli]") {
   const Folder folder;
-  write(folder / "wild.json", R"({
-    "cloth": {"particles": {
-      "positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
-      "velocities_m_per_s": [[0, 1, 0], [0, 1, 0], [0, 1, 0]],
-      "masses_kg": [0.1, 0.1, 0.1],
-      "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}],
-      "triangles": [[0, 1, 2]]}},
-    "method": {"stepper": "explicit", "step_s": 0.01, "substeps": 1},
-    "world": {"air": {"density_kg_per_m3": 10000}},
-    "duration_s": 1,
-    "record": {"every_s": 0.01, "format": "binary"}
-  })");
+  write(folder / "wild.json", kWildScene);
   const Ending ending = pleat_command(
       folder, {"run", (folder / "wild.json").string(), "--out", (folder / "out").string()});
   CAPTURE(ending.error);
@@ -294,3 +319,187 @@ TEST_CASE("command: help and version succeed, no word and unknown words do not h
   CHECK(pleat_command(folder, {"run"}).status == 2);
   CHECK(pleat_command(folder, {"run", "/nowhere.json"}).status == 2);
 }
+
+TEST_CASE("command: no control character of a scene reaches the terminal", "[cli]") {
+  const SmallScene scene(scene_with("\"pins\"", "\"\\u001b[31mred\\nline\\u009b\""));
+  const Ending ending = scene.run({"run"});
+  CHECK(ending.status == 2);
+  CHECK(ending.error.find("/\\u001b[31mred\\u000aline\\u009b: ") != std::string::npos);
+  CHECK(std::count(ending.error.begin(), ending.error.end(), '\n') == 1);
+  const SmallScene named(scene_with("small sheet", "\\u001b[31mred"));
+  CHECK(named.run({"run"}).out.rfind("\\u001b[31mred: ", 0) == 0);
+}
+
+TEST_CASE("command: bad input leaves folders that exist as they were", "[cli]") {
+  struct Bad {
+    std::string text;
+    std::vector<std::string> words;  // after the folders' own
+  };
+  const std::vector<Bad> cases = {
+      {scene_with("\"step_s\": 0.02", "\"step_s\": 0"), {}},
+      {scene_with("\"solver\": \"eigen\"", "\"stepper\": \"explicit\""), {"--overwrite"}},
+      {kScene, {}},  // the folder holds an earlier run
+      {kScene, {"--overwrite", "--level", "99"}},
+  };
+  for (const Bad& bad : cases) {
+    const SmallScene scene(bad.text);
+    for (const char* folder : {"out", "dump"}) fs::create_directory(scene.folder / folder);
+    for (const char* file : {"out/frames.bin", "out/metrics.json", "out/frame_000007.obj",
+                             "dump/mass.mtx", "dump/stiffness_begin.mtx"})
+      write(scene.folder / file, file);
+    const auto before = contents(scene.folder / "");
+    std::vector<std::string> words{"run", "--out", (scene.folder / "out").string(), "--dump",
+                                   (scene.folder / "dump").string()};
+    words.insert(words.end(), bad.words.begin(), bad.words.end());
+    const Ending ending = scene.run(words);
+    CAPTURE(bad.text, bad.words, ending.error);
+    CHECK(ending.status == 2);
+    auto after = contents(scene.folder / "");
+    for (const char* file : {"stdout", "stderr"}) after.erase((scene.folder / file).string());
+    CHECK(after == before);
+  }
+}
+
+TEST_CASE("command: nothing is written unless everything can be", "[cli]") {
+  const SmallScene scene;
+  const std::string good = (scene.folder / "good").string();
+  fs::create_directory(good);
+  write(good + "/mass.mtx", "mine");
+  fs::create_directories(scene.folder / "no metrics" / "metrics.json");
+  fs::create_directories(scene.folder / "no matrix" / "stiffness_end.mtx");
+  const std::string no_metrics = (scene.folder / "no metrics").string();
+  const std::string no_matrix = (scene.folder / "no matrix").string();
+  CHECK(scene.run({"run", "--dump", good, "--out", "/dev/null/o"}).status == 2);
+  CHECK(scene.run({"run", "--dump", good, "--out", no_metrics, "--overwrite"}).status == 2);
+  CHECK(scene.run({"run", "--dump", no_matrix, "--out", good}).status == 2);
+  CHECK(contents(good).size() == 1);
+  CHECK(text_of(good + "/mass.mtx") == "mine");
+  CHECK(contents(no_metrics).empty());
+  CHECK(contents(no_matrix).empty());
+  // A sweep is not begun either: it would have kept its reference.
+  const std::string cache = (scene.folder / "cache").string();
+  CHECK(scene
+            .run({"sweep", "--steppers", "implicit", "--repeat", "1", "--cache", cache, "--out",
+                  no_metrics})
+            .status == 2);
+  CHECK((!fs::exists(cache) || fs::is_empty(cache)));
+}
+
+TEST_CASE("command: frames of an earlier run are kept, or removed whole", "[cli]") {
+  const SmallScene scene;
+  const std::string out = (scene.folder / "out").string();
+  REQUIRE(scene.run({"run", "--out", out}).status == 0);
+  write(out + "/frame_000009.obj", "of an earlier run");
+  write(out + "/notes.txt", "mine");
+  const Ending refused = scene.run({"run", "--out", out, "--steps", "2"});
+  CHECK(refused.status == 2);
+  CHECK(refused.error.find("--overwrite") != std::string::npos);
+  CHECK(read_frames(out + "/frames.bin").times.size() == 6);
+  REQUIRE(scene.run({"run", "--out", out, "--steps", "2", "--overwrite"}).status == 0);
+  CHECK(read_frames(out + "/frames.bin").times.size() == 2);
+  CHECK_FALSE(fs::exists(out + "/frame_000009.obj"));
+  CHECK(text_of(out + "/notes.txt") == "mine");
+}
+
+TEST_CASE("command: --fabric replaces a scene's own numbers and keeps its bending", "[cli]") {
+  const SmallScene own(scene_with("\"name\": \"fine cotton\"", "\"shear_n_per_m\": 3"));
+  CHECK(parse_json(own.run({"run", "--json", "--fabric", "silk"}).out).at("fabric") == "silk");
+  const auto stiffness = [](const std::string& fabric, std::vector<std::string> words) {
+    const SmallScene scene(scene_with("\"name\": \"fine cotton\"", fabric));
+    words.insert(words.begin(), {"run", "--dump", (scene.folder / "d").string()});
+    CHECK(scene.run(words).status == 0);
+    return text_of(scene.folder / "d" / "stiffness_begin.mtx");
+  };
+  const std::string silk = "\"name\": \"silk\", \"bending\": \"moving\"";
+  const std::string wool = "\"name\": \"wool\", \"bending\": \"moving\"";
+  CHECK(stiffness(wool, {"--fabric", "silk"}) == stiffness(silk, {}));
+  CHECK(stiffness("\"name\": \"wool\"", {"--fabric", "silk"}) != stiffness(silk, {}));
+}
+
+TEST_CASE("command: --stepper takes any scene, with defaults for what it cannot take", "[cli]") {
+  const std::string method = "\"step_s\": 0.02, \"solver\": \"eigen\"";
+  const SmallScene cg(scene_with(method, "\"solver\": \"cg\", \"substeps\": 3"));
+  const SmallScene stable(
+      scene_with(method, "\"stepper\": \"explicit\", \"substeps\": \"stable\""));
+  const auto substeps = [](const SmallScene& scene, const std::string& stepper) {
+    const Ending ending = scene.run({"run", "--json", "--steps", "1", "--stepper", stepper});
+    CAPTURE(stepper, ending.error);
+    REQUIRE(ending.status == 0);
+    return parse_json(ending.out).at("n_substeps").get<int>();
+  };
+  CHECK(substeps(cg, "projective") == 3);
+  CHECK(substeps(cg, "xpbd") == 3);
+  CHECK(substeps(cg, "explicit") > 3);
+  CHECK(substeps(cg, "implicit") == 3);
+  CHECK(substeps(stable, "implicit") == 1);
+  CHECK(substeps(stable, "explicit") == substeps(cg, "explicit"));
+}
+
+TEST_CASE("command: a duration is rounded to whole steps and told as it was", "[cli]") {
+  const SmallScene scene;
+  const Ending ending = scene.run({"run", "--duration", "0.05"});
+  REQUIRE(ending.status == 0);
+  CHECK(ending.out.find("3 steps to 0.06 s") != std::string::npos);
+  const Ending odd = scene.run({"run", "--step", "0.012345", "--steps", "3"});
+  CHECK(odd.out.find("3 steps to 0.037035 s") != std::string::npos);
+}
+
+TEST_CASE("command: a run for people begins with what it will cost", "[cli]") {
+  const SmallScene scene;
+  const Ending ending = scene.run({"run", "--stepper", "explicit", "--steps", "1"});
+  REQUIRE(ending.status == 0);
+  CHECK(ending.error.rfind("explicit, ", 0) == 0);
+  CHECK(ending.error.find(" substeps per step, 9 vertices\n") != std::string::npos);
+}
+
+TEST_CASE("command: metrics.json ends with one end of line", "[cli]") {
+  const SmallScene scene;
+  REQUIRE(scene.run({"run", "--out", (scene.folder / "o").string()}).status == 0);
+  const std::string text = text_of(scene.folder / "o" / "metrics.json");
+  CHECK(text.substr(text.size() - 2) == "}\n");
+}
+
+TEST_CASE("command: a bench that the numbers end says so, with the frames that ran", "[cli]") {
+  const Folder folder;
+  write(folder / "wild.json", kWildScene);
+  const std::string file = (folder / "wild.json").string();
+  const Ending run = pleat_command(folder, {"bench", "run", file, "--frames", "60"});
+  CHECK(run.status == 1);
+  const Json json = parse_json(run.out);
+  CHECK(json.at("status") == "not_finite");
+  CHECK(json.at("rms_stretch").size() < 59);
+  CHECK(json.at("ms").size() + 1 == json.at("rms_stretch").size());
+  const Ending reference = pleat_command(folder, {"bench", "reference", file, "--times", "1"});
+  CHECK(reference.status == 1);
+  CHECK(reference.out.empty());
+  CHECK(reference.error.find("ended early") != std::string::npos);
+}
+
+// A spring so stiff that the masses at its ends are lost in rounding: no direct solver takes it.
+TEST_CASE("command: a sweep without a reference says so, and exit status 1", "[cli]") {
+  const Folder folder;
+  write(folder / "stiff.json", R"({
+    "cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1e-12, 1e-12],
+              "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1e12}]}},
+    "world": {"gravity_m_per_s2": [0, 0, 0]},
+    "duration_s": 0.1
+  })");
+  const Ending ending = pleat_command(
+      folder, {"sweep", (folder / "stiff.json").string(), "--steppers", "xpbd", "--repeat", "1"});
+  CAPTURE(ending.out);
+  CHECK(ending.status == 1);
+  CHECK(ending.out.find("| ok |") != std::string::npos);
+  CHECK(ending.error.find("ended early") != std::string::npos);
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of address space itself
+TEST_CASE("command: too little memory is told with the number of vertices", "[cli]") {
+  const SmallScene scene(
+      scene_with("\"columns\": 2, \"rows\": 2", "\"columns\": 999, \"rows\": 999"));
+  const Ending ending = pleat_command(scene.folder, {"run", scene.file}, "ulimit -v 200000; ");
+  CAPTURE(ending.error);
+  CHECK(ending.status == 2);
+  CHECK(ending.error.find("scene.json: not enough memory for 1000000 vertices") !=
+        std::string::npos);
+}
+#endif

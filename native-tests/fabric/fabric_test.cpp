@@ -30,10 +30,17 @@ TEST_CASE("fabric: weights, lengths and stiffnesses are those of cloth", "[fabri
     CHECK(numbers.thickness < 3e-3);
     CHECK(bending_length(numbers) > 5e-3);
     CHECK(bending_length(numbers) < 60e-3);
-    CHECK(numbers.shear < numbers.stretch_warp);
-    CHECK(numbers.shear < numbers.stretch_weft);
+    // From spandex to canvas; of shear, from chiffon to leather.
+    CHECK(numbers.stretch_warp > 70);
+    CHECK(numbers.stretch_warp < 15e3);
+    CHECK(numbers.stretch_weft > 70);
     CHECK(numbers.stretch_weft <= numbers.stretch_warp);
+    CHECK(numbers.shear > 5);
+    CHECK(numbers.shear < numbers.stretch_weft);
+    CHECK(numbers.shear < 4e3);
+    CHECK(numbers.damping_ratio > 0.01);
     CHECK(numbers.damping_ratio < 1);
+    CHECK(numbers.friction_solid > 0.1);
     CHECK(numbers.friction_solid < 1);
     // Volume density of a porous sheet: lighter than its fibres (silk, cotton, polyester: at most
     // 1600 kg/m^3).

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/check.h"
+#include "core/scene/json_text.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;
@@ -42,6 +43,17 @@ TEST_CASE("reference: a file cut anywhere is refused", "[measure]") {
   for (std::size_t n = 0; n < bytes.size(); ++n)
     CHECK_THROWS_AS(read_reference(bytes.substr(0, n)), InputError);
   CHECK_THROWS_AS(read_reference(bytes + "x"), InputError);
+}
+
+TEST_CASE("reference: a header that promises more than follows allocates nothing", "[measure]") {
+  Json samples = Json::array();
+  for (int s = 0; s < 10000; ++s)  // 24 TB
+    samples.push_back({{"time_s", 1 + s},
+                       {"n_vertices", 100'000'000},
+                       {"rms_stretch", 0},
+                       {"largest_stretch", 0}});
+  const Json header{{"id", "a"}, {"description", "b"}, {"converged", false}, {"samples", samples}};
+  CHECK_THROWS_AS(read_reference(header.dump() + "\n" + std::string(4800, 'x')), InputError);
 }
 
 TEST_CASE("reference: every change of scene, method or times has another id", "[measure]") {

@@ -178,6 +178,15 @@ TEST_CASE("sweep: a bad plan is refused at its place", "[measure]") {
   };
   CHECK(where(plan_text(R"(, "levels": [])")) == "/levels");
   CHECK(where(plan_text(R"(, "levels": [0, 9])")) == "/levels/1");
+  CHECK(
+      where(R"({"scene": {"cloth": {"sheet": {"columns": 64, "rows": 64}}}, "levels": [3, 4]})") ==
+      "/levels/1");
+  CHECK(where(R"({"scene": {"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}}},
+                  "levels": [1]})") == "/levels/0");
+  CHECK(where(plan_text(R"(, "duration_s": 1e9)")) == "/duration_s");
+  // The reference's steps are four times as many.
+  CHECK(where(plan_text(R"(, "duration_s": 5e6)")) == "/duration_s");
+  CHECK(where(plan_text(R"(, "duration_s": 5e6, "reference": "rigid_chain")")) == "accepted");
   CHECK(where(plan_text(R"(, "methods": [{"step_s": 0.01}, {"step_s": -1}])")) ==
         "/methods/1/step_s");
   CHECK(where(plan_text(R"(, "duration_s": 0)")) == "/duration_s");

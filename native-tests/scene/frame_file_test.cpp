@@ -139,6 +139,19 @@ TEST_CASE("frames: the same frames give the same bytes, whatever stood there", "
   CHECK(bytes[1] == folder.bytes("fresh/frames.bin"));
 }
 
+TEST_CASE("frames: the files of earlier frames are found by their names", "[scene]") {
+  const ScratchFolder folder("pleat_frames_found");
+  CHECK(frame_files(folder.path()).empty());
+  std::filesystem::create_directory(folder.path());
+  for (const char* name :
+       {"frame_000010.obj", "frame_000002.ply", "frames.bin", "frame_12.obj", "frame_000001.png",
+        "frame_000001.obj.part", "myframe_000001.obj", "frame_00000x.obj", "notes.txt"})
+    std::ofstream(folder.file(name)) << name;
+  std::vector<std::string> names;
+  for (const auto& file : frame_files(folder.path())) names.push_back(file.filename().string());
+  CHECK(names == std::vector<std::string>{"frame_000002.ply", "frame_000010.obj", "frames.bin"});
+}
+
 TEST_CASE("frames: format none touches no file", "[scene]") {
   const ScratchFolder folder("pleat_frames_none");
   FrameWriter writer(folder.path(), FrameFormat::none, triangle_mesh());

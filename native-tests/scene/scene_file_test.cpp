@@ -9,9 +9,9 @@ namespace pleat {
 namespace {
 
 struct BadScene {
-  const char* text;
-  const char* where;
-  const char* sentence;
+  std::string text;
+  std::string where;
+  std::string sentence;
 };
 
 // One entry for each way in which a section can be wrong.
@@ -46,6 +46,15 @@ const BadScene kBadScenes[] = {
      "expected a number of at most 1e12 in size, got 10000000000000.0"},
     {R"({"cloth": {"sheet": {}}, "duration_s": 1000, "method": {"step_s": 1e-7}})", "/duration_s",
      "expected at most 1e9 steps of 1e-07 s, got 10000000000.0"},
+    {"{\"cloth\": {\"sheet\": {}}, \"duration_s\": 1" + std::string(400, '0') + "}",
+     "line 1, column 40",
+     "expected a number of at most 1.8e308 in size, got 1" + std::string(59, '0') + "..."},
+    {"{\"cloth\": {\"sheet\": {}}, \"" + std::string(5000, 'k') + "\": 1}",
+     "/" + std::string(60, 'k') + "...",
+     "expected one of the keys \"$schema\", \"name\", \"caption\", \"cloth\", \"fabric\", "
+     "\"model\", "
+     "\"refinement\", \"pins\", \"world\", \"method\", \"duration_s\", \"record\", got \"" +
+         std::string(59, 'k') + "..."},
     // Cloth: sheet.
     {R"({"cloth": {}})", "/cloth",
      R"(expected one of the keys "sheet", "particles", got an empty object)"},
@@ -135,9 +144,9 @@ const BadScene kBadScenes[] = {
     {R"({"cloth": {"sheet": {}}, "refinement": {"level": 9}})", "/refinement/level",
      "expected a whole number from 0 to 8, got 9"},
     {R"({"cloth": {"sheet": {"columns": 8, "rows": 8}}, "refinement": {"level": 7}})",
-     "/refinement/level", "expected a level with at most 1000000 vertices, got 7"},
+     "/refinement/level", "expected a level with at most 1000000 vertices, got 7 with 1050625"},
     {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}}, "refinement": {"level": 1}})",
-     "/refinement/level", "expected 0, as inline particles cannot be refined, got 1"},
+     "/refinement/level", "expected 0, as particles cannot be refined, got 1"},
     // Pins.
     {R"({"cloth": {"sheet": {}}, "pins": {}})", "/pins", "expected an array, got an empty object"},
     {R"({"cloth": {"sheet": {}}, "pins": [{"part": "top"}]})", "/pins/0/part",
@@ -284,6 +293,26 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.duration == 1.7);
   CHECK(scene.record.every == 0.06);
   CHECK(scene.record.format == FrameFormat::binary);
+}
+
+TEST_CASE("scene file: a positive number may be as large as any, but not zero", "[scene]") {
+  const auto stiffness = [](const char* number) {
+    const std::string begin = R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]],
+        "masses_kg": [1, 1], "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": )";
+    const Scene scene = read(begin + number + "}]}}}");
+    return std::get<InlineCloth>(scene.cloth).springs.at(0).stiffness;
+  };
+  CHECK(stiffness("1e12") == 1e12);
+  CHECK_THROWS_AS(stiffness("1.0000001e12"), InputError);
+  CHECK_THROWS_AS(stiffness("0"), InputError);
+}
+
+TEST_CASE("scene file: times are rounded to whole steps, at least one, and stay countable",
+          "[scene]") {
+  CHECK(whole_steps(0.05, 0.02) == 3);
+  CHECK(whole_steps(0.001, 0.02) == 1);
+  CHECK(whole_steps(1, 0.02) == 50);
+  CHECK(whole_steps(1e12, 1e-300) == kMaxSteps);
 }
 
 TEST_CASE("scene file: a collider without friction takes the fabric's", "[scene]") {
