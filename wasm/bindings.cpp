@@ -242,13 +242,11 @@ class Simulation {
 
  private:
   pleat::Simulation& running() const {
-    if (!simulation_) throw pleat::InputError("", "expected a loaded scene, found none");
+    if (!simulation_) throw pleat::InputError("", "expected a loaded scene, got none");
     return *simulation_;
   }
 
-  bool has_ended() const {
-    return !report_.ok() && report_.status != pleat::SolveStatus::not_converged;
-  }
+  bool has_ended() const { return report_.ends_run(); }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
     return std::make_unique<pleat::Simulation>(
@@ -318,7 +316,7 @@ class Experiment {
 
   std::string advance(double budget_ms) {
     return guarded([&](val& envelope) {
-      if (!sweep_) throw pleat::InputError("", "expected a started experiment, found none");
+      if (!sweep_) throw pleat::InputError("", "expected a started experiment, got none");
       sweep_->advance(1e-3 * budget_ms);
       const val report = json_value(sweep_->report_json());
       for (const char* key : {"done", "progress", "rows", "front", "message"})

@@ -99,15 +99,22 @@ SolveReport Stepper::advance(State& state, double time) {
       part.message = std::move(report.message);
     }
     report = std::move(part);
-    if (report.status == SolveStatus::not_finite ||
-        report.status == SolveStatus::not_positive_definite)
-      break;
+    if (report.ends_run()) break;
   }
   store(state, report);
   const VertexId bad = first_lost(state);
   if (bad.valid()) report = lost_report(bad, time);
-  if (!report.ok() && report.status != SolveStatus::not_converged) state = last_finite_;
+  if (report.ends_run()) state = last_finite_;
   return report;
+}
+
+std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options, int block_size,
+                                                   int max_iterations) {
+  if (!is_available(options.solver))
+    throw InputError("/method/solver",
+                     std::string("expected a solver of this build, got ") + name(options.solver) +
+                         ", whose source could not be had when it was built; take eigen");
+  return make_linear_solver(options.solver, block_size, {options.tolerance, max_iterations});
 }
 
 void Stepper::set_external_forces(const State& state, double h, Positions& forces) {

@@ -23,6 +23,11 @@ constexpr double kLargestCoordinate = 1e12;
 /// As scenes write it: "explicit", "implicit", "projective", "xpbd".
 const char* name(StepperKind kind);
 
+enum class Constraints {
+  compliant,  ///< compliance 1/k
+  rigid,      ///< compliance 0
+};
+
 /// Settings of a method. Each stepper reads what applies to it.
 struct MethodOptions {
   StepperKind stepper = StepperKind::implicit_euler;
@@ -31,7 +36,7 @@ struct MethodOptions {
   int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
   SolverKind solver = SolverKind::cg;  ///< implicit_euler; projective takes cholmod or eigen
   double tolerance = 1e-3;             ///< implicit_euler with cg: relative residual, in (0, 1)
-  bool constraints_rigid = false;      ///< xpbd: compliance 0 instead of 1/k
+  Constraints constraints = Constraints::compliant;  ///< xpbd
 
   /// Throws ContractError.
   void validate() const;
@@ -90,6 +95,11 @@ class Stepper {
   /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
   /// [s] (0: explicit), remembered contact [N].
   void set_external_forces(const State& state, double h, Positions& forces);
+
+  /// The solver that the options name; max_iterations is for cg. Throws InputError when this build
+  /// has none.
+  static std::unique_ptr<LinearSolver> make_solver(const MethodOptions& options, int block_size,
+                                                   int max_iterations = 1);
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;

@@ -10,20 +10,12 @@ constexpr int kMaxIterations = 2000;  // of CG; reaching it is reported as not c
 
 Eigen::Map<Eigen::VectorXd> flat(Positions& columns) { return {columns.data(), columns.size()}; }
 
-std::unique_ptr<LinearSolver> available_solver(const MethodOptions& options) {
-  if (!is_available(options.solver))
-    throw InputError("/method/solver",
-                     std::string("expected a solver of this build, found ") + name(options.solver) +
-                         ", whose source could not be had when it was built; take eigen");
-  return make_linear_solver(options.solver, 3, {options.tolerance, kMaxIterations});
-}
-
 }  // namespace
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       matrix_(model),
-      solver_(available_solver(options)),
+      solver_(make_solver(options, 3, kMaxIterations)),
       forces_(3, model.n_vertices()),
       velocity_changes_(Positions::Zero(3, model.n_vertices())),
       positions_begin_(3, model.n_vertices()) {

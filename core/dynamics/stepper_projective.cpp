@@ -10,15 +10,11 @@ namespace {
 
 constexpr int kNotPinned = -1;
 
-std::unique_ptr<LinearSolver> factor_solver(const MethodOptions& options) {
+const MethodOptions& checked(const MethodOptions& options) {
   if (options.solver == SolverKind::cg)
     throw InputError("/method/solver",
-                     "expected cholmod or eigen for projective, which keeps a factor, found cg");
-  if (!is_available(options.solver))
-    throw InputError("/method/solver",
-                     std::string("expected a solver of this build, found ") + name(options.solver) +
-                         ", whose source could not be had when it was built; take eigen");
-  return make_linear_solver(options.solver, 1);
+                     "expected cholmod or eigen for projective, which keeps a factor, got cg");
+  return options;
 }
 
 bool damps_along_spring(const ClothModel& model) {
@@ -29,7 +25,7 @@ bool damps_along_spring(const ClothModel& model) {
 
 StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
-      solver_(factor_solver(options)),
+      solver_(make_solver(checked(options), 1)),
       targets_(model.springs.size()),
       forces_(3, model.n_vertices()),
       predicted_(3, model.n_vertices()),

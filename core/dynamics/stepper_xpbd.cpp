@@ -18,7 +18,7 @@ std::size_t pitch_for(int n_slots) {
 }
 
 SpringLaw spring_law(const ClothModel& model, const MethodOptions& options) {
-  if (options.constraints_rigid) return SpringLaw::rigid;
+  if (options.constraints == Constraints::rigid) return SpringLaw::rigid;
   const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
                                   [](const Spring& spring) { return spring.damping > 0; });
   if (!damped) return SpringLaw::elastic;

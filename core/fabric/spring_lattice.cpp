@@ -53,7 +53,7 @@ void check_edge_stiffness(double stiffness, double aspect, const FabricConstants
   if (stiffness >= 0) return;
   char sentence[240];
   std::snprintf(sentence, sizeof sentence,
-                "%s: expected cells whose shear stiffness %g N/m the %s edges can carry, found "
+                "%s: expected cells whose shear stiffness %g N/m the %s edges can carry, got "
                 "cells %.3g times as "
                 "long along %s as across, which would need springs of negative stiffness",
                 fabric.name.c_str(), fabric.shear, thread, aspect, thread);

@@ -26,6 +26,7 @@ constexpr NumberField kNumberFields[] = {
     {"largest_stretch_error", &BenchRow::largest_stretch_error},
     {"residual", &BenchRow::residual},
     {"iterations_per_step", &BenchRow::iterations_per_step},
+    {"energy_drift", &BenchRow::energy_drift},
 };
 
 struct CountField {
@@ -35,7 +36,8 @@ struct CountField {
 constexpr CountField kCountFields[] = {{"level", &BenchRow::level},
                                        {"n_vertices", &BenchRow::n_vertices},
                                        {"n_substeps", &BenchRow::n_substeps},
-                                       {"n_runs", &BenchRow::n_runs}};
+                                       {"n_runs", &BenchRow::n_runs},
+                                       {"n_unresolved_contacts", &BenchRow::n_unresolved_contacts}};
 
 struct TextField {
   const char* key;

@@ -23,7 +23,8 @@ struct BenchRow {
   MethodOptions method;
   int level = 0;
   int n_vertices = 0;
-  int n_substeps = 0;  ///< of a step, as run
+  int n_substeps = 0;             ///< of a step, as run
+  int n_unresolved_contacts = 0;  ///< see ContactStage::n_unresolved
 
   double ms_per_frame = kUnknown;  ///< wall time per simulated 1/60 s, median of the runs [ms]
   double spread_ms = kUnknown;     ///< of ms_per_frame, slowest minus quickest run [ms]
@@ -38,6 +39,7 @@ struct BenchRow {
   double largest_stretch_error = kUnknown;
   double residual = kUnknown;  ///< of the steps' own equations, the largest
   double iterations_per_step = kUnknown;
+  double energy_drift = kUnknown;  ///< what no force explains, of the largest kinetic energy
 
   ReferenceLabel reference;
   std::string status = "ok";  ///< or the name of a SolveStatus, or "refused"

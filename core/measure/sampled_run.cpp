@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/check.h"
 
@@ -26,7 +27,13 @@ SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts part
     : simulation_(scene), times_(std::move(times)) {
   PLEAT_CHECK(!times_.empty() && times_.front() > 0 && std::is_sorted(times_.begin(), times_.end()),
               "sample times are positive and ascend");
-  if (parts == Parts::timed) simulation_.observe(&parts_);
+  if (parts == Parts::untimed) return;
+  simulation_.observe(&parts_);
+  ledger_.emplace(simulation_.model(), simulation_.state());
+}
+
+double SampledRun::relative_drift() const {
+  return ledger_ ? ledger_->relative_drift() : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool SampledRun::failed() const { return report_.ends_run(); }
@@ -55,7 +62,7 @@ void SampledRun::take_samples(const State& begin, double time_begin) {
 void SampledRun::step() {
   const double time_begin = simulation_.time();
   const bool sampling = sample_is_due();
-  if (sampling) begin_ = simulation_.state();
+  if (sampling || ledger_) begin_ = simulation_.state();
   const bool timed = simulation_.n_steps() > 0;
   const Stopwatch watch;
   SolveReport report = simulation_.step();
@@ -71,7 +78,11 @@ void SampledRun::step() {
     report_.status = report.status;
     report_.message = std::move(report.message);
   }
-  if (sampling && !failed()) take_samples(begin_, time_begin);
+  if (failed()) return;
+  if (sampling) take_samples(begin_, time_begin);
+  if (ledger_)
+    ledger_->record(begin_, simulation_.state(), simulation_.time(),
+                    simulation_.scene().method.step);
 }
 
 void SampledRun::advance(double budget) {

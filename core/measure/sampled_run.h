@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/measure/energy_ledger.h"
 #include "core/measure/error_norms.h"
 #include "core/measure/stage_timer.h"
 #include "core/scene/simulation.h"
@@ -23,7 +25,9 @@ struct Sample {
 /// clock, and so is the first step, in which steppers build what they keep.
 class SampledRun {
  public:
-  enum class Parts { untimed, timed };  ///< timing the parts of a step costs time itself
+  /// Timing the parts of a step costs time itself, and accounting for the energy costs memory and
+  /// caches.
+  enum class Parts { untimed, timed_with_ledger };
 
   /// times  [s], positive, ascending, at least one.
   /// Throws InputError when the scene's method cannot run on it.
@@ -48,6 +52,8 @@ class SampledRun {
   double timed_seconds() const { return timed_seconds_; }    ///< by the clock
   double timed_duration() const { return timed_duration_; }  ///< simulated meanwhile [s]
   const StageTimer& parts() const { return parts_; }  ///< over the same steps; zero when untimed
+  /// See EnergyLedger; NaN when untimed.
+  double relative_drift() const;
 
  private:
   void step();
@@ -60,6 +66,7 @@ class SampledRun {
   State begin_;
   SolveReport report_;
   StageTimer parts_;
+  std::optional<EnergyLedger> ledger_;
   double timed_seconds_ = 0;
   double timed_duration_ = 0;
 };

@@ -172,6 +172,9 @@ BenchRow Sweep::measured_row() const {
   row.status = name(report.status);
   row.message = report.message;
   row.residual = report.relative_residual;
+  row.energy_drift = run_->relative_drift();
+  if (simulation.model().contact)
+    row.n_unresolved_contacts = static_cast<int>(simulation.model().contact->n_unresolved());
   if (simulation.n_steps() > 0)
     row.iterations_per_step = report.iterations / static_cast<double>(simulation.n_steps());
   if (run_->timed_duration() > 0) {
@@ -196,7 +199,8 @@ void Sweep::add_time() {
 }
 
 void Sweep::begin_run() {
-  const auto parts = in_first_round() ? SampledRun::Parts::timed : SampledRun::Parts::untimed;
+  const auto parts =
+      in_first_round() ? SampledRun::Parts::timed_with_ledger : SampledRun::Parts::untimed;
   try {
     run_ = std::make_unique<SampledRun>(setting_scene(setting()), times_, parts);
   } catch (const InputError& error) {

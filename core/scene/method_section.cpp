@@ -3,7 +3,6 @@
 namespace pleat {
 namespace {
 
-constexpr std::int64_t kMaxSubsteps = 1000000;
 constexpr std::int64_t kMaxIterations = 100000;
 constexpr NumberRange kTolerance{0, 1, NumberRange::Ends::excluded};
 
@@ -21,7 +20,8 @@ constexpr std::array<Word<StepperKind>, 4> kSteppers{{{"explicit", StepperKind::
 constexpr std::array<Word<SolverKind>, 3> kSolvers{
     {{"cholmod", SolverKind::cholmod}, {"eigen", SolverKind::eigen}, {"cg", SolverKind::cg}}};
 
-constexpr std::array<Word<bool>, 2> kConstraints{{{"compliant", false}, {"rigid", true}}};
+constexpr std::array<Word<Constraints>, 2> kConstraints{
+    {{"compliant", Constraints::compliant}, {"rigid", Constraints::rigid}}};
 
 constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
                                                           {"ply", FrameFormat::ply},
@@ -67,7 +67,7 @@ void read_method(const JsonReader& reader, MethodOptions& method) {
   if (method.stepper == StepperKind::projective) method.solver = best_direct_solver();
   if (const auto at = reader.find("solver")) method.solver = at->word(kSolvers);
   if (const auto at = reader.find("tolerance")) method.tolerance = at->number(kTolerance);
-  if (const auto at = reader.find("constraints")) method.constraints_rigid = at->word(kConstraints);
+  if (const auto at = reader.find("constraints")) method.constraints = at->word(kConstraints);
 }
 
 Json json_method(const MethodOptions& method) {
@@ -77,7 +77,7 @@ Json json_method(const MethodOptions& method) {
           {"iterations", method.iterations},
           {"solver", word_for(kSolvers, method.solver)},
           {"tolerance", method.tolerance},
-          {"constraints", word_for(kConstraints, method.constraints_rigid)}};
+          {"constraints", word_for(kConstraints, method.constraints)}};
 }
 
 void read_record(const JsonReader& reader, RecordOptions& record) {

@@ -11,10 +11,6 @@ std::vector<Triangle> scene_triangles(const Scene& scene, const std::optional<Qu
   return mesh ? mesh->triangles() : std::get<InlineCloth>(scene.cloth).triangles;
 }
 
-bool has_ended(const SolveReport& report) {
-  return !report.ok() && report.status != SolveStatus::not_converged;
-}
-
 double rest_diagonal(const SheetShape& shape) { return std::hypot(shape.width, shape.height); }
 
 }  // namespace
@@ -52,7 +48,7 @@ void Simulation::reset() {
 }
 
 SolveReport Simulation::step() {
-  if (has_ended(ended_)) return ended_;
+  if (ended_.ends_run()) return ended_;
   if (grab_) place_grab_pins();
   if (transition_) {
     const double since = time() - time_begin_;
@@ -62,7 +58,7 @@ SolveReport Simulation::step() {
       end_transition();
   }
   ended_ = stepper_->advance(state_, time());
-  if (!has_ended(ended_)) ++n_steps_;
+  if (!ended_.ends_run()) ++n_steps_;
   return ended_;
 }
 

@@ -22,7 +22,7 @@ MethodOptions xpbd_options(int substeps, int iterations = 1) {
 
 MethodOptions rigid_options(int substeps) {
   MethodOptions options = xpbd_options(substeps);
-  options.constraints_rigid = true;
+  options.constraints = Constraints::rigid;
   return options;
 }
 

@@ -32,6 +32,8 @@ BenchRow measured_row() {
   row.largest_stretch_error = 1e-4;
   row.residual = 1e-3;
   row.iterations_per_step = 7;
+  row.energy_drift = 0.25;
+  row.n_unresolved_contacts = 2;
   row.target = "native";
   row.commit = "abc";
   row.process_peak_memory = 123456789;
@@ -48,6 +50,8 @@ TEST_CASE("bench_row: a row reads back to what was written", "[measure]") {
   CHECK(read.scene == row.scene);
   CHECK(read.method.stepper == StepperKind::projective);
   CHECK(read.rms_stretch == row.rms_stretch);
+  CHECK(read.energy_drift == row.energy_drift);
+  CHECK(read.n_unresolved_contacts == row.n_unresolved_contacts);
   CHECK(read.process_peak_memory == row.process_peak_memory);
   CHECK(write_bench_row(read) == line);
 }

@@ -72,13 +72,30 @@ TEST_CASE("sampled_run: inside a step positions follow the motion, not the chord
 
 TEST_CASE("sampled_run: the first step is not on the clock", "[measure]") {
   const double step = swinging_scene().method.step;
-  SampledRun one(swinging_scene(), {step}, SampledRun::Parts::timed);
+  SampledRun one(swinging_scene(), {step}, SampledRun::Parts::timed_with_ledger);
   one.advance(kForever);
   CHECK(one.timed_duration() == 0);
   CHECK(one.timed_seconds() == 0);
-  SampledRun three(swinging_scene(), {3 * step}, SampledRun::Parts::timed);
+  SampledRun three(swinging_scene(), {3 * step}, SampledRun::Parts::timed_with_ledger);
   three.advance(kForever);
   CHECK(three.timed_duration() == Approx(2 * step));
+}
+
+TEST_CASE("sampled_run: the ledger sees every step, and is not kept untimed", "[measure]") {
+  const double step = swinging_scene().method.step;
+  SampledRun run(swinging_scene(), {20 * step}, SampledRun::Parts::timed_with_ledger);
+  run.advance(kForever);
+  Simulation simulation(swinging_scene());
+  EnergyLedger ledger(simulation.model(), simulation.state());
+  for (int s = 0; s < 20; ++s) {
+    const State begin = simulation.state();
+    simulation.step();
+    ledger.record(begin, simulation.state(), simulation.time(), step);
+  }
+  CHECK(ledger.relative_drift() > 0);
+  CHECK(run.relative_drift() == ledger.relative_drift());
+  CHECK(std::isnan(
+      SampledRun(swinging_scene(), {step}, SampledRun::Parts::untimed).relative_drift()));
 }
 
 TEST_CASE("sampled_run: a run that the numbers end has a status and no more samples", "[measure]") {

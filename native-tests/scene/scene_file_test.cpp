@@ -289,7 +289,7 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.method.iterations == 7);
   CHECK(scene.method.solver == SolverKind::eigen);
   CHECK(scene.method.tolerance == 1e-7);
-  CHECK(scene.method.constraints_rigid);
+  CHECK(scene.method.constraints == Constraints::rigid);
   CHECK(scene.duration == 1.7);
   CHECK(scene.record.every == 0.06);
   CHECK(scene.record.format == FrameFormat::binary);

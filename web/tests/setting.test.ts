@@ -93,7 +93,7 @@ describe('sweep-plan', () => {
     const setting = settingOfRow(row, start);
     const other = { ...NO_SWEEP, rows: [row], scene: { preset: start.preset, fabric: 'silk' } };
     expect(rowOfSetting({ sweep: other, setting })).toBeNull();
-    const failed = { ...row, status: 'unstable_step' };
+    const failed = { ...row, status: 'not_positive_definite' };
     const scene = { preset: start.preset, fabric: start.fabric };
     expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows: [failed], scene }, setting })).toBeNull();
   });
