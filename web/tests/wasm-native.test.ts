@@ -73,7 +73,9 @@ beforeAll(async () => {
 function nativePositions(scene: object): Float64Array {
   const file = join(folder, 'scene.json');
   writeFileSync(file, JSON.stringify(scene));
-  execFileSync(command, ['run', file, '--out', folder], { stdio: ['ignore', 'ignore', 'pipe'] });
+  execFileSync(command, ['run', file, '--out', folder, '--overwrite'], {
+    stdio: ['ignore', 'ignore', 'pipe'],
+  });
   const bytes = readFileSync(join(folder, 'frames.bin'));
   const headerEnd = bytes.indexOf('\n');
   const { n_vertices } = JSON.parse(bytes.toString('utf8', 0, headerEnd));
