@@ -106,7 +106,7 @@ SceneInput take_scene(Arguments& arguments) {
   for (const Override& entry : kOverrides) {
     if (const auto value = arguments.text(entry.option)) {
       overrides.emplace_back(entry, *value);
-      input.options.push_back(entry.option);
+      input.options.emplace_back(entry.option);
     }
   }
   const auto n_steps = arguments.whole_number("--steps", 1, kMaxSteps);

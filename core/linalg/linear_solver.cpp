@@ -1,5 +1,7 @@
 #include "core/linalg/linear_solver.h"
 
+#include <utility>
+
 #include "core/base/check.h"
 #include "core/linalg/conjugate_gradient.h"
 #include "core/linalg/eigen_solver.h"
@@ -45,7 +47,7 @@ SolveReport LinearSolver::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
               "right-hand sides and solution must have the same size");
   if (auto report = report_not_finite(rhs, "right-hand side")) return *report;
   if (rhs.size() == 0) return {};
-  return do_solve(rhs, solution);
+  return do_solve(rhs, std::move(solution));
 }
 
 const char* name(SolverKind kind) {

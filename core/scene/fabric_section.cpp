@@ -30,6 +30,7 @@ constexpr std::array<NumberField, 9> kNumberFields{
 /// Reads the numbers that are there; the others stay as they are. Returns the keys read.
 std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants& fabric) {
   std::vector<const char*> known;
+  known.reserve(kNumberFields.size());
   for (const NumberField& number : kNumberFields) known.push_back(number.key);
   reader.allow_keys(known);
   std::vector<std::string> keys;

@@ -90,8 +90,8 @@ std::string obj_text(const FrameMesh& mesh, const Positions& positions) {
     text += 'f';
     for (const VertexId vertex : triangle) {
       const std::string number = std::to_string(vertex.value + 1);
-      text += ' ';
-      text += has_texture ? number + '/' + number : number;
+      text.append(" ").append(number);
+      if (has_texture) text.append("/").append(number);
     }
     text += '\n';
   }
