@@ -194,5 +194,5 @@ TEST_CASE("sweep: a bad plan is refused at its place", "[measure]") {
   CHECK(where(plan_text(R"(, "reference": "none")")) == "/reference");
   CHECK(where(plan_text(R"(, "speed": 1)")) == "/speed");
   CHECK(where(R"({"scene": {"cloth": {"sheet": {"rows": -1}}}})") == "/scene/cloth/sheet/rows");
-  CHECK(where("{}") == "");
+  CHECK(where("{}").empty());
 }

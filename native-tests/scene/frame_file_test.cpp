@@ -163,7 +163,7 @@ TEST_CASE("frames: a place that cannot be written to is named", "[scene]") {
   const ScratchFolder folder("pleat_frames_blocked");
   std::ofstream(folder.path()) << "a file where the folder should be";
   try {
-    FrameWriter(folder.path(), FrameFormat::obj, triangle_mesh());
+    const FrameWriter writer(folder.path(), FrameFormat::obj, triangle_mesh());
     FAIL("was accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == folder.path());
