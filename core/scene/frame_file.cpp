@@ -167,8 +167,11 @@ void FrameWriter::write(const Positions& positions, double time) {
 std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (is_frame_name(entry.path().filename().string())) files.push_back(entry.path());
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+    if (is_frame_name(entry->path().filename().string())) files.push_back(entry->path());
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+    throw FileError(folder, "expected a folder that can be read, got \"" + error.message() + '"');
   std::sort(files.begin(), files.end());
   return files;
 }

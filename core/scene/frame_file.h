@@ -56,6 +56,7 @@ class FrameWriter {
 };
 
 /// The files in the folder that bear names of frames, sorted; none when there is no such folder.
+/// Throws FileError when it cannot be read.
 std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder);
 
 struct RecordedFrames {

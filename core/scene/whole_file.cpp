@@ -1,80 +1,152 @@
 #include "core/scene/whole_file.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace pleat {
 namespace {
 
-[[noreturn]] void throw_unreadable(const std::filesystem::path& path) {
+namespace fs = std::filesystem;
+
+std::string quoted(const std::error_code& error) { return '"' + error.message() + '"'; }
+
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+[[noreturn]] void throw_unreadable(const fs::path& path, const std::error_code& cause) {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) throw FileError(path, "expected a file, got a folder");
-  if (status.type() == std::filesystem::file_type::not_found)
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) throw FileError(path, "expected a file, got a folder");
+  if (status.type() == fs::file_type::not_found)
     throw FileError(path, "expected a file, got none of this name");
-  throw FileError(path, "expected a file that may be read, got one that is not permitted");
+  throw FileError(path, "expected a file that can be read, got " + quoted(cause));
 }
 
-[[noreturn]] void throw_unwritable(const std::filesystem::path& path) {
-  throw FileError(path, "expected a place that can be written to");
+[[noreturn]] void throw_unwritable(const fs::path& path, const std::error_code& cause) {
+  throw FileError(path, "expected a place that can be written to, got " + quoted(cause));
 }
 
-/// Where a file stands until it is whole.
-std::filesystem::path part_of(const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  part += ".part";
-  return part;
+[[noreturn]] void throw_device(const fs::path& path) {
+  throw FileError(path, "expected a file or a place for one, got a device");
+}
+
+/// Links below /proc are open files, whatever name they show.
+bool is_open_file(const fs::path& link) {
+  std::error_code error;
+  return fs::canonical(link.parent_path(), error).string().rfind("/proc/", 0) == 0;
+}
+
+/// The file behind links, which need not exist. Throws FileError for what is no regular file:
+/// renaming would put one in the place of a device or pipe.
+fs::path target_of(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status))
+    throw FileError(path, "expected a file or a place for one, got a folder");
+  if (fs::status_known(status) && fs::exists(status) && !fs::is_regular_file(status))
+    throw_device(path);
+  if (error && status.type() != fs::file_type::not_found) throw_unwritable(path, error);
+  fs::path target = path;
+  while (fs::is_symlink(fs::symlink_status(target, error))) {  // ends, as `status` found an end
+    if (is_open_file(target)) throw_device(path);
+    const fs::path link = fs::read_symlink(target, error);
+    if (error) throw_unwritable(path, error);
+    target = target.parent_path() / link;
+  }
+  return target;
+}
+
+/// Where a file stands until it is whole: beside it, under a name that nothing had.
+class PartFile {
+ public:
+  /// Throws FileError naming `path`.
+  PartFile(const fs::path& path, const fs::path& target) {
+    const std::string prefix = ".pleat-" + std::to_string(getpid()) + "-";
+    for (int attempt = 0; file_ == nullptr; ++attempt) {
+      part_ = target.parent_path() / (prefix + std::to_string(attempt) + ".part");
+      file_ = std::fopen(part_.c_str(), "wbx");
+      if (file_ == nullptr && errno != EEXIST) throw_unwritable(path, last_error());
+    }
+  }
+  ~PartFile() {
+    if (file_ != nullptr) std::fclose(file_);
+    std::error_code error;
+    if (!part_.empty()) fs::remove(part_, error);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  std::error_code write(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) return last_error();
+    const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+    return closed ? std::error_code() : last_error();
+  }
+
+  std::error_code rename_to(const fs::path& target) {
+    std::error_code error;
+    fs::rename(part_, target, error);
+    if (!error) part_.clear();
+    return error;
+  }
+
+ private:
+  fs::path part_;
+  std::FILE* file_ = nullptr;
+};
+
+/// The folder and those above it that are not there, the deepest first.
+std::vector<fs::path> missing_folders(const fs::path& path) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path folder = path; folder.has_relative_path(); folder = folder.parent_path())
+    if (fs::symlink_status(folder, error).type() == fs::file_type::not_found)
+      missing.push_back(folder);
+  return missing;
 }
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const fs::path& path) {
   std::error_code error;
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, error)) throw_unreadable(path);
+  const std::error_code cause = last_error();
+  if (!file || fs::is_directory(path, error)) throw_unreadable(path, cause);
   std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (file.bad()) throw FileError(path, "expected a file that can be read to its end");
   return bytes;
 }
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path part = part_of(path);
-  std::ofstream file(part, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(part, path, error);
-  if (!file || error) {
-    std::filesystem::remove(part, error);
-    throw_unwritable(path);
-  }
+void write_file(const fs::path& path, std::string_view bytes) {
+  const fs::path target = target_of(path);
+  PartFile part(path, target);
+  if (const std::error_code error = part.write(bytes)) throw_unwritable(path, error);
+  if (const std::error_code error = part.rename_to(target)) throw_unwritable(path, error);
 }
 
-void check_writable(const std::filesystem::path& path) {
+void check_writable(const fs::path& path) { const PartFile part(path, target_of(path)); }
+
+void remove_file(const fs::path& path) {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status))
-    throw FileError(path, "expected a file or a place for one, got a folder");
-  // Renaming would put a plain file in the place of a device or pipe.
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw FileError(path, "expected a file or a place for one, got a device");
-  const bool opened = std::ofstream(part_of(path), std::ios::binary).is_open();
-  if (!opened) throw_unwritable(path);
-  std::filesystem::remove(part_of(path), error);
+  fs::remove(path, error);
+  if (error) throw FileError(path, "expected a file that can be removed, got " + quoted(error));
 }
 
-void remove_file(const std::filesystem::path& path) {
+void make_folder(const fs::path& path) {
+  const std::vector<fs::path> missing = missing_folders(path);
   std::error_code error;
-  std::filesystem::remove(path, error);
-  if (error) throw FileError(path, "expected a file that can be removed");
-}
-
-void make_folder(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path, error))
-    throw FileError(path, "expected a folder or a place for one");
+  fs::create_directories(path, error);
+  std::error_code ignored;
+  if (!error && fs::is_directory(path, ignored)) return;
+  for (const fs::path& folder : missing) fs::remove(folder, ignored);
+  throw FileError(path, "expected a folder or a place for one" +
+                            (error ? ", got " + quoted(error) : std::string()));
 }
 
 }  // namespace pleat

@@ -19,16 +19,17 @@ class FileError : public InputError {
 std::string read_file(const std::filesystem::path& path);
 
 /// Writes beside the file first and renames, so that an interrupted run leaves no half of one.
-/// Throws FileError.
+/// Links stay, and the file behind them is written. Throws FileError, also for a device.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Throws FileError unless write_file can write there; what stands there stays.
+/// Throws FileError unless write_file can write there; everything that stands there stays.
 void check_writable(const std::filesystem::path& path);
 
 /// Throws FileError when it still stands there.
 void remove_file(const std::filesystem::path& path);
 
-/// Makes the folder and those above it; one that exists keeps what it holds. Throws FileError.
+/// Makes the folder and those above it; one that exists keeps what it holds. Throws FileError, and
+/// then leaves none that it made.
 void make_folder(const std::filesystem::path& path);
 
 }  // namespace pleat

@@ -8,29 +8,23 @@
 #include <sstream>
 
 #include "core/base/check.h"
+#include "native-tests/support/scratch_folder.h"
 
 namespace pleat {
 namespace {
 
-/// A folder of its own for one test, gone afterwards.
-class ScratchFolder {
+/// A place for a folder of frames, which is not there at first.
+class FrameFolder {
  public:
-  explicit ScratchFolder(const char* name) : path_(std::filesystem::temp_directory_path() / name) {
-    std::filesystem::remove_all(path_);
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::string path() const { return path_.string(); }
-  std::string file(const char* name) const { return (path_ / name).string(); }
+  std::string path() const { return (scratch_ / "frames").string(); }
+  std::string file(const char* name) const { return path() + "/" + name; }
   std::string bytes(const char* name) const {
-    std::ifstream file(path_ / name, std::ios::binary);
+    std::ifstream file(path() + "/" + name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
 
  private:
-  std::filesystem::path path_;
+  ScratchFolder scratch_;
 };
 
 FrameMesh triangle_mesh() {
@@ -95,7 +89,7 @@ TEST_CASE("frames: PLY has the bytes that its header announces", "[scene]") {
 }
 
 TEST_CASE("frames: binary frames are read back to the bit", "[scene]") {
-  const ScratchFolder folder("pleat_frames_binary");
+  const FrameFolder folder;
   FrameWriter writer(folder.path(), FrameFormat::binary, triangle_mesh());
   const Positions first = triangle_positions();
   const Positions second = 2 * first;
@@ -110,7 +104,7 @@ TEST_CASE("frames: binary frames are read back to the bit", "[scene]") {
 }
 
 TEST_CASE("frames: each OBJ and PLY frame is a numbered file", "[scene]") {
-  const ScratchFolder folder("pleat_frames_numbered");
+  const FrameFolder folder;
   const auto format = GENERATE(FrameFormat::obj, FrameFormat::ply);
   const bool is_obj = format == FrameFormat::obj;
   FrameWriter writer(folder.path(), format, triangle_mesh());
@@ -123,7 +117,7 @@ TEST_CASE("frames: each OBJ and PLY frame is a numbered file", "[scene]") {
 }
 
 TEST_CASE("frames: the same frames give the same bytes, whatever stood there", "[scene]") {
-  const ScratchFolder folder("pleat_frames_same");
+  const FrameFolder folder;
   std::string bytes[2];
   for (std::string& run : bytes) {
     FrameWriter writer(folder.path(), FrameFormat::binary, triangle_mesh());
@@ -140,7 +134,7 @@ TEST_CASE("frames: the same frames give the same bytes, whatever stood there", "
 }
 
 TEST_CASE("frames: the files of earlier frames are found by their names", "[scene]") {
-  const ScratchFolder folder("pleat_frames_found");
+  const FrameFolder folder;
   CHECK(frame_files(folder.path()).empty());
   std::filesystem::create_directory(folder.path());
   for (const char* name :
@@ -152,15 +146,23 @@ TEST_CASE("frames: the files of earlier frames are found by their names", "[scen
   CHECK(names == std::vector<std::string>{"frame_000002.ply", "frame_000010.obj", "frames.bin"});
 }
 
+TEST_CASE("frames: a folder that cannot be looked into is named", "[scene]") {
+  const ScratchFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  CHECK_THROWS_AS(frame_files(folder / "loop"), InputError);
+  CHECK_THROWS_AS(frame_files(folder / std::string(300, 'x')), InputError);
+  CHECK(frame_files("/dev/null/below").empty());
+}
+
 TEST_CASE("frames: format none touches no file", "[scene]") {
-  const ScratchFolder folder("pleat_frames_none");
+  const FrameFolder folder;
   FrameWriter writer(folder.path(), FrameFormat::none, triangle_mesh());
   writer.write(triangle_positions(), 0);
   CHECK_FALSE(std::filesystem::exists(folder.path()));
 }
 
 TEST_CASE("frames: a place that cannot be written to is named", "[scene]") {
-  const ScratchFolder folder("pleat_frames_blocked");
+  const FrameFolder folder;
   std::ofstream(folder.path()) << "a file where the folder should be";
   try {
     const FrameWriter writer(folder.path(), FrameFormat::obj, triangle_mesh());
@@ -171,7 +173,7 @@ TEST_CASE("frames: a place that cannot be written to is named", "[scene]") {
 }
 
 TEST_CASE("frames: a cut or foreign binary file is refused by name", "[scene]") {
-  const ScratchFolder folder("pleat_frames_cut");
+  const FrameFolder folder;
   FrameWriter(folder.path(), FrameFormat::binary, triangle_mesh()).write(triangle_positions(), 0);
   const std::string whole = folder.bytes("frames.bin");
   const std::size_t n_header = whole.find('\n') + 1;
@@ -192,7 +194,7 @@ TEST_CASE("frames: a cut or foreign binary file is refused by name", "[scene]") 
 }
 
 TEST_CASE("frames: a frame that is not finite or of another size is our bug", "[scene]") {
-  const ScratchFolder folder("pleat_frames_bug");
+  const FrameFolder folder;
   FrameWriter writer(folder.path(), FrameFormat::obj, triangle_mesh());
   Positions positions = triangle_positions();
   positions(1, 1) = std::nan("");
