@@ -12,8 +12,9 @@
 namespace pleat {
 namespace {
 
+/// A dash begins an option, unless it is a number's.
 bool is_option(const std::string& word) {
-  return word.size() > 1 && word[0] == '-' && word[1] == '-';
+  return word.size() > 1 && word[0] == '-' && word.find_first_of(".0123456789") != 1;
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ std::optional<std::string> Arguments::text(const char* option) {
   if (place == words_.end()) return std::nullopt;
   const auto value = place + 1;
   if (value == words_.end() || is_option(*value))
-    throw InputError(option, "expected a value after it, got none");
+    throw InputError(option, "expected a value after it, got " +
+                                 (value == words_.end() ? "none" : abbreviated(Json(*value))));
   if (value->empty()) throw InputError(option, "expected a value after it, got an empty one");
   std::string text = *value;
   words_.erase(place, value + 1);
@@ -82,6 +84,10 @@ std::vector<std::string> Arguments::list(const char* option) {
   return entries;
 }
 
+void Arguments::refuse(const char* option, const std::string& sentence) {
+  if (find(option) != words_.end()) throw InputError(option, sentence);
+}
+
 void Arguments::refuse_options() const {
   const auto option = std::find_if(words_.begin(), words_.end(), is_option);
   if (option == words_.end()) return;
@@ -89,7 +95,8 @@ void Arguments::refuse_options() const {
     throw InputError(*option, "expected this option once, got it twice");
   std::vector<const char*> known;  // without dashes, which would make all of them alike
   for (const char* asked : asked_) known.push_back(asked + 2);
-  const std::string_view near = nearest_word(option->substr(2), known);
+  const std::string_view near =
+      nearest_word(option->substr(std::min(option->size(), std::size_t{2})), known);
   throw InputError(cut(*option),
                    near.empty() ? "unknown option; \"pleat help\" lists what each command takes"
                                 : "unknown option; the nearest is --" + std::string(near));

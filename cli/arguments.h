@@ -18,6 +18,8 @@ class Arguments {
   std::optional<int> whole_number(const char* option, int low, int high);
   /// Separated by commas, none empty.
   std::vector<std::string> list(const char* option);
+  /// Throws InputError{option, sentence} when it is there: for what only other commands take.
+  void refuse(const char* option, const std::string& sentence);
 
   /// The first word, before any option is asked for; `what` names it when it is missing.
   std::string first_word(const char* what);

@@ -22,10 +22,12 @@ constexpr double kSlice = 0.1;       // [s] between reports of progress
 
 std::vector<double> take_times(Arguments& arguments) {
   std::vector<double> times;
-  for (const std::string& entry : arguments.list("--times"))
+  for (const std::string& entry : arguments.list("--times")) {
     times.push_back(parse_positive_number(entry, "--times"));
-  if (!std::is_sorted(times.begin(), times.end()))
-    throw InputError("--times", "expected ascending times");
+    if (times.size() > 1 && times.back() < times[times.size() - 2])
+      throw InputError("--times", "expected ascending times, got " + cut(entry) + " after " +
+                                      Json(times[times.size() - 2]).dump());
+  }
   return times;
 }
 
@@ -130,7 +132,9 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
   if (options.wants_parts) json["parts_ms"] = parts_json(parts, n_frames);
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
-  return series.report.ends_run() ? Outcome::check_failed : Outcome::ok;
+  if (!series.report.ends_run()) return Outcome::ok;
+  print_early_end(simulation, series.report, "");
+  return Outcome::check_failed;
 }
 
 Outcome bench_run(Arguments arguments) {
@@ -138,6 +142,12 @@ Outcome bench_run(Arguments arguments) {
   options.wants_parts = arguments.flag("--parts");
   options.n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(options.n_frames);
   options.times = take_times(arguments);
+  if (!options.times.empty() && options.times.back() > (options.n_frames + 0.5) * kFrame)
+    throw InputError("--times", "expected times within the " + std::to_string(options.n_frames) +
+                                    " frames of 1/60 s that --frames says, got " +
+                                    Json(options.times.back()).dump() + " s");
+  for (const char* option : {"--steps", "--duration"})
+    arguments.refuse(option, "bench run does not take this option, but --frames");
   const SceneInput input = take_scene(arguments);
   arguments.finish();
   return with_source_named(input, [&] { return run_bench(input.scene, options); });
@@ -178,12 +188,20 @@ Outcome bench_reference(Arguments arguments) {
     throw InputError("--kind", "expected run or rigid_chain, got " + abbreviated(Json(kind)));
   const auto cache = arguments.text("--cache");
   std::vector<double> times = take_times(arguments);
+  if (!times.empty())
+    for (const char* option : {"--steps", "--duration"})
+      arguments.refuse(option, "expected either this or --times, got both");
+  if (kind == "rigid_chain")
+    for (const char* option :
+         {"--stepper", "--step", "--substeps", "--iterations", "--solver", "--tolerance"})
+      arguments.refuse(option, "the rigid chain has no method; only --kind run takes this option");
   const SceneInput input = take_scene(arguments);
   const Scene& scene = input.scene;
   arguments.finish();
   if (times.empty()) times = {scene.duration};
   if (times.back() > static_cast<double>(kMaxSteps) * scene.method.step)
-    throw InputError("--times", "expected at most 1e9 steps of the scene, got more");
+    throw InputError("--times", "expected at most 1e9 steps of the scene, got " +
+                                    Json(times.back() / scene.method.step).dump());
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
   const std::optional<Reference> reference = with_source_named(input, [&] {
@@ -209,7 +227,7 @@ Outcome bench_command(Arguments arguments) {
   arguments.flag("--json");  // its only form
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
-  throw InputError(cut(kind), "expected run or reference");
+  throw InputError("bench", "expected run or reference after it, got " + abbreviated(Json(kind)));
 }
 
 }  // namespace pleat

@@ -20,6 +20,7 @@ constexpr const char* kHelp =
   --out DIR              write frames and metrics.json into this folder, which holds none yet
   --overwrite            remove those of an earlier run from it first
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
+                         into this folder; replaces earlier ones
   --drift                account for the energy: what no force explains is the method's own
   --steps N | --duration S    the latter rounded to whole steps
 pleat sweep SCENE.json   compute it with many settings: milliseconds against error
@@ -29,22 +30,26 @@ pleat sweep SCENE.json   compute it with many settings: milliseconds against err
   --repeat N             timed runs of each setting (default 5)
   --cache DIR            keep references here
   --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
-  --duration S           compare over this time
-  --out FILE             write the rows as JSON lines
+  --steps N | --duration S    compare over this time
+  --out FILE             write the rows as JSON lines; replaces an earlier file
 pleat bench run SCENE.json        what one run costs, with positions to compare
-  --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions
+  --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
+  --parts                what the parts of a step cost
 pleat bench reference SCENE.json  positions that are taken for right
-  --times T1,T2;  --kind run|rigid_chain;  --cache DIR
+  --times T1,T2 (default: the scene's end, or that of --steps N | --duration S)
+  --kind run|rigid_chain;  --cache DIR
 pleat help | --version
 
 Changes to the scene, for every command:
-  --level N  --fabric NAME  --stepper NAME  --step S  --substeps N  --iterations N
-  --solver NAME  --tolerance X
+  --fabric NAME  --step S  --solver NAME  --tolerance X
   --fabrics FILE         read the fabrics from here
+and for every command but sweep, which has --levels and --steppers:
+  --level N  --stepper NAME  --substeps N  --iterations N
 --json prints for machines.
---stepper leaves out settings of the scene's method that the new one cannot take, and --fabric all
-of its own numbers. Exit status: 0 done, 1 ran but a check failed, 2 bad input, 3 a fault of the
-program.
+With another --stepper than the scene's, explicit takes as many substeps as it needs and the others
+one in place of that; projective takes a direct solver in place of cg. --fabric leaves out all of
+the scene's own numbers. Exit status: 0 done, 1 ran but a check failed or the output was lost, 2 bad
+input, 3 a fault of the program.
 )";
 
 Outcome dispatch(const std::string& command, Arguments arguments) {
@@ -52,10 +57,12 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "sweep") return sweep_command(std::move(arguments));
   if (command == "bench") return bench_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
+    arguments.finish();
     std::fputs(kHelp, stdout);
     return Outcome::ok;
   }
   if (command == "--version") {
+    arguments.finish();
     std::printf("pleat %s\n", core_version());
     return Outcome::ok;
   }
@@ -67,7 +74,12 @@ int run(const std::vector<std::string>& words) {
   std::vector<std::string> rest(words.empty() ? words.end() : words.begin() + 1, words.end());
   for (const std::string& word : rest)
     if (word == "--help" || word == "-h") return run({"help"});
-  return dispatch(command, Arguments(std::move(rest))) == Outcome::ok ? 0 : kExitCheckFailed;
+  const Outcome outcome = dispatch(command, Arguments(std::move(rest)));
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fputs("pleat: the output could not be written whole\n", stderr);
+    return kExitCheckFailed;
+  }
+  return outcome == Outcome::ok ? 0 : kExitCheckFailed;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/measure/stage_timer.h"
+#include "core/scene/simulation.h"
 
 namespace pleat {
 
@@ -24,5 +25,9 @@ class Progress {
   double next_;  // when to speak again [s]
   bool line_is_open_ = false;
 };
+
+/// Says on stderr in which step the numbers ended a run, why, and what comes of it.
+void print_early_end(const Simulation& simulation, const SolveReport& report,
+                     const char* consequence);
 
 }  // namespace pleat

@@ -49,7 +49,10 @@ struct Output {
   /// Files of an earlier run.
   std::vector<std::filesystem::path> old_files() const {
     std::vector<std::filesystem::path> files = frame_files(folder);
-    if (std::filesystem::exists(metrics)) files.push_back(metrics);
+    std::error_code error;
+    if (std::filesystem::exists(metrics, error)) files.push_back(metrics);
+    if (error)
+      throw FileError(metrics, "expected a place that can be read, got \"" + error.message() + '"');
     return files;
   }
 
@@ -241,8 +244,7 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   if (out) write_file(out->metrics, format_json(metrics));
   if (dump) write_stiffness(simulation, dump->stiffness_end);
   if (!summary.report.ends_run()) return Outcome::ok;
-  std::fprintf(stderr, "pleat: stopped in step %lld: %s; the last finite frame is kept\n",
-               static_cast<long long>(simulation.n_steps() + 1), summary.report.message.c_str());
+  print_early_end(simulation, summary.report, frames ? "; the last finite frame is kept" : "");
   return Outcome::check_failed;
 }
 
@@ -254,6 +256,8 @@ Outcome run_command(Arguments arguments) {
   options.wants_drift = arguments.flag("--drift");
   options.overwrite = arguments.flag("--overwrite");
   if (const auto folder = arguments.text("--out")) options.out = Output{*folder};
+  if (options.overwrite && !options.out)
+    throw InputError("--overwrite", "expected --out beside it, got none");
   if (const auto folder = arguments.text("--dump")) options.dump = Dump{*folder};
   const SceneInput input = take_scene(arguments);
   arguments.finish();

@@ -1,10 +1,11 @@
 #include "cli/scene_input.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/scene/cloth_section.h"
-#include "core/scene/json_text.h"
+#include "core/scene/json_reader.h"
 
 namespace pleat {
 namespace {
@@ -52,11 +53,26 @@ void clear_fabric(Json& scene) {
     scene["fabric"]["bending"] = old["bending"];
 }
 
+/// The duration of so many steps of the scene [s], which is no more than they are.
+double duration_of(int n_steps, const Json& scene) {
+  const Json::json_pointer pointer("/method/step_s");
+  const Json given = scene.is_object() && scene.contains(pointer) ? scene[pointer] : Json();
+  const double step = given.is_number() ? given.get<double>() : MethodOptions{}.step;
+  const double duration = n_steps * step;
+  return duration / step > n_steps ? std::nextafter(duration, 0) : duration;
+}
+
+bool is_duration(const Json& value) {
+  return value.is_number() && value.get<double>() > 0 && value.get<double>() <= kLargestNumber;
+}
+
 /// Takes out of the method what another stepper cannot take.
 void clear_method(Json& scene, const std::string& stepper) {
   if (!scene.is_object()) return;
   Json& method = scene.emplace("method", Json::object()).first.value();
-  if (!method.is_object() || method.value("stepper", Json("implicit")) == stepper) return;
+  if (!method.is_object() ||
+      method.value("stepper", Json(name(MethodOptions{}.stepper))) == stepper)
+    return;
   if (stepper == "explicit") {
     method["substeps"] = "stable";
   } else if (method.contains("substeps") && method["substeps"].is_string()) {
@@ -78,6 +94,9 @@ void SceneInput::throw_with_source(const InputError& error) const {
     const bool sets_it = where == entry.pointer || where + "/name" == entry.pointer;
     if (sets_it && is_set_by(entry.option)) throw InputError(entry.option, error.what());
   }
+  if (where == "/duration_s" && is_set_by("--steps")) throw InputError("--steps", error.what());
+  if (where == "/duration_s" && is_set_by("--step") && has_duration)  // which is too many steps
+    throw InputError("--step", error.what());
   throw InputError(where.empty() ? file : file + ": " + where, error.what());
 }
 
@@ -112,20 +131,28 @@ SceneInput take_scene(Arguments& arguments) {
   const auto n_steps = arguments.whole_number("--steps", 1, kMaxSteps);
   if (n_steps && input.is_set_by("--duration"))
     throw InputError("--steps", "expected either this or --duration, got both");
+  if (n_steps) input.options.emplace_back("--steps");
   input.file = arguments.word("a scene file");
-  const std::string text = read_file(input.file);
-  with_source_named(input, [&] {
-    Json json = parse_json(text);
+  try {
+    Json json = parse_json(read_file(input.file));
     for (const auto& [entry, value] : overrides) {
       const std::string_view option = entry.option;
       if (option == "--fabric") clear_fabric(json);
       if (option == "--stepper") clear_method(json, value);
       replace(json, entry.pointer, option_value(value));
     }
+    if (n_steps) replace(json, "/duration_s", duration_of(*n_steps, json));
+    if (json.is_object() && json.contains("duration_s"))
+      input.has_duration = is_duration(json["duration_s"]);
     // An option may hold bytes that are no text.
     input.scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics);
-  });
-  if (n_steps) input.scene.duration = *n_steps * input.scene.method.step;
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    input.throw_with_source(error);
+  } catch (const std::bad_alloc&) {
+    throw InputError(input.file, "not enough memory to read it");
+  }
   return input;
 }
 

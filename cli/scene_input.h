@@ -22,6 +22,7 @@ struct SceneInput {
   Scene scene;
   std::string file;
   std::vector<std::string_view> options;  ///< that changed the scene
+  bool has_duration = true;               ///< that is one, whatever the step
 
   bool is_set_by(std::string_view option) const;
   /// Throws InputError naming the option that set the value at fault, else the file with the JSON
@@ -35,9 +36,9 @@ struct SceneInput {
 /// --step, --substeps, --iterations, --solver, --tolerance, --fabric, --duration and --steps.
 ///
 /// --fabric replaces the whole fabric, but for "bending" beside a name. With another stepper than
-/// the scene's, what that cannot take (a solver without a factor for projective, substeps "stable"
-/// or not) falls back to its default. Throws InputError naming the file with the JSON pointer, or
-/// the option.
+/// the scene's, explicit gets "stable" substeps, the others one in place of "stable", and
+/// projective its default solver in place of one without a factor. Throws InputError naming the
+/// file with the JSON pointer, or the option.
 SceneInput take_scene(Arguments& arguments);
 
 /// Does `work` on the scene; bad input that it meets there is told with its source.

@@ -135,6 +135,9 @@ Outcome sweep_command(Arguments arguments) {
   SweepPlan plan;
   plan.reference = take_reference_kind(arguments);
   plan.n_repeats = arguments.whole_number("--repeat", 1, 1000).value_or(plan.n_repeats);
+  arguments.refuse("--level", "a sweep does not take this option, but --levels");
+  for (const char* option : {"--stepper", "--substeps", "--iterations"})
+    arguments.refuse(option, "a sweep does not take this option, but --steppers");
   SceneInput input = take_scene(arguments);
   arguments.finish();
   plan.scene = input.scene;

@@ -15,29 +15,12 @@
 #include "core/scene/frame_file.h"
 #include "core/scene/json_text.h"
 #include "core/scene/matrix_file.h"
+#include "native-tests/support/scratch_folder.h"
 
 using namespace pleat;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of the test's own, gone with it. Its name has a space, as folders of users have.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / "pleat test XXXXXX") {
-    std::string name = path_.string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -62,12 +45,13 @@ struct Ending {
   std::string error;
 };
 
-/// Runs the command with these words, `before` it in the same shell.
-Ending pleat_command(const Folder& folder, const std::vector<std::string>& words,
-                     const std::string& before = "") {
+/// Runs the command with these words, `before` it and `after` it in the same shell.
+Ending pleat_command(const ScratchFolder& folder, const std::vector<std::string>& words,
+                     const std::string& before = "", const std::string& after = "") {
   std::string line = before + "'" PLEAT_COMMAND "'";
   for (const std::string& word : words) line += " '" + word + "'";
-  line += " >'" + (folder / "stdout").string() + "' 2>'" + (folder / "stderr").string() + "'";
+  line +=
+      " >'" + (folder / "stdout").string() + "' 2>'" + (folder / "stderr").string() + "'" + after;
   const int status = std::system(line.c_str());
   return {WEXITSTATUS(status), text_of(folder / "stdout"), text_of(folder / "stderr")};
 }
@@ -105,7 +89,7 @@ std::string scene_with(const std::string& from, const std::string& to) {
 
 /// A folder with a scene in it.
 struct SmallScene {
-  Folder folder;
+  ScratchFolder folder;
   std::string file = (folder / "scene.json").string();
   explicit SmallScene(const std::string& text = kScene) { write(file, text); }
 
@@ -248,7 +232,19 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--steppers", "magic"}, "--steppers: "},
       {{"sweep", "--reference", "none"}, "--reference: "},
       {{"sweep", "--repeat", "0"}, "--repeat: "},
-      {{"bench"}, "scene.json: "},
+      {{"bench"}, "pleat: bench: expected run or reference after it, got "},
+      {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
+      {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},
+      {{"run", "-x"}, "pleat: -x: unknown option"},
+      {{"run", "--out", "-x"}, "pleat: --out: expected a value after it, got "},
+      {{"run", "--step", "1e-12"}, "pleat: --step: expected at most 1e9 steps "},
+      {{"run", "--step", "1e-12", "--duration", "1"}, "pleat: --duration: "},
+      {{"sweep", "--steps", "1000000000"}, "pleat: --steps: expected at most 1e9 steps "},
+      {{"sweep", "--level", "1", "--levels", "0"}, "pleat: --level: a sweep does not take "},
+      {{"sweep", "--stepper", "xpbd"},
+       "--stepper: a sweep does not take this option, but --steppers"},
+      {{"sweep", "--substeps", "7"}, "pleat: --substeps: a sweep does not take "},
+      {{"sweep", "--iterations", "7"}, "pleat: --iterations: a sweep does not take "},
   };
   for (const Bad& bad : cases) {
     const SmallScene scene;
@@ -278,7 +274,7 @@ TEST_CASE("command: a bad scene is told with its file and place, and nothing is 
       {scene_with("\"pins\"", "\"pinz\""), "/pinz"},
   };
   for (const Bad& bad : cases) {
-    const Folder folder;
+    const ScratchFolder folder;
     write(folder / "bad scene.json", bad.text);
     const Ending ending = pleat_command(
         folder, {"run", (folder / "bad scene.json").string(), "--out", (folder / "o").string()});
@@ -294,7 +290,7 @@ TEST_CASE("command: a bad scene is told with its file and place, and nothing is 
 
 TEST_CASE("command: a run that diverges stops, says where, and keeps the last finite frame",
           "[cli]") {
-  const Folder folder;
+  const ScratchFolder folder;
   write(folder / "wild.json", kWildScene);
   const Ending ending = pleat_command(
       folder, {"run", (folder / "wild.json").string(), "--out", (folder / "out").string()});
@@ -310,7 +306,7 @@ TEST_CASE("command: a run that diverges stops, says where, and keeps the last fi
 }
 
 TEST_CASE("command: help and version succeed, no word and unknown words do not hang", "[cli]") {
-  const Folder folder;
+  const ScratchFolder folder;
   CHECK(pleat_command(folder, {"help"}).status == 0);
   CHECK(pleat_command(folder, {"run", "--help"}).out == pleat_command(folder, {"--help"}).out);
   CHECK(pleat_command(folder, {"--version"}).out.rfind("pleat core-", 0) == 0);
@@ -347,14 +343,14 @@ TEST_CASE("command: bad input leaves folders that exist as they were", "[cli]") 
     for (const char* file : {"out/frames.bin", "out/metrics.json", "out/frame_000007.obj",
                              "dump/mass.mtx", "dump/stiffness_begin.mtx"})
       write(scene.folder / file, file);
-    const auto before = contents(scene.folder / "");
+    const auto before = contents(scene.folder.path());
     std::vector<std::string> words{"run", "--out", (scene.folder / "out").string(), "--dump",
                                    (scene.folder / "dump").string()};
     words.insert(words.end(), bad.words.begin(), bad.words.end());
     const Ending ending = scene.run(words);
     CAPTURE(bad.text, bad.words, ending.error);
     CHECK(ending.status == 2);
-    auto after = contents(scene.folder / "");
+    auto after = contents(scene.folder.path());
     for (const char* file : {"stdout", "stderr"}) after.erase((scene.folder / file).string());
     CHECK(after == before);
   }
@@ -460,11 +456,12 @@ TEST_CASE("command: metrics.json ends with one end of line", "[cli]") {
 }
 
 TEST_CASE("command: a bench that the numbers end says so, with the frames that ran", "[cli]") {
-  const Folder folder;
+  const ScratchFolder folder;
   write(folder / "wild.json", kWildScene);
   const std::string file = (folder / "wild.json").string();
   const Ending run = pleat_command(folder, {"bench", "run", file, "--frames", "60"});
   CHECK(run.status == 1);
+  CHECK(run.error.rfind("pleat: stopped in step ", 0) == 0);
   const Json json = parse_json(run.out);
   CHECK(json.at("status") == "not_finite");
   CHECK(json.at("rms_stretch").size() < 59);
@@ -477,7 +474,7 @@ TEST_CASE("command: a bench that the numbers end says so, with the frames that r
 
 // A spring so stiff that the masses at its ends are lost in rounding: no direct solver takes it.
 TEST_CASE("command: a sweep without a reference says so, and exit status 1", "[cli]") {
-  const Folder folder;
+  const ScratchFolder folder;
   write(folder / "stiff.json", R"({
     "cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1e-12, 1e-12],
               "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1e12}]}},
@@ -501,5 +498,91 @@ TEST_CASE("command: too little memory is told with the number of vertices", "[cl
   CHECK(ending.status == 2);
   CHECK(ending.error.find("scene.json: not enough memory for 1000000 vertices") !=
         std::string::npos);
+  write(scene.file, "[" + std::string(150'000'000, ' '));
+  const Ending text = pleat_command(scene.folder, {"run", scene.file}, "ulimit -v 200000; ");
+  CAPTURE(text.error);
+  CHECK(text.status == 2);
+  CHECK(text.error.find("scene.json: not enough memory to read it") != std::string::npos);
 }
 #endif
+
+TEST_CASE("command: a bench refuses what it would not use", "[cli]") {
+  const SmallScene scene;
+  struct Bad {
+    std::string kind;
+    std::vector<std::string> words;
+    std::string sentence;
+  };
+  const std::vector<Bad> cases = {
+      {"run", {"--steps", "5"}, "--steps: bench run does not take this option, but --frames"},
+      {"run", {"--duration", "1"}, "--duration: bench run does not take this option, but --frames"},
+      {"run",
+       {"--frames", "3", "--times", "5"},
+       "--times: expected times within the 3 frames of 1/60 s that --frames says, got 5.0 s"},
+      {"run", {"--times", "0.5,0.25"}, "--times: expected ascending times, got 0.25 after 0.5"},
+      {"reference", {"--times", "1", "--steps", "5"}, "--steps: expected either this or --times"},
+      {"reference", {"--times", "1e9"}, "--times: expected at most 1e9 steps of the scene, got 5"},
+      {"reference", {"--kind", "rigid_chain", "--step", "0.1"}, "--step: the rigid chain has no"},
+  };
+  for (const Bad& bad : cases) {
+    std::vector<std::string> words{"bench", bad.kind, scene.file};
+    words.insert(words.end(), bad.words.begin(), bad.words.end());
+    const Ending ending = pleat_command(scene.folder, words);
+    CAPTURE(ending.error);
+    CHECK(ending.status == 2);
+    CHECK(ending.error.rfind("pleat: " + bad.sentence, 0) == 0);
+  }
+}
+
+TEST_CASE("command: --steps counts whatever the step is", "[cli]") {
+  const SmallScene scene(scene_with("\"duration_s\": 0.2", "\"duration_s\": 1000"));
+  const Ending ending = scene.run({"run", "--json", "--step", "1e-9", "--steps", "10"});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  CHECK(parse_json(ending.out).at("n_steps") == 10);
+  const SmallScene bad(scene_with("\"duration_s\": 0.2", "\"duration_s\": -1"));
+  CHECK(bad.run({"run", "--step", "0.01"}).error.find("scene.json: /duration_s: ") !=
+        std::string::npos);
+  CHECK(bad.run({"run", "--steps", "1"}).status == 0);
+}
+
+TEST_CASE("command: help and version take no words", "[cli]") {
+  const ScratchFolder folder;
+  CHECK(pleat_command(folder, {"help", "foo"}).status == 2);
+  CHECK(pleat_command(folder, {"--version", "x"}).status == 2);
+}
+
+TEST_CASE("command: an output that is lost is told, and exit status 1", "[cli]") {
+  const SmallScene scene;
+  for (const char* command : {"run", "sweep"}) {
+    std::vector<std::string> words{command, scene.file, "--json"};
+    if (command == std::string("sweep")) words.insert(words.end(), {"--repeat", "1"});
+    const Ending ending = pleat_command(scene.folder, words, "", " >/dev/full");
+    CHECK(ending.status == 1);
+    CHECK(ending.error == "pleat: the output could not be written whole\n");
+  }
+}
+
+TEST_CASE("command: an output folder that cannot be made leaves none above it", "[cli]") {
+  const SmallScene scene;
+  fs::create_symlink("loop", scene.folder / "loop");
+  const std::string name(300, 'x');
+  for (const fs::path& bad : {scene.folder / "new" / name, scene.folder / "loop"}) {
+    CHECK(scene.run({"run", "--out", bad.string()}).status == 2);
+    CHECK(scene.run({"run", "--dump", bad.string()}).status == 2);
+  }
+  CHECK_FALSE(fs::exists(scene.folder / "new"));
+}
+
+TEST_CASE("command: a sweep writes its rows through a link", "[cli]") {
+  const SmallScene scene;
+  write(scene.folder / "rows", "old");
+  fs::create_symlink("rows", scene.folder / "link");
+  REQUIRE(scene
+              .run({"sweep", "--json", "--steppers", "xpbd", "--repeat", "1", "--out",
+                    (scene.folder / "link").string()})
+              .status == 0);
+  CHECK(fs::is_symlink(scene.folder / "link"));
+  CHECK(text_of(scene.folder / "rows") == text_of(scene.folder / "stdout"));
+  CHECK(scene.run({"sweep", "--out", "/dev/stdout"}).status == 2);
+}
