@@ -178,6 +178,53 @@ Resultants carried_means(const Resultants& old, const QuadMesh& mesh) {
   return fresh;
 }
 
+bool join_the_same(const std::vector<Spring>& springs, const std::vector<Spring>& others) {
+  return std::equal(springs.begin(), springs.end(), others.begin(), others.end(),
+                    [](const Spring& p, const Spring& q) { return p.a == q.a && p.b == q.b; });
+}
+
+/// Without shear springs nothing answers a shear: the least strain then is the one to take.
+Mat3 strain_per_resultant(const MovingSheet& sheet) {
+  return membrane_stiffness(sheet).completeOrthogonalDecomposition().pseudoInverse();
+}
+
+/// How far each new spring is stretched to begin with [m], on the same mesh: by its own tension,
+/// compression included. Where it is softer per mass, so that it would be stretched further, at
+/// most by the largest resultant both ways.
+std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fresh) {
+  const double mass_ratio = fresh.model.masses.sum() / old.model.masses.sum();
+  const double largest = mass_ratio * largest_resultant(old, old.mesh.vertex_areas().sum());
+  const Membrane largest_strain = strain_per_resultant(fresh) * Membrane(largest, largest, 0);
+  std::vector<double> stretches;
+  for (std::size_t s = 0; s < fresh.model.springs.size(); ++s) {
+    const Spring& from = old.model.springs[s];
+    const Spring& to = fresh.model.springs[s];
+    const double length =
+        (old.state.positions.col(from.a) - old.state.positions.col(from.b)).norm();
+    const double softness = mass_ratio * from.stiffness / to.stiffness;
+    const double stretch = softness * (length - from.rest_length);
+    const double limit =
+        to.rest_length * std::abs(projection(to, fresh.model.rest_coordinates).dot(largest_strain));
+    stretches.push_back(softness <= 1 ? stretch : std::clamp(stretch, -limit, limit));
+  }
+  return stretches;
+}
+
+/// The same on another mesh: by the tensile resultants at both ends.
+std::vector<double> smoothed_stretches(const MovingSheet& old, const MovingSheet& fresh) {
+  const double mass_ratio = fresh.model.masses.sum() / old.model.masses.sum();
+  const Resultants resultants = carried_means(vertex_resultants(old), fresh.mesh);
+  const Mat3 strains = strain_per_resultant(fresh);
+  std::vector<double> stretches;
+  for (const Spring& spring : fresh.model.springs) {
+    const Membrane mean = 0.5 * (resultants.col(spring.a) + resultants.col(spring.b));
+    const double strain =
+        mass_ratio * projection(spring, fresh.model.rest_coordinates).dot(strains * mean);
+    stretches.push_back(strain * spring.rest_length);
+  }
+  return stretches;
+}
+
 }  // namespace
 
 State carried_state(const MovingSheet& old, const QuadMesh& mesh) {
@@ -186,20 +233,14 @@ State carried_state(const MovingSheet& old, const QuadMesh& mesh) {
 }
 
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh) {
-  const Resultants resultants = carried_means(vertex_resultants(old), fresh.mesh);
-  const double mass_ratio = fresh.model.masses.sum() / old.model.masses.sum();
-  // Without shear springs nothing answers a shear: the least strain then is the one to take.
-  const Mat3 strain_per_resultant =
-      membrane_stiffness(fresh).completeOrthogonalDecomposition().pseudoInverse();
-  std::vector<double> rest_lengths;
-  for (const Spring& spring : fresh.model.springs) {
-    const Membrane mean = 0.5 * (resultants.col(spring.a) + resultants.col(spring.b));
-    const double strain =
-        mass_ratio *
-        projection(spring, fresh.model.rest_coordinates).dot(strain_per_resultant * mean);
+  std::vector<double> rest_lengths = join_the_same(old.model.springs, fresh.model.springs)
+                                         ? same_stretches(old, fresh)
+                                         : smoothed_stretches(old, fresh);
+  for (std::size_t s = 0; s < rest_lengths.size(); ++s) {
+    const Spring& spring = fresh.model.springs[s];
     const double length =
         (fresh.state.positions.col(spring.a) - fresh.state.positions.col(spring.b)).norm();
-    rest_lengths.push_back(std::max(0.0, length - strain * spring.rest_length));
+    rest_lengths[s] = std::max(0.0, length - rest_lengths[s]);
   }
   return rest_lengths;
 }

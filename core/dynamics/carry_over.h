@@ -22,10 +22,11 @@ struct MovingSheet {
 State carried_state(const MovingSheet& old, const QuadMesh& mesh);
 
 /// Rest lengths [m], one per spring of `fresh`, with which the new cloth starts on the
-/// accelerations that the old one had: tension per width and mass goes on as it was, whatever the
-/// new mesh and fabric. Compression does not, nor stretch beyond what the sheet's weight and swing
-/// can ask for. Relax them to the model's own slowly, and the change of mesh or fabric does not
-/// shake the cloth. Both models have rest coordinates.
+/// accelerations that the old one had. On the same mesh every spring goes on pulling as it did per
+/// mass; on another one tension per width does, compression does not. In softer cloth, stretch
+/// beyond what the sheet's weight and swing can ask for does not go on either. Relax them
+/// to the model's own slowly, and the change of mesh or fabric does not shake the cloth. Both
+/// models have rest coordinates.
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh);
 
 /// Forces on the vertices of `old` [N], one column each, or none at all, as forces on those of

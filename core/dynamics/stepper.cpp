@@ -117,7 +117,7 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
   return make_linear_solver(options.solver, block_size, {options.tolerance, max_iterations});
 }
 
-void Stepper::set_external_forces(const State& state, double h, Positions& forces) {
+void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces) {
   const StageScope scope(observer_, Stage::forces);
   forces.setZero();
   add_gravity(model_, forces);

@@ -63,9 +63,10 @@ class Stepper {
   /// For steppers that keep rest lengths in a layout of their own.
   virtual void refresh_rest_lengths() {}
 
-  /// By which solids held the vertices in the last substep [N]; zero for steppers that do not
-  /// remember them.
+  /// By which solids held the vertices in the last substep [N]; without columns for steppers that
+  /// do not remember them and for models without contact.
   const Positions& contact_forces() const { return contact_forces_; }
+  /// The same for the substep before the first. Of no effect where none are remembered.
   void start_from_contact_forces(const Eigen::Ref<const Positions>& forces);
 
   void observe(StageObserver* observer) { observer_ = observer; }
@@ -94,7 +95,7 @@ class Stepper {
   void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h);
   /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
   /// [s] (0: explicit), remembered contact [N].
-  void set_external_forces(const State& state, double h, Positions& forces);
+  void set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces);
 
   /// The solver that the options name; max_iterations is for cg. Throws InputError when this build
   /// has none.

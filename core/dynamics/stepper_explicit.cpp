@@ -13,20 +13,29 @@ namespace {
 
 constexpr double kStepShare = 0.9;  // of the bound, used when the substeps are ours to choose
 
+[[noreturn]] void refuse(const char* format, double bound, double found, double enough) {
+  char sentence[200];
+  std::snprintf(sentence, sizeof sentence, format, bound, found, enough);
+  throw InputError("/method/substeps", sentence);
+}
+
 /// Substeps of a step: as asked, or as many as the bound needs.
 int explicit_substeps(const ClothModel& model, const MethodOptions& options) {
   const double bound = StepperExplicit::largest_stable_step(model);
   const double enough = std::max(1.0, std::ceil(options.step / (kStepShare * bound)));
-  const bool is_ours = options.substeps == 0;
-  if (is_ours ? enough <= kMaxSubsteps : options.step / options.substeps <= bound)
-    return is_ours ? static_cast<int>(enough) : options.substeps;
-  char sentence[200];
-  std::snprintf(sentence, sizeof sentence,
-                "expected explicit substeps of at most %.3g s, the stability bound of this cloth, "
-                "got %.3g s (%.7g substeps would do, %d are the most)",
-                bound, options.step / (is_ours ? kMaxSubsteps : options.substeps), enough,
-                kMaxSubsteps);
-  throw InputError("/method/substeps", sentence);
+  if (options.substeps > 0) {
+    const double h = options.step / options.substeps;
+    if (h <= bound) return options.substeps;
+    refuse(
+        "expected explicit substeps of at most %.3g s, the stability bound of this cloth, got %.3g "
+        "s (%.7g substeps would do)",
+        bound, h, enough);
+  }
+  if (enough <= kMaxSubsteps) return static_cast<int>(enough);
+  refuse(
+      "expected cloth that is stable in explicit substeps of %.3g s, got one that needs %.3g s "
+      "(%.7g substeps)",
+      options.step / kMaxSubsteps, bound, enough);
 }
 
 }  // namespace

@@ -20,10 +20,11 @@ void LinearSolver::analyze(const SparseMatrix& lower) {
     PLEAT_CHECK(entry && entry.row() == column,
                 "each column of the lower triangle must start with its diagonal entry");
   }
+  n_ = -1;
+  if (lower.rows() > 0) do_analyze(lower);
   n_ = lower.rows();
   n_entries_ = lower.nonZeros();
   factorized_ = false;
-  if (n_ > 0) do_analyze(lower);
 }
 
 SolveReport LinearSolver::factorize(const SparseMatrix& lower) {

@@ -9,7 +9,7 @@ enum class SolveStatus {
   ok,
   not_converged,          ///< the iteration cap was reached; the result is the best one so far
   not_positive_definite,  ///< the factorisation met a pivot that is not positive
-  not_finite,             ///< NaN or infinity appeared; the message names the first bad entry
+  not_finite,  ///< NaN, infinity or a number beyond all bounds; the message names the first one
 };
 
 const char* name(SolveStatus status);

@@ -72,7 +72,8 @@ std::string method_phrase(const BenchRow& row) {
   std::string text = name(method.stepper);
   if (method.stepper == StepperKind::implicit_euler || method.stepper == StepperKind::projective)
     text += std::string(" ") + name(method.solver);
-  text += ", " + step_phrase(method.step) + " x " + std::to_string(row.n_substeps);
+  text += ", " + step_phrase(method.step);
+  if (row.n_substeps > 0) text += " x " + std::to_string(row.n_substeps);
   if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
   return text;
 }
@@ -149,7 +150,15 @@ std::string markdown_table(std::span<const BenchRow> rows) {
       table += " | " + short_number(value);
     table += " | " + row.status + " |\n";
   }
-  return table;
+  std::string remarks;
+  for (const BenchRow& row : rows) {
+    const std::string which = method_phrase(row) + ", level " + std::to_string(row.level) + ": ";
+    if (!row.message.empty()) remarks += which + row.status + ", " + row.message + "\n";
+    if (row.n_unresolved_contacts > 0)
+      remarks += which + std::to_string(row.n_unresolved_contacts) +
+                 " times solids left a vertex no place outside of them\n";
+  }
+  return remarks.empty() ? table : table + "\n" + remarks;
 }
 
 }  // namespace pleat

@@ -62,7 +62,7 @@ BenchRow read_bench_row(std::string_view json_text);
 /// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
 
-/// Rows as a Markdown table, those on the front marked.
+/// Rows as a Markdown table, those on the front marked; below it, what a row's status means.
 std::string markdown_table(std::span<const BenchRow> rows);
 
 }  // namespace pleat

@@ -92,6 +92,8 @@ std::vector<double> sweep_sample_times(double duration) {
 
 Scene finest_scene(const SweepPlan& plan) {
   constexpr double kShareOfSmallest = 0.25;
+  // Of first order: with a longer step it would be further off than small substeps that it judges.
+  constexpr double kLargestStep = 1.0 / 960;  // [s]
   double smallest = std::numeric_limits<double>::infinity();
   for (const MethodOptions& method : plan.methods)
     if (solves_whole_substeps(method)) smallest = std::min(smallest, method.step / method.substeps);
@@ -102,7 +104,7 @@ Scene finest_scene(const SweepPlan& plan) {
   scene.level = *std::max_element(plan.levels.begin(), plan.levels.end());
   scene.method = MethodOptions{};
   scene.method.stepper = StepperKind::implicit_euler;
-  scene.method.step = kShareOfSmallest * smallest;
+  scene.method.step = std::min(kLargestStep, kShareOfSmallest * smallest);
   scene.method.solver = best_direct_solver();
   return scene;
 }

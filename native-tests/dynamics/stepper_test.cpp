@@ -106,6 +106,8 @@ TEST_CASE("steppers: a sheet that hangs at rest stays so in any order of its spr
     const double sag = options.stepper == StepperKind::projective ? 5e-5 : 1e-7;  // [m]
     CHECK((end.positions - hanging.positions).cwiseAbs().maxCoeff() < sag);
     CHECK(end.velocities.cwiseAbs().maxCoeff() < 1e-7);
+    const State later = advanced(model, options, end, n_steps);
+    CHECK((later.positions - end.positions).cwiseAbs().maxCoeff() < 1e-7);
   }
 }
 

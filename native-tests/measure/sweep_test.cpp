@@ -102,7 +102,7 @@ TEST_CASE("sweep: the reference is not wrong against itself", "[measure]") {
   SweepPlan plan = small_plan();
   const Scene finest = finest_scene(plan);
   CHECK(finest.level == 1);
-  CHECK(finest.method.step == Approx(1.0 / 480));
+  CHECK(finest.method.step == Approx(1.0 / 960));
   MemoryReferenceStore store;
   Sweep sweep(plan, store, "test");
   while (sweep.rows().empty()) sweep.advance(0);
@@ -147,13 +147,19 @@ TEST_CASE("sweep: a method that cannot run is a row that says why", "[measure]")
   CHECK(front_of(rows) == std::vector<std::size_t>{1});
 }
 
-TEST_CASE("sweep: many small substeps do not shrink the reference's step", "[measure]") {
+TEST_CASE("sweep: the reference's step is a quarter of the smallest, many substeps aside",
+          "[measure]") {
   SweepPlan plan = small_plan();
+  for (MethodOptions& method : plan.methods) method.step = 1.0 / 300;
   plan.methods[0].stepper = StepperKind::xpbd;
   plan.methods[0].substeps = 100;
-  CHECK(finest_scene(plan).method.step == Approx(1.0 / 480));
+  CHECK(finest_scene(plan).method.step == Approx(1.0 / 1200));
+  plan.methods[1].substeps = 2;
+  CHECK(finest_scene(plan).method.step == Approx(1.0 / 2400));
   plan.methods[1] = plan.methods[0];
-  CHECK(finest_scene(plan).method.step == Approx(1.0 / 120));
+  CHECK(finest_scene(plan).method.step == Approx(1.0 / 1200));
+  for (MethodOptions& method : plan.methods) method.step = 1.0 / 60;
+  CHECK(finest_scene(plan).method.step == Approx(1.0 / 960));
 }
 
 TEST_CASE("sweep: a plan reads back to what was written", "[measure]") {

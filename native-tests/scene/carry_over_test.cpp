@@ -130,18 +130,46 @@ TEST_CASE("carry_over: stretch beyond what the sheet's weight explains is no for
   }
 }
 
-TEST_CASE("carry_over: compression does not go on", "[dynamics]") {
+TEST_CASE("carry_over: compression does not go on in another mesh", "[dynamics]") {
+  const QuadMesh coarse = refined(1);
+  const QuadMesh fine = refined(2);
+  const ClothModel model = sheet_model(coarse, library_fabric("canvas"));
+  const State state{0.7 * coarse.rest_positions(), Positions::Zero(3, coarse.n_vertices())};
+  ClothModel fresh_model = sheet_model(fine, library_fabric("silk"));
+  const MovingSheet old{coarse, model, state};
+  const State fresh_state = carried_state(old, fine);
+  const std::vector<double> lengths = carried_rest_lengths(old, {fine, fresh_model, fresh_state});
+  for (std::size_t s = 0; s < lengths.size(); ++s) fresh_model.springs[s].rest_length = lengths[s];
+  Positions forces = Positions::Zero(3, fine.n_vertices());
+  fresh_model.bends.clear();
+  add_elastic_forces(fresh_model, fresh_state.positions, forces);
+  CHECK(forces.cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("carry_over: in another fabric on the same mesh every spring pulls as it did per mass",
+          "[dynamics]") {
+  const char* fabric = GENERATE("canvas", "spandex", "leather");
+  CAPTURE(fabric);
+  Random random(3);
   const QuadMesh mesh = refined(1);
-  const ClothModel model = sheet_model(mesh, library_fabric("canvas"));
-  const State state{0.7 * mesh.rest_positions(), Positions::Zero(3, mesh.n_vertices())};
-  ClothModel fresh_model = sheet_model(mesh, library_fabric("silk"));
+  ClothModel model = sheet_model(mesh, library_fabric("fine cotton"));
+  model.gravity = {0, -9.81, 0};
+  ClothModel fresh_model = sheet_model(mesh, library_fabric(fabric));
+  // Strains that the sheet's weight explains, of both signs.
+  const State state{shaken(mesh.rest_positions(), 2e-6, random),
+                    Positions::Zero(3, mesh.n_vertices())};
   const std::vector<double> lengths =
       carried_rest_lengths({mesh, model, state}, {mesh, fresh_model, state});
   for (std::size_t s = 0; s < lengths.size(); ++s) fresh_model.springs[s].rest_length = lengths[s];
-  Positions forces = Positions::Zero(3, mesh.n_vertices());
-  fresh_model.bends.clear();
-  add_elastic_forces(fresh_model, state.positions, forces);
-  CHECK(forces.cwiseAbs().maxCoeff() < 1e-9);
+  const auto accelerations = [&](ClothModel& of) {
+    of.bends.clear();
+    Positions forces = Positions::Zero(3, mesh.n_vertices());
+    add_elastic_forces(of, state.positions, forces);
+    return Positions(forces * of.masses.cwiseInverse().asDiagonal());
+  };
+  const Positions before = accelerations(model);
+  CHECK((accelerations(fresh_model) - before).cwiseAbs().maxCoeff() <
+        1e-6 * before.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("carry_over: forces accelerate the new cloth as they did the old", "[dynamics]") {
@@ -220,6 +248,56 @@ TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[
   for (std::size_t s = 0; s < own.springs.size(); ++s)
     CHECK(changed.model().springs[s].rest_length == own.springs[s].rest_length);
   CHECK(changed.model().contact->clearance(ball) == own.contact->clearance(ball));
+}
+
+TEST_CASE("carry_over: the same cloth at rest on a ball goes on resting", "[dynamics]") {
+  const auto stepper = GENERATE(StepperKind::implicit_euler, StepperKind::projective);
+  CAPTURE(name(stepper));
+  const Scene scene = moving_scene("tablecloth", stepper, 0, "silk");
+  Simulation old(scene);
+  while (old.time() < 3) old.step();
+  Simulation changed(scene);
+  changed.carry_over(old);
+  const double before = largest_speed(old);
+  for (int s = 0; s < 6; ++s) changed.step();
+  CHECK(largest_speed(changed) < 1.5 * before);
+}
+
+TEST_CASE("carry_over: drag keeps up with the weight through two changes", "[dynamics]") {
+  const auto at = [](const char* fabric) {
+    return moving_scene("curtain", StepperKind::implicit_euler, 0, fabric);
+  };
+  Simulation silk(at("silk"));
+  for (int s = 0; s < 10; ++s) silk.step();
+  Simulation canvas(at("canvas"));
+  canvas.carry_over(silk);
+  canvas.step();
+  const double canvas_over_silk = canvas.model().masses.sum() / silk.model().masses.sum();
+  CHECK(canvas.model().air->strength() == Approx(canvas_over_silk));
+  Simulation leather(at("leather"));
+  leather.carry_over(canvas);
+  leather.step();
+  CHECK(leather.model().air->strength() ==
+        Approx(leather.model().masses.sum() / silk.model().masses.sum()));
+}
+
+TEST_CASE("carry_over: a reset on the way is the scene from its beginning, to the bit",
+          "[dynamics]") {
+  Simulation old(moving_scene("tablecloth", StepperKind::implicit_euler, 1, "silk"));
+  for (int s = 0; s < 30; ++s) old.step();
+  const Scene scene = moving_scene("tablecloth", StepperKind::implicit_euler, 0, "leather");
+  Simulation changed(scene);
+  changed.carry_over(old);
+  for (int s = 0; s < 10; ++s) changed.step();
+  changed.reset();
+  Simulation fresh(scene);
+  for (int s = 0; s < 40; ++s) {
+    changed.step();
+    fresh.step();
+  }
+  CHECK(changed.time() == fresh.time());
+  CHECK(changed.state().positions == fresh.state().positions);
+  CHECK(changed.state().velocities == fresh.state().velocities);
 }
 
 }  // namespace pleat

@@ -69,6 +69,8 @@ export interface BenchRow {
   n_vertices: number;
   /** Substeps of a step, as run. */
   n_substeps: number;
+  /** How often solids left a vertex no place outside of them. */
+  n_unresolved_contacts: number;
   /** Timed runs, of which the times are the median. */
   n_runs: number;
   /** Wall time of 1/60 s of motion. */

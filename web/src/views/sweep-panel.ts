@@ -5,6 +5,9 @@ import { type Store, watch } from '../state/store';
 import { FINEST_EXPLICIT } from '../state/sweep-plan';
 import { choice, element, field, setText } from './element';
 
+/** Finest level of a sweep to begin with: some seconds to a minute. */
+const FIRST_FINEST = 1;
+
 /** Finest level of a sweep; each one more takes about ten times as long. */
 const FINEST = [
   { value: 1, title: '0 to 1, every stepper' },
@@ -17,7 +20,7 @@ export function createSweepPanel(
   store: Store<AppState>,
   sweep: Sweep,
 ): () => void {
-  let finest = FINEST_EXPLICIT;
+  let finest = FIRST_FINEST;
   const levels = choice(FINEST, (level) => {
     finest = level;
   });

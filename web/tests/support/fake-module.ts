@@ -221,6 +221,7 @@ function row(level: number, method: BenchRow['method'], reference: string): Benc
     level,
     n_vertices: (2 ** (level + 1) + 1) ** 2,
     n_substeps: 1,
+    n_unresolved_contacts: 0,
     n_runs: 5,
     ms_per_frame: 2 ** level,
     ms_per_simulated_second: 60 * 2 ** level,
