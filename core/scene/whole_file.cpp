@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace pleat {
@@ -68,24 +67,27 @@ class PartFile {
   /// Throws FileError naming `path`.
   PartFile(const fs::path& path, const fs::path& target) {
     const std::string prefix = ".pleat-" + std::to_string(getpid()) + "-";
-    for (int attempt = 0; file_ == nullptr; ++attempt) {
+    std::FILE* file = nullptr;
+    for (int attempt = 0; file == nullptr; ++attempt) {
       part_ = target.parent_path() / (prefix + std::to_string(attempt) + ".part");
-      file_ = std::fopen(part_.c_str(), "wbx");
-      if (file_ == nullptr && errno != EEXIST) throw_unwritable(path, last_error());
+      file = std::fopen(part_.c_str(), "wbx");  // fails for a file that exists
+      if (file == nullptr && errno != EEXIST) throw_unwritable(path, last_error());
     }
+    std::fclose(file);
   }
   ~PartFile() {
-    if (file_ != nullptr) std::fclose(file_);
     std::error_code error;
     if (!part_.empty()) fs::remove(part_, error);
   }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  std::error_code write(std::string_view bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) return last_error();
-    const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
-    return closed ? std::error_code() : last_error();
+  std::error_code write(std::string_view bytes) const {
+    errno = EIO;  // for a failure without a cause
+    std::ofstream file(part_, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    return file ? std::error_code() : last_error();
   }
 
   std::error_code rename_to(const fs::path& target) {
@@ -97,7 +99,6 @@ class PartFile {
 
  private:
   fs::path part_;
-  std::FILE* file_ = nullptr;
 };
 
 /// The folder and those above it that are not there, the deepest first.
