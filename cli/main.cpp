@@ -37,7 +37,7 @@ pleat bench run SCENE.json        what one run costs, with positions to compare
   --parts                what the parts of a step cost
 pleat bench reference SCENE.json  positions that are taken for right
   --times T1,T2 (default: the scene's end, or that of --steps N | --duration S)
-  --kind run|rigid_chain;  --cache DIR
+  --kind run (default), or rigid_chain, which takes no option of a method;  --cache DIR
 pleat help | --version
 
 Changes to the scene, for every command:

@@ -53,7 +53,7 @@ void clear_fabric(Json& scene) {
     scene["fabric"]["bending"] = old["bending"];
 }
 
-/// The duration of so many steps of the scene [s], which is no more than they are.
+/// The duration of so many steps of the scene [s], not rounded to more: the most steps are allowed.
 double duration_of(int n_steps, const Json& scene) {
   const Json::json_pointer pointer("/method/step_s");
   const Json given = scene.is_object() && scene.contains(pointer) ? scene[pointer] : Json();

@@ -540,6 +540,12 @@ TEST_CASE("command: --steps counts whatever the step is", "[cli]") {
   CAPTURE(ending.error);
   REQUIRE(ending.status == 0);
   CHECK(parse_json(ending.out).at("n_steps") == 10);
+  // Rounded, 1e9 times these steps is more than 1e9 steps. The many frames end the run at once.
+  for (const char* step : {"0.7", "0.009", "0.018"}) {
+    const Ending most = scene.run(
+        {"run", "--step", step, "--steps", "1000000000", "--out", (scene.folder / "out").string()});
+    CHECK(most.error.find("scene.json: /record/every_s: ") != std::string::npos);
+  }
   const SmallScene bad(scene_with("\"duration_s\": 0.2", "\"duration_s\": -1"));
   CHECK(bad.run({"run", "--step", "0.01"}).error.find("scene.json: /duration_s: ") !=
         std::string::npos);
