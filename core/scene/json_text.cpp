@@ -1,6 +1,7 @@
 #include "core/scene/json_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <set>
 #include <vector>
@@ -85,13 +86,36 @@ std::string between(const std::string& text, std::string_view begin, std::string
   return to == std::string::npos ? "" : text.substr(from, to - from);
 }
 
+/// The last word that the library read, with the rest of it when the library stopped inside. A
+/// string is one word.
+std::string last_word(std::string word, bool is_string, std::string_view text, std::size_t offset) {
+  if (!is_string && word.size() > 1)
+    word.erase(0, word.find_last_of(" :,[{>", word.size() - 2) + 1);
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  if (word.empty() || !is_letter(word.back())) return word;
+  while (offset < text.size() && is_letter(text[offset]) && word.size() <= kMaxQuotation)
+    word += text[offset++];
+  return word;
+}
+
 /// The library's message reads "[id] parse error at line 1, column 5: syntax error while parsing
-/// value - reason; last read: 'bytes that need not be text'".
-[[noreturn]] void throw_input_error(const Json::parse_error& error) {
-  const std::string message = error.what() + std::string("; last read");
-  throw InputError(
-      between(message, " at ", ": "),
-      "expected JSON, got an error " + between(message, "syntax error ", "; last read"));
+/// value - reason; last read: 'bytes that need not be text'", without the last part where the text
+/// is JSON up to a sign that does not belong there.
+[[noreturn]] void throw_input_error(const Json::parse_error& error, std::string_view text) {
+  constexpr std::string_view kLastRead = "; last read: '";
+  const std::string message = error.what();
+  const std::size_t end = message.find(kLastRead);
+  std::string got = "an error";
+  if (end != std::string::npos) {
+    const std::size_t from = end + kLastRead.size();
+    const std::size_t to = std::max(from, message.rfind('\''));
+    const bool is_string = message.find("invalid string") < end;
+    got =
+        abbreviated(Json(last_word(message.substr(from, to - from), is_string, text, error.byte)));
+  }
+  const std::string reason = message.substr(0, end) + '\n';
+  throw InputError(between(message, " at ", ": "),
+                   "expected JSON, got " + got + ' ' + between(reason, "syntax error ", "\n"));
 }
 
 /// The only message without a place quotes the number as it stands in the text.
@@ -199,7 +223,7 @@ Json parse_json(std::string_view text) {
     return Json::parse(
         text, [&](int, Json::parse_event_t event, Json& parsed) { return watch(event, parsed); });
   } catch (const Json::parse_error& error) {
-    throw_input_error(error);
+    throw_input_error(error, text);
   } catch (const Json::out_of_range& error) {
     throw_input_error(error, text);
   }

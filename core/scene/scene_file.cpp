@@ -27,7 +27,7 @@ void check_duration(double duration, double step) {
   const double n_steps = duration / step;
   if (n_steps > static_cast<double>(kMaxSteps))
     throw InputError("/duration_s", "expected at most 1e9 steps of " + Json(step).dump() +
-                                        " s, got " + Json(n_steps).dump());
+                                        " s, got " + Json(n_steps).dump() + " steps");
 }
 
 std::int64_t whole_steps(double duration, double step) {

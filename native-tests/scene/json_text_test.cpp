@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/base/check.h"
+
 using namespace pleat;
 
 TEST_CASE("json text: control characters are escaped, other text stays", "[scene]") {
@@ -19,4 +21,22 @@ TEST_CASE("json text: long texts are cut between characters", "[scene]") {
   CHECK(cut(std::string(59, 'x') + "棉棉") == std::string(59, 'x') + "...");
   CHECK(cut(std::string(100, '\x80')) == "...");  // no character begins anywhere
   CHECK(pointer_token(std::string(5000, 'k')) == std::string(60, 'k') + "...");
+}
+
+TEST_CASE("json text: what is not JSON is quoted", "[scene]") {
+  const auto complaint = [](std::string_view text) -> std::string {
+    try {
+      parse_json(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string literal = " while parsing value - invalid literal";
+  CHECK(complaint("{\"duration_s\": NaN}") == "expected JSON, got \"NaN\"" + literal);
+  CHECK(complaint("[\x01") == "expected JSON, got \"<U+0001>\"" + literal);
+  CHECK(complaint("[" + std::string(100, 'N')) ==
+        "expected JSON, got \"" + std::string(59, 'N') + "..." + literal);
+  CHECK(complaint("[\"it's").find("got \"\\\"it's\" while") != std::string::npos);
+  CHECK(complaint("[-Infinity]").find("got \"-Infinity\" while") != std::string::npos);
 }
