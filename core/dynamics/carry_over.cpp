@@ -192,8 +192,8 @@ Mat3 strain_per_resultant(const MovingSheet& sheet) {
 /// compression included. Where it is softer per mass, so that it would be stretched further, at
 /// most by the largest resultant both ways.
 std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fresh) {
-  const double mass_ratio = fresh.model.masses.sum() / old.model.masses.sum();
-  const double largest = mass_ratio * largest_resultant(old, old.mesh.vertex_areas().sum());
+  const double ratio = mass_ratio(old, fresh);
+  const double largest = ratio * largest_resultant(old, old.mesh.vertex_areas().sum());
   const Membrane largest_strain = strain_per_resultant(fresh) * Membrane(largest, largest, 0);
   std::vector<double> stretches;
   for (std::size_t s = 0; s < fresh.model.springs.size(); ++s) {
@@ -201,7 +201,8 @@ std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fr
     const Spring& to = fresh.model.springs[s];
     const double length =
         (old.state.positions.col(from.a) - old.state.positions.col(from.b)).norm();
-    const double softness = mass_ratio * from.stiffness / to.stiffness;
+    // A spring that does not pull may have any rest length.
+    const double softness = to.stiffness > 0 ? ratio * from.stiffness / to.stiffness : 0;
     const double stretch = softness * (length - from.rest_length);
     const double limit =
         to.rest_length * std::abs(projection(to, fresh.model.rest_coordinates).dot(largest_strain));
@@ -212,20 +213,24 @@ std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fr
 
 /// The same on another mesh: by the tensile resultants at both ends.
 std::vector<double> smoothed_stretches(const MovingSheet& old, const MovingSheet& fresh) {
-  const double mass_ratio = fresh.model.masses.sum() / old.model.masses.sum();
+  const double ratio = mass_ratio(old, fresh);
   const Resultants resultants = carried_means(vertex_resultants(old), fresh.mesh);
   const Mat3 strains = strain_per_resultant(fresh);
   std::vector<double> stretches;
   for (const Spring& spring : fresh.model.springs) {
     const Membrane mean = 0.5 * (resultants.col(spring.a) + resultants.col(spring.b));
     const double strain =
-        mass_ratio * projection(spring, fresh.model.rest_coordinates).dot(strains * mean);
+        ratio * projection(spring, fresh.model.rest_coordinates).dot(strains * mean);
     stretches.push_back(strain * spring.rest_length);
   }
   return stretches;
 }
 
 }  // namespace
+
+double mass_ratio(const MovingSheet& old, const MovingSheet& fresh) {
+  return fresh.model.masses.sum() / old.model.masses.sum();
+}
 
 State carried_state(const MovingSheet& old, const QuadMesh& mesh) {
   return {carried_smoothly(old.state.positions, mesh),

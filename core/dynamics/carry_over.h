@@ -14,6 +14,9 @@ struct MovingSheet {
   const State& state;
 };
 
+/// Of the new cloth's mass to the old one's.
+double mass_ratio(const MovingSheet& old, const MovingSheet& fresh);
+
 /// The state of `old` on another refinement of the same base mesh. Vertices that both share keep
 /// position and velocity to the bit; others are interpolated along the mesh lines, exactly where
 /// the cloth is a surface of second degree.

@@ -18,7 +18,7 @@ double between(double own, double carried, double share) { return own + share * 
 Transition::Transition(const MovingSheet& old, const MovingSheet& fresh)
     : own_springs_(fresh.model.springs),
       rest_lengths_(carried_rest_lengths(old, fresh)),
-      drag_strength_(fresh.model.masses.sum() / old.model.masses.sum()) {
+      drag_strength_(mass_ratio(old, fresh)) {
   if (old.model.air) drag_strength_ *= old.model.air->strength();
   if (fresh.model.contact) own_contact_ = fresh.model.contact->options();
   contact_ = old.model.contact ? old.model.contact->options() : own_contact_;

@@ -25,9 +25,10 @@ ClothModel particle_on(const Collider& collider) {
   return model;
 }
 
-State state_at(const Vec3& position) {
-  State state{position, Positions::Zero(3, 1)};
-  return state;
+State state_at(const Vec3& position) { return {position, Positions::Zero(3, 1)}; }
+
+void advance(Stepper& stepper, State& state, int from, int to) {
+  for (int s = from; s < to; ++s) REQUIRE(stepper.advance(state, s * stepper.options().step).ok());
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ TEST_CASE("contact: a particle leaves a smooth ball where cos = 2/3, with every 
     State state = state_at({std::sin(0.1), std::cos(0.1), 0});
     double left_at = 0;
     for (int s = 0; left_at == 0 && s < 300; ++s) {
-      REQUIRE(stepper->advance(state, s * options.step).ok());
+      advance(*stepper, state, s, s + 1);
       if (state.positions.norm() > 1 + 1e-5) left_at = state.positions.col(0).normalized().y();
     }
     // From rest at cos 0.1. It hops by 1e-6 m per substep, and is a little lower when it is clear.
@@ -55,11 +56,10 @@ TEST_CASE("contact: a particle that has rested for long is lifted at once", "[co
     ClothModel model = particle_on(floor_collider(0.5));
     const auto stepper = make_stepper(model, options);
     State state = state_at({0, 0, 0});
-    int s = 0;
-    for (; s < 200; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    advance(*stepper, state, 0, 200);
     CHECK(state.positions.col(0).norm() < 1e-12);
     state.velocities.col(0) = Vec3(0, 2, 0);
-    for (; s < 210; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    advance(*stepper, state, 200, 210);
     CHECK(state.positions(1, 0) == Approx(2 * 0.1 - 9.81 * 0.01 / 2).epsilon(0.01));
   }
 }
@@ -71,7 +71,7 @@ TEST_CASE("contact: friction stops a sliding particle after v^2 / (2 mu g)", "[c
     const auto stepper = make_stepper(model, options);
     State state = state_at({0, 0, 0});
     state.velocities.col(0) = Vec3(1, 0, 0);
-    for (int s = 0; s < 100; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    advance(*stepper, state, 0, 100);
     CHECK(state.velocities.norm() < 1e-9);
     CHECK(state.positions(0, 0) == Approx(1 / (2 * 0.4 * 9.81)).epsilon(0.01));
   }
