@@ -40,6 +40,7 @@ void append_halves(const std::array<VertexId, 4>& c, bool diagonal_02,
 QuadMesh QuadMesh::sheet(const SheetShape& shape) {
   check_shape(shape);
   QuadMesh mesh;
+  mesh.warp_direction_ = shape.warp_direction;
   const int line = shape.columns + 1;
   const int n = line * (shape.rows + 1);
   mesh.rest_positions_.resize(3, n);
@@ -130,6 +131,12 @@ std::vector<Triangle> QuadMesh::triangles() const {
   for (const QuadFace& face : faces_)
     if (face.active()) append_halves(face.corners, face.diagonal_02, result);
   return result;
+}
+
+TriangleMesh QuadMesh::triangle_mesh() const {
+  TriangleMesh mesh{rest_positions_, triangles(), {}};
+  mesh.warp_directions.assign(mesh.triangles.size(), warp_direction_);
+  return mesh;
 }
 
 std::vector<Triangle> QuadMesh::crossed_triangles() const {

@@ -8,6 +8,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/vec.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace pleat {
 
@@ -44,8 +45,6 @@ struct SheetShape {
   Vec3 weft_direction{1, 0, 0};   ///< unit, perpendicular to warp_direction
 };
 
-using Triangle = std::array<VertexId, 3>;
-
 /// Most uniform refinements of a sheet; they make 65536 faces of one.
 constexpr int kMaxLevel = 8;
 
@@ -73,6 +72,9 @@ class QuadMesh {
   /// a symmetric sheet stays symmetric.
   std::vector<Triangle> triangles() const;
 
+  /// The same triangles with the thread directions; the sheet is flat.
+  TriangleMesh triangle_mesh() const;
+
   /// Four per active face, wound like it: its two triangles by either diagonal, so that the face is
   /// covered twice and every corner alike.
   std::vector<Triangle> crossed_triangles() const;
@@ -85,6 +87,7 @@ class QuadMesh {
   VertexId midpoint(VertexId a, VertexId b);
   VertexId append_mean(const VertexParents& parents);
 
+  Vec3 warp_direction_;
   Positions rest_positions_;
   RestCoordinates rest_coordinates_;
   std::vector<VertexParents> parents_;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "native-tests/scene/assets.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {

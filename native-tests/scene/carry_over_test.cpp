@@ -8,7 +8,7 @@
 #include "core/dynamics/elasticity.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulation.h"
-#include "native-tests/scene/assets.h"
+#include "native-tests/support/assets.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/check.h"
-#include "native-tests/scene/assets.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {

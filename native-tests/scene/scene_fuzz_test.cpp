@@ -3,7 +3,7 @@
 #include "core/base/check.h"
 #include "core/base/random.h"
 #include "core/scene/scene_file.h"
-#include "native-tests/scene/assets.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {

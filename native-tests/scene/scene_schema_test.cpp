@@ -4,8 +4,8 @@
 
 #include "core/base/check.h"
 #include "core/scene/scene_file.h"
-#include "native-tests/scene/assets.h"
 #include "native-tests/scene/schema_walk.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {

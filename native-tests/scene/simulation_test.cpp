@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/scene/scene_file.h"
-#include "native-tests/scene/assets.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {

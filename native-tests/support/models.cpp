@@ -1,20 +1,9 @@
 #include "native-tests/support/models.h"
 
-#include <fstream>
-#include <iterator>
-
-#include "core/scene/fabric_file.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {
-
-const FabricLibrary& library() {
-  static const FabricLibrary fabrics = [] {
-    std::ifstream file(PLEAT_SOURCE_DIR "/assets/fabrics/fabrics.json");
-    return read_fabrics(std::string(std::istreambuf_iterator<char>(file), {}));
-  }();
-  return fabrics;
-}
 
 MethodOptions method(StepperKind stepper, double step) {
   MethodOptions options;
@@ -28,13 +17,13 @@ MethodOptions method(StepperKind stepper, double step) {
 
 std::vector<FabricConstants> library_fabrics() {
   std::vector<FabricConstants> fabrics;
-  for (const Fabric& fabric : library().fabrics)
+  for (const Fabric& fabric : fabric_library().fabrics)
     fabrics.push_back(constants(fabric, BendSource::moving));
   return fabrics;
 }
 
 FabricConstants library_fabric(const std::string& name) {
-  return constants(library().find(name), BendSource::moving);
+  return constants(fabric_library().find(name), BendSource::moving);
 }
 
 FabricConstants soft_fabric() {

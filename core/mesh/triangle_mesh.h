@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/base/vec.h"
+
+namespace pleat {
+
+using Triangle = std::array<VertexId, 3>;
+
+/// Any triangle mesh at rest. The lengths of its edges are those of unstrained cloth. Cloth is
+/// woven flat, so bending is measured from the flat state however the mesh stands in space.
+struct TriangleMesh {
+  Positions rest_positions;           ///< [m]
+  std::vector<Triangle> triangles;    ///< at most two at an edge, none without area
+  std::vector<Vec3> warp_directions;  ///< one per triangle: unit, in its plane
+
+  int n_vertices() const { return static_cast<int>(rest_positions.cols()); }
+};
+
+/// An edge with the triangles beside it.
+struct MeshEdge {
+  VertexId a, b;                   ///< as the first triangle has them, walking around it
+  std::array<FaceId, 2> faces;     ///< the second is invalid at a border
+  std::array<VertexId, 2> across;  ///< opposite corner in each of them
+
+  bool is_border() const { return !faces[1].valid(); }
+};
+
+/// Every edge once, in the order in which the triangles name them. Throws ContractError where more
+/// than two triangles meet.
+std::vector<MeshEdge> mesh_edges(const std::vector<Triangle>& triangles);
+
+/// Rest area of each vertex: a third of each triangle around it [m^2]. 0 for one that is in none.
+Eigen::VectorXd vertex_areas(const TriangleMesh& mesh);
+
+/// Unit direction in the triangle's plane nearest to `direction`; zero when that is perpendicular
+/// to the plane or the triangle has no area.
+Vec3 direction_in_plane(const Vec3& direction, const Vec3& x0, const Vec3& x1, const Vec3& x2);
+
+/// Splits every triangle into four at the middles of its edges, `levels` times. Vertices keep their
+/// numbers, edge middles are appended; `middles` (may be null) gets the two ends of each of these.
+TriangleMesh subdivided(TriangleMesh mesh, int levels,
+                        std::vector<std::array<VertexId, 2>>* middles = nullptr);
+
+}  // namespace pleat
