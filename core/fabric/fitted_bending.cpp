@@ -11,6 +11,7 @@ SparseMatrix fitted_bending(const TriangleMesh& mesh, double bend_warp, double b
   const Vec3 rigidities(bend_warp, bend_weft, 2 * bend_twist);
   const int n = mesh.n_vertices();
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(n) + 21 * mesh.triangles.size());  // six vertices each
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
   for (const CurvatureStencil& stencil : curvature_stencils(mesh)) {
     const std::vector<VertexId>& vertices = stencil.vertices;

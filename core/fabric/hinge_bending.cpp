@@ -161,7 +161,7 @@ Mat12 hinge_stiffness(const Hinge& hinge, const Eigen::Ref<const Positions>& pos
   const Fold at = fold(hinge, positions);
   if (!at.has_area) return Mat12::Zero();
   const Vec12 gradient = at.gradient();
-  const Mat12 exact =
+  Mat12 exact =
       hinge.stiffness * (gradient * gradient.transpose() + at.angle() * at.second_derivative());
   if (hessian == ElementHessian::exact) return exact;
   const Eigen::SelfAdjointEigenSolver<Mat12> modes(exact);

@@ -53,11 +53,11 @@ std::vector<Positions> triangle_shapes() {
   for (const Mat3& map :
        {plane_map(1.05, 0, 0, 1.02), plane_map(1.4, 0.2, 0, 1.3), plane_map(0.7, 0.1, 0.2, 0.8),
         plane_map(1.3, 0, 0, 0.6), plane_map(-1, 0, 0.3, 1.2), plane_map(1.2, 0.4, 0.6, 0.2)})
-    shapes.push_back(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()) * map * rest);
-  shapes.push_back(plane_map(1, 1, 0, 0) * rest);  // all on a line
-  shapes.push_back(Positions::Zero(3, 3));         // all in a point
+    shapes.emplace_back(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()) * map * rest);
+  shapes.emplace_back(plane_map(1, 1, 0, 0) * rest);  // all on a line
+  shapes.emplace_back(Positions::Zero(3, 3));         // all in a point
   Random random(3);
-  for (int k = 0; k < 5; ++k) shapes.push_back(shaken(Positions::Zero(3, 3), 1, random));
+  for (int k = 0; k < 5; ++k) shapes.emplace_back(shaken(Positions::Zero(3, 3), 1, random));
   return shapes;
 }
 

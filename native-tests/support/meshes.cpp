@@ -10,7 +10,7 @@ namespace {
 std::vector<Eigen::Vector2d> turning_line(int n, double edge, double turn) {
   std::vector<Eigen::Vector2d> line{Eigen::Vector2d::Zero()};
   for (int i = 0; i < n; ++i)
-    line.push_back(line.back() + edge * Eigen::Vector2d(std::cos(i * turn), std::sin(i * turn)));
+    line.emplace_back(line.back() + edge * Eigen::Vector2d(std::cos(i * turn), std::sin(i * turn)));
   return line;
 }
 
