@@ -69,23 +69,35 @@ void append_springs(const ThreadEdges& lines, SpringKind kind, double tau,
 
 /// kappa = 2/(L1+L2) [(x2 - x1)/L2 - (x1 - x0)/L1], E = 1/2 B w (L1+L2)/2 |kappa|^2 with w the mean
 /// width of both arms.
-void append_bends(const ThreadEdges& lines, double rigidity, std::vector<BendElement>& bends) {
-  if (rigidity == 0) return;
+BendElement quadratic_bend(const ThreadEdge& before, const ThreadEdge& after, double rigidity) {
+  const double sum = before.length + after.length;
+  const double w0 = 2 / (sum * before.length);
+  const double w2 = 2 / (sum * after.length);
+  const double width = 0.5 * (before.width + after.width);
+  return {{before.from, before.to, after.to}, {w0, -(w0 + w2), w2}, rigidity * width * 0.5 * sum};
+}
+
+void append_bends(const ThreadEdges& lines, double rigidity, BendingLaw law,
+                  SpringLattice& lattice) {
+  if (rigidity == 0 || law == BendingLaw::none) return;
   for (const ThreadEdge& before : lines.edges()) {
     const ThreadEdge* after = lines.next(before);
     if (after == nullptr) continue;
-    const double sum = before.length + after->length;
-    const double w0 = 2 / (sum * before.length);
-    const double w2 = 2 / (sum * after->length);
+    if (law == BendingLaw::quadratic) {
+      lattice.bends.push_back(quadratic_bend(before, *after, rigidity));
+      continue;
+    }
+    const double arm = 0.5 * (before.length + after->length);
     const double width = 0.5 * (before.width + after->width);
-    bends.push_back(
-        {{before.from, before.to, after->to}, {w0, -(w0 + w2), w2}, rigidity * width * 0.5 * sum});
+    lattice.chord_bends.push_back(
+        chord_bend(before.from, after->to, arm, rigidity * width,
+                   law == BendingLaw::arc ? ChordLaw::arc : ChordLaw::linear));
   }
 }
 
 }  // namespace
 
-SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric) {
+SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric, BendingLaw law) {
   const Positions& x = mesh.rest_positions();
   const auto distance = [&](VertexId a, VertexId b) { return (x.col(a) - x.col(b)).norm(); };
   const double tau = 2 * fabric.damping_ratio / kReferenceFrequency;  // [s]
@@ -119,8 +131,8 @@ SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric
   append_springs(warp, SpringKind::warp, tau, lattice.springs);
   append_springs(weft, SpringKind::weft, tau, lattice.springs);
   lattice.springs.insert(lattice.springs.end(), diagonals.begin(), diagonals.end());
-  append_bends(warp, fabric.bend_warp, lattice.bends);
-  append_bends(weft, fabric.bend_weft, lattice.bends);
+  append_bends(warp, fabric.bend_warp, law, lattice);
+  append_bends(weft, fabric.bend_weft, law, lattice);
   lattice.masses = fabric.areal_density * mesh.vertex_areas();
   return lattice;
 }

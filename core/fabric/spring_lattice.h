@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/ids.h"
+#include "core/fabric/chord_bending.h"
 #include "core/fabric/fabric.h"
 #include "core/mesh/quad_mesh.h"
 
@@ -30,10 +31,19 @@ struct BendElement {
   double stiffness = 0;              ///< s = B * width * mean arm [N m^3]
 };
 
+/// How three consecutive vertices of a mesh line resist bending.
+enum class BendingLaw {
+  none,
+  quadratic,  ///< BendElement
+  arc,        ///< ChordBend of that law
+  linear,     ///< ChordBend of that law
+};
+
 struct SpringLattice {
-  std::vector<Spring> springs;  ///< warp, then weft, then shear
-  std::vector<BendElement> bends;
-  Eigen::VectorXd masses;  ///< a quarter of each face per corner [kg]
+  std::vector<Spring> springs;         ///< warp, then weft, then shear
+  std::vector<BendElement> bends;      ///< for the quadratic law
+  std::vector<ChordBend> chord_bends;  ///< for the other laws
+  Eigen::VectorXd masses;              ///< a quarter of each face per corner [kg]
 };
 
 /// Angular frequency at which a fabric's damping ratio holds: a visible swing of 5 Hz [rad/s].
@@ -47,6 +57,7 @@ constexpr double kReferenceFrequency = 31.41592653589793;
 ///
 /// Throws InputError naming the fabric when a cell's aspect would make an edge constant negative.
 /// Source: docs/methods/springs.md (derivation).
-SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric);
+SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric,
+                             BendingLaw law = BendingLaw::quadratic);
 
 }  // namespace pleat
