@@ -62,7 +62,7 @@ double hanging_stiffness(const Scene& scene, const SheetShape& shape) {
 }
 
 RestShape hanging_sheet(const Scene& scene, const SheetShape& shape, const QuadMesh& mesh,
-                        const ClothModel& model, double held) {
+                        double held) {
   HangingStrip strip;
   strip.length = shape.height - held;
   strip.weight = scene.fabric.areal_density * scene.gravity.norm();
@@ -75,7 +75,7 @@ RestShape hanging_sheet(const Scene& scene, const SheetShape& shape, const QuadM
     rest.positions.col(i) =
         shape.origin + mesh.rest_coordinates()(1, i) * shape.weft_direction + depth * down(scene);
   }
-  rest.stretch = stretch(model.springs, rest.positions);
+  rest.stretch = stretch(gauge_edges(mesh), rest.positions);
   return rest;
 }
 
@@ -116,7 +116,7 @@ RestShape sheet_at_rest(const Scene& scene, const SheetShape& shape, const Cloth
     refuse("/cloth/sheet/weft_direction", "a horizontal direction");
   const bool points_down = shape.warp_direction.dot(down(scene)) > 0 &&
                            shape.warp_direction.cross(down(scene)).norm() <= kAngleTolerance;
-  if (n_held == 1 || points_down) return hanging_sheet(scene, shape, mesh, model, held);
+  if (n_held == 1 || points_down) return hanging_sheet(scene, shape, mesh, held);
   if (std::abs(shape.warp_direction.dot(down(scene))) > kAngleTolerance)
     refuse("/cloth/sheet/warp_direction", "a direction that is horizontal or straight down");
   return cantilever_sheet(scene, shape, mesh, held, row);
@@ -191,7 +191,7 @@ RestShape particles_at_rest(const Scene& scene, const InlineCloth& cloth, const 
     const Eigen::Vector2d node = nodes.col(static_cast<Eigen::Index>(i));
     rest.positions.col(chain.particles[i]) = begin + node.x() * sideways + node.y() * down(scene);
   }
-  rest.stretch = stretch(model.springs, rest.positions);
+  rest.stretch = stretch(gauge_edges(cloth.springs), rest.positions);
   return rest;
 }
 
