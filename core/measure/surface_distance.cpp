@@ -149,7 +149,8 @@ void append_distances(const Corners& c, int m, double weight, TriangleTree& othe
     for (int part = 0; part < 2 * (m - i) - 1; ++part) {
       const double third = part % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
       const double across = (i + third) / m;
-      const double along = (part / 2 + third) / m;
+      const int place = part / 2;
+      const double along = (place + third) / m;
       const Vec3 p = c[0] + across * (c[1] - c[0]) + along * (c[2] - c[0]);
       distances.push_back({other.distance_squared(p), weight / (m * m)});
     }

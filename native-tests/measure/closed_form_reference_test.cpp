@@ -19,6 +19,7 @@ const std::vector<double> kTimes = {1, 2.5};
 
 std::vector<VertexId> first_vertices(int count) {
   std::vector<VertexId> vertices;
+  vertices.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) vertices.emplace_back(i);
   return vertices;
 }

@@ -183,6 +183,7 @@ TEST_CASE("closed_forms: a chain of springs converges to the elastic rope at sec
 TEST_CASE("closed_forms: springs and weight balance at every node of a chain", "[measure]") {
   Random random(GENERATE(1, 2, 3, 4, 5));
   std::vector<ChainLink> links;
+  links.reserve(12);
   for (int i = 0; i < 12; ++i)
     links.push_back({random.uniform(0, 0.2), random.uniform(5, 500), random.uniform(0.01, 1)});
   const Eigen::Vector2d far_support(random.uniform(0.1, 2.0), random.uniform(-1.0, 1.0));
