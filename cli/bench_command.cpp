@@ -80,7 +80,7 @@ FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<d
     series.n_frames = frame + 1;
     if (frame > 0) series.ms.push_back(1e3 * seconds);
     const Positions& positions = simulation.state().positions;
-    const Stretch now = stretch(simulation.springs(), positions);
+    const Stretch now = stretch(simulation.gauge(), positions);
     series.rms_stretch.push_back(now.rms);
     series.largest_stretch.push_back(now.largest);
     if (next < times.size() && simulation.time() > times[next] - kFrame / 2) {

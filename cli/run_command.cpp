@@ -91,7 +91,7 @@ void add_step(const Simulation& simulation, SolveReport report, RunSummary& summ
     summary.report.status = report.status;
     summary.report.message = std::move(report.message);
   }
-  summary.last_stretch = stretch(simulation.springs(), simulation.state().positions);
+  summary.last_stretch = stretch(simulation.gauge(), simulation.state().positions);
   summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
   summary.rms_stretch_sum += summary.last_stretch.rms;
 }

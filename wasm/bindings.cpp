@@ -164,8 +164,7 @@ class Simulation {
 
   std::string numbers() {
     return guarded([&](val& envelope) {
-      const pleat::Stretch stretch =
-          pleat::stretch(running().springs(), running().state().positions);
+      const pleat::Stretch stretch = pleat::stretch(running().gauge(), running().state().positions);
       envelope.set("time_s", running().time());
       envelope.set("step", static_cast<double>(running().n_steps()));
       envelope.set("largest_stretch", stretch.largest);
@@ -223,8 +222,7 @@ class Simulation {
   val stretch() {
     if (!simulation_)
       return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
-    const std::vector<float>& strains =
-        strain_map_->update(simulation_->springs(), simulation_->state().positions);
+    const std::vector<float>& strains = strain_map_->update(simulation_->state().positions);
     return val(emscripten::typed_memory_view(strains.size(), strains.data()));
   }
   val exact_positions() const {
@@ -260,8 +258,8 @@ class Simulation {
     simulation_->observe(&timer_);
     report_ = {};
     clear_timing();
-    strain_map_ = std::make_unique<pleat::StrainMap>(simulation_->springs(),
-                                                     simulation_->model().n_vertices());
+    strain_map_ =
+        std::make_unique<pleat::StrainMap>(simulation_->gauge(), simulation_->model().n_vertices());
     triangles_.clear();
     for (const pleat::Triangle& t : simulation_->triangles())
       for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));

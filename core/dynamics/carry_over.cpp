@@ -148,21 +148,6 @@ void fill_face(const QuadMesh& mesh, const QuadFace& face, const MeshLines& line
       (columns.col(c[0]) + columns.col(c[1]) + columns.col(c[2]) + columns.col(c[3])) / 4;
 }
 
-/// Copies the columns that both meshes share and interpolates the others, level by level.
-Positions carried_smoothly(const Positions& old, const QuadMesh& mesh) {
-  Positions fresh(3, mesh.n_vertices());
-  const Eigen::Index n_shared = std::min(old.cols(), fresh.cols());
-  fresh.leftCols(n_shared) = old.leftCols(n_shared);
-  int level = -1;
-  std::optional<MeshLines> lines;
-  for (const QuadFace& face : mesh.faces()) {  // coarser levels come first
-    if (face.active()) continue;
-    if (face.level != level) lines.emplace(mesh, level = face.level);
-    fill_face(mesh, face, *lines, n_shared, fresh);
-  }
-  return fresh;
-}
-
 /// Copies the columns that both meshes share; the others are means of their parents, which come
 /// earlier, so that no new extremes appear.
 Resultants carried_means(const Resultants& old, const QuadMesh& mesh) {
@@ -232,9 +217,23 @@ double mass_ratio(const MovingSheet& old, const MovingSheet& fresh) {
   return fresh.model.masses.sum() / old.model.masses.sum();
 }
 
+Positions carried_positions(const Positions& old, const QuadMesh& mesh) {
+  Positions fresh(3, mesh.n_vertices());
+  const Eigen::Index n_shared = std::min(old.cols(), fresh.cols());
+  fresh.leftCols(n_shared) = old.leftCols(n_shared);
+  int level = -1;
+  std::optional<MeshLines> lines;
+  for (const QuadFace& face : mesh.faces()) {  // coarser levels come first
+    if (face.active()) continue;
+    if (face.level != level) lines.emplace(mesh, level = face.level);
+    fill_face(mesh, face, *lines, n_shared, fresh);
+  }
+  return fresh;
+}
+
 State carried_state(const MovingSheet& old, const QuadMesh& mesh) {
-  return {carried_smoothly(old.state.positions, mesh),
-          carried_smoothly(old.state.velocities, mesh)};
+  return {carried_positions(old.state.positions, mesh),
+          carried_positions(old.state.velocities, mesh)};
 }
 
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh) {

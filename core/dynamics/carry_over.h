@@ -17,11 +17,14 @@ struct MovingSheet {
 /// Of the new cloth's mass to the old one's.
 double mass_ratio(const MovingSheet& old, const MovingSheet& fresh);
 
-/// The state of `old` on another refinement of the same base mesh. Vertices that both share keep
-/// position and velocity to the bit; others are interpolated along the mesh lines, exactly where
-/// the cloth is a surface of second degree.
+/// Places of vertices [m], or any other columns, on another refinement of the same base mesh.
+/// Vertices that both share keep theirs to the bit; others are interpolated along the mesh lines,
+/// exactly where the cloth is a surface of second degree.
 ///
 /// Source: docs/methods/carry_over.md.
+Positions carried_positions(const Positions& old, const QuadMesh& mesh);
+
+/// The state of `old` on another refinement of the same base mesh: carried_positions of both.
 State carried_state(const MovingSheet& old, const QuadMesh& mesh);
 
 /// Rest lengths [m], one per spring of `fresh`, with which the new cloth starts on the

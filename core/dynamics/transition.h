@@ -24,9 +24,6 @@ class Transition {
   /// kTransitionTime on that is its own, to the bit.
   void apply(double seconds, ClothModel& model, Stepper& stepper) const;
 
-  /// The springs with the cloth's own rest lengths.
-  const std::vector<Spring>& own_springs() const { return own_springs_; }
-
  private:
   std::vector<Spring> own_springs_;
   ContactOptions own_contact_;

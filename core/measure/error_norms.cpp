@@ -8,13 +8,9 @@
 namespace pleat {
 namespace {
 
-bool is_structural(const Spring& spring) {
-  return spring.kind != SpringKind::shear && spring.rest_length > 0;
-}
-
 /// l/L - 1.
-double strain(const Spring& spring, const Eigen::Ref<const Positions>& positions) {
-  return (positions.col(spring.a) - positions.col(spring.b)).norm() / spring.rest_length - 1;
+double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& positions) {
+  return (positions.col(edge.a) - positions.col(edge.b)).norm() / edge.rest_length - 1;
 }
 
 }  // namespace
@@ -38,41 +34,37 @@ double rest_diagonal(const Scene& scene) {
   return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
 }
 
-Stretch stretch(std::span<const Spring> springs, const Eigen::Ref<const Positions>& positions) {
+Stretch stretch(std::span<const GaugeEdge> gauge, const Eigen::Ref<const Positions>& positions) {
+  if (gauge.empty()) return {};
   double sum = 0;
   double largest = 0;
-  int count = 0;
-  for (const Spring& spring : springs) {
-    if (!is_structural(spring)) continue;
-    const double e = std::abs(strain(spring, positions));
+  for (const GaugeEdge& edge : gauge) {
+    const double e = std::abs(strain(edge, positions));
     sum += e * e;
     largest = std::max(largest, e);
-    ++count;
   }
-  return {count > 0 ? std::sqrt(sum / count) : 0, largest};
+  return {std::sqrt(sum / static_cast<double>(gauge.size())), largest};
 }
 
-StrainMap::StrainMap(std::span<const Spring> springs, int n_vertices)
-    : inverse_counts_(static_cast<std::size_t>(n_vertices)),
+StrainMap::StrainMap(std::span<const GaugeEdge> gauge, int n_vertices)
+    : gauge_(gauge.begin(), gauge.end()),
+      inverse_counts_(static_cast<std::size_t>(n_vertices)),
       strains_(static_cast<std::size_t>(n_vertices)) {
-  for (const Spring& spring : springs) {
-    if (!is_structural(spring)) continue;
-    ++inverse_counts_[spring.a];
-    ++inverse_counts_[spring.b];
+  for (const GaugeEdge& edge : gauge_) {
+    ++inverse_counts_[edge.a];
+    ++inverse_counts_[edge.b];
   }
   for (float& count : inverse_counts_) count = count > 0 ? 1 / count : 0;
 }
 
-const std::vector<float>& StrainMap::update(std::span<const Spring> springs,
-                                            const Eigen::Ref<const Positions>& positions) {
+const std::vector<float>& StrainMap::update(const Eigen::Ref<const Positions>& positions) {
   PLEAT_CHECK(static_cast<std::size_t>(positions.cols()) == strains_.size(),
               "a strain map keeps its number of vertices");
   std::fill(strains_.begin(), strains_.end(), 0.0F);
-  for (const Spring& spring : springs) {
-    if (!is_structural(spring)) continue;
-    const auto e = static_cast<float>(strain(spring, positions));
-    strains_[spring.a] += e;
-    strains_[spring.b] += e;
+  for (const GaugeEdge& edge : gauge_) {
+    const auto e = static_cast<float>(strain(edge, positions));
+    strains_[edge.a] += e;
+    strains_[edge.b] += e;
   }
   for (std::size_t i = 0; i < strains_.size(); ++i) strains_[i] *= inverse_counts_[i];
   return strains_;

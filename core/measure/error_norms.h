@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/fabric/spring_lattice.h"
+#include "core/scene/gauge.h"
 #include "core/scene/scene.h"
 
 namespace pleat {
@@ -24,29 +24,27 @@ double position_error(const Eigen::Ref<const Positions>& positions,
 /// around inline particles. 0 for a single particle.
 double rest_diagonal(const Scene& scene);
 
-/// |l/L - 1| over structural springs: along warp and weft, and those given by hand. Shear springs
-/// do not count, and neither do springs without length.
+/// |l/L - 1| over the edges of a gauge; 0 without any.
 struct Stretch {
   double rms = 0;
   double largest = 0;
 };
 
-Stretch stretch(std::span<const Spring> springs, const Eigen::Ref<const Positions>& positions);
+Stretch stretch(std::span<const GaugeEdge> gauge, const Eigen::Ref<const Positions>& positions);
 
-/// The signed mean l/L - 1 of the structural springs at each vertex, for colouring.
+/// The signed mean l/L - 1 of a gauge's edges at each vertex, for colouring.
 class StrainMap {
  public:
-  StrainMap(std::span<const Spring> springs, int n_vertices);
+  StrainMap(std::span<const GaugeEdge> gauge, int n_vertices);
 
-  /// springs    those given first, their rest lengths may have changed
   /// positions  [m]
-  /// Returns one number per vertex, 0 where no spring ends; valid until the next call. Never
+  /// Returns one number per vertex, 0 where no edge ends; valid until the next call. Never
   /// allocates.
-  const std::vector<float>& update(std::span<const Spring> springs,
-                                   const Eigen::Ref<const Positions>& positions);
+  const std::vector<float>& update(const Eigen::Ref<const Positions>& positions);
 
  private:
-  std::vector<float> inverse_counts_;  // springs per vertex
+  std::vector<GaugeEdge> gauge_;
+  std::vector<float> inverse_counts_;  // edges per vertex
   std::vector<float> strains_;
 };
 

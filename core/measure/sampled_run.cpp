@@ -54,7 +54,7 @@ void SampledRun::take_samples(const State& begin, double time_begin) {
     Sample sample{time, {}, {}};
     sample.positions =
         share > 1 - kTimeTolerance ? end.positions : interpolated(begin, end, step, share);
-    sample.stretch = stretch(simulation_.model().springs, sample.positions);
+    sample.stretch = stretch(simulation_.gauge(), sample.positions);
     samples_.push_back(std::move(sample));
   }
 }

@@ -11,6 +11,10 @@ std::vector<Triangle> scene_triangles(const Scene& scene, const std::optional<Qu
   return mesh ? mesh->triangles() : std::get<InlineCloth>(scene.cloth).triangles;
 }
 
+std::vector<GaugeEdge> scene_gauge(const Scene& scene, const std::optional<QuadMesh>& mesh) {
+  return mesh ? gauge_edges(*mesh) : gauge_edges(std::get<InlineCloth>(scene.cloth).springs);
+}
+
 double rest_diagonal(const SheetShape& shape) { return std::hypot(shape.width, shape.height); }
 
 }  // namespace
@@ -19,7 +23,8 @@ Simulation::Simulation(const Scene& scene)
     : scene_(scene),
       mesh_(scene_mesh(scene)),
       triangles_(scene_triangles(scene, mesh_)),
-      model_(scene_model(scene, mesh(), triangles_)) {
+      model_(scene_model(scene, mesh(), triangles_)),
+      gauge_(scene_gauge(scene, mesh_)) {
   start();
 }
 

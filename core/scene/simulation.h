@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/dynamics/transition.h"
+#include "core/scene/gauge.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_model.h"
 
@@ -40,10 +41,8 @@ class Simulation {
   const Scene& scene() const { return scene_; }
   /// For kTransitionTime after carry_over it is on its way to the scene's own.
   const ClothModel& model() const { return model_; }
-  /// The scene's own springs, which stretch is measured by.
-  const std::vector<Spring>& springs() const {
-    return transition_ ? transition_->own_springs() : model_.springs;
-  }
+  /// What stretch is measured by.
+  const std::vector<GaugeEdge>& gauge() const { return gauge_; }
   const State& state() const { return state_; }
   const QuadMesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }  ///< null for inline particles
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -70,6 +69,7 @@ class Simulation {
   std::optional<QuadMesh> mesh_;
   std::vector<Triangle> triangles_;
   ClothModel model_;
+  const std::vector<GaugeEdge> gauge_;
   State state_;
   std::unique_ptr<Stepper> stepper_;
   StageObserver* observer_ = nullptr;

@@ -5,7 +5,6 @@
 
 #include "core/base/check.h"
 #include "native-tests/support/meshes.h"
-#include "native-tests/support/models.h"
 
 using namespace pleat;
 
@@ -66,40 +65,33 @@ TEST_CASE("error_norms: a sheet's rest diagonal does not depend on how it lies",
   CHECK(rest_diagonal(scene) == Approx(0.5).epsilon(1e-15));
 }
 
-TEST_CASE("error_norms: uniform extension is the strain of every structural spring", "[measure]") {
+TEST_CASE("error_norms: uniform extension is the strain of every gauge edge", "[measure]") {
   const double strain = GENERATE(0.02, -0.03, 0.0);
   const QuadMesh mesh = refined_sheet(3, 1);
-  const ClothModel model = sheet_model(mesh, soft_fabric());
+  const std::vector<GaugeEdge> gauge =
+      GENERATE(true, false) ? gauge_edges(mesh) : gauge_edges(mesh.triangle_mesh());
   const Positions stretched = (1 + strain) * mesh.rest_positions();
-  const Stretch found = stretch(model.springs, stretched);
+  const Stretch found = stretch(gauge, stretched);
   const double expected = std::abs(strain);
   CHECK(found.rms == Approx(expected).epsilon(1e-10).margin(1e-14));
   CHECK(found.largest == Approx(expected).epsilon(1e-10).margin(1e-14));
-  StrainMap map(model.springs, model.n_vertices());
-  for (const float value : map.update(model.springs, stretched))
+  StrainMap map(gauge, mesh.n_vertices());
+  for (const float value : map.update(stretched))
     CHECK(value == Approx(strain).epsilon(1e-6).margin(1e-7));
 }
 
-// Half of a square sheet's structural springs run along warp, so the RMS is the strain over
-// sqrt(2); in-plane shear by angle keeps both thread directions' lengths only to second order, and
-// diagonals do not count.
-TEST_CASE("error_norms: only springs along the threads count", "[measure]") {
+// Half of a square sheet's gauge edges run along warp, so the RMS is the strain over sqrt(2).
+TEST_CASE("error_norms: a sheet is gauged along its threads alone", "[measure]") {
   const QuadMesh mesh = square_sheet(4);
-  const ClothModel model = sheet_model(mesh, soft_fabric());
   Positions along_warp = mesh.rest_positions();
   along_warp.row(1) *= 1.01;  // warp runs down
-  const Stretch found = stretch(model.springs, along_warp);
+  const Stretch found = stretch(gauge_edges(mesh), along_warp);
   CHECK(found.largest == Approx(0.01).epsilon(1e-10));
   CHECK(found.rms == Approx(0.01 / std::sqrt(2.0)).epsilon(1e-10));
 }
 
-TEST_CASE("error_norms: springs without length and clothes without springs are not stretched",
-          "[measure]") {
-  Spring point;
-  point.a = VertexId(0);
-  point.b = VertexId(1);
-  const std::vector<Spring> springs = {point};
+TEST_CASE("error_norms: cloth without a gauge is not stretched", "[measure]") {
   const Positions positions = Positions::Random(3, 2);
-  CHECK(stretch(springs, positions).largest == 0);
+  CHECK(stretch({}, positions).largest == 0);
   CHECK(stretch({}, positions).rms == 0);
 }

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/fabric/curvature_stencil.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace pleat {
+
+/// How differently two states of one cloth are bent [1/m].
+struct BendError {
+  double distribution = 0;  ///< Wasserstein-1 distance between the distributions of curvature
+  double regions = 0;       ///< mean difference between the mean curvatures of regions
+};
+
+/// Compares how states of one cloth are bent, with wrinkles where they may be: what counts is how
+/// much of the cloth is curved how strongly.
+///
+/// Both states are given at the vertices of one mesh, the finer one (carried_positions,
+/// subdivided_positions), and smoothed over the edges of the coarsest one, since what lies between
+/// its vertices would else look like error. The magnitude of curvature is
+/// sqrt(|k_ww|^2 + |k_ff|^2 + 2 |k_wf|^2), by area at rest.
+class BendMeasure {
+ public:
+  /// mesh    the finer mesh, its warp directions given
+  /// radius  of the smoothing: an edge of the coarsest mesh compared [m], positive
+  ///
+  /// Keeps 16 bytes for each pair of triangles within the radius.
+  BendMeasure(const TriangleMesh& mesh, double radius);
+
+  /// positions  [m], of all vertices of the mesh
+  /// Throws ContractError unless both are finite.
+  BendError error(const Eigen::Ref<const Positions>& positions,
+                  const Eigen::Ref<const Positions>& reference) const;
+
+  /// Smoothed magnitude of curvature of each triangle [1/m].
+  Eigen::VectorXd curvatures(const Eigen::Ref<const Positions>& positions) const;
+
+  const Eigen::VectorXd& areas() const { return areas_; }  ///< of each triangle at rest [m^2]
+
+ private:
+  struct Neighbour {
+    std::int32_t triangle;
+    double weight;
+  };
+
+  std::vector<CurvatureStencil> stencils_;
+  Eigen::VectorXd areas_;
+  std::vector<Neighbour> neighbours_;  // of each triangle in turn, its weights summing to one
+  std::vector<std::size_t> ends_;      // by triangle: where its neighbours end
+  std::vector<int> regions_;           // by triangle
+  int n_regions_ = 0;
+};
+
+/// Wasserstein-1 distance between two distributions of values, each with the same weights: how far
+/// weight must be moved, over all weight; in the values' unit.
+///
+/// Throws ContractError unless the sizes agree and the weights are not negative, with a positive
+/// sum.
+double wasserstein_distance(const Eigen::Ref<const Eigen::VectorXd>& values_a,
+                            const Eigen::Ref<const Eigen::VectorXd>& values_b,
+                            const Eigen::Ref<const Eigen::VectorXd>& weights);
+
+/// Positions of a mesh after `subdivided`: new vertices lie in the middle of the edges that they
+/// split.
+///
+/// middles  of each new vertex, as `subdivided` gives them
+Positions subdivided_positions(const Eigen::Ref<const Positions>& positions,
+                               std::span<const std::array<VertexId, 2>> middles);
+
+}  // namespace pleat
