@@ -24,14 +24,20 @@ constexpr const char* kHelp =
   --drift                account for the energy: what no force explains is the method's own
   --steps N | --duration S    the latter rounded to whole steps
 pleat sweep SCENE.json   compute it with many settings: milliseconds against error
-  --levels 0,1,2         refinement levels (default: the scene's)
-  --steppers A,B         of explicit, implicit, projective, xpbd (default: all)
+pleat sweep PLAN.json    the same with the settings that a plan lists
+  --set POINTER=V1,V2    values in the scene, such as /method/substeps=1,4; with several of these
+                         every value of one with every value of the others
+  --levels 0,1,2         the same for /refinement/level (default: the scene's)
+  --steppers A,B         usual settings of explicit, implicit, projective, xpbd (default: all, with
+                         --set the scene's own method)
   --reference KIND       finest (default), or rigid_chain for a sheet that swings from its edge
   --repeat N             timed runs of each setting (default 5)
-  --cache DIR            keep references here
-  --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
   --steps N | --duration S    compare over this time
-  --out FILE             write the rows as JSON lines; replaces an earlier file
+  --out DIR              write rows.jsonl, table.md and front.svg into this folder; started again, a
+                         sweep that was stopped goes on
+  --overwrite            remove those of another sweep from it first
+  --cache DIR            keep references here (default: in the folder after --out)
+  --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost

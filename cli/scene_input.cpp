@@ -1,8 +1,8 @@
 #include "cli/scene_input.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 #include "core/scene/cloth_section.h"
 #include "core/scene/json_reader.h"
@@ -12,46 +12,17 @@ namespace {
 
 /// An option that replaces one value of the scene's text before it is read, so that the same checks
 /// hold for both.
-struct Override {
+struct SceneOption {
   const char* option;
   const char* pointer;
 };
-constexpr Override kOverrides[] = {
+constexpr SceneOption kSceneOptions[] = {
     {"--fabric", "/fabric/name"},       {"--level", "/refinement/level"},
     {"--stepper", "/method/stepper"},   {"--step", "/method/step_s"},
     {"--substeps", "/method/substeps"}, {"--iterations", "/method/iterations"},
     {"--solver", "/method/solver"},     {"--tolerance", "/method/tolerance"},
     {"--duration", "/duration_s"},
 };
-
-/// A number where the text is one, else the text itself.
-Json option_value(const std::string& text) {
-  const Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  return value.is_number() ? value : Json(text);
-}
-
-/// Sets the value at a pointer; what stands in the way and is no object is left for the reader to
-/// refuse.
-void replace(Json& scene, const std::string& pointer, Json value) {
-  const std::size_t slash = pointer.find('/', 1);
-  const std::string key = pointer.substr(1, slash == std::string::npos ? slash : slash - 1);
-  if (!scene.is_object()) return;
-  if (slash == std::string::npos) {
-    scene[key] = std::move(value);
-    return;
-  }
-  if (!scene.contains(key)) scene[key] = Json::object();
-  replace(scene[key], pointer.substr(slash), std::move(value));
-}
-
-/// Makes room for another fabric's name; rigidity stays that at rest or in motion.
-void clear_fabric(Json& scene) {
-  if (!scene.is_object() || !scene.contains("fabric")) return;
-  const Json old = std::move(scene["fabric"]);
-  scene["fabric"] = Json::object();
-  if (old.is_object() && old.contains("name") && old.contains("bending"))
-    scene["fabric"]["bending"] = old["bending"];
-}
 
 /// The duration of so many steps of the scene [s], not rounded to more: the most steps are allowed.
 double duration_of(int n_steps, const Json& scene) {
@@ -66,21 +37,6 @@ bool is_duration(const Json& value) {
   return value.is_number() && value.get<double>() > 0 && value.get<double>() <= kLargestNumber;
 }
 
-/// Takes out of the method what another stepper cannot take.
-void clear_method(Json& scene, const std::string& stepper) {
-  if (!scene.is_object()) return;
-  Json& method = scene.emplace("method", Json::object()).first.value();
-  if (!method.is_object() ||
-      method.value("stepper", Json(name(MethodOptions{}.stepper))) == stepper)
-    return;
-  if (stepper == "explicit") {
-    method["substeps"] = "stable";
-  } else if (method.contains("substeps") && method["substeps"].is_string()) {
-    method.erase("substeps");
-  }
-  if (stepper == "projective" && method.value("solver", Json()) == "cg") method.erase("solver");
-}
-
 }  // namespace
 
 bool SceneInput::is_set_by(std::string_view option) const {
@@ -89,7 +45,7 @@ bool SceneInput::is_set_by(std::string_view option) const {
 
 void SceneInput::throw_with_source(const InputError& error) const {
   const std::string& where = error.where();
-  for (const Override& entry : kOverrides) {
+  for (const SceneOption& entry : kSceneOptions) {
     // The numbers of a fabric come with its name.
     const bool sets_it = where == entry.pointer || where + "/name" == entry.pointer;
     if (sets_it && is_set_by(entry.option)) throw InputError(entry.option, error.what());
@@ -118,42 +74,58 @@ FabricLibrary take_fabrics(Arguments& arguments) {
   }
 }
 
-SceneInput take_scene(Arguments& arguments) {
-  const FabricLibrary fabrics = take_fabrics(arguments);
-  SceneInput input;
-  std::vector<std::pair<Override, std::string>> overrides;
-  for (const Override& entry : kOverrides) {
-    if (const auto value = arguments.text(entry.option)) {
-      overrides.emplace_back(entry, *value);
-      input.options.emplace_back(entry.option);
-    }
+Json option_value(const std::string& text) {
+  const Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  return value.is_number() ? value : Json(text);
+}
+
+SceneChanges take_scene_changes(Arguments& arguments) {
+  SceneChanges changes;
+  for (const SceneOption& entry : kSceneOptions) {
+    const auto value = arguments.text(entry.option);
+    if (!value) continue;
+    changes.overrides.push_back({entry.pointer, option_value(*value)});
+    changes.options.emplace_back(entry.option);
   }
-  const auto n_steps = arguments.whole_number("--steps", 1, kMaxSteps);
-  if (n_steps && input.is_set_by("--duration"))
+  changes.n_steps = arguments.whole_number("--steps", 1, kMaxSteps);
+  if (!changes.n_steps) return changes;
+  const auto& given = changes.options;
+  if (std::find(given.begin(), given.end(), "--duration") != given.end())
     throw InputError("--steps", "expected either this or --duration, got both");
-  if (n_steps) input.options.emplace_back("--steps");
-  input.file = arguments.word("a scene file");
+  changes.options.emplace_back("--steps");
+  return changes;
+}
+
+SceneInput read_scene_input(const std::string& file, const SceneChanges& changes,
+                            const FabricLibrary& fabrics) {
+  SceneInput input;
+  input.file = file;
+  input.options = changes.options;
   try {
-    Json json = parse_json(read_file(input.file));
-    for (const auto& [entry, value] : overrides) {
-      const std::string_view option = entry.option;
-      if (option == "--fabric") clear_fabric(json);
-      if (option == "--stepper") clear_method(json, value);
-      replace(json, entry.pointer, option_value(value));
-    }
-    if (n_steps) replace(json, "/duration_s", duration_of(*n_steps, json));
+    Json json = parse_json(read_file(file));
+    override_scene(json, changes.overrides);
+    if (changes.n_steps)
+      override_scene(json,
+                     std::array{SceneOverride{"/duration_s", duration_of(*changes.n_steps, json)}});
     if (json.is_object() && json.contains("duration_s"))
       input.has_duration = is_duration(json["duration_s"]);
     // An option may hold bytes that are no text.
-    input.scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics);
+    input.text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    input.scene = read_scene(input.text, fabrics);
   } catch (const FileError&) {
     throw;
   } catch (const InputError& error) {
     input.throw_with_source(error);
   } catch (const std::bad_alloc&) {
-    throw InputError(input.file, "not enough memory to read it");
+    throw InputError(file, "not enough memory to read it");
   }
   return input;
+}
+
+SceneInput take_scene(Arguments& arguments) {
+  const FabricLibrary fabrics = take_fabrics(arguments);
+  const SceneChanges changes = take_scene_changes(arguments);
+  return read_scene_input(arguments.word("a scene file"), changes, fabrics);
 }
 
 }  // namespace pleat

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cli/arguments.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_override.h"
 #include "core/scene/whole_file.h"
 
 namespace pleat {
@@ -17,9 +19,17 @@ std::string_view embedded_fabrics();
 /// The fabrics of the file after --fabrics, else the embedded ones.
 FabricLibrary take_fabrics(Arguments& arguments);
 
+/// The changes to a scene that options ask for.
+struct SceneChanges {
+  std::vector<SceneOverride> overrides;
+  std::optional<int> n_steps;             ///< in the place of its duration
+  std::vector<std::string_view> options;  ///< that were given
+};
+
 /// A scene and where its values came from.
 struct SceneInput {
   Scene scene;
+  std::string text;  ///< JSON that it was read from: the file's with the options' changes
   std::string file;
   std::vector<std::string_view> options;  ///< that changed the scene
   bool has_duration = true;               ///< that is one, whatever the step
@@ -32,18 +42,24 @@ struct SceneInput {
   [[noreturn]] void throw_out_of_memory() const;
 };
 
-/// The scene of the file that the next word names, changed by the options --level, --stepper,
-/// --step, --substeps, --iterations, --solver, --tolerance, --fabric, --duration and --steps.
-///
-/// --fabric replaces the whole fabric, but for "bending" beside a name. With another stepper than
-/// the scene's, explicit gets "stable" substeps, the others one in place of "stable", and
-/// projective its default solver in place of one without a factor. Throws InputError naming the
-/// file with the JSON pointer, or the option.
+/// A number where the text is one, else the text itself.
+Json option_value(const std::string& text);
+
+/// The options --level, --stepper, --step, --substeps, --iterations, --solver, --tolerance,
+/// --fabric, --duration and --steps.
+SceneChanges take_scene_changes(Arguments& arguments);
+
+/// The scene of the file with these changes (override_scene). Throws InputError naming the file
+/// with the JSON pointer, or the option.
+SceneInput read_scene_input(const std::string& file, const SceneChanges& changes,
+                            const FabricLibrary& fabrics);
+
+/// The same with fabrics, options and file as the next words say.
 SceneInput take_scene(Arguments& arguments);
 
-/// Does `work` on the scene; bad input that it meets there is told with its source.
-template <class Work>
-auto with_source_named(const SceneInput& input, Work&& work) {
+/// Does `work` on the scene or plan; bad input that it meets there is told with its source.
+template <class Input, class Work>
+auto with_source_named(const Input& input, Work&& work) {
   try {
     return work();
   } catch (const FileError&) {

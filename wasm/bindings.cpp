@@ -307,8 +307,11 @@ class Experiment {
 
   std::string start(const std::string& plan_text) {
     return guarded([&](val&) {
-      sweep_.emplace(pleat::read_sweep_plan(plan_text, pleat::read_fabrics(fabrics_json_)),
-                     references_, pleat::core_version());
+      const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
+      const auto read = [fabrics](std::string_view text) {
+        return pleat::read_scene(text, fabrics);
+      };
+      sweep_.emplace(pleat::read_sweep_plan(plan_text, read), references_, pleat::core_version());
     });
   }
 

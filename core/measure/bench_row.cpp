@@ -1,7 +1,9 @@
 #include "core/measure/bench_row.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "core/base/check.h"
 #include "core/measure/pareto.h"
@@ -49,6 +51,29 @@ constexpr TextField kTextFields[] = {{"scene", &BenchRow::scene},
                                      {"target", &BenchRow::target},
                                      {"commit", &BenchRow::commit}};
 
+struct ObjectField {
+  const char* key;
+  Json BenchRow::*value;
+};
+constexpr ObjectField kObjectFields[] = {
+    {"setting", &BenchRow::setting}, {"fabric", &BenchRow::fabric}, {"model", &BenchRow::model}};
+
+/// The numbers in a table, times what turns them into the title's unit.
+struct NumberColumn {
+  const char* title;
+  double BenchRow::*value;
+  double factor;
+};
+constexpr NumberColumn kNumberColumns[] = {
+    {"ms per frame", &BenchRow::ms_per_frame, 1},
+    {"spread", &BenchRow::spread_ms, 1},
+    {"position error mm", &BenchRow::position_error, 1e3},
+    {"%", &BenchRow::position_error_percent, 1},
+    {"rms stretch %", &BenchRow::rms_stretch, 1e2},
+    {"largest %", &BenchRow::largest_stretch, 1e2},
+    {"residual", &BenchRow::residual, 1},
+};
+
 /// JSON has no NaN.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -78,6 +103,75 @@ std::string method_phrase(const BenchRow& row) {
   return text;
 }
 
+/// True for what a phrase and a table say in words of their own.
+bool is_told(const std::string& pointer) {
+  return pointer == "/method" || pointer == "/refinement/level";
+}
+
+/// Pointers whose value is not the same in all rows, in the order in which they appear.
+std::vector<std::string> varying_pointers(std::span<const BenchRow> rows) {
+  std::vector<std::string> varying;
+  std::set<std::string> known;
+  for (const BenchRow& row : rows)
+    for (const auto& change : row.setting.items()) {
+      const std::string& pointer = change.key();
+      if (is_told(pointer) || !known.insert(pointer).second) continue;
+      const auto differs = [&](const BenchRow& other) {
+        return !other.setting.contains(pointer) || other.setting[pointer] != change.value();
+      };
+      if (std::any_of(rows.begin(), rows.end(), differs)) varying.push_back(pointer);
+    }
+  return varying;
+}
+
+/// Of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : printable(text)) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped + " | ";
+}
+
+std::string value_text(const Json& value) {
+  return cut(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+std::string value_cell(const BenchRow& row, const std::string& pointer) {
+  const auto value = row.setting.find(pointer);
+  return cell(value == row.setting.end() ? "" : value_text(*value));
+}
+
+std::string table_head(const std::vector<std::string>& pointers) {
+  std::string head = "| front | method | level | ";
+  for (const std::string& pointer : pointers) head += cell(cut(pointer));
+  head += "vertices | ";
+  for (const NumberColumn& column : kNumberColumns) head += cell(column.title);
+  head += "status |\n|";
+  const std::size_t n_columns = 5 + pointers.size() + std::size(kNumberColumns);
+  for (std::size_t c = 0; c < n_columns; ++c) head += "---|";
+  return head + "\n";
+}
+
+std::string table_line(const BenchRow& row, bool is_on_front,
+                       const std::vector<std::string>& pointers) {
+  std::string line = "| " + cell(is_on_front ? "*" : "") + cell(method_phrase(row)) +
+                     cell(std::to_string(row.level));
+  for (const std::string& pointer : pointers) line += value_cell(row, pointer);
+  line += cell(std::to_string(row.n_vertices));
+  for (const NumberColumn& column : kNumberColumns)
+    line += cell(short_number(column.factor * row.*column.value));
+  return line + row.status + " |\n";
+}
+
+std::string remarks_on(const BenchRow& row) {
+  const std::string which = printable(setting_phrase(row)) + ": ";
+  std::string remarks;
+  if (!row.message.empty()) remarks += which + row.status + ", " + printable(row.message) + "\n";
+  if (row.n_unresolved_contacts > 0)
+    remarks += which + std::to_string(row.n_unresolved_contacts) +
+               " times solids left a vertex no place outside of them\n";
+  return remarks;
+}
+
 }  // namespace
 
 BenchRow::BenchRow(ReferenceLabel against) : reference(std::move(against)) {
@@ -87,6 +181,7 @@ BenchRow::BenchRow(ReferenceLabel against) : reference(std::move(against)) {
 std::string write_bench_row(const BenchRow& row) {
   Json json;
   for (const TextField& field : kTextFields) json[field.key] = row.*field.value;
+  for (const ObjectField& field : kObjectFields) json[field.key] = row.*field.value;
   for (const CountField& field : kCountFields) json[field.key] = row.*field.value;
   json["method"] = json_method(row.method);
   for (const NumberField& field : kNumberFields) json[field.key] = number_json(row.*field.value);
@@ -107,6 +202,10 @@ BenchRow read_bench_row(std::string_view json_text) {
   const JsonReader reader(json);
   BenchRow row(read_label(reader.at("reference")));
   for (const TextField& field : kTextFields) row.*field.value = reader.at(field.key).text();
+  for (const ObjectField& field : kObjectFields) {
+    reader.at(field.key).members();
+    row.*field.value = json.at(field.key);
+  }
   for (const CountField& field : kCountFields)
     row.*field.value = static_cast<int>(reader.at(field.key).integer(0, kMostCounted));
   read_method(reader.at("method"), row.method);
@@ -132,31 +231,22 @@ std::vector<std::size_t> front_of(std::span<const BenchRow> rows) {
   return pareto_front(points);
 }
 
+std::string setting_phrase(const BenchRow& row) {
+  std::string phrase = method_phrase(row) + ", level " + std::to_string(row.level);
+  for (const auto& change : row.setting.items())
+    if (!is_told(change.key())) phrase += ", " + change.key() + " " + value_text(change.value());
+  return phrase;
+}
+
 std::string markdown_table(std::span<const BenchRow> rows) {
+  const std::vector<std::string> pointers = varying_pointers(rows);
   std::vector<bool> on_front(rows.size(), false);
   for (const std::size_t i : front_of(rows)) on_front[i] = true;
-  std::string table =
-      "| front | method | level | vertices | ms per frame | spread | position error mm | % | rms "
-      "stretch % | "
-      "largest % | residual | status |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const BenchRow& row = rows[i];
-    table += std::string("| ") + (on_front[i] ? "*" : "") + " | " + method_phrase(row) + " | " +
-             std::to_string(row.level) + " | " + std::to_string(row.n_vertices);
-    for (const double value :
-         {row.ms_per_frame, row.spread_ms, 1e3 * row.position_error, row.position_error_percent,
-          1e2 * row.rms_stretch, 1e2 * row.largest_stretch, row.residual})
-      table += " | " + short_number(value);
-    table += " | " + row.status + " |\n";
-  }
+  std::string table = table_head(pointers);
   std::string remarks;
-  for (const BenchRow& row : rows) {
-    const std::string which = method_phrase(row) + ", level " + std::to_string(row.level) + ": ";
-    if (!row.message.empty()) remarks += which + row.status + ", " + row.message + "\n";
-    if (row.n_unresolved_contacts > 0)
-      remarks += which + std::to_string(row.n_unresolved_contacts) +
-                 " times solids left a vertex no place outside of them\n";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    table += table_line(rows[i], on_front[i], pointers);
+    remarks += remarks_on(rows[i]);
   }
   return remarks.empty() ? table : table + "\n" + remarks;
 }

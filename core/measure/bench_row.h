@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/measure/reference.h"
+#include "core/scene/json_text.h"
 
 namespace pleat {
 
@@ -20,6 +21,9 @@ struct BenchRow {
   explicit BenchRow(ReferenceLabel against);
 
   std::string scene;
+  Json setting = Json::object();  ///< what it changes in its plan's scene: {pointer: value}
+  Json fabric = Json::object();   ///< as a scene has it, and so the next
+  Json model = Json::object();
   MethodOptions method;
   int level = 0;
   int n_vertices = 0;
@@ -62,7 +66,11 @@ BenchRow read_bench_row(std::string_view json_text);
 /// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
 
-/// Rows as a Markdown table, those on the front marked; below it, what a row's status means.
+/// A row's setting for people: method, level, and what else it changes.
+std::string setting_phrase(const BenchRow& row);
+
+/// Rows as a Markdown table, those on the front marked, with a column for each pointer that varies;
+/// below it, what a row's status means.
 std::string markdown_table(std::span<const BenchRow> rows);
 
 }  // namespace pleat

@@ -31,8 +31,9 @@ struct Reference {
 /// Sixteen hexadecimal digits of 64-bit FNV-1a.
 std::string content_hash(std::string_view bytes);
 
-/// Id of a run of this scene at these times [s] by this version of the core: another scene, method
-/// or core has another one. `prefix` says what made it.
+/// Id of a run of this scene at these times [s] by this version of the core: another scene, method,
+/// number of its fabric or core has another one; another name, caption, duration or way to record
+/// frames has not. `prefix` says what made it.
 std::string reference_id(std::string_view prefix, const Scene& scene,
                          std::span<const double> times);
 

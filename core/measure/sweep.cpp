@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/measure/chain_reference.h"
+#include "core/measure/core_version.h"
 #include "core/measure/platform.h"
-#include "core/scene/json_text.h"
+#include "core/scene/cloth_section.h"
+#include "core/scene/fabric_section.h"
+#include "core/scene/json_reader.h"
+#include "core/scene/method_section.h"
 
 namespace pleat {
 namespace {
@@ -83,79 +86,91 @@ double substep_cost(const MethodOptions& method) {
   return 1;
 }
 
-/// For progress alone: vertices times substeps times their cost.
-double expected_run_work(const Scene& scene) {
+/// For progress alone: vertices times substeps times their cost, per second of motion.
+double expected_work(double n_vertices, const MethodOptions& method) {
   constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
-  double vertices = 1;
-  if (const auto* sheet = std::get_if<SheetShape>(&scene.cloth))
-    vertices = std::ldexp(sheet->rows, scene.level) * std::ldexp(sheet->columns, scene.level);
-  const MethodOptions& method = scene.method;
   const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
-  return vertices / method.step * substeps * substep_cost(method);
+  return n_vertices / method.step * substeps * substep_cost(method);
 }
 
-std::string phrase(const Scene& scene) {
-  return std::string(name(scene.method.stepper)) + ", level " + std::to_string(scene.level);
+double expected_work(const Scene& scene) {
+  const double n_base = static_cast<double>(n_base_vertices(scene));
+  return expected_work(std::ldexp(n_base, 2 * scene.level), scene.method);
+}
+
+std::string phrase(const MethodOptions& method, int level) {
+  return std::string(name(method.stepper)) + ", level " + std::to_string(level);
+}
+
+Json journal_line(std::size_t setting, std::size_t round) {
+  return {{"setting", setting}, {"round", round}};
 }
 
 }  // namespace
+
+std::string sweep_identity(const SweepPlan& plan, const std::string& commit) {
+  Json references = Json::array();  // their ids hold what the plan only names
+  for (const ReferenceRecipe& recipe : sweep_references(plan).recipes)
+    references.push_back(recipe.id);
+  return format_json({{"core", core_version()},
+                      {"commit", commit},
+                      {"references", references},
+                      {"plan", parse_json(write_sweep_plan(plan))}});
+}
 
 Sweep::Sweep(SweepPlan plan, ReferenceStore& store, std::string commit)
     : plan_(std::move(plan)),
       store_(store),
       commit_(std::move(commit)),
       times_(sweep_sample_times(plan_.duration)),
-      run_times_(static_cast<std::size_t>(plan_.n_settings())) {
-  PLEAT_CHECK(!plan_.levels.empty() && !plan_.methods.empty() && plan_.n_repeats >= 1,
+      references_(sweep_references(plan_)),
+      made_(references_.recipes.size()),
+      run_times_(plan_.settings.size()) {
+  PLEAT_CHECK(!plan_.settings.empty() && plan_.n_repeats >= 1,
               "a sweep has settings and runs them");
 }
 
-std::size_t Sweep::setting() const {
-  return static_cast<std::size_t>((n_done_ - 1) % plan_.n_settings());
+bool Sweep::run_is_left_out() const {
+  return !done() && !in_first_round() && !can_be_timed(rows_[setting()]);
 }
 
-Scene Sweep::setting_scene(std::size_t setting) const {
-  Scene scene = plan_.scene;
-  scene.level = plan_.levels[setting / plan_.methods.size()];
-  scene.method = plan_.methods[setting % plan_.methods.size()];
-  return scene;
+void Sweep::skip_left_out() {
+  while (run_is_left_out()) ++n_done_;
 }
 
-void Sweep::make_reference(double budget) {
-  if (plan_.reference == ReferenceKind::rigid_chain) {
-    reference_ = chain_reference(finest_scene(plan_), times_);
-    ++n_done_;
-    return;
+/// The first reference that a setting without a row needs.
+std::optional<std::size_t> Sweep::missing_reference() const {
+  for (std::size_t s = rows_.size(); s < n_settings(); ++s)
+    if (const std::size_t recipe = references_.of_setting[s]; !made_[recipe]) return recipe;
+  return std::nullopt;
+}
+
+void Sweep::make_reference(std::size_t recipe, double budget) {
+  const std::string& id = references_.recipes[recipe].id;
+  if (maker_ == nullptr) {
+    made_[recipe] = store_.find(id);
+    if (made_[recipe]) return;
   }
-  const Scene scene = finest_scene(plan_);
-  const std::string id = reference_id("finest", scene, times_);
-  if (run_ == nullptr) {
-    if (std::optional<Reference> known = store_.find(id)) {
-      reference_ = std::move(*known);
-      ++n_done_;
-      return;
-    }
-    run_ = std::make_unique<SampledRun>(scene, times_, SampledRun::Parts::untimed);
+  try {
+    if (maker_ == nullptr) maker_ = make_reference_maker(references_.recipes[recipe], times_);
+    maker_->advance(budget);
+  } catch (const InputError& error) {
+    throw InputError("/scene" + error.where(), error.what());
   }
-  run_->advance(budget);
-  if (!run_->done()) return;
-  reference_.label = {id,
-                      "implicit with " + std::string(name(scene.method.solver)) + ", level " +
-                          std::to_string(scene.level) + ", step " + step_phrase(scene.method.step),
-                      false};
-  reference_.samples = run_->samples();
-  if (run_->failed())
-    reference_.label.description += ", which ended early: " + run_->report().message;
-  else
-    store_.keep(reference_);
-  run_.reset();
-  ++n_done_;
+  if (!maker_->done()) return;
+  made_[recipe] = maker_->reference();
+  PLEAT_CHECK(made_[recipe]->label.id == id, "a reference has the id of its recipe");
+  const bool is_whole = made_[recipe]->samples.size() == times_.size();
+  if (is_whole) store_.keep(*made_[recipe]);
+  maker_.reset();
 }
 
-BenchRow Sweep::new_row() const {
-  const Scene scene = setting_scene(setting());
-  BenchRow row(reference_.label);
+BenchRow Sweep::new_row(const Scene& scene) const {
+  BenchRow row(made_[references_.of_setting[setting()]]->label);
   row.scene = scene.name;
+  row.setting = plan_.settings[setting()].changes;
+  row.fabric = json_fabric(scene);
+  row.model = json_model(scene.model);
   row.method = scene.method;
   row.level = scene.level;
   row.target = build_target();
@@ -166,7 +181,7 @@ BenchRow Sweep::new_row() const {
 BenchRow Sweep::measured_row() const {
   const Simulation& simulation = run_->simulation();
   const SolveReport& report = run_->report();
-  BenchRow row = new_row();
+  BenchRow row = new_row(simulation.scene());
   row.n_vertices = simulation.model().n_vertices();
   row.n_substeps = simulation.substeps();
   row.status = name(report.status);
@@ -183,90 +198,153 @@ BenchRow Sweep::measured_row() const {
       row.parts_ms[static_cast<std::size_t>(s)] =
           ms_per_frame(run_->parts().total(static_cast<Stage>(s)), run_->timed_duration());
   }
-  if (!run_->failed()) compare(*run_, reference_, row);
+  if (!run_->failed()) compare(*run_, *made_[references_.of_setting[setting()]], row);
   row.process_peak_memory = process_peak_memory();
   return row;
 }
 
-void Sweep::add_time() {
+void Sweep::keep_row(BenchRow row) {
+  rows_.push_back(std::move(row));
+  ++n_done_;
+}
+
+void Sweep::keep_time(double ms_per_frame) {
   std::vector<double>& times = run_times_[setting()];
-  times.push_back(ms_per_frame(run_->timed_seconds(), run_->timed_duration()));
+  times.push_back(ms_per_frame);
   const auto [quickest, slowest] = std::minmax_element(times.begin(), times.end());
   BenchRow& row = rows_[setting()];
   row.ms_per_frame = median(times);
   row.spread_ms = *slowest - *quickest;
   row.n_runs = static_cast<int>(times.size());
+  ++n_done_;
 }
 
-void Sweep::begin_run() {
+/// The row of a setting that cannot run, else the run at hand.
+std::optional<BenchRow> Sweep::begin_run() {
   const auto parts =
       in_first_round() ? SampledRun::Parts::timed_with_ledger : SampledRun::Parts::untimed;
+  const Scene scene = plan_.scene_of(setting());
   try {
-    run_ = std::make_unique<SampledRun>(setting_scene(setting()), times_, parts);
+    run_ = std::make_unique<SampledRun>(scene, times_, parts);
+    return std::nullopt;
   } catch (const InputError& error) {
-    BenchRow row = new_row();
+    if (!in_first_round()) throw;
+    BenchRow row = new_row(scene);
     row.status = "refused";
     row.message = error.where() + ": " + error.what();
-    rows_.push_back(std::move(row));
-    ++n_done_;
+    return row;
   }
 }
 
-void Sweep::work_on_setting(double budget) {
-  if (run_ == nullptr && !in_first_round() && !can_be_timed(rows_[setting()])) {
-    ++n_done_;
-    return;
-  }
-  if (run_ == nullptr) begin_run();
-  if (run_ == nullptr) return;
+void Sweep::record_row(BenchRow row) {
+  Json line = journal_line(setting(), round());
+  line["row"] = parse_json(write_bench_row(row));
+  record_(line.dump() + "\n");
+  keep_row(std::move(row));
+}
+
+void Sweep::record_time(double ms_per_frame) {
+  Json line = journal_line(setting(), round());
+  line["ms_per_frame"] = ms_per_frame;
+  record_(line.dump() + "\n");
+  keep_time(ms_per_frame);
+}
+
+void Sweep::work_on_run(double budget) {
+  if (run_ == nullptr)
+    if (std::optional<BenchRow> refused = begin_run()) return record_row(std::move(*refused));
   run_->advance(budget);
   if (!run_->done()) return;
   if (in_first_round())
-    rows_.push_back(measured_row());
+    record_row(measured_row());
   else
-    add_time();
+    record_time(ms_per_frame(run_->timed_seconds(), run_->timed_duration()));
   run_.reset();
-  ++n_done_;
 }
 
 void Sweep::advance(double budget) {
   const Stopwatch watch;
   while (!done()) {
     const double left = budget - watch.elapsed();
-    if (in_reference())
-      make_reference(left);
+    if (const auto recipe = missing_reference())
+      make_reference(*recipe, left);
     else
-      work_on_setting(left);
+      work_on_run(left);
+    skip_left_out();
     if (watch.elapsed() >= budget) return;
   }
 }
 
-double Sweep::expected_work(int task) const {
-  return expected_run_work(
-      task == 0 ? finest_scene(plan_)
-                : setting_scene(static_cast<std::size_t>((task - 1) % plan_.n_settings())));
+/// False for a line that is not the next one of this sweep.
+bool Sweep::take_line(std::string_view text) {
+  try {
+    const Json json = parse_json(text);
+    const JsonReader line(json);
+    const auto most = static_cast<std::int64_t>(n_runs());
+    if (line.at("setting").integer(0, most) != static_cast<std::int64_t>(setting()) ||
+        line.at("round").integer(0, most) != static_cast<std::int64_t>(round()))
+      return false;
+    if (!in_first_round()) {
+      keep_time(line.at("ms_per_frame").number(kNotNegative));
+      return true;
+    }
+    line.at("row").members();
+    BenchRow row = read_bench_row(json["row"].dump());
+    if (row.reference.id != references_.recipes[references_.of_setting[setting()]].id) return false;
+    keep_row(std::move(row));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::size_t Sweep::resume(std::string_view journal) {
+  PLEAT_CHECK(n_done_ == 0 && maker_ == nullptr && run_ == nullptr, "only a new sweep resumes");
+  std::size_t taken = 0;
+  while (!done()) {
+    const std::size_t end = journal.find('\n', taken);
+    if (end == std::string_view::npos || !take_line(journal.substr(taken, end - taken))) break;
+    taken = end + 1;
+    skip_left_out();
+  }
+  return taken;
 }
 
 double Sweep::progress() const {
   double sum = 0;
   double passed = 0;
-  for (int task = 0; task < n_tasks(); ++task) {
-    const double work = expected_work(task);
-    sum += work;
-    if (task < n_done_) passed += work;
-    if (task == n_done_ && run_ != nullptr) passed += work * run_->progress();
+  const auto add = [&](double work, double n_runs, double n_passed) {
+    sum += work * n_runs;
+    passed += work * n_passed;
+  };
+  const std::optional<std::size_t> missing = missing_reference();
+  for (std::size_t r = 0; r < made_.size(); ++r) {
+    const double at_hand = r == missing && maker_ != nullptr ? maker_->progress() : 0;
+    add(expected_work(references_.recipes[r].scene), 1, made_[r] || !missing ? 1 : at_hand);
+  }
+  for (std::size_t s = 0; s < n_settings(); ++s) {
+    const double at_hand = s == setting() && run_ != nullptr ? run_->progress() : 0;
+    add(expected_work(plan_.settings[s].n_vertices, plan_.settings[s].method),
+        1.0 + plan_.n_repeats, static_cast<double>(round() + (s < setting() ? 1 : 0)) + at_hand);
   }
   return passed / sum;
 }
 
 std::string Sweep::message() const {
   if (done()) return "";
-  if (in_reference()) return "reference: " + phrase(finest_scene(plan_));
-  const int round = (n_done_ - 1) / plan_.n_settings();
-  return phrase(setting_scene(setting())) +
-         (round == 0
-              ? ""
-              : ", timed run " + std::to_string(round) + " of " + std::to_string(plan_.n_repeats));
+  if (const auto recipe = missing_reference()) {
+    const Scene& scene = references_.recipes[*recipe].scene;
+    const std::string which =
+        made_.size() == 1 ? ""
+                          : std::to_string(*recipe + 1) + " of " + std::to_string(made_.size());
+    return "reference" + (which.empty() ? "" : " " + which) + ": " +
+           phrase(scene.method, scene.level);
+  }
+  const SweepSetting& at_hand = plan_.settings[setting()];
+  return phrase(at_hand.method, at_hand.level) +
+         (in_first_round() ? ""
+                           : ", timed run " + std::to_string(round()) + " of " +
+                                 std::to_string(plan_.n_repeats));
 }
 
 std::string Sweep::report_json() const {

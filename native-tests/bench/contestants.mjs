@@ -96,29 +96,31 @@ export function nativeRun(scene, frames, times, options = []) {
 /** The rows of `pleat sweep`. A setting that was refused or ended early is a row too. */
 export function nativeSweep(scene, { levels, repeat, reference: kind, duration }) {
   return withSceneFile(scene, (file) => {
-    const rows = join(dirname(file), 'rows.jsonl');
+    const plan = ['--levels', levels, '--repeat', repeat, '--reference', kind];
     const words = [
       'sweep',
       file,
-      '--levels',
-      levels,
-      '--repeat',
-      repeat,
-      '--reference',
-      kind,
+      '--json',
+      '--cache',
+      cacheFolder,
       '--duration',
       duration,
+      ...plan,
     ];
-    const options = ['--out', rows, '--cache', cacheFolder];
+    const options = {
+      encoding: 'utf8',
+      maxBuffer: kMaxOutput,
+      stdio: ['ignore', 'pipe', 'inherit'],
+    };
+    let rows;
     try {
-      execFileSync(command, [...words, ...options].map(String), {
-        stdio: ['ignore', 'ignore', 'inherit'],
-      });
+      rows = execFileSync(command, words.map(String), options);
     } catch (error) {
       if (error.status === 2) throw new BadInput(''); // the command has said why
       if (error.status !== 1) throw error;
+      rows = error.stdout;
     }
-    return readFileSync(rows, 'utf8')
+    return rows
       .trim()
       .split('\n')
       .map((line) => JSON.parse(line));

@@ -53,14 +53,10 @@ async function checkedScene(file, reference) {
   return scene;
 }
 
-async function wasmSweep(scene, { levels, repeat, reference }, nativeRows) {
-  const methods = [
-    ...new Map(nativeRows.map((row) => [JSON.stringify(row.method), row.method])).values(),
-  ];
+async function wasmSweep(scene, { repeat, reference }, nativeRows) {
   const plan = {
     scene,
-    levels: levels.split(',').map(Number),
-    methods,
+    settings: nativeRows.map((row) => row.setting),
     duration_s: kDuration,
     repeats: repeat,
     reference,
@@ -88,23 +84,19 @@ function scaled(value, factor) {
   return short(value === null ? Number.NaN : factor * value);
 }
 
+/** Both lists hold the same settings in the same order. */
 function printTable(native, wasm) {
-  const same = (row) =>
-    wasm.find(
-      (other) =>
-        other.level === row.level && JSON.stringify(other.method) === JSON.stringify(row.method),
-    );
   console.log(
     '| method | level | vertices | native ms/frame | wasm ms/frame | position error mm | % | rms stretch % | largest % | status |',
   );
   console.log('|---|---|---|---|---|---|---|---|---|---|');
-  for (const row of native) {
+  for (const [i, row] of native.entries()) {
     const cells = [
       describe(row.method, row.n_substeps),
       row.level,
       row.n_vertices,
       short(row.ms_per_frame),
-      short(same(row)?.ms_per_frame),
+      short(wasm[i].ms_per_frame),
       scaled(row.position_error_m, 1e3),
       short(row.position_error_percent),
       scaled(row.rms_stretch, 100),

@@ -13,6 +13,9 @@ namespace {
 BenchRow measured_row() {
   BenchRow row({"chain-00ff", "planar chain of 64 rigid links", true});
   row.scene = "swinging \"sheet\"";
+  row.setting = {{"/refinement/level", 3}, {"/fabric/name", "silk"}};
+  row.fabric = {{"name", "silk"}};
+  row.model = {{"bending", "none"}};
   row.method.stepper = StepperKind::projective;
   row.method.step = 1.0 / 120;
   row.method.iterations = 7;
@@ -48,6 +51,9 @@ TEST_CASE("bench_row: a row reads back to what was written", "[measure]") {
   CHECK(line.find('\n') == std::string::npos);
   const BenchRow read = read_bench_row(line);
   CHECK(read.scene == row.scene);
+  CHECK(read.setting == row.setting);
+  CHECK(read.fabric == row.fabric);
+  CHECK(read.model == row.model);
   CHECK(read.method.stepper == StepperKind::projective);
   CHECK(read.rms_stretch == row.rms_stretch);
   CHECK(read.energy_drift == row.energy_drift);
@@ -90,4 +96,29 @@ TEST_CASE("bench_row: failed rows are on no front", "[measure]") {
   CHECK(front_of(rows) == std::vector<std::size_t>{1});
   const std::string table = markdown_table(rows);
   CHECK(std::count(table.begin(), table.end(), '*') == 1);
+}
+
+TEST_CASE("bench_row: the table has a column for each pointer that varies", "[measure]") {
+  std::vector<BenchRow> rows(3, measured_row());
+  const auto head = [&] {
+    const std::string table = markdown_table(rows);
+    return table.substr(0, table.find('\n'));
+  };
+  CHECK(head().find("/fabric/name") == std::string::npos);
+  rows[1].setting["/fabric/name"] = "wo|ol\x1b";
+  CHECK(head().find("| level | /fabric/name | vertices |") != std::string::npos);
+  CHECK(head().find("/refinement/level") == std::string::npos);  // it has a column already
+  CHECK(markdown_table(rows).find("| wo\\|ol\\u001b |") != std::string::npos);
+  rows[2].setting["/world/air"] = {{"density_kg_per_m3", 1}};  // the others are without it
+  CHECK(head().find("| /fabric/name | /world/air |") != std::string::npos);
+  // Every line has as many cells.
+  const std::string table = markdown_table(std::vector<BenchRow>{rows[0], rows[2]});
+  const auto cells = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), '|');
+  };
+  const std::size_t second = table.find('\n') + 1;
+  const std::size_t third = table.find('\n', second) + 1;
+  CHECK(cells(table.substr(0, second)) == cells(table.substr(second, third - second)));
+  CHECK(cells(table.substr(0, second)) ==
+        cells(table.substr(third, table.find('\n', third) - third)));
 }

@@ -74,6 +74,25 @@ TEST_CASE("reference: every change of scene, method or times has another id", "[
   CHECK(reference_id("run", scene, std::vector<double>{0.5}) != id);
 }
 
+TEST_CASE("reference: a library's fabric counts by its numbers", "[measure]") {
+  Scene scene = released_sheet_scene(3, "fine cotton");
+  const std::string id = reference_id("run", scene, kTimes);
+  scene.fabric_is_named = true;
+  CHECK(reference_id("run", scene, kTimes) == id);
+  scene.fabric.shear *= 1 + 1e-15;
+  CHECK(reference_id("run", scene, kTimes) != id);
+}
+
+TEST_CASE("reference: what moves no vertex leaves the id as it is", "[measure]") {
+  const Scene scene = released_sheet_scene(3, "fine cotton");
+  Scene renamed = scene;
+  renamed.name = "another";
+  renamed.caption = "look";
+  renamed.duration = 17;
+  renamed.record.every = 1;
+  CHECK(reference_id("run", renamed, kTimes) == reference_id("run", scene, kTimes));
+}
+
 // Fowler, Noll & Vo's published values of the 64-bit hash.
 TEST_CASE("reference: the hash is FNV-1a", "[measure]") {
   CHECK(content_hash("") == "cbf29ce484222325");

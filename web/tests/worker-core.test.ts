@@ -164,8 +164,8 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
 
   it('measures a small sweep: every row with speed, error and reference', async () => {
     const { send, posted } = open(await load());
-    const { scene, methods } = sweepPlan(setting, 0);
-    const plan = { scene, methods: methods.slice(0, 5), levels: [0], duration_s: 0.1, repeats: 1 };
+    const { scene, settings } = sweepPlan(setting, 0);
+    const plan = { scene, settings: settings.slice(0, 5), duration_s: 0.1, repeats: 1 };
     send({ type: 'sweep', planText: JSON.stringify(plan) });
     const { report } = posted.at(-1) as Sent<'sweepReport'>;
     expect(report.done).toBe(true);
@@ -224,8 +224,9 @@ describe('worker-core', () => {
     const { send, take } = serve(createFakeModule().module);
     send({ type: 'open', fabricsText });
     take('ready');
-    send({ type: 'sweep', planText: JSON.stringify({ levels: [], methods: [] }) });
-    expect(take('refused').failure.where).toBe('/levels');
+    const { scene } = sweepPlan(setting, 0);
+    send({ type: 'sweep', planText: JSON.stringify({ scene, settings: [] }) });
+    expect(take('refused').failure.where).toBe('/settings');
   });
 
   it('deletes every object of the module', () => {

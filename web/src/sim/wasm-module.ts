@@ -64,6 +64,8 @@ export interface BenchMethod {
 /** One measured setting; a number that could not be measured is null. */
 export interface BenchRow {
   scene: string;
+  /** What it changes in the plan's scene: values by their JSON pointers. */
+  setting: Record<string, unknown>;
   method: BenchMethod;
   level: number;
   n_vertices: number;

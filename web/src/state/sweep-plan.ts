@@ -33,26 +33,34 @@ const METHODS: readonly PlannedMethod[] = [
 ];
 
 /**
- * The finest level of a sweep that explicit takes part in. Each level has four times the vertices
- * and asks for four times the substeps: the six runs of fine cotton take half a minute at level 1,
- * about ten minutes at level 2.
+ * The finest level that explicit is measured at. Each level has four times the vertices and asks
+ * for four times the substeps: the six runs of fine cotton take half a minute at level 1, about
+ * ten minutes at level 2.
  */
 export const FINEST_EXPLICIT = 1;
 
+/** Values by their JSON pointers into the scene. */
+export interface PlannedSetting {
+  '/refinement/level': number;
+  '/method': PlannedMethod;
+}
+
 export interface SweepPlan {
   scene: Record<string, unknown>;
-  levels: number[];
-  methods: PlannedMethod[];
+  settings: PlannedSetting[];
   duration_s: number;
 }
 
 /** Levels 0 to `finest` of the shown preset and fabric, each with every method that can keep up. */
 export function sweepPlan(setting: Setting, finest: number): SweepPlan {
-  const levels = Array.from({ length: finest + 1 }, (_, level) => level);
-  const methods = METHODS.filter(
-    ({ stepper }) => stepper !== 'explicit' || finest <= FINEST_EXPLICIT,
-  );
-  return { scene: sceneOf(setting), levels, methods, duration_s: DURATION_S };
+  const settings: PlannedSetting[] = [];
+  for (let level = 0; level <= finest; ++level) {
+    for (const method of METHODS) {
+      if (method.stepper === 'explicit' && level > FINEST_EXPLICIT) continue;
+      settings.push({ '/refinement/level': level, '/method': method });
+    }
+  }
+  return { scene: sceneOf(setting), settings, duration_s: DURATION_S };
 }
 
 /** True for a run that came to its end: only such a row has a time and an error. */

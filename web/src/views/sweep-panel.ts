@@ -10,9 +10,9 @@ const FIRST_FINEST = 1;
 
 /** Finest level of a sweep; each one more takes about ten times as long. */
 const FINEST = [
-  { value: 1, title: '0 to 1, every stepper' },
-  { value: 2, title: '0 to 2, without Explicit' },
-  { value: 3, title: '0 to 3, without Explicit, minutes' },
+  { value: 1, title: '0 to 1' },
+  { value: 2, title: '0 to 2' },
+  { value: 3, title: '0 to 3, minutes' },
 ];
 
 export function createSweepPanel(

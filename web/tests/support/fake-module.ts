@@ -13,6 +13,11 @@ export const FRAGILE_STEPS = 10;
 
 type FakeMethod = BenchRow['method'] & { solver?: string };
 
+interface FakeChanges {
+  '/refinement/level': number;
+  '/method': FakeMethod;
+}
+
 interface FakeScene {
   name: string;
   refinement: { level: number };
@@ -176,22 +181,20 @@ class FakeExperiment implements ExperimentHandle {
   ) {}
 
   start(text: string): string {
-    const plan = JSON.parse(text) as { levels: number[]; methods: FakeMethod[]; scene?: FakeScene };
-    if (plan.levels.length === 0) return refuse('/levels', 'expected a level, found none');
-    for (const method of [...plan.methods, ...(plan.scene ? [plan.scene.method] : [])]) {
-      if (directSolver(this.build, method) === null) return refuse('/methods', 'found cholmod');
+    const plan = JSON.parse(text) as { settings: FakeChanges[]; scene: FakeScene };
+    if (plan.settings.length === 0) return refuse('/settings', 'expected a setting, found none');
+    for (const method of [...plan.settings.map((one) => one['/method']), plan.scene.method]) {
+      if (directSolver(this.build, method) === null) return refuse('/settings', 'found cholmod');
     }
     const reference = `implicit with ${this.build.hasCholmod ? 'cholmod' : 'eigen'}`;
-    this.rows = plan.levels.flatMap((level) =>
-      plan.methods.map((method) => {
-        const solver = directSolver(this.build, method);
-        return row(
-          level,
-          method.stepper === 'projective' ? { ...method, solver } : method,
-          reference,
-        );
-      }),
-    );
+    this.rows = plan.settings.map(({ '/refinement/level': level, '/method': method }) => {
+      const solver = directSolver(this.build, method);
+      return row(
+        level,
+        method.stepper === 'projective' ? { ...method, solver } : method,
+        reference,
+      );
+    });
     return ok();
   }
 
@@ -217,6 +220,7 @@ class FakeExperiment implements ExperimentHandle {
 function row(level: number, method: BenchRow['method'], reference: string): BenchRow {
   return {
     scene: 'fake',
+    setting: { '/refinement/level': level, '/method': method },
     method,
     level,
     n_vertices: (2 ** (level + 1) + 1) ** 2,

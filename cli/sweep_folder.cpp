@@ -1,0 +1,99 @@
+#include "cli/sweep_folder.h"
+
+#include <array>
+#include <set>
+
+#include "core/measure/front_figure.h"
+#include "core/scene/json_text.h"
+#include "core/scene/whole_file.h"
+
+namespace pleat {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlan = "plan.json";
+constexpr const char* kJournal = "runs.jsonl";
+constexpr const char* kRows = "rows.jsonl";
+constexpr const char* kTable = "table.md";
+constexpr const char* kFigure = "front.svg";
+/// The plan's last: without the others it is a sweep that has just begun.
+constexpr std::array kFiles = {kJournal, kRows, kTable, kFigure, kPlan};
+
+std::string core_of(const std::string& identity) {
+  try {
+    const Json json = parse_json(identity);
+    return json.is_object() ? json.value("core", "") : "";
+  } catch (const InputError&) {
+    return "";
+  } catch (const Json::exception&) {
+    return "";
+  }
+}
+
+}  // namespace
+
+std::string json_lines(const std::vector<BenchRow>& rows) {
+  std::string lines;
+  for (const BenchRow& row : rows) lines += write_bench_row(row) + "\n";
+  return lines;
+}
+
+std::string sweep_table(const Sweep& sweep) {
+  char duration[32];
+  std::snprintf(duration, sizeof duration, "%.4g", sweep.plan().duration);
+  std::string text = printable(sweep.plan().name) + ", " + duration + " s; errors against";
+  std::set<std::string> known;
+  for (const BenchRow& row : sweep.rows()) {
+    const ReferenceLabel& reference = row.reference;
+    if (!known.insert(reference.id).second) continue;
+    text += (known.size() == 1 ? " " : ",\n") + reference.id + ": " +
+            printable(reference.description) +
+            (reference.converged ? " (converged)" : " (not converged)");
+  }
+  return text + "\n\n" + markdown_table(sweep.rows());
+}
+
+SweepFolder::SweepFolder(fs::path folder, const std::string& identity, bool overwrite)
+    : folder_(std::move(folder)) {
+  std::error_code error;
+  const auto is_there = [&](const char* name) { return fs::exists(file(name), error); };
+  const std::string known = is_there(kPlan) ? read_file(file(kPlan)) : "";
+  const bool is_same = known == identity;
+  for (const char* name : kFiles) {
+    if (is_same || overwrite || !is_there(name)) continue;
+    const bool is_other_core = !known.empty() && core_of(known) != core_of(identity);
+    throw FileError(folder_, std::string("expected a folder without another sweep's files, got ") +
+                                 name + " of another " + (is_other_core ? "core" : "plan") +
+                                 "; --overwrite removes them");
+  }
+  make_folder(folder_);
+  for (const char* name : kFiles) check_writable(file(name));
+  if (is_same && !overwrite) return;
+  for (const char* name : kFiles)
+    if (is_there(name)) remove_file(file(name));
+  write_file(file(kPlan), identity);
+}
+
+std::string SweepFolder::journal() const {
+  std::error_code error;
+  return fs::exists(file(kJournal), error) ? read_file(file(kJournal)) : "";
+}
+
+void SweepFolder::open_journal(std::size_t n_bytes) {
+  write_file(file(kJournal), journal().substr(0, n_bytes));
+  journal_.open(file(kJournal), std::ios::binary | std::ios::app);
+}
+
+void SweepFolder::record(const std::string& line) {
+  journal_ << line << std::flush;
+  if (!journal_) throw FileError(file(kJournal), "expected a place that can be written to");
+}
+
+void SweepFolder::write_results(const Sweep& sweep) const {
+  write_file(file(kRows), json_lines(sweep.rows()));
+  write_file(file(kTable), sweep_table(sweep));
+  write_file(file(kFigure), front_figure(sweep.rows()));
+}
+
+}  // namespace pleat

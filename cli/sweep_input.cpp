@@ -1,0 +1,210 @@
+#include "cli/sweep_input.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "core/base/check.h"
+#include "core/scene/method_section.h"
+
+namespace pleat {
+namespace {
+
+constexpr StepperKind kSteppers[] = {StepperKind::explicit_euler, StepperKind::implicit_euler,
+                                     StepperKind::projective, StepperKind::xpbd};
+
+/// The settings of a stepper worth comparing, with the scene's own step: each about three times as
+/// dear as the one before.
+std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptions& scene_method) {
+  MethodOptions method = scene_method;
+  method.stepper = stepper;
+  method.iterations = 1;
+  std::vector<int> substeps;
+  switch (stepper) {
+    case StepperKind::explicit_euler:
+      substeps = {0};
+      break;
+    case StepperKind::implicit_euler:
+      substeps = {1, 4};
+      break;
+    case StepperKind::projective:
+      method.solver = best_direct_solver();
+      method.iterations = 5;
+      substeps = {1, 4};
+      break;
+    case StepperKind::xpbd:
+      substeps = {10, 30, 100};
+      break;
+  }
+  std::vector<MethodOptions> settings;
+  for (const int n : substeps) {
+    settings.push_back(method);
+    settings.back().substeps = n;
+  }
+  return settings;
+}
+
+/// The settings of the steppers named, of all where none is.
+Json stepper_settings(std::vector<std::string> names, const MethodOptions& scene_method) {
+  if (names.empty())
+    for (const StepperKind kind : kSteppers) names.emplace_back(name(kind));
+  Json settings = Json::array();
+  std::set<std::string> known;
+  for (const std::string& wanted : names) {
+    if (!known.insert(wanted).second)
+      throw InputError("--steppers", "expected each stepper once, got " + wanted + " twice");
+    const auto* kind = std::find_if(std::begin(kSteppers), std::end(kSteppers),
+                                    [&](StepperKind one) { return wanted == name(one); });
+    if (kind == std::end(kSteppers))
+      throw InputError("--steppers", "expected explicit, implicit, projective or xpbd, got " +
+                                         abbreviated(Json(wanted)));
+    for (const MethodOptions& method : usual_settings(*kind, scene_method))
+      settings.push_back({{"/method", json_method(method)}});
+  }
+  return settings;
+}
+
+/// Values between commas: as JSON where all of them are, else numbers and texts.
+Json value_list(const std::string& text) {
+  Json values = Json::parse("[" + text + "]", nullptr, /*allow_exceptions=*/false);
+  if (!values.is_discarded()) return values;
+  values = Json::array();
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    values.push_back(option_value(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return values;
+}
+
+/// What the options say of a plan.
+struct PlanOptions {
+  Json values = Json::object();  // of the grid
+  std::map<std::string, const char*> grid;
+  std::vector<std::string> steppers;
+  std::optional<int> n_repeats;
+  std::optional<std::string> reference;
+  std::vector<std::string_view> given;
+
+  void add_list(const char* option, const std::string& pointer, const std::string& list) {
+    if (!grid.emplace(pointer, option).second)
+      throw InputError(option,
+                       "expected each pointer once, got " + abbreviated(Json(pointer)) + " twice");
+    values[pointer] = value_list(list);
+    given.emplace_back(option);
+  }
+  bool is_given(std::string_view option) const {
+    return std::find(given.begin(), given.end(), option) != given.end();
+  }
+};
+
+PlanOptions take_plan_options(Arguments& arguments) {
+  PlanOptions options;
+  if (const auto levels = arguments.text("--levels"))
+    options.add_list("--levels", "/refinement/level", *levels);
+  while (const auto set = arguments.text("--set")) {
+    const std::size_t equals = set->find('=');
+    if (equals == std::string::npos)
+      throw InputError("--set",
+                       "expected a pointer and its values, such as /method/substeps=1,2, got " +
+                           abbreviated(Json(*set)));
+    options.add_list("--set", set->substr(0, equals), set->substr(equals + 1));
+  }
+  options.steppers = arguments.list("--steppers");
+  if (!options.steppers.empty()) options.given.emplace_back("--steppers");
+  options.n_repeats = arguments.whole_number("--repeat", 1, 1000);
+  if (options.n_repeats) options.given.emplace_back("--repeat");
+  options.reference = arguments.text("--reference");
+  if (options.reference) options.given.emplace_back("--reference");
+  arguments.refuse("--level", "a sweep does not take this option, but --levels");
+  for (const char* option : {"--stepper", "--substeps", "--iterations"})
+    arguments.refuse(option, "a sweep does not take this option, but --steppers and --set");
+  return options;
+}
+
+/// Broken files are no plans: who reads them as a scene says what is wrong.
+bool is_plan_file(const std::string& file) {
+  try {
+    const Json json = parse_json(read_file(file));
+    return json.is_object() && json.contains("scene");
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// The text of a plan's file with the scene that it may name in its place.
+std::string whole_plan(SweepInput& input) {
+  Json json = parse_json(read_file(input.file));
+  if (!json["scene"].is_string()) return json.dump();
+  const std::filesystem::path folder = std::filesystem::path(input.file).parent_path();
+  input.scene_file = (folder / json["scene"].get<std::string>()).string();
+  try {
+    json["scene"] = parse_json(read_file(input.scene_file));
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw InputError(input.scene_file + ": " + error.where(), error.what());
+  }
+  return json.dump();
+}
+
+std::string plan_of_options(const PlanOptions& options, const SceneInput& scene) {
+  Json plan = {{"scene", parse_json(scene.text)}, {"grid", options.values}};
+  if (!options.steppers.empty() || !options.is_given("--set"))
+    plan["settings"] = stepper_settings(options.steppers, scene.scene.method);
+  if (options.n_repeats) plan["repeats"] = *options.n_repeats;
+  if (options.reference) plan["reference"] = *options.reference;
+  return plan.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void SweepInput::throw_with_source(const InputError& error) const {
+  const std::string& where = error.where();
+  const bool in_scene = where == "/scene" || where.rfind("/scene/", 0) == 0;
+  const std::string in_its_file = in_scene ? where.substr(std::string("/scene").size()) : where;
+  if (scene) {
+    for (const auto& [pointer, option] : grid)
+      if (where.rfind("/grid/" + pointer_token(pointer), 0) == 0)
+        throw InputError(option, error.what());
+    if (where == "/grid" || where == "/settings") throw InputError("--set", error.what());
+    if (where == "/reference") throw InputError("--reference", error.what());
+    scene->throw_with_source(InputError(in_its_file, error.what()));
+  }
+  const bool in_scene_file = in_scene && !scene_file.empty();
+  const std::string& place = in_scene_file ? scene_file : file;
+  const std::string& pointer = in_scene_file ? in_its_file : where;
+  throw InputError(pointer.empty() ? place : place + ": " + pointer, error.what());
+}
+
+void SweepInput::throw_out_of_memory() const {
+  double most = 0;
+  for (const SweepSetting& setting : plan.settings) most = std::max(most, setting.n_vertices);
+  throw InputError(file,
+                   "not enough memory for " + std::to_string(std::llround(most)) + " vertices");
+}
+
+SweepInput take_sweep(Arguments& arguments) {
+  const PlanOptions options = take_plan_options(arguments);
+  const FabricLibrary fabrics = take_fabrics(arguments);
+  const SceneChanges changes = take_scene_changes(arguments);
+  SweepInput input;
+  input.file = arguments.word("a scene's or a plan's file");
+  input.grid = options.grid;
+  const bool is_plan = is_plan_file(input.file);
+  for (const auto* given : {&options.given, &changes.options})
+    if (is_plan && !given->empty())
+      throw InputError(std::string(given->front()), "a plan's file says this itself");
+  if (!is_plan) input.scene = read_scene_input(input.file, changes, fabrics);
+  with_source_named(input, [&] {
+    const std::string text = is_plan ? whole_plan(input) : plan_of_options(options, *input.scene);
+    input.plan = read_sweep_plan(
+        text, [fabrics](std::string_view scene) { return read_scene(scene, fabrics); });
+  });
+  return input;
+}
+
+}  // namespace pleat

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/scene/json_text.h"
+
+namespace pleat {
+
+/// A value that takes the place of one in a scene's file.
+struct SceneOverride {
+  std::string pointer;  ///< JSON pointer into the scene (RFC 6901), such as "/method/substeps"
+  Json value;
+};
+
+/// Sets values in a scene as its file has it: whoever reads it then checks them like the file's.
+///
+/// A section is set before what is in it, "/method/stepper" and "/fabric/name" before their
+/// neighbours, all else in the order given. Objects that are missing on the way are made. Another
+/// stepper than the scene's leaves out what it cannot take: explicit gets "stable" substeps, the
+/// others one in place of "stable", projective its default solver in place of one without a
+/// factor. Another fabric's name leaves out the scene's own numbers, but for "bending" beside a
+/// name.
+///
+/// What is no object though it should be is left for the reader of the scene to refuse. Throws
+/// InputError{pointer} for what is no pointer and for an element that an array does not have.
+void override_scene(Json& scene, std::span<const SceneOverride> overrides);
+
+}  // namespace pleat
