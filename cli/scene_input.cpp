@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "core/scene/cloth_section.h"
@@ -42,6 +43,13 @@ void replace(Json& scene, const std::string& pointer, Json value) {
   }
   if (!scene.contains(key)) scene[key] = Json::object();
   replace(scene[key], pointer.substr(slash), std::move(value));
+}
+
+/// Names of files in a scene are relative to its own folder.
+FileSource files_beside(const std::string& scene_file) {
+  return [folder = std::filesystem::path(scene_file).parent_path()](const std::string& name) {
+    return read_file(folder / name);
+  };
 }
 
 /// Makes room for another fabric's name; rigidity stays that at rest or in motion.
@@ -101,9 +109,7 @@ void SceneInput::throw_with_source(const InputError& error) const {
 }
 
 void SceneInput::throw_out_of_memory() const {
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  const std::int64_t n =
-      shape != nullptr ? n_sheet_vertices(*shape, scene.level) : n_base_vertices(scene);
+  const std::int64_t n = n_refined_vertices(scene, scene.level);
   throw InputError(file, "not enough memory for " + std::to_string(n) + " vertices");
 }
 
@@ -145,7 +151,8 @@ SceneInput take_scene(Arguments& arguments) {
     if (json.is_object() && json.contains("duration_s"))
       input.has_duration = is_duration(json["duration_s"]);
     // An option may hold bytes that are no text.
-    input.scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics);
+    input.scene = read_scene(json.dump(-1, ' ', false, Json::error_handler_t::replace), fabrics,
+                             files_beside(input.file));
   } catch (const FileError&) {
     throw;
   } catch (const InputError& error) {
