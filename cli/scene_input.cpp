@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 #include "core/scene/cloth_section.h"
 #include "core/scene/json_reader.h"
@@ -23,6 +25,13 @@ constexpr SceneOption kSceneOptions[] = {
     {"--solver", "/method/solver"},     {"--tolerance", "/method/tolerance"},
     {"--duration", "/duration_s"},
 };
+
+/// Names of files in a scene are relative to its own folder.
+FileSource files_beside(const std::string& scene_file) {
+  return [folder = std::filesystem::path(scene_file).parent_path()](const std::string& name) {
+    return read_file(folder / name);
+  };
+}
 
 /// The duration of so many steps of the scene [s], not rounded to more: the most steps are allowed.
 double duration_of(int n_steps, const Json& scene) {
@@ -57,9 +66,7 @@ void SceneInput::throw_with_source(const InputError& error) const {
 }
 
 void SceneInput::throw_out_of_memory() const {
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  const std::int64_t n =
-      shape != nullptr ? n_sheet_vertices(*shape, scene.level) : n_base_vertices(scene);
+  const std::int64_t n = n_refined_vertices(scene, scene.level);
   throw InputError(file, "not enough memory for " + std::to_string(n) + " vertices");
 }
 
@@ -111,7 +118,7 @@ SceneInput read_scene_input(const std::string& file, const SceneChanges& changes
       input.has_duration = is_duration(json["duration_s"]);
     // An option may hold bytes that are no text.
     input.text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    input.scene = read_scene(input.text, fabrics);
+    input.scene = read_scene(input.text, fabrics, files_beside(input.file));
   } catch (const FileError&) {
     throw;
   } catch (const InputError& error) {

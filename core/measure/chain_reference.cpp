@@ -4,7 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/measure/rigid_chain.h"
-#include "core/scene/scene_model.h"
+#include "core/scene/rest_cloth.h"
 
 namespace pleat {
 namespace {
@@ -81,7 +81,7 @@ double largest_difference(const std::vector<Eigen::Matrix2Xd>& a,
 
 Reference chain_reference(const Scene& scene, std::span<const double> times) {
   const SheetShape& shape = swinging_sheet(scene);
-  const QuadMesh mesh = *scene_mesh(scene);
+  const QuadMesh mesh = *rest_cloth(scene, scene.level).quads;
   const int n_links = shape.rows << scene.level;
   const double spacing = shape.height / n_links;
   const std::vector<int> rows = vertex_rows(mesh, spacing);

@@ -26,14 +26,6 @@ double position_error(const Eigen::Ref<const Positions>& positions,
   return std::sqrt(sum / areas.sum());
 }
 
-double rest_diagonal(const Scene& scene) {
-  if (const auto* sheet = std::get_if<SheetShape>(&scene.cloth))
-    return std::hypot(sheet->width, sheet->height);
-  const Positions& positions = std::get<InlineCloth>(scene.cloth).positions;
-  if (positions.cols() == 0) return 0;
-  return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
-}
-
 Stretch stretch(std::span<const GaugeEdge> gauge, const Eigen::Ref<const Positions>& positions) {
   if (gauge.empty()) return {};
   double sum = 0;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/gauge.h"
-#include "core/scene/scene.h"
+#include "core/scene/rest_cloth.h"
 
 namespace pleat {
 
@@ -19,10 +19,6 @@ namespace pleat {
 double position_error(const Eigen::Ref<const Positions>& positions,
                       const Eigen::Ref<const Positions>& reference,
                       const Eigen::Ref<const Eigen::VectorXd>& areas);
-
-/// Length that position errors are given in per cent of [m]: a sheet's diagonal, or that of the box
-/// around inline particles. 0 for a single particle.
-double rest_diagonal(const Scene& scene);
 
 /// |l/L - 1| over the edges of a gauge; 0 without any.
 struct Stretch {

@@ -22,12 +22,6 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-/// Rest area of each vertex; inline particles count by their mass.
-Eigen::VectorXd material_areas(const Simulation& simulation) {
-  return simulation.mesh() != nullptr ? simulation.mesh()->vertex_areas()
-                                      : simulation.model().masses;
-}
-
 double root_mean_square(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
@@ -52,7 +46,7 @@ void compare(const SampledRun& run, const Reference& reference, BenchRow& row) {
   row.rms_stretch = own.rms;
   row.largest_stretch = own.largest;
   if (reference.samples.size() != run.samples().size()) return;
-  const Eigen::VectorXd areas = material_areas(run.simulation());
+  const Eigen::VectorXd areas = run.simulation().rest_areas();
   std::vector<double> errors;
   for (std::size_t s = 0; s < run.samples().size(); ++s)
     errors.push_back(

@@ -4,26 +4,30 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/scene/mesh_section.h"
+#include "core/scene/vertex_arrays.h"
 
 namespace pleat {
 namespace {
 
 constexpr std::int64_t kMaxCells = kMaxVertices;  // along one side; the product is checked too
 
-VertexId read_vertex(const JsonReader& reader, std::int64_t n_vertices) {
-  return VertexId(reader.integer(0, n_vertices - 1));
+std::int64_t n_sheet_vertices(const SheetShape& shape, int level) {
+  const std::int64_t cells_per_side = std::int64_t{1} << level;
+  return (shape.columns * cells_per_side + 1) * (shape.rows * cells_per_side + 1);
 }
 
-template <std::size_t n>
-std::array<VertexId, n> read_vertices(const JsonReader& reader, std::int64_t n_vertices) {
-  std::array<VertexId, n> vertices;
-  const std::vector<JsonReader> elements = reader.elements(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    vertices[k] = read_vertex(elements[k], n_vertices);
-    for (std::size_t other = 0; other < k; ++other)
-      if (vertices[other] == vertices[k]) reader.fail(std::to_string(n) + " different vertices");
+/// Each level puts a vertex on every edge, halves the edge and joins the three of each triangle.
+std::int64_t n_mesh_vertices(const TriangleMesh& mesh, int level) {
+  std::int64_t n_vertices = mesh.n_vertices();
+  auto n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  auto n_edges = static_cast<std::int64_t>(level > 0 ? mesh_edges(mesh.triangles).size() : 0);
+  for (; level > 0; --level) {
+    n_vertices += n_edges;
+    n_edges = 2 * n_edges + 3 * n_triangles;
+    n_triangles *= 4;
   }
-  return vertices;
+  return n_vertices;
 }
 
 /// Directions that are perpendicular up to the digits of a file are made so to the last bit.
@@ -62,13 +66,6 @@ void read_sheet(const JsonReader& reader, Scene& scene) {
   scene.cloth = shape;
 }
 
-Positions read_columns(const std::vector<JsonReader>& elements) {
-  Positions columns(3, static_cast<Eigen::Index>(elements.size()));
-  Eigen::Index column = 0;
-  for (const JsonReader& element : elements) columns.col(column++) = element.vec3();
-  return columns;
-}
-
 Spring read_spring(const JsonReader& reader, const Positions& positions) {
   reader.allow_keys({"a", "b", "stiffness_n_per_m", "rest_length_m", "damping_n_s_per_m"});
   Spring spring;
@@ -101,17 +98,15 @@ void read_particles(const JsonReader& reader, Scene& scene) {
   reader.allow_keys(
       {"positions_m", "velocities_m_per_s", "masses_kg", "springs", "bends", "triangles"});
   InlineCloth cloth;
-  const std::vector<JsonReader> positions = reader.at("positions_m").elements();
-  if (positions.empty() || static_cast<std::int64_t>(positions.size()) > kMaxVertices)
-    reader.at("positions_m").fail("1 to " + std::to_string(kMaxVertices) + " positions");
-  cloth.positions = read_columns(positions);
+  cloth.positions = read_positions(reader.at("positions_m"));
   const std::int64_t n = cloth.positions.cols();
+  const auto n_elements = static_cast<std::size_t>(n);
   cloth.velocities = Positions::Zero(3, n);
   if (const auto at = reader.find("velocities_m_per_s"))
-    cloth.velocities = read_columns(at->elements(positions.size()));
+    cloth.velocities = read_columns(at->elements(n_elements));
   cloth.masses.resize(n);
   Eigen::Index particle = 0;
-  for (const JsonReader& mass : reader.at("masses_kg").elements(positions.size()))
+  for (const JsonReader& mass : reader.at("masses_kg").elements(n_elements))
     cloth.masses[particle++] = mass.number(kPositive);
   if (const auto at = reader.find("springs"))
     for (const JsonReader& spring : at->elements())
@@ -124,13 +119,6 @@ void read_particles(const JsonReader& reader, Scene& scene) {
   scene.cloth = std::move(cloth);
 }
 
-template <std::size_t n>
-Json json_vertices(const std::array<VertexId, n>& vertices) {
-  Json json = Json::array();
-  for (const VertexId vertex : vertices) json.push_back(vertex.value);
-  return json;
-}
-
 Json json_sheet(const SheetShape& shape, const Vec3& initial_velocity) {
   return {{"width_m", shape.width},
           {"height_m", shape.height},
@@ -140,13 +128,6 @@ Json json_sheet(const SheetShape& shape, const Vec3& initial_velocity) {
           {"warp_direction", json_vec3(shape.warp_direction)},
           {"weft_direction", json_vec3(shape.weft_direction)},
           {"initial_velocity_m_per_s", json_vec3(initial_velocity)}};
-}
-
-Json json_columns(const Positions& columns) {
-  Json json = Json::array();
-  for (Eigen::Index column = 0; column < columns.cols(); ++column)
-    json.push_back(json_vec3(columns.col(column)));
-  return json;
 }
 
 Json json_particles(const InlineCloth& cloth) {
@@ -176,39 +157,42 @@ Json json_particles(const InlineCloth& cloth) {
 
 }  // namespace
 
-std::int64_t n_sheet_vertices(const SheetShape& shape, int level) {
-  const std::int64_t cells_per_side = std::int64_t{1} << level;
-  return (shape.columns * cells_per_side + 1) * (shape.rows * cells_per_side + 1);
-}
-
-void check_level(const Scene& scene, int level, const std::string& where) {
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  if (shape == nullptr && level > 0)
-    throw InputError(where,
-                     "expected 0, as particles cannot be refined, got " + std::to_string(level));
-  if (shape != nullptr && n_sheet_vertices(*shape, level) > kMaxVertices)
-    throw InputError(where, "expected a level with at most " + std::to_string(kMaxVertices) +
-                                " vertices, got " + std::to_string(level) + " with " +
-                                std::to_string(n_sheet_vertices(*shape, level)));
-}
-
-std::int64_t n_base_vertices(const Scene& scene) {
-  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth)) return n_sheet_vertices(*shape, 0);
+std::int64_t n_refined_vertices(const Scene& scene, int level) {
+  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth))
+    return n_sheet_vertices(*shape, level);
+  if (const auto* cloth = std::get_if<MeshCloth>(&scene.cloth))
+    return n_mesh_vertices(cloth->mesh, level);
   return std::get<InlineCloth>(scene.cloth).positions.cols();
 }
 
-void read_cloth(const JsonReader& reader, Scene& scene) {
-  reader.allow_keys({"sheet", "particles"});
-  if (reader.only_one_of({"sheet", "particles"}) == 0) {
-    read_sheet(reader.at("sheet"), scene);
-  } else {
-    read_particles(reader.at("particles"), scene);
+void check_level(const Scene& scene, int level, const std::string& where) {
+  if (level > 0 && std::holds_alternative<InlineCloth>(scene.cloth))
+    throw InputError(where,
+                     "expected 0, as particles cannot be refined, got " + std::to_string(level));
+  const std::int64_t n_vertices = n_refined_vertices(scene, level);
+  if (n_vertices > kMaxVertices)
+    throw InputError(where, "expected a level with at most " + std::to_string(kMaxVertices) +
+                                " vertices, got " + std::to_string(level) + " with " +
+                                std::to_string(n_vertices));
+}
+
+void read_cloth(const JsonReader& reader, const FileSource& files, Scene& scene) {
+  reader.allow_keys({"sheet", "particles", "mesh"});
+  switch (reader.only_one_of({"sheet", "particles", "mesh"})) {
+    case 0:
+      return read_sheet(reader.at("sheet"), scene);
+    case 1:
+      return read_particles(reader.at("particles"), scene);
+    default:
+      return read_mesh(reader.at("mesh"), files, scene);
   }
 }
 
 Json json_cloth(const Scene& scene) {
   if (const auto* shape = std::get_if<SheetShape>(&scene.cloth))
     return {{"sheet", json_sheet(*shape, scene.initial_velocity)}};
+  if (const auto* cloth = std::get_if<MeshCloth>(&scene.cloth))
+    return {{"mesh", json_mesh(*cloth, scene.initial_velocity)}};
   return {{"particles", json_particles(std::get<InlineCloth>(scene.cloth))}};
 }
 

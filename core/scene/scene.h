@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,8 +10,13 @@
 #include "core/dynamics/stepper.h"
 #include "core/fabric/fabric.h"
 #include "core/mesh/quad_mesh.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/mesh/vertex_group.h"
 
 namespace pleat {
+
+/// More vertices or particles are refused: their matrices would not fit into a browser's memory.
+constexpr std::int64_t kMaxVertices = 1000000;
 
 /// Particles and springs written out in the scene: textbook systems (pendulum, chain) are scenes
 /// too.
@@ -21,6 +27,13 @@ struct InlineCloth {
   std::vector<Spring> springs;
   std::vector<BendElement> bends;
   std::vector<Triangle> triangles;  ///< for drawing and air drag; may be empty
+};
+
+/// Any triangle mesh, at rest at time 0.
+struct MeshCloth {
+  TriangleMesh mesh;                    ///< sound (mesh_fault), with all warp directions
+  std::vector<VertexGroup> groups;      ///< with different names, none empty
+  RestCoordinates texture_coordinates;  ///< 2 x n; empty unless each vertex has exactly one pair
 };
 
 /// Named parts of a sheet. Upper is u = 0 (where warp begins), left is v = 0 (where weft begins).
@@ -35,10 +48,20 @@ enum class SheetPart {
   lower_right
 };
 
-/// Pins a named part of a sheet (at every refinement), or listed vertices (of the base mesh, or
-/// inline particles).
+/// A box along the axes, sides included.
+struct PinBox {
+  Vec3 low{0, 0, 0};   ///< [m]
+  Vec3 high{0, 0, 0};  ///< [m], nowhere below `low`
+
+  bool holds(const Vec3& x) const {
+    return (low.array() <= x.array() && x.array() <= high.array()).all();
+  }
+};
+
+/// Pins, at every refinement, a part of a sheet, a mesh's group of that name or what rests in a
+/// box; or only listed vertices (of the base mesh, or inline particles).
 struct PinRule {
-  std::variant<SheetPart, std::vector<VertexId>> where;
+  std::variant<SheetPart, std::vector<VertexId>, std::string, PinBox> where;
   Motion motion;
 };
 
@@ -62,8 +85,8 @@ struct RecordOptions {
 struct Scene {
   std::string name = "unnamed";
   std::string caption;  ///< one sentence: what to notice
-  std::variant<SheetShape, InlineCloth> cloth = SheetShape{};
-  Vec3 initial_velocity{0, 0, 0};  ///< of a sheet [m/s]
+  std::variant<SheetShape, InlineCloth, MeshCloth> cloth = SheetShape{};
+  Vec3 initial_velocity{0, 0, 0};  ///< of a sheet or mesh [m/s]
   BendSource bend_source = BendSource::at_rest;
   bool fabric_is_named =
       false;  ///< then fabric.name is a library fabric, else the numbers are the scene's own

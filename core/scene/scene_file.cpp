@@ -35,7 +35,8 @@ std::int64_t whole_steps(double duration, double step) {
   return std::max<std::int64_t>(1, std::llround(n_steps));
 }
 
-Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics) {
+Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
+                 const FileSource& files) {
   const Json document = parse_json(json_text);
   const JsonReader root(document);
   root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "refinement", "pins",
@@ -44,7 +45,7 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics) {
   if (const auto at = root.find("$schema")) at->text();
   if (const auto at = root.find("name")) scene.name = at->text();
   if (const auto at = root.find("caption")) scene.caption = at->text();
-  read_cloth(root.at("cloth"), scene);
+  read_cloth(root.at("cloth"), files, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
   if (const auto at = root.find("model")) read_model(*at, scene.model);
   if (const auto at = root.find("refinement")) scene.level = read_refinement(*at, scene);

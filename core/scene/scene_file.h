@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/scene/fabric_file.h"
+#include "core/scene/file_source.h"
 #include "core/scene/scene.h"
 
 namespace pleat {
@@ -12,9 +13,13 @@ namespace pleat {
 /// Reads a scene (JSON, schema in scene_schema.json). Unknown keys, wrong types, values out of
 /// range and everything that could not run throw InputError with the JSON pointer, what was
 /// expected and what was found.
-Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics);
+///
+/// files  for the meshes that it names. Without it they are refused.
+Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
+                 const FileSource& files = {});
 
-/// The same scene with every default written out. read_scene(write_scene(s)) gives s again.
+/// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s
+/// again.
 std::string write_scene(const Scene& scene);
 
 /// A week of the fastest step; more is a mistake in the unit.

@@ -1,25 +1,20 @@
 #pragma once
 
-#include <optional>
+#include <string>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/rest_cloth.h"
 
 namespace pleat {
 
-/// The refined mesh of a sheet; none for inline particles.
-std::optional<QuadMesh> scene_mesh(const Scene& scene);
-
 /// The equations of motion that a scene asks for, and nothing else.
 ///
-/// mesh       of scene_mesh(scene), or null
-/// triangles  of the cloth, for air drag and contact
+/// cloth  of this scene
 /// Throws InputError for a fabric whose shear the cells cannot carry.
-ClothModel scene_model(const Scene& scene, const QuadMesh* mesh,
-                       const std::vector<Triangle>& triangles);
+ClothModel scene_model(const Scene& scene, const RestCloth& cloth);
 
 /// The state at time 0: the rest shape with the initial velocity, or as the inline particles say.
-State scene_state(const Scene& scene, const QuadMesh* mesh);
+State scene_state(const Scene& scene, const RestCloth& cloth);
 
 /// What scene_model built, and what it left out because the scene does not ask for it.
 struct BuildReport {

@@ -7,30 +7,26 @@
 namespace pleat {
 namespace {
 
-std::vector<Triangle> scene_triangles(const Scene& scene, const std::optional<QuadMesh>& mesh) {
-  return mesh ? mesh->triangles() : std::get<InlineCloth>(scene.cloth).triangles;
+std::vector<GaugeEdge> cloth_gauge(const Scene& scene, const RestCloth& cloth) {
+  if (cloth.quads) return gauge_edges(*cloth.quads);
+  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+    return gauge_edges(particles->springs);
+  return gauge_edges(cloth.mesh);
 }
-
-std::vector<GaugeEdge> scene_gauge(const Scene& scene, const std::optional<QuadMesh>& mesh) {
-  return mesh ? gauge_edges(*mesh) : gauge_edges(std::get<InlineCloth>(scene.cloth).springs);
-}
-
-double rest_diagonal(const SheetShape& shape) { return std::hypot(shape.width, shape.height); }
 
 }  // namespace
 
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
-      mesh_(scene_mesh(scene)),
-      triangles_(scene_triangles(scene, mesh_)),
-      model_(scene_model(scene, mesh(), triangles_)),
-      gauge_(scene_gauge(scene, mesh_)) {
+      cloth_(rest_cloth(scene, scene.level)),
+      model_(scene_model(scene, cloth_)),
+      gauge_(cloth_gauge(scene, cloth_)) {
   start();
 }
 
 /// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.
 void Simulation::start() {
-  state_ = scene_state(scene_, mesh());
+  state_ = scene_state(scene_, cloth_);
   time_begin_ = 0;
   n_steps_ = 0;
   ended_ = {};
@@ -43,8 +39,6 @@ void Simulation::observe(StageObserver* observer) {
   observer_ = observer;
   stepper_->observe(observer);
 }
-
-Positions Simulation::rest_positions() const { return scene_state(scene_, mesh()).positions; }
 
 void Simulation::reset() {
   release_grab();
@@ -74,9 +68,9 @@ void Simulation::carry_over(const Simulation& old) {
       shape && old_shape && shape->columns == old_shape->columns && shape->rows == old_shape->rows,
       "motion is carried over between refinements of one sheet");
   end_transition();
-  const MovingSheet from{*old.mesh_, old.model_, old.state_};
-  state_ = carried_state(from, *mesh_);
-  const MovingSheet to{*mesh_, model_, state_};
+  const MovingSheet from{*old.cloth_.quads, old.model_, old.state_};
+  state_ = carried_state(from, *cloth_.quads);
+  const MovingSheet to{*cloth_.quads, model_, state_};
   transition_.emplace(from, to);
   stepper_->start_from_contact_forces(carried_forces(old.stepper_->contact_forces(), from, to));
   time_begin_ = old.time();
@@ -99,13 +93,11 @@ void Simulation::grab(VertexId vertex) {
   std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
   for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
   grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
-  const double radius = mesh_ ? kHandRadius * rest_diagonal(std::get<SheetShape>(scene_.cloth)) : 0;
+  const bool is_one_piece = !std::holds_alternative<InlineCloth>(scene_.cloth);
+  const double radius = is_one_piece ? kHandRadius * rest_diagonal(scene_) : 0;
+  const Positions& rest = rest_positions();
   for (int i = 0; i < model_.n_vertices(); ++i) {
-    const bool in_hand =
-        i == vertex ||
-        (mesh_ &&
-         (mesh_->rest_coordinates().col(i) - mesh_->rest_coordinates().col(vertex)).norm() <=
-             radius);
+    const bool in_hand = (rest.col(i) - rest.col(vertex)).norm() <= radius;
     if (in_hand && !pinned[static_cast<std::size_t>(i)])
       model_.pins.push_back({VertexId(i), state_.positions.col(i), {}});
   }

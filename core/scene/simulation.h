@@ -30,8 +30,8 @@ class Simulation {
   /// shake the cloth. Throws ContractError unless both are sheets with the same base mesh.
   void carry_over(const Simulation& old);
 
-  /// Holds every vertex within the hand's radius (kHandRadius of the sheet's rest diagonal, at
-  /// least the vertex itself) of `vertex` and moves them together. One hand at a time.
+  /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
+  /// particles, only the vertex itself) of `vertex` and moves them together. One hand at a time.
   void grab(VertexId vertex);
   bool is_grabbed() const { return grab_.has_value(); }
   /// Where the grabbed vertex shall be at the end of the next step [m].
@@ -44,9 +44,12 @@ class Simulation {
   /// What stretch is measured by.
   const std::vector<GaugeEdge>& gauge() const { return gauge_; }
   const State& state() const { return state_; }
-  const QuadMesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }  ///< null for inline particles
-  const std::vector<Triangle>& triangles() const { return triangles_; }
-  Positions rest_positions() const;                  ///< where the scene starts [m]
+  const QuadMesh* mesh() const { return cloth_.quads ? &*cloth_.quads : nullptr; }  ///< of a sheet
+  const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
+  /// Where the scene starts [m].
+  const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
+  /// Of each vertex [m^2]; particles count by their mass.
+  Eigen::VectorXd rest_areas() const { return pleat::rest_areas(scene_, cloth_); }
   std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
   double time() const {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
@@ -66,8 +69,7 @@ class Simulation {
   void end_transition();
 
   Scene scene_;
-  std::optional<QuadMesh> mesh_;
-  std::vector<Triangle> triangles_;
+  RestCloth cloth_;
   ClothModel model_;
   const std::vector<GaugeEdge> gauge_;
   State state_;

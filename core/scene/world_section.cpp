@@ -4,6 +4,9 @@
 
 #include "core/base/check.h"
 #include "core/scene/cloth_section.h"
+#include "core/scene/nearest_word.h"
+#include "core/scene/rest_cloth.h"
+#include "core/scene/vertex_arrays.h"
 
 namespace pleat {
 namespace {
@@ -83,24 +86,59 @@ std::vector<VertexId> base_vertices(const SheetShape& shape, SheetPart part) {
   return vertices;
 }
 
-std::vector<VertexId> pinned_vertices(const Scene& scene, const PinRule& pin) {
-  if (const auto* vertices = std::get_if<std::vector<VertexId>>(&pin.where)) return *vertices;
-  return base_vertices(std::get<SheetShape>(scene.cloth), std::get<SheetPart>(pin.where));
+/// Of the unrefined cloth. A sheet's mesh, which may be large, is made for boxes alone.
+std::vector<VertexId> base_vertices(const Scene& scene, const PinRule& pin) {
+  if (const auto* listed = std::get_if<std::vector<VertexId>>(&pin.where)) return *listed;
+  if (const auto* part = std::get_if<SheetPart>(&pin.where))
+    return base_vertices(std::get<SheetShape>(scene.cloth), *part);
+  return pinned_vertices(pin, scene, rest_cloth(scene, 0));
+}
+
+std::string listed(const std::vector<VertexGroup>& groups) {
+  std::string text;
+  for (const VertexGroup& group : groups) text += (text.empty() ? "\"" : ", \"") + group.name + '"';
+  return cut(text);
+}
+
+std::string read_group_name(const JsonReader& reader, const std::vector<VertexGroup>& groups) {
+  const std::string& wanted = reader.text();
+  std::vector<const char*> names;
+  for (const VertexGroup& group : groups) {
+    if (group.name == wanted) return wanted;
+    names.push_back(group.name.c_str());
+  }
+  if (groups.empty()) reader.fail("listed vertices or a box, as the mesh has no named group");
+  const std::string near(nearest_word(wanted, names));
+  reader.fail(near.empty() ? "one of the groups " + listed(groups)
+                           : "the group \"" + cut(near) + '"');
+}
+
+PinBox read_box(const JsonReader& reader) {
+  reader.allow_keys({"low_m", "high_m"});
+  PinBox box{reader.at("low_m").vec3(), reader.at("high_m").vec3()};
+  if ((box.low.array() > box.high.array()).any())
+    reader.at("low_m").fail("a corner that is nowhere above high_m");
+  return box;
 }
 
 PinRule read_pin(const JsonReader& reader, const Scene& scene) {
-  reader.allow_keys({"part", "vertices", "motion"});
+  reader.allow_keys({"part", "vertices", "box", "motion"});
   PinRule pin;
-  if (reader.only_one_of({"part", "vertices"}) == 0) {
-    pin.where = reader.at("part").word(kSheetParts);
-    if (!std::holds_alternative<SheetShape>(scene.cloth))
-      reader.at("part").fail("listed vertices, as only a sheet has parts");
-  } else {
-    std::vector<VertexId> vertices;
-    for (const JsonReader& vertex : reader.at("vertices").elements())
-      vertices.emplace_back(vertex.integer(0, n_base_vertices(scene) - 1));
-    if (vertices.empty()) reader.at("vertices").fail("at least one vertex");
-    pin.where = std::move(vertices);
+  switch (reader.only_one_of({"part", "vertices", "box"})) {
+    case 0:
+      if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) {
+        pin.where = read_group_name(reader.at("part"), mesh->groups);
+      } else {
+        pin.where = reader.at("part").word(kSheetParts);
+        if (!std::holds_alternative<SheetShape>(scene.cloth))
+          reader.at("part").fail("listed vertices or a box, as particles have no parts");
+      }
+      break;
+    case 1:
+      pin.where = read_vertex_list(reader.at("vertices"), n_refined_vertices(scene, 0));
+      break;
+    default:
+      pin.where = read_box(reader.at("box"));
   }
   if (const auto at = reader.find("motion")) pin.motion = read_motion(*at);
   return pin;
@@ -160,7 +198,10 @@ void read_pins(const JsonReader& reader, Scene& scene) {
   std::map<std::int32_t, std::size_t> owner;  // the pin that a vertex belongs to
   for (const JsonReader& element : reader.elements()) {
     const PinRule pin = read_pin(element, scene);
-    for (const VertexId vertex : pinned_vertices(scene, pin)) {
+    const std::vector<VertexId> vertices = base_vertices(scene, pin);
+    if (vertices.empty())
+      element.at("box").fail("a box with a vertex of the unrefined cloth in it");
+    for (const VertexId vertex : vertices) {
       const std::size_t first = owner.emplace(vertex.value, scene.pins.size()).first->second;
       if (first == scene.pins.size() || same_motion(scene.pins[first].motion, pin.motion)) continue;
       throw InputError(element.pointer(),
@@ -178,10 +219,12 @@ Json json_pins(const Scene& scene) {
     Json element;
     if (const auto* part = std::get_if<SheetPart>(&pin.where)) {
       element["part"] = word_for(kSheetParts, *part);
+    } else if (const auto* name = std::get_if<std::string>(&pin.where)) {
+      element["part"] = *name;
+    } else if (const auto* box = std::get_if<PinBox>(&pin.where)) {
+      element["box"] = {{"low_m", json_vec3(box->low)}, {"high_m", json_vec3(box->high)}};
     } else {
-      element["vertices"] = Json::array();
-      for (const VertexId vertex : std::get<std::vector<VertexId>>(pin.where))
-        element["vertices"].push_back(vertex.value);
+      element["vertices"] = json_vertices(std::get<std::vector<VertexId>>(pin.where));
     }
     element["motion"] = json_motion(pin.motion);
     json.push_back(element);

@@ -486,6 +486,32 @@ TEST_CASE("command: a bad scene is told with its file and place, and nothing is 
   }
 }
 
+TEST_CASE("command: a mesh is read beside the scene that names it, and its faults with its line",
+          "[cli]") {
+  const ScratchFolder folder;
+  const std::string scene = (folder / "scene.json").string();
+  write(scene, R"({"cloth": {"mesh": {"obj": "meshes/a mesh.obj", "warp_direction": [0, 1, 0]}},
+                   "pins": [{"part": "hem"}]})");
+  const auto run = [&] { return pleat_command(folder, {"run", scene, "--steps", "1", "--json"}); };
+  const auto is_refused = [&](const std::string& sentence) {
+    const Ending ending = run();
+    CAPTURE(ending.error);
+    CHECK(ending.status == 2);
+    CHECK(ending.error.find(sentence) != std::string::npos);
+    CHECK(std::count(ending.error.begin(), ending.error.end(), '\n') == 1);
+  };
+  is_refused("meshes/a mesh.obj: expected a file, got none of this name");
+  fs::create_directory(folder / "meshes");
+  write(folder / "meshes/a mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+  is_refused("scene.json: meshes/a mesh.obj: line 4: expected the number of a vertex, 1 to 3 ");
+  write(folder / "meshes/a mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng waist\nf 1 2 3\n");
+  is_refused("scene.json: /pins/0/part: expected one of the groups \"waist\", got \"hem\"");
+  write(folder / "meshes/a mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng hem\nf 1 2 3\n");
+  const Ending ending = run();
+  CHECK(ending.status == 0);
+  CHECK(parse_json(ending.out).at("n_pins") == 3);
+}
+
 TEST_CASE("command: a run that diverges stops, says where, and keeps the last finite frame",
           "[cli]") {
   const ScratchFolder folder;

@@ -14,6 +14,15 @@ struct BadScene {
   std::string sentence;
 };
 
+constexpr const char* kTexture = R"(, "texture_coordinates": [[0, 0], [1, 0], [0, 1], [1, 1]])";
+
+/// A scene whose cloth is two triangles; `threads` and `rest` end its text.
+std::string mesh_with(const std::string& threads, const std::string& rest) {
+  return R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]],
+             "triangles": [[0, 1, 2], [1, 3, 2]])" +
+         threads + rest;
+}
+
 // One entry for each way in which a section can be wrong.
 const BadScene kBadScenes[] = {
     // The text itself.
@@ -57,11 +66,11 @@ const BadScene kBadScenes[] = {
          std::string(59, 'k') + "..."},
     // Cloth: sheet.
     {R"({"cloth": {}})", "/cloth",
-     R"(expected one of the keys "sheet", "particles", got an empty object)"},
+     R"(expected one of the keys "sheet", "particles", "mesh", got an empty object)"},
     {R"({"cloth": {"sheet": {}, "particles": {}}})", "/cloth",
-     R"(expected only one of the keys "sheet", "particles", got several)"},
+     R"(expected only one of the keys "sheet", "particles", "mesh", got several)"},
     {R"({"cloth": {"garment": {}}})", "/cloth/garment",
-     R"(expected one of the keys "sheet", "particles", got "garment")"},
+     R"(expected one of the keys "sheet", "particles", "mesh", got "garment")"},
     {R"({"cloth": {"sheet": {"a/b~": 1}}})", "/cloth/sheet/a~1b~0",
      R"(expected one of the keys "width_m", "height_m", "columns", "rows", "origin_m", "warp_direction", )"
      R"("weft_direction", "initial_velocity_m_per_s", got "a/b~")"},
@@ -118,6 +127,54 @@ const BadScene kBadScenes[] = {
      "expected weights that sum to zero, got a sum of 1.0"},
     {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1], "triangles": [[0, 1, 2]]}}})",
      "/cloth/particles/triangles/0/1", "expected a whole number from 0 to 0, got 1"},
+    // Cloth: mesh.
+    {R"({"cloth": {"mesh": {}}})", "/cloth/mesh",
+     R"(expected one of the keys "obj", "positions_m", got an empty object)"},
+    {R"({"cloth": {"mesh": {"obj": "skirt.obj"}}})", "/cloth/mesh/obj",
+     "expected a mesh written out in the scene, as no files can be read here, got \"skirt.obj\""},
+    {R"({"cloth": {"mesh": {"obj": 7}}})", "/cloth/mesh/obj", "expected a text in quotes, got 7"},
+    {R"({"cloth": {"mesh": {"obj": "skirt.obj", "groups": {}}}})", "/cloth/mesh/groups",
+     R"(expected one of the keys "obj", "warp_direction", "initial_velocity_m_per_s", got "groups")"},
+    {R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0]]}}})", "/cloth/mesh",
+     "expected the key \"triangles\", got an object"},
+    {R"({"cloth": {"mesh": {"positions_m": [], "triangles": []}}})", "/cloth/mesh/positions_m",
+     "expected 1 to 1000000 positions, got an array of 0 values"},
+    {R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0]], "triangles": []}}})",
+     "/cloth/mesh/positions_m/0", "expected every vertex in a triangle, got vertex 0 in none"},
+    {R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0]], "triangles": [[0, 0, 0]]}}})",
+     "/cloth/mesh/triangles/0", "expected 3 different vertices, got an array of 3 values"},
+    {R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "triangles": [[0, 1, 2]]}}})",
+     "/cloth/mesh/triangles/0",
+     "expected a triangle with an area, got the vertices 0, 1 and 2 on a line"},
+    {mesh_with("", "}}}"), "/cloth/mesh/triangles/0",
+     "expected texture coordinates with an area, or \"warp_direction\" in the scene, to tell how "
+     "the threads run, got neither"},
+    {mesh_with(R"(, "texture_coordinates": [[0, 0], [1, 0], [2, 0], [0, 1]])", "}}}"),
+     "/cloth/mesh/triangles/0",
+     "expected texture coordinates with an area, or \"warp_direction\" in the scene, to tell how "
+     "the threads run, got neither"},
+    {mesh_with(R"(, "texture_coordinates": [[0, 0]])", "}}}"), "/cloth/mesh/texture_coordinates",
+     "expected an array of 4 values, got an array of 1 value"},
+    {mesh_with(R"(, "texture_coordinates": [[0, 0], [1, 0, 0], [0, 1], [1, 1]])", "}}}"),
+     "/cloth/mesh/texture_coordinates/1",
+     "expected an array of 2 values, got an array of 3 values"},
+    {mesh_with(R"(, "warp_direction": [0, 0, 0])", "}}}"), "/cloth/mesh/warp_direction",
+     "expected a direction, got three zeros"},
+    {mesh_with(R"(, "warp_directions": [[1, 0, 0]])", "}}}"), "/cloth/mesh/warp_directions",
+     "expected an array of 2 values, got an array of 1 value"},
+    {mesh_with(R"(, "warp_directions": [[1, 0, 0], [0, 0, 1]])", "}}}"),
+     "/cloth/mesh/warp_directions/1",
+     "expected a direction that is not perpendicular to the triangle, got an array of 3 values"},
+    {mesh_with(R"(, "warp_directions": [[1, 0, 0], [1, 0, 0]], "warp_direction": [1, 0, 0])",
+               "}}}"),
+     "/cloth/mesh/warp_directions",
+     "expected either this or warp_direction, got an array of 2 values"},
+    {mesh_with(kTexture, R"(, "groups": {"waist": []}}}})"), "/cloth/mesh/groups/waist",
+     "expected at least one vertex, got an array of 0 values"},
+    {mesh_with(kTexture, R"(, "groups": {"waist": [4]}}}})"), "/cloth/mesh/groups/waist/0",
+     "expected a whole number from 0 to 3, got 4"},
+    {mesh_with(kTexture, R"(}}, "refinement": {"level": 10}})"), "/refinement/level",
+     "expected a whole number from 0 to 8, got 10"},
     // Fabric.
     {R"({"cloth": {"sheet": {}}, "fabric": {"name": "tweed"}})", "/fabric/name",
      "expected one of fine cotton, coarse cotton (denim), canvas, linen, ramie, silk, poplin, "
@@ -157,7 +214,29 @@ const BadScene kBadScenes[] = {
     {R"({"cloth": {"sheet": {}}, "pins": [{"vertices": []}]})", "/pins/0/vertices",
      "expected at least one vertex, got an array of 0 values"},
     {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}}, "pins": [{"part": "upper_left"}]})",
-     "/pins/0/part", "expected listed vertices, as only a sheet has parts, got \"upper_left\""},
+     "/pins/0/part",
+     "expected listed vertices or a box, as particles have no parts, got \"upper_left\""},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"box": {"low_m": [0, 0, 0]}}]})", "/pins/0/box",
+     "expected the key \"high_m\", got an object"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"box": {"low_m": [0, 0, 1], "high_m": [1, 1, 0]}}]})",
+     "/pins/0/box/low_m",
+     "expected a corner that is nowhere above high_m, got an array of 3 values"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"box": {"low_m": [0, 0, 0.1], "high_m": [1, 1, 1]}}]})",
+     "/pins/0/box", "expected a box with a vertex of the unrefined cloth in it, got an object"},
+    {R"({"cloth": {"sheet": {}}, "pins": [{"box": {"low_m": [0, -1, 0], "high_m": [1, 1, 0]}},
+         {"vertices": [3], "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}}]})",
+     "/pins/1",
+     "expected one motion for each vertex, got a second one for vertex 3, which /pins/0 moves too"},
+    {mesh_with(kTexture,
+               R"(, "groups": {"hem": [0], "waist": [1]}}}, "pins": [{"part": "wiast"}]})"),
+     "/pins/0/part", R"(expected the group "waist", got "wiast")"},
+    {mesh_with(kTexture,
+               R"(, "groups": {"hem": [0], "waist": [1]}}}, "pins": [{"part": "upper_edge"}]})"),
+     "/pins/0/part", R"(expected one of the groups "hem", "waist", got "upper_edge")"},
+    {mesh_with(kTexture, R"(}}, "pins": [{"part": "waist"}]})"), "/pins/0/part",
+     "expected listed vertices or a box, as the mesh has no named group, got \"waist\""},
+    {mesh_with(kTexture, R"(}}, "pins": [{"part": 7}]})"), "/pins/0/part",
+     "expected a text in quotes, got 7"},
     {R"({"cloth": {"sheet": {}}, "pins": [{"part": "upper_edge"},
          {"part": "left_edge", "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}}]})",
      "/pins/1",

@@ -21,22 +21,33 @@ const char* const kShortScenes[] = {
     R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk"}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}}})",
+    R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
+        "triangles": [[0, 1, 2]], "warp_direction": [1, 0, 0]}}})",
 };
 
 // What no short scene has.
 const char* const kFurtherScenes[] = {
+    R"({"cloth": {"mesh": {"obj": "triangle.obj", "warp_direction": [1, 0, 0],
+        "initial_velocity_m_per_s": [0, 1, 0]}}})",
     R"({"$schema": "scene_schema.json", "cloth": {"sheet": {}},
         "fabric": {"name": "silk", "overrides": {"shear_n_per_m": 3}}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "masses_kg": [1, 1, 1],
         "bends": [{"vertices": [0, 1, 2], "stiffness_n_m3": 1, "weights_per_m2": [1, -2, 1]}],
         "triangles": [[0, 1, 2]]}}})",
+    R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 1, 2]],
+        "warp_direction": [1, 0, 0], "texture_coordinates": [[0, 0], [1, 0], [0, 1]],
+        "groups": {"waist": [0, 1]}}},
+        "pins": [{"part": "waist"}, {"box": {"low_m": [0, 0, 0], "high_m": [0, 0, 1]}}]})",
 };
 
 json schema() { return json::parse(scene_schema()); }
 
 json written(const std::string& text) {
-  return json::parse(write_scene(read_scene(text, fabric_library())));
+  const FileSource files = [](const std::string&) {
+    return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  };
+  return json::parse(write_scene(read_scene(text, fabric_library(), files)));
 }
 
 }  // namespace
@@ -47,6 +58,7 @@ TEST_CASE("scene schema: what the reader accepts and the writer writes is valid"
   std::vector<std::string> texts(std::begin(kShortScenes), std::end(kShortScenes));
   texts.insert(texts.end(), std::begin(kFurtherScenes), std::end(kFurtherScenes));
   for (const char* name : kSceneFiles) texts.push_back(scene_text(name));
+  CHECK(walk.violation(json::parse(scene_text("skirt"))) == "");
   for (const std::string& text : texts) {
     CAPTURE(text);
     CHECK(walk.violation(json::parse(text)) == "");
@@ -99,6 +111,10 @@ TEST_CASE("scene schema: unknown keys, wrong types and values out of range are n
   CHECK(violation(R"({"cloth": {"sheet": {"columns": 2.5}}})") == "/cloth/sheet/columns type");
   CHECK(violation(R"({"cloth": {"sheet": {"width_m": 0}}})") ==
         "/cloth/sheet/width_m exclusiveMinimum");
+  CHECK(violation(R"({"cloth": {"mesh": {"obj": "a.obj", "groups": {}}}})") ==
+        "/cloth/mesh 0 choices");
+  CHECK(violation(R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0]], "triangles": [[0, 1, 2]],
+                                         "groups": {"waist": []}}}})") == "/cloth/mesh 0 choices");
   CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"stepper": "rk4"}})") ==
         "/method/stepper enum");
   CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"substeps": 0}})") ==

@@ -33,6 +33,7 @@ class SchemaWalk {
                                              "$ref",
                                              "title",
                                              "description",
+                                             "examples",
                                              "type",
                                              "properties",
                                              "required",
@@ -67,7 +68,9 @@ class SchemaWalk {
       for (std::size_t k = 0; k < schema.at(group).size(); ++k)
         check_keywords(schema.at(group)[k], place + "/" + group + "/" + std::to_string(k));
     }
-    if (schema.contains("items")) check_keywords(schema.at("items"), place + "/items");
+    for (const char* each : {"items", "additionalProperties"})
+      if (schema.contains(each) && schema.at(each).is_object())
+        check_keywords(schema.at(each), place + "/" + each);
   }
 
   static bool has_type(const json& value, const std::string& type) {
@@ -119,15 +122,18 @@ class SchemaWalk {
     if (schema.contains("maxProperties") &&
         value.size() > schema["maxProperties"].get<std::size_t>())
       return pointer + " maxProperties";
-    if (!schema.contains("properties")) return "";
+    const json properties = schema.value("properties", json::object());
+    const json others = schema.value("additionalProperties", json::object());
     for (const auto& item : value.items()) {
-      const std::string inner = place + "/properties/" + item.key();
-      if (!schema["properties"].contains(item.key()))
+      const bool is_named = properties.contains(item.key());
+      if (!is_named && others == json(false))
         return pointer + "/" + item.key() + " additionalProperties";
-      const json& property = schema["properties"][item.key()];
+      const json& property = is_named ? properties[item.key()] : others;
+      const std::string inner =
+          place + (is_named ? "/properties/" + item.key() : "/additionalProperties");
       const std::string found = check(property, inner, item.value(), pointer + "/" + item.key());
       if (!found.empty()) return found;
-      seen_.insert(inner);
+      if (is_named) seen_.insert(inner);
       if (visit) visit(property, item.value(), pointer + "/" + item.key());
     }
     return "";

@@ -1,0 +1,216 @@
+#include "core/scene/mesh_section.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/check.h"
+#include "core/mesh/mesh_fault.h"
+#include "core/scene/obj_file.h"
+#include "core/scene/vertex_arrays.h"
+
+namespace pleat {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
+  const Positions& x = mesh.rest_positions;
+  return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
+}
+
+/// Of unit length, and in the plane up to rounding however steep the direction was to it; zero when
+/// it is perpendicular to it.
+Vec3 in_plane(const Vec3& direction, const Corners& x) {
+  const Vec3 nearly = direction_in_plane(direction, x[0], x[1], x[2]);
+  return direction_in_plane(nearly, x[0], x[1], x[2]);
+}
+
+/// The texture is x(s, t) = x0 + s S + t T in the triangle: its sides give S, the direction of s.
+/// Zero when the texture has no area.
+Vec3 texture_direction(const CornerTexture& texture, const Corners& x) {
+  constexpr double kSlimmest = 1e-6;  // height over length; files often carry six digits
+  const Eigen::Vector2d a = texture.col(1) - texture.col(0);
+  const Eigen::Vector2d b = texture.col(2) - texture.col(0);
+  const double doubled_area = a.x() * b.y() - a.y() * b.x();
+  if (std::abs(doubled_area) <= kSlimmest * std::max(a.squaredNorm(), b.squaredNorm()))
+    return Vec3::Zero();
+  return in_plane((b.y() * (x[1] - x[0]) - a.y() * (x[2] - x[0])) / doubled_area, x);
+}
+
+/// Zero where neither texture nor vector says it.
+Vec3 warp_direction(const std::optional<CornerTexture>& texture, const std::optional<Vec3>& vector,
+                    const Corners& x) {
+  Vec3 along = texture ? texture_direction(*texture, x) : Vec3(0, 0, 0);
+  if (!along.isZero(0) || !vector) return along;
+  const Vec3 nearest = in_plane(*vector, x);
+  return nearest.isZero(0) ? in_plane(x[1] - x[0], x) : nearest;
+}
+
+/// Fills in the warp directions. `place` tells where a triangle stands in the input.
+template <class Place>
+void fill_warp_directions(TriangleMesh& mesh,
+                          const std::vector<std::optional<CornerTexture>>& textures,
+                          const std::optional<Vec3>& vector, Place&& place) {
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    mesh.warp_directions.push_back(
+        warp_direction(textures[f], vector, corners_of(mesh, mesh.triangles[f])));
+    if (mesh.warp_directions.back().isZero(0))
+      throw InputError(place(f),
+                       "expected texture coordinates with an area, or \"warp_direction\" in the "
+                       "scene, to tell how the threads run, got neither");
+  }
+}
+
+/// One column per vertex; empty where a vertex has none or several.
+RestCoordinates vertex_textures(const ObjMesh& obj) {
+  RestCoordinates coordinates =
+      RestCoordinates::Constant(2, obj.positions.cols(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t f = 0; f < obj.triangles.size(); ++f) {
+    if (!obj.textures[f]) return {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto known = coordinates.col(obj.triangles[f][k]);
+      const Eigen::Vector2d given = obj.textures[f]->col(static_cast<Eigen::Index>(k));
+      if (known.hasNaN()) known = given;
+      if (known != given) return {};
+    }
+  }
+  return coordinates;
+}
+
+std::vector<std::optional<CornerTexture>> corner_textures(const RestCoordinates& coordinates,
+                                                          const std::vector<Triangle>& triangles) {
+  std::vector<std::optional<CornerTexture>> textures(triangles.size());
+  if (coordinates.cols() == 0) return textures;
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    textures[f].emplace();
+    for (std::size_t k = 0; k < 3; ++k)
+      textures[f]->col(static_cast<Eigen::Index>(k)) = coordinates.col(triangles[f][k]);
+  }
+  return textures;
+}
+
+std::optional<Vec3> read_warp_vector(const JsonReader& reader) {
+  const auto at = reader.find("warp_direction");
+  return at ? std::optional<Vec3>(at->direction()) : std::nullopt;
+}
+
+MeshCloth read_obj_mesh(const JsonReader& reader, const FileSource& files) {
+  reader.allow_keys({"obj", "warp_direction", "initial_velocity_m_per_s"});
+  const JsonReader at = reader.at("obj");
+  const std::string& name = at.text();
+  if (!files) at.fail("a mesh written out in the scene, as no files can be read here");
+  const std::optional<Vec3> vector = read_warp_vector(reader);
+  const std::string text = files(name);
+  try {
+    ObjMesh obj = read_obj(text);
+    MeshCloth cloth;
+    cloth.texture_coordinates = vertex_textures(obj);
+    cloth.mesh.rest_positions = std::move(obj.positions);
+    cloth.mesh.triangles = std::move(obj.triangles);
+    cloth.groups = std::move(obj.groups);
+    fill_warp_directions(cloth.mesh, obj.textures, vector,
+                         [&](std::size_t f) { return "line " + std::to_string(obj.lines[f]); });
+    return cloth;
+  } catch (const InputError& error) {
+    throw InputError(error.where().empty() ? name : name + ": " + error.where(), error.what());
+  }
+}
+
+RestCoordinates read_texture_coordinates(const JsonReader& reader, std::size_t n_vertices) {
+  RestCoordinates coordinates(2, static_cast<Eigen::Index>(n_vertices));
+  Eigen::Index column = 0;
+  for (const JsonReader& element : reader.elements(n_vertices)) {
+    const std::vector<JsonReader> pair = element.elements(2);
+    coordinates.col(column++) << pair[0].number(), pair[1].number();
+  }
+  return coordinates;
+}
+
+std::vector<VertexGroup> read_groups(const JsonReader& reader, std::int64_t n_vertices) {
+  std::vector<VertexGroup> groups;
+  for (const auto& [name, at] : reader.members()) {
+    std::vector<VertexId> vertices = read_vertex_list(at, n_vertices);
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    groups.push_back({name, std::move(vertices)});
+  }
+  return groups;
+}
+
+/// A direction in its plane within rounding is kept to the bit, so that what was written is read
+/// back.
+Vec3 read_warp_direction(const JsonReader& reader, const Corners& x) {
+  constexpr double kRounding = 1e-14;
+  const Vec3 given = reader.direction();
+  const Vec3 along = in_plane(given, x);
+  if (along.isZero(0)) reader.fail("a direction that is not perpendicular to the triangle");
+  return (along - given).norm() < kRounding ? given : along;
+}
+
+void read_warp_directions(const JsonReader& reader, TriangleMesh& mesh) {
+  std::size_t f = 0;
+  for (const JsonReader& element : reader.elements(mesh.triangles.size()))
+    mesh.warp_directions.push_back(
+        read_warp_direction(element, corners_of(mesh, mesh.triangles[f++])));
+}
+
+MeshCloth read_inline_mesh(const JsonReader& reader) {
+  reader.allow_keys({"positions_m", "triangles", "warp_direction", "warp_directions",
+                     "texture_coordinates", "groups", "initial_velocity_m_per_s"});
+  MeshCloth cloth;
+  TriangleMesh& mesh = cloth.mesh;
+  mesh.rest_positions = read_positions(reader.at("positions_m"));
+  const int n = mesh.n_vertices();
+  const JsonReader triangles = reader.at("triangles");
+  for (const JsonReader& triangle : triangles.elements())
+    mesh.triangles.push_back(read_vertices<3>(triangle, n));
+  const auto place = [&](std::size_t f) { return triangles.pointer() + "/" + std::to_string(f); };
+  if (const auto fault = mesh_fault(mesh.rest_positions, mesh.triangles, 0))
+    throw InputError(fault->vertex.valid()
+                         ? reader.at("positions_m").pointer() + "/" + std::to_string(fault->vertex)
+                         : place(static_cast<std::size_t>(fault->triangle)),
+                     fault->sentence);
+  if (const auto at = reader.find("texture_coordinates"))
+    cloth.texture_coordinates = read_texture_coordinates(*at, static_cast<std::size_t>(n));
+  if (const auto at = reader.find("groups")) cloth.groups = read_groups(*at, n);
+  const std::optional<Vec3> vector = read_warp_vector(reader);
+  if (const auto at = reader.find("warp_directions")) {
+    if (vector) at->fail("either this or warp_direction");
+    read_warp_directions(*at, mesh);
+  } else {
+    fill_warp_directions(mesh, corner_textures(cloth.texture_coordinates, mesh.triangles), vector,
+                         place);
+  }
+  return cloth;
+}
+
+}  // namespace
+
+void read_mesh(const JsonReader& reader, const FileSource& files, Scene& scene) {
+  const bool is_file = reader.only_one_of({"obj", "positions_m"}) == 0;
+  scene.cloth = is_file ? read_obj_mesh(reader, files) : read_inline_mesh(reader);
+  if (const auto at = reader.find("initial_velocity_m_per_s")) scene.initial_velocity = at->vec3();
+}
+
+Json json_mesh(const MeshCloth& cloth, const Vec3& initial_velocity) {
+  Json triangles = Json::array();
+  for (const Triangle& triangle : cloth.mesh.triangles)
+    triangles.push_back(json_vertices(triangle));
+  Json directions = Json::array();
+  for (const Vec3& direction : cloth.mesh.warp_directions)
+    directions.push_back(json_vec3(direction));
+  Json groups = Json::object();
+  for (const VertexGroup& group : cloth.groups) groups[group.name] = json_vertices(group.vertices);
+  Json json{{"positions_m", json_columns(cloth.mesh.rest_positions)},
+            {"triangles", triangles},
+            {"warp_directions", directions},
+            {"groups", groups},
+            {"initial_velocity_m_per_s", json_vec3(initial_velocity)}};
+  if (cloth.texture_coordinates.cols() == 0) return json;
+  json["texture_coordinates"] = Json::array();
+  for (const auto& pair : cloth.texture_coordinates.colwise())
+    json["texture_coordinates"].push_back({pair.x(), pair.y()});
+  return json;
+}
+
+}  // namespace pleat

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+#include "core/mesh/vertex_group.h"
+
+namespace pleat {
+
+/// Texture coordinates of a triangle's corners, one column each.
+using CornerTexture = Eigen::Matrix<double, 2, 3>;
+
+/// A mesh as its OBJ file gives it.
+struct ObjMesh {
+  Positions positions;                                 ///< [m]
+  std::vector<Triangle> triangles;                     ///< without any fault (mesh_fault)
+  std::vector<std::optional<CornerTexture>> textures;  ///< one per triangle
+  std::vector<VertexGroup> groups;                     ///< in the order of their first element
+  std::vector<int> lines;  ///< of the text, one per triangle: where its face begins
+};
+
+/// Reads Wavefront OBJ: v, vt, f, l, p, g and o. Polygons are split into fans about their first
+/// corner and have to be convex enough for that. The vertices of faces (f), lines (l) and points
+/// (p) belong to the object (o) and to the groups (g) named last before them; a name that comes
+/// again goes on. Further numbers of a vertex (w, colours), normals, smoothing, materials and
+/// display attributes are passed over.
+///
+/// Throws InputError{"line N"} for everything else, for numbers beyond kLargestNumber, for more
+/// than kMaxVertices and for what mesh_fault finds; a text without vertices or faces is refused as
+/// a whole, with no line. Source: Wavefront Technologies, Advanced Visualizer manual, appendix B1:
+/// object files.
+ObjMesh read_obj(std::string_view text);
+
+}  // namespace pleat

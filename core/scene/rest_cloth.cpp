@@ -1,0 +1,114 @@
+#include "core/scene/rest_cloth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleat {
+namespace {
+
+RestCloth rest_sheet(const SheetShape& shape, int level) {
+  RestCloth cloth;
+  cloth.quads = QuadMesh::sheet(shape);
+  cloth.quads->refine_uniformly(level);
+  cloth.mesh = cloth.quads->triangle_mesh();
+  cloth.rest_coordinates = cloth.quads->rest_coordinates();
+  return cloth;
+}
+
+RestCloth rest_mesh(const MeshCloth& base, int level) {
+  RestCloth cloth;
+  std::vector<std::array<VertexId, 2>> middles;
+  cloth.mesh = subdivided(base.mesh, level, &middles);
+  const int n = base.mesh.n_vertices();
+  for (const VertexGroup& group : base.groups) cloth.groups.push_back(refined(group, n, middles));
+  if (base.texture_coordinates.cols() == 0) return cloth;
+  cloth.rest_coordinates.resize(2, cloth.mesh.n_vertices());
+  cloth.rest_coordinates.leftCols(n) = base.texture_coordinates;
+  Eigen::Index column = n;
+  for (const auto& [a, b] : middles)
+    cloth.rest_coordinates.col(column++) =
+        (cloth.rest_coordinates.col(a) + cloth.rest_coordinates.col(b)) / 2;
+  return cloth;
+}
+
+/// True when a vertex at (u, v) lies in the named part of a sheet. Refinement takes exact means of
+/// the borders' coordinates, so they compare equal.
+bool is_in_part(SheetPart part, const SheetShape& shape, double u, double v) {
+  const bool upper = u == 0;
+  const bool lower = u == shape.height;
+  const bool left = v == 0;
+  const bool right = v == shape.width;
+  switch (part) {
+    case SheetPart::upper_edge:
+      return upper;
+    case SheetPart::lower_edge:
+      return lower;
+    case SheetPart::left_edge:
+      return left;
+    case SheetPart::right_edge:
+      return right;
+    case SheetPart::upper_left:
+      return upper && left;
+    case SheetPart::upper_right:
+      return upper && right;
+    case SheetPart::lower_left:
+      return lower && left;
+    case SheetPart::lower_right:
+      return lower && right;
+  }
+  return false;
+}
+
+template <class IsChosen>
+std::vector<VertexId> chosen(const RestCloth& cloth, IsChosen&& is_chosen) {
+  std::vector<VertexId> vertices;
+  for (int i = 0; i < cloth.mesh.n_vertices(); ++i)
+    if (is_chosen(i)) vertices.emplace_back(i);
+  return vertices;
+}
+
+}  // namespace
+
+RestCloth rest_cloth(const Scene& scene, int level) {
+  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth)) return rest_sheet(*shape, level);
+  if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) return rest_mesh(*mesh, level);
+  const auto& particles = std::get<InlineCloth>(scene.cloth);
+  RestCloth cloth;
+  cloth.mesh = {particles.positions, particles.triangles, {}};
+  return cloth;
+}
+
+Eigen::VectorXd rest_areas(const Scene& scene, const RestCloth& cloth) {
+  if (cloth.quads) return cloth.quads->vertex_areas();
+  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth)) return particles->masses;
+  return vertex_areas(cloth.mesh);
+}
+
+double rest_diagonal(const Scene& scene) {
+  if (const auto* sheet = std::get_if<SheetShape>(&scene.cloth))
+    return std::hypot(sheet->width, sheet->height);
+  const auto* mesh = std::get_if<MeshCloth>(&scene.cloth);
+  const Positions& positions =
+      mesh != nullptr ? mesh->mesh.rest_positions : std::get<InlineCloth>(scene.cloth).positions;
+  if (positions.cols() == 0) return 0;
+  return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+}
+
+std::vector<VertexId> pinned_vertices(const PinRule& rule, const Scene& scene,
+                                      const RestCloth& cloth) {
+  if (const auto* listed = std::get_if<std::vector<VertexId>>(&rule.where)) return *listed;
+  if (const auto* name = std::get_if<std::string>(&rule.where)) {
+    const auto group = std::find_if(cloth.groups.begin(), cloth.groups.end(),
+                                    [&](const VertexGroup& g) { return g.name == *name; });
+    return group == cloth.groups.end() ? std::vector<VertexId>{} : group->vertices;
+  }
+  if (const auto* box = std::get_if<PinBox>(&rule.where))
+    return chosen(cloth, [&](int i) { return box->holds(cloth.mesh.rest_positions.col(i)); });
+  const auto& shape = std::get<SheetShape>(scene.cloth);
+  const RestCoordinates& uv = cloth.rest_coordinates;
+  return chosen(cloth, [&](int i) {
+    return is_in_part(std::get<SheetPart>(rule.where), shape, uv(0, i), uv(1, i));
+  });
+}
+
+}  // namespace pleat
