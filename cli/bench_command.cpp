@@ -210,10 +210,7 @@ Outcome bench_reference(Arguments arguments) {
   if (!reference) return Outcome::check_failed;
   Json samples = Json::array();
   for (const Sample& sample : reference->samples) samples.push_back(sample_json(sample));
-  const Json json = {{"reference",
-                      {{"id", reference->label.id},
-                       {"description", reference->label.description},
-                       {"converged", reference->label.converged}}},
+  const Json json = {{"reference", json_label(reference->label)},
                      {"rest_diagonal_m", rest_diagonal(scene)},
                      {"samples", samples}};
   std::printf("%s\n", json.dump().c_str());

@@ -80,7 +80,7 @@ void check_frame_count(const Scene& scene) {
 
 void write_stiffness(const Simulation& simulation, const std::filesystem::path& path) {
   write_file(path, matrix_market_text(stiffness_matrix(
-                       simulation.model(), simulation.state().positions, SpringHessian::exact)));
+                       simulation.model(), simulation.state().positions, ElementHessian::exact)));
 }
 
 void add_step(const Simulation& simulation, SolveReport report, RunSummary& summary) {

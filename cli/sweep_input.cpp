@@ -11,19 +11,24 @@
 namespace pleat {
 namespace {
 
-constexpr StepperKind kSteppers[] = {StepperKind::explicit_euler, StepperKind::implicit_euler,
-                                     StepperKind::projective, StepperKind::xpbd};
-
 /// The settings of a stepper worth comparing, with the scene's own step: each about three times as
 /// dear as the one before.
 std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptions& scene_method) {
-  MethodOptions method = scene_method;
+  MethodOptions method;  // what the scene says of another stepper does not hold for this one
+  if (scene_method.stepper == stepper) method = scene_method;
+  method.step = scene_method.step;
   method.stepper = stepper;
   method.iterations = 1;
   std::vector<int> substeps;
   switch (stepper) {
     case StepperKind::explicit_euler:
+    case StepperKind::rk4:
       substeps = {0};
+      break;
+    case StepperKind::newton:
+      method.solver = best_direct_solver();
+      method.tolerance = kNewtonTolerance;
+      substeps = {1, 4};
       break;
     case StepperKind::implicit_euler:
       substeps = {1, 4};
@@ -45,21 +50,27 @@ std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptio
   return settings;
 }
 
-/// The settings of the steppers named, of all where none is.
-Json stepper_settings(std::vector<std::string> names, const MethodOptions& scene_method) {
-  if (names.empty())
-    for (const StepperKind kind : kSteppers) names.emplace_back(name(kind));
+/// Those worth comparing on a scene: fast ones for springs, exact ones for a membrane.
+std::vector<std::string> usual_steppers(const Scene& scene) {
+  if (scene.model.elasticity == Elasticity::membrane) return {"implicit", "newton"};
+  return {"explicit", "implicit", "projective", "xpbd"};
+}
+
+/// The settings of the steppers named, of the usual ones where none is.
+Json stepper_settings(std::vector<std::string> names, const Scene& scene) {
+  if (names.empty()) names = usual_steppers(scene);
   Json settings = Json::array();
   std::set<std::string> known;
   for (const std::string& wanted : names) {
     if (!known.insert(wanted).second)
       throw InputError("--steppers", "expected each stepper once, got " + wanted + " twice");
-    const auto* kind = std::find_if(std::begin(kSteppers), std::end(kSteppers),
+    const auto* kind = std::find_if(kStepperKinds.begin(), kStepperKinds.end(),
                                     [&](StepperKind one) { return wanted == name(one); });
-    if (kind == std::end(kSteppers))
-      throw InputError("--steppers", "expected explicit, implicit, projective or xpbd, got " +
-                                         abbreviated(Json(wanted)));
-    for (const MethodOptions& method : usual_settings(*kind, scene_method))
+    if (kind == kStepperKinds.end())
+      throw InputError("--steppers",
+                       "expected explicit, rk4, implicit, newton, projective or xpbd, got " +
+                           abbreviated(Json(wanted)));
+    for (const MethodOptions& method : usual_settings(*kind, scene.method))
       settings.push_back({{"/method", json_method(method)}});
   }
   return settings;
@@ -154,7 +165,7 @@ std::string whole_plan(SweepInput& input) {
 std::string plan_of_options(const PlanOptions& options, const SceneInput& scene) {
   Json plan = {{"scene", parse_json(scene.text)}, {"grid", options.values}};
   if (!options.steppers.empty() || !options.is_given("--set"))
-    plan["settings"] = stepper_settings(options.steppers, scene.scene.method);
+    plan["settings"] = stepper_settings(options.steppers, scene.scene);
   if (options.n_repeats) plan["repeats"] = *options.n_repeats;
   if (options.reference) plan["reference"] = *options.reference;
   return plan.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -20,6 +20,8 @@ struct Motion {
 
   /// Displacement at time [s], in [m].
   Vec3 displacement(double time) const;
+  /// Its rate [m/s]; where it jumps, that of the later part.
+  Vec3 velocity(double time) const;
 };
 
 }  // namespace pleat

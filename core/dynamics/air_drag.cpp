@@ -17,9 +17,8 @@ AirDrag::AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int
               "drag coefficients are not negative");
 }
 
-void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
-                         const Eigen::Ref<const Positions>& velocities,
-                         const Eigen::VectorXd& masses, double h, Eigen::Ref<Positions> forces) {
+void AirDrag::evaluate(const Eigen::Ref<const Positions>& positions,
+                       const Eigen::Ref<const Positions>& velocities) {
   drag_.setZero();
   resistance_.setZero();
   for (const Triangle& t : triangles_) {
@@ -47,14 +46,25 @@ void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
       resistance_.col(v) += (2.0 / 3) * bound;
     }
   }
+}
+
+Mat3 AirDrag::resistance(VertexId vertex) const {
+  const auto d = resistance_.col(vertex);
+  Mat3 resistance;
+  resistance << d[0], d[3], d[4], d[3], d[1], d[5], d[4], d[5], d[2];
+  return resistance;
+}
+
+void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
+                         const Eigen::Ref<const Positions>& velocities,
+                         const Eigen::VectorXd& masses, double h, Eigen::Ref<Positions> forces) {
+  evaluate(positions, velocities);
   if (h == 0) {
     forces += drag_;
     return;
   }
   for (Eigen::Index i = 0; i < drag_.cols(); ++i) {
-    const auto d = resistance_.col(i) * (h / masses[i]);
-    Mat3 damped;
-    damped << 1 + d[0], d[3], d[4], d[3], 1 + d[1], d[5], d[4], d[5], 1 + d[2];
+    const Mat3 damped = Mat3::Identity() + h / masses[i] * resistance(VertexId(i));
     forces.col(i) += damped.inverse() * drag_.col(i);
   }
 }

@@ -20,11 +20,19 @@ class AirDrag {
   AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices,
           double share = 1);
 
-  /// Adds drag to `forces` [N].
+  /// Takes the law above at these places and velocities, for `forces` and `resistance`.
+  void evaluate(const Eigen::Ref<const Positions>& positions,
+                const Eigen::Ref<const Positions>& velocities);
+  /// On each vertex [N].
+  const Positions& forces() const { return drag_; }
+  /// D >= -df/dv lumped to the vertex [N s/m].
+  Mat3 resistance(VertexId vertex) const;
+
+  /// Evaluates, and adds drag to `forces` [N].
   ///
   /// h  0 gives the law above. Positive gives the force that a linearly implicit step of h [s]
   /// applies,
-  ///    (I + h D/m)^-1 f with D >= -df/dv lumped to the vertex: first-order consistent and never
+  ///    (I + h D/m)^-1 f with the lumped D: first-order consistent and never
   ///    overshooting, so that light cloth may take large steps.
   void add_forces(const Eigen::Ref<const Positions>& positions,
                   const Eigen::Ref<const Positions>& velocities, const Eigen::VectorXd& masses,

@@ -6,7 +6,11 @@
 #include "core/base/motion.h"
 #include "core/contact/contact_stage.h"
 #include "core/dynamics/air_drag.h"
+#include "core/fabric/chord_bending.h"
+#include "core/fabric/hinge_bending.h"
+#include "core/fabric/membrane.h"
 #include "core/fabric/spring_lattice.h"
+#include "core/linalg/sparse.h"
 
 namespace pleat {
 
@@ -29,8 +33,14 @@ enum class DampingDirection {
 struct ClothModel {
   Eigen::VectorXd masses;  ///< lumped, one per vertex [kg], positive
   std::vector<Spring> springs;
-  std::vector<BendElement> bends;
   DampingDirection damping_direction = DampingDirection::along_spring;
+  std::vector<Spring> taut_springs;  ///< pull beyond their rest length and never push; no damping
+  std::vector<BendElement> bends;
+  std::vector<ChordBend> chord_bends;
+  Membrane membrane;
+  double membrane_relaxation = 0;  ///< tau of the membrane's Kelvin-Voigt damping [s]
+  SparseMatrix fitted_bending;     ///< n x n, lower triangle [N/m]; 0 x 0 without it
+  std::vector<Hinge> hinges;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::vector<Pin> pins;      ///< at most one per vertex
   std::optional<AirDrag> air;
@@ -38,6 +48,10 @@ struct ClothModel {
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
 
   int n_vertices() const { return static_cast<int>(masses.size()); }
+  bool has_fitted_bending() const { return fitted_bending.rows() > 0; }
+  /// True when springs and quadratic bending are all that holds it together: what position-based
+  /// and projective steps are made for.
+  bool is_plain_spring_lattice() const;
 
   /// Throws ContractError when sizes, indices or signs break the promises above.
   void validate() const;

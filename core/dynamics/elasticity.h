@@ -2,6 +2,7 @@
 
 #include "core/dynamics/cloth_model.h"
 #include "core/dynamics/state.h"
+#include "core/fabric/element_hessian.h"
 
 namespace pleat {
 
@@ -18,15 +19,10 @@ inline SpringAxis spring_axis(const Spring& spring, const Eigen::Ref<const Posit
   return {length, length > 0 ? Vec3(d / length) : Vec3(Vec3::Zero())};
 }
 
-enum class SpringHessian {
-  exact,      ///< may be indefinite: a compressed spring is unstable sideways
-  projected,  ///< the negative part dropped: positive semidefinite
-};
-
 /// -d(force on a)/d(x_a) of the spring alone: k [(1 - L/l)(I - u u^T) + u u^T], in [N/m].
-inline Mat3 spring_stiffness(const Spring& spring, const SpringAxis& axis, SpringHessian hessian) {
+inline Mat3 spring_stiffness(const Spring& spring, const SpringAxis& axis, ElementHessian hessian) {
   const double ratio = axis.length > 0 ? 1 - spring.rest_length / axis.length : 0;
-  const double across = hessian == SpringHessian::projected ? std::max(0.0, ratio) : ratio;
+  const double across = hessian == ElementHessian::projected ? std::max(0.0, ratio) : ratio;
   return spring.stiffness *
          (across * Mat3::Identity() + (1 - across) * axis.direction * axis.direction.transpose());
 }
@@ -38,17 +34,17 @@ inline Mat3 spring_damping(const Spring& spring, const SpringAxis& axis,
   return spring.damping * axis.direction * axis.direction.transpose();
 }
 
-/// Energy stored in springs and bending [J].
+/// Energy stored in the cloth, stretched and bent [J].
 double elastic_energy(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
 
 /// Elastic, kinetic and gravitational energy [J]; height zero is the origin.
 double total_energy(const ClothModel& model, const State& state);
 
-/// Adds the forces of springs and bending [N].
+/// Adds the forces of all elements [N].
 void add_elastic_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
                         Eigen::Ref<Positions> forces);
 
-/// Adds the forces of dampers [N].
+/// Adds the forces of dampers and of the membrane's viscosity [N].
 void add_damping_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
                         const Eigen::Ref<const Positions>& velocities,
                         Eigen::Ref<Positions> forces);

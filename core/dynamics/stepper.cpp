@@ -6,7 +6,9 @@
 #include "core/dynamics/elasticity.h"
 #include "core/dynamics/stepper_explicit.h"
 #include "core/dynamics/stepper_implicit.h"
+#include "core/dynamics/stepper_newton.h"
 #include "core/dynamics/stepper_projective.h"
+#include "core/dynamics/stepper_rk4.h"
 #include "core/dynamics/stepper_xpbd.h"
 
 namespace pleat {
@@ -43,8 +45,12 @@ const char* name(StepperKind kind) {
   switch (kind) {
     case StepperKind::explicit_euler:
       return "explicit";
+    case StepperKind::rk4:
+      return "rk4";
     case StepperKind::implicit_euler:
       return "implicit";
+    case StepperKind::newton:
+      return "newton";
     case StepperKind::projective:
       return "projective";
     case StepperKind::xpbd:
@@ -55,7 +61,7 @@ const char* name(StepperKind kind) {
 
 void MethodOptions::validate() const {
   PLEAT_CHECK(step > 0, "a step is positive");
-  PLEAT_CHECK(substeps >= (stepper == StepperKind::explicit_euler ? 0 : 1), "at least one substep");
+  PLEAT_CHECK(substeps >= (is_explicit() ? 0 : 1), "at least one substep");
   PLEAT_CHECK(iterations >= 1, "at least one iteration");
   PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
 }
@@ -117,11 +123,15 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
   return make_linear_solver(options.solver, block_size, {options.tolerance, max_iterations});
 }
 
-void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces) {
-  const StageScope scope(observer_, Stage::forces);
+void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) {
   forces.setZero();
   add_gravity(model_, forces);
   if (memory_ != ContactMemory::none) forces += contact_forces_;
+}
+
+void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces) {
+  const StageScope scope(observer_, Stage::forces);
+  set_steady_forces(forces);
   if (model_.air)
     model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces);
 }
@@ -160,11 +170,20 @@ void Stepper::resolve_contacts(const Positions& positions_begin, State& state, d
 }
 
 std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options) {
+  const bool needs_springs =
+      options.stepper == StepperKind::projective || options.stepper == StepperKind::xpbd;
+  if (needs_springs && !model.is_plain_spring_lattice())
+    throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
+                                   name(options.stepper) + ", which works on nothing else");
   switch (options.stepper) {
     case StepperKind::explicit_euler:
       return std::make_unique<StepperExplicit>(model, options);
+    case StepperKind::rk4:
+      return std::make_unique<StepperRk4>(model, options);
     case StepperKind::implicit_euler:
       return std::make_unique<StepperImplicit>(model, options);
+    case StepperKind::newton:
+      return std::make_unique<StepperNewton>(model, options);
     case StepperKind::projective:
       return std::make_unique<StepperProjective>(model, options);
     case StepperKind::xpbd:

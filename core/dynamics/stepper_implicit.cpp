@@ -9,6 +9,9 @@ namespace {
 constexpr int kMaxIterations = 2000;  // of CG; reaching it is reported as not converged
 
 Eigen::Map<Eigen::VectorXd> flat(Positions& columns) { return {columns.data(), columns.size()}; }
+Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
+  return {columns.data(), columns.size()};
+}
 
 }  // namespace
 
@@ -30,39 +33,22 @@ void StepperImplicit::refresh() {
   pin_changes_.resize(3, static_cast<Eigen::Index>(vertices.size()));
 }
 
-/// Fills the matrix with M + h C + h^2 K and `forces_` with h (f - h K v).
+/// Fills the matrix with A = M + h C + h^2 K and `forces_`, which holds the external ones, with the
+/// right-hand side h (f - h K v) = h f_elastic + h f_external - (A - M) v.
 void StepperImplicit::assemble(const State& state, double h) {
   const StageScope scope(observer_, Stage::assembly);
-  const Positions& v = state.velocities;
   matrix_.set_zero();
-  matrix_.add_masses(model_.masses, 1);
-  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
-    const Spring& spring = model_.springs[s];
-    const SpringAxis axis = spring_axis(spring, state.positions);
-    const Mat3 damping = h * spring_damping(spring, axis, model_.damping_direction);
-    const Mat3 stiffness = h * h * spring_stiffness(spring, axis, SpringHessian::projected);
-    matrix_.add_spring(s, damping + stiffness);
-    const Vec3 pull = h * spring.stiffness * (axis.length - spring.rest_length) * axis.direction;
-    const Vec3 impulse = pull + (damping + stiffness) * (v.col(spring.a) - v.col(spring.b));
-    forces_.col(spring.a) -= impulse;
-    forces_.col(spring.b) += impulse;
-  }
-  for (std::size_t b = 0; b < model_.bends.size(); ++b) {
-    const BendElement& bend = model_.bends[b];
-    matrix_.add_bend(b, h * h);
-    Vec3 curvature_end = Vec3::Zero();  // of x + h v
-    for (int k = 0; k < 3; ++k)
-      curvature_end +=
-          bend.weights[k] * (state.positions.col(bend.vertices[k]) + h * v.col(bend.vertices[k]));
-    for (int k = 0; k < 3; ++k)
-      forces_.col(bend.vertices[k]) -= h * bend.stiffness * bend.weights[k] * curvature_end;
-  }
+  matrix_.add_masses(1);
+  matrix_.add_elasticity(state.positions, h * h, h, ElementHessian::projected);
+  add_elastic_forces(model_, state.positions, forces_);
+  forces_ = h * forces_ + state.velocities * model_.masses.asDiagonal();
+  flat(forces_).noalias() -=
+      matrix_.lower().selfadjointView<Eigen::Lower>() * flat(state.velocities);
 }
 
 SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
   set_external_forces(state, h, forces_);
-  forces_ *= h;
   assemble(state, h);
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     const Pin& pin = model_.pins[p];

@@ -6,17 +6,34 @@
 
 namespace pleat {
 
-SystemMatrix::SystemMatrix(const ClothModel& model)
-    : model_(model), below_(static_cast<std::size_t>(model.n_vertices())) {
-  const auto join = [this](VertexId a, VertexId b) {
-    below_[std::min(a.value, b.value)].push_back(a > b ? a : b);
+namespace {
+
+/// Calls join(a, b) for every pair of vertices that an element joins, in the order of assembly.
+template <class Join>
+void for_each_pair(const ClothModel& model, Join&& join) {
+  const auto join_all = [&join](const auto& vertices) {
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      for (std::size_t j = i + 1; j < vertices.size(); ++j) join(vertices[i], vertices[j]);
   };
   for (const Spring& spring : model.springs) join(spring.a, spring.b);
-  for (const BendElement& bend : model.bends) {
-    join(bend.vertices[0], bend.vertices[1]);
-    join(bend.vertices[1], bend.vertices[2]);
-    join(bend.vertices[0], bend.vertices[2]);
-  }
+  for (const Spring& spring : model.taut_springs) join(spring.a, spring.b);
+  for (const BendElement& bend : model.bends) join_all(bend.vertices);
+  for (const ChordBend& bend : model.chord_bends) join(bend.a, bend.b);
+  for (const MembraneElement& element : model.membrane.elements) join_all(element.vertices);
+  for (const Hinge& hinge : model.hinges) join_all(hinge.vertices);
+  const SparseMatrix& bending = model.fitted_bending;
+  for (int column = 0; column < bending.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry)
+      if (entry.row() > column) join(VertexId(entry.row()), VertexId(column));
+}
+
+}  // namespace
+
+SystemMatrix::SystemMatrix(const ClothModel& model)
+    : model_(model), below_(static_cast<std::size_t>(model.n_vertices())) {
+  for_each_pair(model, [this](VertexId a, VertexId b) {
+    below_[std::min(a.value, b.value)].push_back(a > b ? a : b);
+  });
   const int n = model.n_vertices();
   std::vector<int> column_sizes;
   column_sizes.reserve(3 * static_cast<std::size_t>(n));
@@ -35,11 +52,7 @@ SystemMatrix::SystemMatrix(const ClothModel& model)
     }
   }
   matrix_.makeCompressed();
-  for (const Spring& spring : model.springs) spring_slots_.push_back(slot(spring.a, spring.b));
-  for (const BendElement& bend : model.bends) {
-    const auto& v = bend.vertices;
-    bend_slots_.push_back({slot(v[0], v[1]), slot(v[1], v[2]), slot(v[0], v[2])});
-  }
+  for_each_pair(model, [this](VertexId a, VertexId b) { slots_.push_back(slot(a, b)); });
 }
 
 SystemMatrix::Slot SystemMatrix::slot(VertexId a, VertexId b) const {
@@ -71,29 +84,95 @@ void SystemMatrix::add_diagonal(VertexId vertex, const Mat3& block) {
   }
 }
 
-void SystemMatrix::set_zero() { matrix_.coeffs().setZero(); }
-
-void SystemMatrix::add_masses(const Eigen::VectorXd& masses, double factor) {
-  for (int j = 0; j < model_.n_vertices(); ++j)
-    for (int c = 0; c < 3; ++c)
-      matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * j + c]] += factor * masses[j];
+void SystemMatrix::add_multiple_of_identity(const Slot& slot, double factor) {
+  for (int c = 0; c < 3; ++c) block_column(slot, c)[c] += factor;
 }
 
-void SystemMatrix::add_spring(std::size_t index, const Mat3& block) {
-  const Spring& spring = model_.springs[index];
+void SystemMatrix::add_to_diagonal(VertexId vertex, double factor) {
+  for (int c = 0; c < 3; ++c) matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * vertex + c]] += factor;
+}
+
+void SystemMatrix::add_spring(const Spring& spring, const Slot& slot, const Mat3& block) {
   add_diagonal(spring.a, block);
   add_diagonal(spring.b, block);
-  add_block(spring_slots_[index], -block);
+  add_block(slot, -block);
 }
 
-void SystemMatrix::add_bend(std::size_t index, double factor) {
-  const BendElement& bend = model_.bends[index];
-  const auto& w = bend.weights;
-  const double s = factor * bend.stiffness;
-  for (int k = 0; k < 3; ++k) add_diagonal(bend.vertices[k], s * w[k] * w[k] * Mat3::Identity());
-  add_block(bend_slots_[index][0], s * w[0] * w[1] * Mat3::Identity());
-  add_block(bend_slots_[index][1], s * w[1] * w[2] * Mat3::Identity());
-  add_block(bend_slots_[index][2], s * w[0] * w[2] * Mat3::Identity());
+template <std::size_t n>
+void SystemMatrix::add_element(const std::array<VertexId, n>& vertices, const Slot*& slots,
+                               const Eigen::Matrix<double, 3 * n, 3 * n>& block) {
+  for (std::size_t i = 0; i < n; ++i) {
+    add_diagonal(vertices[i], block.template block<3, 3>(3 * i, 3 * i));
+    for (std::size_t j = i + 1; j < n; ++j, ++slots) {
+      const Mat3 pair = block.template block<3, 3>(3 * i, 3 * j);
+      add_block(*slots, vertices[i] > vertices[j] ? pair : Mat3(pair.transpose()));
+    }
+  }
+}
+
+void SystemMatrix::set_zero() { matrix_.coeffs().setZero(); }
+
+void SystemMatrix::set_values(const SparseMatrix& lower) {
+  PLEAT_CHECK(lower.nonZeros() == matrix_.nonZeros(), "values come with the same pattern");
+  matrix_.coeffs() = lower.coeffs();
+}
+
+void SystemMatrix::add_masses(double factor) {
+  for (int j = 0; j < model_.n_vertices(); ++j)
+    add_to_diagonal(VertexId(j), factor * model_.masses[j]);
+}
+
+void SystemMatrix::add_elasticity(const Eigen::Ref<const Positions>& positions,
+                                  double stiffness_factor, double damping_factor,
+                                  ElementHessian hessian) {
+  const Slot* slots = slots_.data();
+  for (const Spring& spring : model_.springs) {
+    const SpringAxis axis = spring_axis(spring, positions);
+    add_spring(spring, *slots++,
+               stiffness_factor * spring_stiffness(spring, axis, hessian) +
+                   damping_factor * spring_damping(spring, axis, model_.damping_direction));
+  }
+  for (const Spring& spring : model_.taut_springs) {
+    const SpringAxis axis = spring_axis(spring, positions);
+    if (axis.length > spring.rest_length)
+      add_spring(spring, *slots, stiffness_factor * spring_stiffness(spring, axis, hessian));
+    ++slots;
+  }
+  for (const BendElement& bend : model_.bends) {
+    const auto& w = bend.weights;
+    const double s = stiffness_factor * bend.stiffness;
+    for (int i = 0; i < 3; ++i) {
+      add_to_diagonal(bend.vertices[i], s * w[i] * w[i]);
+      for (int j = i + 1; j < 3; ++j) add_multiple_of_identity(*slots++, s * w[i] * w[j]);
+    }
+  }
+  for (const ChordBend& bend : model_.chord_bends) {
+    const Mat3 block = stiffness_factor * chord_stiffness(bend, positions, hessian);
+    add_diagonal(bend.a, block);
+    add_diagonal(bend.b, block);
+    add_block(*slots++, -block);
+  }
+  const double viscosity_factor = damping_factor * model_.membrane_relaxation;
+  for (const MembraneElement& element : model_.membrane.elements) {
+    Eigen::Matrix<double, 9, 9> block =
+        stiffness_factor * membrane_stiffness(model_.membrane.law, element, positions, hessian);
+    if (viscosity_factor > 0)
+      block += viscosity_factor * membrane_viscosity(model_.membrane.law, element, positions);
+    add_element(element.vertices, slots, block);
+  }
+  for (const Hinge& hinge : model_.hinges)
+    add_element(hinge.vertices, slots,
+                stiffness_factor * hinge_stiffness(hinge, positions, hessian));
+  const SparseMatrix& bending = model_.fitted_bending;
+  for (int column = 0; column < bending.outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry) {
+      const double q = stiffness_factor * entry.value();
+      if (entry.row() > column)
+        add_multiple_of_identity(*slots++, q);
+      else
+        add_to_diagonal(VertexId(column), q);
+    }
+  }
 }
 
 void SystemMatrix::choose_prescribed(const std::vector<VertexId>& vertices) {
@@ -138,23 +217,15 @@ void SystemMatrix::prescribe(const Eigen::Ref<const Positions>& values,
 }
 
 SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                              SpringHessian hessian) {
+                              ElementHessian hessian) {
   SystemMatrix matrix(model);
-  for (std::size_t s = 0; s < model.springs.size(); ++s) {
-    const Spring& spring = model.springs[s];
-    matrix.add_spring(s, spring_stiffness(spring, spring_axis(spring, positions), hessian));
-  }
-  for (std::size_t b = 0; b < model.bends.size(); ++b) matrix.add_bend(b, 1);
+  matrix.add_elasticity(positions, 1, 0, hessian);
   return matrix.lower();
 }
 
 SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
   SystemMatrix matrix(model);
-  for (std::size_t s = 0; s < model.springs.size(); ++s) {
-    const Spring& spring = model.springs[s];
-    matrix.add_spring(
-        s, spring_damping(spring, spring_axis(spring, positions), model.damping_direction));
-  }
+  matrix.add_elasticity(positions, 0, 1, ElementHessian::projected);
   return matrix.lower();
 }
 

@@ -7,20 +7,24 @@
 
 namespace pleat {
 
-/// A symmetric 3n x 3n matrix with a 3x3 block for every pair of vertices that a spring or a
-/// bending element joins. The pattern is built once; values are added element by element straight
-/// into place.
+/// A symmetric 3n x 3n matrix with a 3x3 block for every pair of vertices that an element of a
+/// model joins. The pattern is built once; values are added element by element straight into place.
 class SystemMatrix {
  public:
+  /// model  outlives the matrix and keeps its elements.
   explicit SystemMatrix(const ClothModel& model);
 
   void set_zero();
+  /// Takes the values of a matrix with the same pattern.
+  void set_values(const SparseMatrix& lower);
   /// Adds factor * m to the diagonal of each vertex.
-  void add_masses(const Eigen::VectorXd& masses, double factor);
-  /// Adds [B -B; -B B] at the ends of spring `index` of the model.
-  void add_spring(std::size_t index, const Mat3& block);
-  /// Adds factor * Hessian of bending element `index`.
-  void add_bend(std::size_t index, double factor);
+  void add_masses(double factor);
+  /// Adds stiffness_factor * K + damping_factor * C at these positions: K = -d(elastic force)/dx
+  /// [N/m], C = -d(damping force)/dv [N s/m].
+  void add_elasticity(const Eigen::Ref<const Positions>& positions, double stiffness_factor,
+                      double damping_factor, ElementHessian hessian);
+  /// Adds a block to the diagonal.
+  void add_diagonal(VertexId vertex, const Mat3& block);
 
   const SparseMatrix& lower() const { return matrix_; }
 
@@ -46,20 +50,24 @@ class SystemMatrix {
   Slot slot(VertexId a, VertexId b) const;
   double* block_column(const Slot& slot, int component);
   void add_block(const Slot& slot, const Mat3& block);
-  void add_diagonal(VertexId vertex, const Mat3& block);
+  void add_multiple_of_identity(const Slot& slot, double factor);
+  void add_to_diagonal(VertexId vertex, double factor);
+  void add_spring(const Spring& spring, const Slot& slot, const Mat3& block);
+  template <std::size_t n>
+  void add_element(const std::array<VertexId, n>& vertices, const Slot*& slots,
+                   const Eigen::Matrix<double, 3 * n, 3 * n>& block);
 
   const ClothModel& model_;
   std::vector<std::vector<VertexId>> below_;  // by column: rows of its blocks, ascending
   SparseMatrix matrix_;
-  std::vector<Slot> spring_slots_;
-  std::vector<std::array<Slot, 3>> bend_slots_;  // pairs 0-1, 1-2, 0-2
+  std::vector<Slot> slots_;  // of the pairs that elements join, in the order of assembly
   std::vector<VertexId> prescribed_;
   std::vector<PrescribedBlock> prescribed_blocks_;
 };
 
 /// K = -d(elastic force)/dx at these positions, lower triangle, 3n x 3n [N/m].
 SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
-                              SpringHessian hessian);
+                              ElementHessian hessian);
 
 /// C = -d(damping force)/dv, lower triangle, 3n x 3n [N s/m].
 SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions);

@@ -1,7 +1,7 @@
 #include "core/fabric/fitted_bending.h"
 
 #include "core/base/check.h"
-#include "core/fabric/curvature_stencil.h"
+#include "core/fabric/balanced_stencil.h"
 
 namespace pleat {
 
@@ -13,7 +13,7 @@ SparseMatrix fitted_bending(const TriangleMesh& mesh, double bend_warp, double b
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(n) + 21 * mesh.triangles.size());  // six vertices each
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
-  for (const CurvatureStencil& stencil : curvature_stencils(mesh)) {
+  for (const CurvatureStencil& stencil : balanced_stencils(mesh)) {
     const std::vector<VertexId>& vertices = stencil.vertices;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const Vec3 moment = stencil.area * rigidities.cwiseProduct(stencil.weights.col(i));

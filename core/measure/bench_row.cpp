@@ -22,6 +22,10 @@ constexpr NumberField kNumberFields[] = {
     {"spread_ms", &BenchRow::spread_ms},
     {"position_error_m", &BenchRow::position_error},
     {"position_error_percent", &BenchRow::position_error_percent},
+    {"surface_error_m", &BenchRow::surface_error},
+    {"surface_error_95_m", &BenchRow::surface_error_95},
+    {"bend_error_per_m", &BenchRow::bend_error},
+    {"bend_error_of_regions_per_m", &BenchRow::bend_error_of_regions},
     {"rms_stretch", &BenchRow::rms_stretch},
     {"largest_stretch", &BenchRow::largest_stretch},
     {"rms_stretch_error", &BenchRow::rms_stretch_error},
@@ -76,13 +80,6 @@ constexpr NumberColumn kNumberColumns[] = {
 
 /// JSON has no NaN.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-ReferenceLabel read_label(const JsonReader& reader) {
-  ReferenceLabel label{reader.at("id").text(), reader.at("description").text(),
-                       reader.at("converged").boolean()};
-  if (label.id.empty()) reader.at("id").fail("the id of what the errors are measured against");
-  return label;
-}
 
 /// A number with three significant digits, or a dash.
 std::string short_number(double value) {
@@ -188,9 +185,7 @@ std::string write_bench_row(const BenchRow& row) {
   json["ms_per_simulated_second"] = number_json(row.ms_per_simulated_second());
   for (int s = 0; s < kStageCount; ++s)
     json["parts_ms"][name(static_cast<Stage>(s))] = row.parts_ms[static_cast<std::size_t>(s)];
-  json["reference"] = {{"id", row.reference.id},
-                       {"description", row.reference.description},
-                       {"converged", row.reference.converged}};
+  json["reference"] = json_label(row.reference);
   json["process_peak_memory_bytes"] =
       row.process_peak_memory ? Json(*row.process_peak_memory) : Json(nullptr);
   return json.dump();

@@ -53,6 +53,12 @@ int n_held_rows(const SheetShape& shape, const QuadMesh& mesh, const std::vector
 /// K along warp [N/m]. Edges have what the diagonals leave of it, also when these are left out.
 double hanging_stiffness(const Scene& scene, const SheetShape& shape) {
   const double shear = scene.fabric.shear;
+  if (scene.model.strain_limit > 0) refuse("/model/strain_limit", "one stiffness throughout");
+  if (scene.model.elasticity == Elasticity::membrane) {
+    if (shear > 0)
+      refuse("/fabric/shear_n_per_m", "no stiffness against shear, which would draw the sides in,");
+    return scene.fabric.stretch_warp;
+  }
   if (scene.model.shear && shear > 0)
     refuse("/model/shear", "no springs against shear, which would draw the sides in,");
   const double aspect = shape.height / shape.rows * shape.columns / shape.width;
@@ -67,6 +73,8 @@ RestShape hanging_sheet(const Scene& scene, const SheetShape& shape, const QuadM
   strip.length = shape.height - held;
   strip.weight = scene.fabric.areal_density * scene.gravity.norm();
   strip.stiffness = hanging_stiffness(scene, shape);
+  strip.law =
+      scene.model.elasticity == Elasticity::membrane ? StretchLaw::green : StretchLaw::hooke;
   RestShape rest{"hanging strip in closed form", Positions(3, mesh.n_vertices()), {}};
   for (int i = 0; i < mesh.n_vertices(); ++i) {
     const double u = mesh.rest_coordinates()(0, i);
@@ -81,9 +89,11 @@ RestShape hanging_sheet(const Scene& scene, const SheetShape& shape, const QuadM
 
 RestShape cantilever_sheet(const Scene& scene, const SheetShape& shape, const QuadMesh& mesh,
                            double held, double row) {
-  if (scene.model.bending == BendingModel::none) refuse("/model/bending", "bending");
+  const bool is_fitted = scene.model.bending == BendingModel::fitted;
+  if (!is_fitted && scene.model.bending != BendingModel::quadratic)
+    refuse("/model/bending", "quadratic or fitted bending");
   if (scene.fabric.bend_warp == 0) refuse("/fabric/bend_warp_n_m", "a rigidity");
-  const double clamp = held - row / 2;
+  const double clamp = is_fitted ? held : held - row / 2;
   Cantilever strip;
   strip.length = shape.height - clamp;
   strip.weight = scene.fabric.areal_density * scene.gravity.norm();
@@ -108,7 +118,7 @@ RestShape cantilever_sheet(const Scene& scene, const SheetShape& shape, const Qu
 }
 
 RestShape sheet_at_rest(const Scene& scene, const SheetShape& shape, const ClothModel& model) {
-  const QuadMesh mesh = *scene_mesh(scene);
+  const QuadMesh mesh = *rest_cloth(scene, scene.level).quads;
   const int n_held = n_held_rows(shape, mesh, model.pins, scene.level);
   const double row = shape.height / (shape.rows << scene.level);
   const double held = (n_held - 1) * row;
@@ -198,8 +208,8 @@ RestShape particles_at_rest(const Scene& scene, const InlineCloth& cloth, const 
 }  // namespace
 
 Reference closed_form_reference(const Scene& scene, std::span<const double> times) {
-  const std::optional<QuadMesh> mesh = scene_mesh(scene);
-  const ClothModel model = scene_model(scene, mesh ? &*mesh : nullptr, {});
+  if (std::holds_alternative<MeshCloth>(scene.cloth)) refuse("/cloth", "a sheet or particles");
+  const ClothModel model = scene_model(scene, rest_cloth(scene, scene.level));
   check_surroundings(scene, model);
   const auto* shape = std::get_if<SheetShape>(&scene.cloth);
   const RestShape rest = shape

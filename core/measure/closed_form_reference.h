@@ -16,8 +16,9 @@ namespace pleat {
 /// - Held by two rows or more with warp horizontal it is a cantilever (heavy_elastica) that begins
 ///   half a row before the last held one: bending elements have the width of a row, the first of
 ///   them is centred there, and the rows above cannot turn. The error of that is of second order;
-///   to count the length from the last held row itself would be wrong at first order. Stretch is
-///   left out.
+///   to count the length from the last held row itself would be wrong at first order. Fitted
+///   bending has its clamp between the two, a fifth of a row before the last held one, and is
+///   compared with a strip that begins at that row: to first order. Stretch is left out.
 /// - Particles in one chain of springs between two held ends, or below one, are at rest as chains
 ///   are (chain_between_supports, hanging_chain), exactly.
 ///

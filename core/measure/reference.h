@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "core/measure/sampled_run.h"
+#include "core/scene/json_reader.h"
 
 namespace pleat {
 
@@ -15,9 +17,16 @@ namespace pleat {
 struct ReferenceLabel {
   std::string id;           ///< names the content; never empty
   std::string description;  ///< a phrase for people
-  bool converged =
-      false;  ///< halving its mesh or step would change the errors by less than a quarter
+  /// Halving its step, or its mesh where that is part of the error, changes it by less than a
+  /// quarter of the errors shown.
+  bool converged = false;
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< by how much [m]; NaN: unknown
 };
+
+/// {"id", "description", "converged", "uncertainty_m": a number or null}.
+Json json_label(const ReferenceLabel& label);
+/// Reads these keys of an object, which may have others. Throws InputError, for an empty id too.
+ReferenceLabel read_label(const JsonReader& reader);
 
 /// A step [s] for such phrases: "1/960 s" where it is a whole part of a second, else "0.35 s".
 std::string step_phrase(double step);
@@ -26,10 +35,16 @@ std::string step_phrase(double step);
 struct Reference {
   ReferenceLabel label;
   std::vector<Sample> samples;
+  std::string content{};  ///< content_id of the scene, or empty
 };
 
 /// Sixteen hexadecimal digits of 64-bit FNV-1a.
 std::string content_hash(std::string_view bytes);
+
+/// Names what a reference is of: cloth, fabric, model, pins and world, whatever the level, the
+/// method and how long it runs. The core's version is no part of it, so that references can be
+/// shipped; a test makes the begin of each anew.
+std::string content_id(const Scene& scene);
 
 /// Id of a run of this scene at these times [s] by this version of the core: another scene, method,
 /// number of its fabric or core has another one; another name, caption, duration or way to record
@@ -55,9 +70,11 @@ class MemoryReferenceStore : public ReferenceStore {
   std::map<std::string, Reference> references_;
 };
 
-/// One line of JSON with everything but positions, then those as little-endian float64, x y z of
-/// each vertex, sample after sample.
-std::string write_reference(const Reference& reference);
+enum class Precision { float64, float32 };
+
+/// One line of JSON with everything but positions, then those as little-endian floats of the given
+/// precision, x y z of each vertex, sample after sample.
+std::string write_reference(const Reference& reference, Precision precision = Precision::float64);
 
 /// Throws InputError for bytes that write_reference did not write.
 Reference read_reference(std::string_view bytes);

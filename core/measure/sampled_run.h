@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +17,8 @@ struct Sample {
   double time;          ///< [s]
   Positions positions;  ///< [m]
   Stretch stretch;
+  /// Of a reference whose step or mesh was halved: how far that moved it, RMS [m]; else NaN.
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A scene run from its beginning through given times, in slices.

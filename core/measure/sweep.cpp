@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/base/check.h"
 #include "core/measure/core_version.h"
 #include "core/measure/platform.h"
+#include "core/measure/run_comparison.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
 #include "core/scene/json_reader.h"
 #include "core/scene/method_section.h"
+#include "core/scene/model_section.h"
 
 namespace pleat {
 namespace {
@@ -20,6 +23,17 @@ double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+constexpr double kUncertaintyShare = 4;  // an error is known when it is so many times as large
+
+std::string unconverged_sentence(double distance, double uncertainty) {
+  char sentence[160];
+  std::snprintf(sentence, sizeof sentence,
+                "no position error: %.3g mm from the reference, which itself changes by %.3g mm "
+                "when its step or mesh is halved",
+                1e3 * distance, 1e3 * uncertainty);
+  return sentence;
 }
 
 double root_mean_square(const std::vector<double>& values) {
@@ -40,23 +54,33 @@ Stretch overall_stretch(const std::vector<Sample>& samples) {
   return overall;
 }
 
-/// Errors of a run that reached its last sample against a reference that did too.
-void compare(const SampledRun& run, const Reference& reference, BenchRow& row) {
+/// Errors of a run that reached its last sample against a reference that did too. Where the
+/// reference itself is not known four times as well, there is no position error.
+void compare(const SampledRun& run, const Scene& reference_scene, const Reference& reference,
+             BenchRow& row) {
   const Stretch own = overall_stretch(run.samples());
   row.rms_stretch = own.rms;
   row.largest_stretch = own.largest;
   if (reference.samples.size() != run.samples().size()) return;
-  const Eigen::VectorXd areas = run.simulation().rest_areas();
-  std::vector<double> errors;
-  for (std::size_t s = 0; s < run.samples().size(); ++s)
-    errors.push_back(
-        position_error(run.samples()[s].positions, reference.samples[s].positions, areas));
-  row.position_error = root_mean_square(errors);
-  const double diagonal = rest_diagonal(run.simulation().scene());
-  if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
+  const Scene& scene = run.simulation().scene();
+  const RunErrors errors =
+      RunComparison(scene, reference_scene.level).errors(run.samples(), reference.samples);
+  row.surface_error = errors.surface_rms;
+  row.surface_error_95 = errors.surface_95;
+  row.bend_error = errors.bend_distribution;
+  row.bend_error_of_regions = errors.bend_regions;
   const Stretch theirs = overall_stretch(reference.samples);
   row.rms_stretch_error = own.rms - theirs.rms;
   row.largest_stretch_error = own.largest - theirs.largest;
+  const double uncertainty = reference.label.uncertainty;
+  if (errors.position < kUncertaintyShare * uncertainty) {
+    row.reference.converged = false;
+    if (row.message.empty()) row.message = unconverged_sentence(errors.position, uncertainty);
+    return;
+  }
+  row.position_error = errors.position;
+  const double diagonal = rest_diagonal(scene);
+  if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
 }
 
 /// A row whose run reached its end and took measurable time.
@@ -69,6 +93,10 @@ double substep_cost(const MethodOptions& method) {
   switch (method.stepper) {
     case StepperKind::explicit_euler:
       return 1;
+    case StepperKind::rk4:
+      return 4;
+    case StepperKind::newton:
+      return 400;  // some three rounds of ten solves with a kept factor
     case StepperKind::implicit_euler:
       if (method.solver == SolverKind::cg) return 80;  // some ten products with a 3x3-block matrix
       return 300;                                      // a factorisation
@@ -88,8 +116,8 @@ double expected_work(double n_vertices, const MethodOptions& method) {
 }
 
 double expected_work(const Scene& scene) {
-  const double n_base = static_cast<double>(n_base_vertices(scene));
-  return expected_work(std::ldexp(n_base, 2 * scene.level), scene.method);
+  const auto n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
+  return expected_work(n_vertices, scene.method);
 }
 
 std::string phrase(const MethodOptions& method, int level) {
@@ -192,7 +220,8 @@ BenchRow Sweep::measured_row() const {
       row.parts_ms[static_cast<std::size_t>(s)] =
           ms_per_frame(run_->parts().total(static_cast<Stage>(s)), run_->timed_duration());
   }
-  if (!run_->failed()) compare(*run_, *made_[references_.of_setting[setting()]], row);
+  const std::size_t recipe = references_.of_setting[setting()];
+  if (!run_->failed()) compare(*run_, references_.recipes[recipe].scene, *made_[recipe], row);
   row.process_peak_memory = process_peak_memory();
   return row;
 }

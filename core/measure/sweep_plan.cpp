@@ -15,8 +15,12 @@ namespace {
 
 constexpr int kMaxRepeats = 1000;
 constexpr const char* kDuration = "/duration_s";  // in the scene as in the plan
-constexpr std::array<Word<ReferenceKind>, 2> kReferenceWords = {
-    {{"finest", ReferenceKind::finest}, {"rigid_chain", ReferenceKind::rigid_chain}}};
+constexpr std::array<Word<ReferenceKind>, 5> kReferenceWords = {
+    {{"finest", ReferenceKind::finest},
+     {"rigid_chain", ReferenceKind::rigid_chain},
+     {"newton", ReferenceKind::newton},
+     {"same_mesh", ReferenceKind::same_mesh},
+     {"closed_form", ReferenceKind::closed_form}}};
 
 /// A value for the scene and the place in the plan that it stands at.
 struct PlannedChange {
@@ -142,7 +146,7 @@ SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) 
     setting.level = scene.level;
     setting.method = scene.method;
     setting.family = family_of(json);
-    setting.n_vertices = std::ldexp(static_cast<double>(n_base_vertices(scene)), 2 * scene.level);
+    setting.n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
   } catch (const InputError& error) {
     if (planned.empty()) throw InputError("/scene" + error.where(), error.what());
     throw_at_change(error, planned);
@@ -173,7 +177,8 @@ Scene SweepPlan::scene_of(std::size_t setting) const {
 SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
   const Json json = parse_json(json_text);
   const JsonReader reader(json);
-  reader.allow_keys({"scene", "grid", "settings", "duration_s", "repeats", "reference"});
+  reader.allow_keys(
+      {"scene", "grid", "settings", "duration_s", "repeats", "reference", "reference_step_s"});
   reader.at("scene");
   SweepPlan plan;
   plan.scene = json["scene"];
@@ -183,6 +188,11 @@ SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
     plan.n_repeats = static_cast<int>(repeats->integer(1, kMaxRepeats));
   if (const auto reference = reader.find("reference"))
     plan.reference = reference->word(kReferenceWords);
+  if (const auto step = reader.find("reference_step_s")) {
+    plan.reference_step = step->number(kPositive);
+    if (plan.reference != ReferenceKind::newton && plan.reference != ReferenceKind::same_mesh)
+      step->fail("no such key, as only newton and same_mesh take it");
+  }
   std::vector<PlannedChanges> grid(1);
   std::vector<PlannedChanges> settings(1);
   if (const auto at = reader.find("grid")) grid = read_grid(*at, json["grid"]);
@@ -195,11 +205,13 @@ SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
 std::string write_sweep_plan(const SweepPlan& plan) {
   Json settings = Json::array();
   for (const SweepSetting& setting : plan.settings) settings.push_back(setting.changes);
-  return format_json({{"scene", plan.scene},
-                      {"settings", settings},
-                      {"duration_s", plan.duration},
-                      {"repeats", plan.n_repeats},
-                      {"reference", word_for(kReferenceWords, plan.reference)}});
+  Json json = {{"scene", plan.scene},
+               {"settings", settings},
+               {"duration_s", plan.duration},
+               {"repeats", plan.n_repeats},
+               {"reference", word_for(kReferenceWords, plan.reference)}};
+  if (plan.reference_step > 0) json["reference_step_s"] = plan.reference_step;
+  return format_json(json);
 }
 
 std::vector<double> sweep_sample_times(double duration) {

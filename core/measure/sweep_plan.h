@@ -16,6 +16,9 @@ enum class ReferenceKind {
   finest,  ///< the finest level of the settings that differ in level and method alone, `implicit`
            ///< with a direct solver at a quarter of their smallest step
   rigid_chain,  ///< chain_reference at that level
+  newton,       ///< the same level, `newton` with the midpoint rule, its step and mesh checked
+  same_mesh,    ///< the setting's own level with `newton`: what its steps alone do wrong
+  closed_form,  ///< closed_form_reference at the setting's own level
 };
 
 /// One way to compute the scene of a plan.
@@ -41,13 +44,16 @@ struct SweepPlan {
   double duration;                     ///< [s], positive
   int n_repeats = 5;                   ///< timed runs of each setting, at least 1
   ReferenceKind reference = ReferenceKind::finest;
+  /// Step of the reference [s]; 0: a quarter of the smallest substep compared, at most 1/960 s.
+  double reference_step = 0;
 
   /// The scene with a setting's changes.
   Scene scene_of(std::size_t setting) const;
 };
 
 /// Reads {"scene": as in its file, "grid": {pointer: [values], ...}, "settings": [{pointer: value,
-/// ...}, ...], "duration_s", "repeats", "reference": "finest"|"rigid_chain"}. All but the scene may
+/// ...}, ...], "duration_s", "repeats", "reference": "finest"|"rigid_chain"|
+/// "newton"|"same_mesh"|"closed_form", "reference_step_s"}. All but the scene may
 /// be missing; without grid and settings it is computed as it is.
 ///
 /// A grid is the product of its lists, the first pointer's values changing last; with settings,

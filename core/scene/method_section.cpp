@@ -6,14 +6,10 @@ namespace {
 constexpr std::int64_t kMaxIterations = 100000;
 constexpr NumberRange kTolerance{0, 1, NumberRange::Ends::excluded};
 
-constexpr std::array<Word<BendingModel>, 2> kBendingModels{
-    {{"quadratic", BendingModel::quadratic}, {"none", BendingModel::none}}};
-
-constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
-    {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
-
-constexpr std::array<Word<StepperKind>, 4> kSteppers{{{"explicit", StepperKind::explicit_euler},
+constexpr std::array<Word<StepperKind>, 6> kSteppers{{{"explicit", StepperKind::explicit_euler},
+                                                      {"rk4", StepperKind::rk4},
                                                       {"implicit", StepperKind::implicit_euler},
+                                                      {"newton", StepperKind::newton},
                                                       {"projective", StepperKind::projective},
                                                       {"xpbd", StepperKind::xpbd}}};
 
@@ -23,6 +19,11 @@ constexpr std::array<Word<SolverKind>, 3> kSolvers{
 constexpr std::array<Word<Constraints>, 2> kConstraints{
     {{"compliant", Constraints::compliant}, {"rigid", Constraints::rigid}}};
 
+constexpr std::array<Word<NewtonRule>, 3> kNewtonRules{
+    {{"backward_euler", NewtonRule::backward_euler},
+     {"midpoint", NewtonRule::midpoint},
+     {"equilibrium", NewtonRule::equilibrium}}};
+
 constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
                                                           {"ply", FrameFormat::ply},
                                                           {"binary", FrameFormat::binary},
@@ -31,43 +32,32 @@ constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::o
 constexpr const char* kStableSubsteps =
     "stable";  // as many as the explicit stability bound asks for
 
-int read_substeps(const JsonReader& reader, StepperKind stepper) {
+int read_substeps(const JsonReader& reader, const MethodOptions& method) {
   if (!reader.is_text()) return static_cast<int>(reader.integer(1, kMaxSubsteps));
-  if (stepper != StepperKind::explicit_euler)
-    reader.fail("a whole number, as only explicit takes \"stable\"");
+  if (!method.is_explicit())
+    reader.fail("a whole number, as only explicit and rk4 take \"stable\"");
   if (reader.text() != kStableSubsteps) reader.fail("a whole number or \"stable\"");
   return 0;
 }
 
 }  // namespace
 
-void read_model(const JsonReader& reader, SpringModel& model) {
-  reader.allow_keys({"bending", "shear", "damping"});
-  if (const auto at = reader.find("bending")) model.bending = at->word(kBendingModels);
-  if (const auto at = reader.find("shear")) model.shear = at->boolean();
-  if (const auto at = reader.find("damping"))
-    model.damping_direction = at->word(kDampingDirections);
-}
-
-Json json_model(const SpringModel& model) {
-  return {{"bending", word_for(kBendingModels, model.bending)},
-          {"shear", model.shear},
-          {"damping", word_for(kDampingDirections, model.damping_direction)}};
-}
-
 void read_method(const JsonReader& reader, MethodOptions& method) {
-  reader.allow_keys(
-      {"stepper", "step_s", "substeps", "iterations", "solver", "tolerance", "constraints"});
+  reader.allow_keys({"stepper", "step_s", "substeps", "iterations", "solver", "tolerance",
+                     "constraints", "rule"});
   if (const auto at = reader.find("stepper")) method.stepper = at->word(kSteppers);
   if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
-  if (const auto at = reader.find("substeps")) method.substeps = read_substeps(*at, method.stepper);
+  if (const auto at = reader.find("substeps")) method.substeps = read_substeps(*at, method);
   if (const auto at = reader.find("iterations"))
     method.iterations = static_cast<int>(at->integer(1, kMaxIterations));
-  // projective keeps a factor, which the general default has not.
-  if (method.stepper == StepperKind::projective) method.solver = best_direct_solver();
+  // projective keeps a factor and newton is exact, which the general defaults do not serve.
+  if (method.stepper == StepperKind::projective || method.stepper == StepperKind::newton)
+    method.solver = best_direct_solver();
+  if (method.stepper == StepperKind::newton) method.tolerance = kNewtonTolerance;
   if (const auto at = reader.find("solver")) method.solver = at->word(kSolvers);
   if (const auto at = reader.find("tolerance")) method.tolerance = at->number(kTolerance);
   if (const auto at = reader.find("constraints")) method.constraints = at->word(kConstraints);
+  if (const auto at = reader.find("rule")) method.rule = at->word(kNewtonRules);
 }
 
 Json json_method(const MethodOptions& method) {
@@ -77,7 +67,8 @@ Json json_method(const MethodOptions& method) {
           {"iterations", method.iterations},
           {"solver", word_for(kSolvers, method.solver)},
           {"tolerance", method.tolerance},
-          {"constraints", word_for(kConstraints, method.constraints)}};
+          {"constraints", word_for(kConstraints, method.constraints)},
+          {"rule", word_for(kNewtonRules, method.rule)}};
 }
 
 void read_record(const JsonReader& reader, RecordOptions& record) {

@@ -5,11 +5,7 @@
 
 namespace pleat {
 
-/// The section "model" of a scene file: what the springs do.
-void read_model(const JsonReader& reader, SpringModel& model);
-Json json_model(const SpringModel& model);
-
-/// The section "method": stepper, step and solver.
+/// The section "method" of a scene file: stepper, step and solver.
 void read_method(const JsonReader& reader, MethodOptions& method);
 Json json_method(const MethodOptions& method);
 

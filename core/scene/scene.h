@@ -65,12 +65,28 @@ struct PinRule {
   Motion motion;
 };
 
-enum class BendingModel { none, quadratic };
+/// What holds a cloth together in its own plane.
+enum class Elasticity {
+  springs,   ///< along the threads and on the diagonals of quads (docs/methods/springs.md)
+  membrane,  ///< orthotropic triangles (docs/methods/membrane.md)
+};
 
-struct SpringModel {
+enum class BendingModel {
+  none,
+  quadratic,  ///< of mesh lines, with springs
+  arc,        ///< of mesh lines, by their chords
+  linear,     ///< of mesh lines, exact at one curvature
+  fitted,     ///< of triangles, with a membrane (docs/methods/fitted_bending.md)
+  hinge,      ///< of edges, with a membrane: for comparison
+};
+
+struct ModelOptions {
+  Elasticity elasticity = Elasticity::springs;
   BendingModel bending = BendingModel::quadratic;
-  DampingDirection damping_direction = DampingDirection::along_spring;
-  bool shear = true;  ///< springs on both diagonals of each quad
+  DampingDirection damping_direction = DampingDirection::along_spring;  ///< of springs
+  bool shear = true;        ///< springs on both diagonals of each quad
+  double strain_limit = 0;  ///< along the threads; beyond it kTautFactor times as stiff; 0: never
+  double torsion = 1;       ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
 };
 
 enum class FrameFormat { none, obj, ply, binary };
@@ -93,7 +109,7 @@ struct Scene {
   FabricConstants fabric;
   std::vector<std::string>
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
-  SpringModel model;
+  ModelOptions model;
   int level = 0;  ///< uniform refinements, 0 to kMaxLevel
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]

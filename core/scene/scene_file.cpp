@@ -7,6 +7,7 @@
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
 #include "core/scene/method_section.h"
+#include "core/scene/model_section.h"
 #include "core/scene/world_section.h"
 
 namespace pleat {
@@ -47,7 +48,8 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
   if (const auto at = root.find("caption")) scene.caption = at->text();
   read_cloth(root.at("cloth"), files, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
-  if (const auto at = root.find("model")) read_model(*at, scene.model);
+  scene.model = usual_model(scene);
+  if (const auto at = root.find("model")) read_model(*at, scene);
   if (const auto at = root.find("refinement")) scene.level = read_refinement(*at, scene);
   if (const auto at = root.find("pins")) read_pins(*at, scene);
   if (const auto at = root.find("world")) read_world(*at, scene);

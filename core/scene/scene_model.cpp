@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/elastic_model.h"
+
 namespace pleat {
 namespace {
 
@@ -35,28 +37,6 @@ double largest_circumradius(const TriangleMesh& mesh) {
   return largest;
 }
 
-void fill_sheet(ClothModel& model, const Scene& scene, const QuadMesh& mesh) {
-  SpringLattice lattice = spring_lattice(mesh, scene.fabric);
-  model.masses = std::move(lattice.masses);
-  model.springs = std::move(lattice.springs);
-  if (scene.model.bending == BendingModel::quadratic) model.bends = std::move(lattice.bends);
-  if (!scene.model.shear)
-    model.springs.erase(
-        std::remove_if(model.springs.begin(), model.springs.end(),
-                       [](const Spring& spring) { return spring.kind == SpringKind::shear; }),
-        model.springs.end());
-}
-
-void fill_mesh(ClothModel& model, const Scene& scene, const TriangleMesh& mesh) {
-  model.masses = scene.fabric.areal_density * vertex_areas(mesh);
-}
-
-void fill_particles(ClothModel& model, const Scene& scene, const InlineCloth& particles) {
-  model.masses = particles.masses;
-  model.springs = particles.springs;
-  if (scene.model.bending == BendingModel::quadratic) model.bends = particles.bends;
-}
-
 }  // namespace
 
 State scene_state(const Scene& scene, const RestCloth& cloth) {
@@ -68,13 +48,7 @@ State scene_state(const Scene& scene, const RestCloth& cloth) {
 
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   ClothModel model;
-  if (cloth.quads) {
-    fill_sheet(model, scene, *cloth.quads);
-  } else if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth)) {
-    fill_particles(model, scene, *particles);
-  } else {
-    fill_mesh(model, scene, cloth.mesh);
-  }
+  add_elasticity(model, scene, cloth);
   model.rest_coordinates = cloth.rest_coordinates;
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
@@ -96,11 +70,17 @@ BuildReport build_report(const ClothModel& model) {
   const auto note = [&report](bool built, const char* part) {
     (built ? report.built : report.left_out).emplace_back(part);
   };
+  const bool has_dampers = std::any_of(model.springs.begin(), model.springs.end(),
+                                       [](const Spring& s) { return s.damping > 0; });
+  const bool has_membrane = !model.membrane.elements.empty();
   note(!model.springs.empty(), "springs");
-  note(std::any_of(model.springs.begin(), model.springs.end(),
-                   [](const Spring& s) { return s.damping > 0; }),
-       "dampers");
-  note(!model.bends.empty(), "bending");
+  note(has_membrane, "membrane");
+  note(has_dampers || (has_membrane && model.membrane_relaxation > 0), "dampers");
+  note(!model.taut_springs.empty() || (has_membrane && model.membrane.law.strain_limit > 0),
+       "strain limit");
+  note(!model.bends.empty() || !model.chord_bends.empty() || !model.hinges.empty() ||
+           model.has_fitted_bending(),
+       "bending");
   note(!model.gravity.isZero(), "gravity");
   note(!model.pins.empty(), "pins");
   note(model.air.has_value(), "air drag");

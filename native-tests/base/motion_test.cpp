@@ -42,4 +42,22 @@ TEST_CASE("motion: oscillate swings by its offset with its frequency", "[base]")
   CHECK(std::abs(motion.displacement(1.25).y()) < 1e-15);
 }
 
+TEST_CASE("motion: the velocity is the displacement's rate", "[base]") {
+  Motion motion;
+  motion.kind =
+      GENERATE(Motion::Kind::hold, Motion::Kind::move, Motion::Kind::ease, Motion::Kind::oscillate);
+  motion.offset = {0.3, -1, 2};
+  motion.time_begin = 0.5;
+  motion.time_end = 1.5;
+  motion.frequency = 0.7;
+  constexpr double kHalfStep = 1e-6;  // [s]
+  for (const double time : {0.2, 0.6, 1.1, 1.4, 1.9}) {
+    CAPTURE(time);
+    const Vec3 expected =
+        (motion.displacement(time + kHalfStep) - motion.displacement(time - kHalfStep)) /
+        (2 * kHalfStep);
+    CHECK((motion.velocity(time) - expected).norm() < 1e-8);
+  }
+}
+
 }  // namespace pleat

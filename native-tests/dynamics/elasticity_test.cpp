@@ -65,7 +65,7 @@ TEST_CASE("elasticity: the exact stiffness is minus the derivative of the forces
   const Eigen::MatrixXd jacobian =
       difference_jacobian([&](const Eigen::VectorXd& y) { return elastic_forces(model, y); }, x,
                           difference_step(kEdge));
-  CHECK(relative_error(dense(stiffness_matrix(model, columns(x), SpringHessian::exact)),
+  CHECK(relative_error(dense(stiffness_matrix(model, columns(x), ElementHessian::exact)),
                        -jacobian) < 1e-7);
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("elasticity: the bending stiffness alone is the derivative of its forc
   const Eigen::MatrixXd jacobian =
       difference_jacobian([&](const Eigen::VectorXd& y) { return elastic_forces(model, y); }, x,
                           difference_step(kEdge));
-  CHECK(relative_error(dense(stiffness_matrix(model, columns(x), SpringHessian::exact)),
+  CHECK(relative_error(dense(stiffness_matrix(model, columns(x), ElementHessian::exact)),
                        -jacobian) < 1e-8);
 }
 
@@ -126,8 +126,8 @@ TEST_CASE("elasticity: the projected stiffness is the exact one where springs ar
   const QuadMesh mesh = small_sheet();
   const ClothModel model = sheet_model(mesh, soft_fabric());
   const Positions x = inflated(mesh, random);
-  CHECK(relative_error(dense(stiffness_matrix(model, x, SpringHessian::projected)),
-                       dense(stiffness_matrix(model, x, SpringHessian::exact))) < 1e-14);
+  CHECK(relative_error(dense(stiffness_matrix(model, x, ElementHessian::projected)),
+                       dense(stiffness_matrix(model, x, ElementHessian::exact))) < 1e-14);
 }
 
 TEST_CASE("elasticity: only the projected stiffness is semidefinite when springs are compressed",
@@ -136,15 +136,15 @@ TEST_CASE("elasticity: only the projected stiffness is semidefinite when springs
   const QuadMesh mesh = small_sheet();
   const ClothModel model = sheet_model(mesh, soft_fabric());
   const Positions x = shaken(0.7 * mesh.rest_positions(), 0.1 * kEdge, random);
-  const auto extremes = [&](SpringHessian hessian) {
+  const auto extremes = [&](ElementHessian hessian) {
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(stiffness_matrix(model, x, hessian)))
             .eigenvalues();
     return std::pair(values.minCoeff(), values.maxCoeff());
   };
-  const auto [lowest_projected, highest] = extremes(SpringHessian::projected);
+  const auto [lowest_projected, highest] = extremes(ElementHessian::projected);
   CHECK(lowest_projected > -1e-13 * highest);
-  CHECK(extremes(SpringHessian::exact).first < -1e-3 * highest);
+  CHECK(extremes(ElementHessian::exact).first < -1e-3 * highest);
 }
 
 TEST_CASE("elasticity: a rigid motion leaves the energy and turns the forces along", "[dynamics]") {
@@ -185,7 +185,7 @@ TEST_CASE("elasticity: a spring of zero length pulls nowhere and leaves no NaN",
   add_elastic_forces(model, x, forces);
   add_damping_forces(model, x, v, forces);
   CHECK(forces.isZero(0));
-  for (const auto hessian : {SpringHessian::exact, SpringHessian::projected})
+  for (const auto hessian : {ElementHessian::exact, ElementHessian::projected})
     CHECK(dense(stiffness_matrix(model, x, hessian)).allFinite());
   CHECK(dense(damping_matrix(model, x)).allFinite());
 }

@@ -88,18 +88,18 @@ TEST_CASE("steppers: explicit keeps the angular momentum to rounding", "[dynamic
 TEST_CASE("steppers: backward Euler's loss of angular momentum falls with the step", "[dynamics]") {
   ClothModel model = sheet_model(free_mesh(), soft_fabric());
   const Vec3 before = angular_momentum(model, tumbling_state());
-  for (const StepperKind kind : {StepperKind::implicit_euler, StepperKind::projective}) {
-    const auto lost = [&](double step) {
-      MethodOptions options = converged_methods(step)[static_cast<std::size_t>(kind)];
-      options.iterations = 50;  // enough at such small steps
-      return (angular_momentum(model, after(model, options, 0.2)) - before).norm() / before.norm();
-    };
-    const double coarse = lost(0.0004);
-    const double fine = lost(0.0002);
-    CAPTURE(name(kind), coarse, fine);
-    CHECK(std::log2(coarse / fine) == Approx(1).margin(0.2));
-    CHECK(fine < 0.05);
-  }
+  const std::size_t which = GENERATE(1, 2);  // implicit, projective
+  const StepperKind kind = converged_methods(1)[which].stepper;
+  const auto lost = [&](double step) {
+    MethodOptions options = converged_methods(step)[which];
+    options.iterations = 50;  // enough at such small steps
+    return (angular_momentum(model, after(model, options, 0.2)) - before).norm() / before.norm();
+  };
+  const double coarse = lost(0.0004);
+  const double fine = lost(0.0002);
+  CAPTURE(name(kind), coarse, fine);
+  CHECK(std::log2(coarse / fine) == Approx(1).margin(0.2));
+  CHECK(fine < 0.05);
 }
 
 }  // namespace pleat

@@ -47,13 +47,11 @@ Rates rates(const ClothModel& model, const State& state) {
   return result;
 }
 
-/// A pinned vertex moves as its pin says; its velocity by a central difference.
+/// A pinned vertex moves as its pin says.
 void place_pins(const ClothModel& model, double time, State& state) {
-  constexpr double kHalfStep = 1e-5;  // [s]
   for (const Pin& pin : model.pins) {
     state.positions.col(pin.vertex) = pin.position(time);
-    state.velocities.col(pin.vertex) =
-        (pin.position(time + kHalfStep) - pin.position(time - kHalfStep)) / (2 * kHalfStep);
+    state.velocities.col(pin.vertex) = pin.motion.velocity(time);
   }
 }
 
@@ -108,6 +106,34 @@ TEST_CASE("steppers: halving the step halves the error on smooth motion", "[dyna
     CHECK(std::log2(errors[1] / errors[2]) == Approx(1).margin(0.1));
     CHECK(errors[2] < 0.005);
   }
+}
+
+TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]") {
+  SmoothProblem problem;
+  const State reference = reference_end(problem, 4000);
+  struct Method {
+    StepperKind stepper;
+    int n_steps;
+    double order;
+  };
+  const Method method =
+      GENERATE(Method{StepperKind::newton, 50, 2}, Method{StepperKind::rk4, 100, 4});
+  std::vector<double> errors;
+  for (const int refinement : {1, 2, 4}) {
+    const int n_steps = refinement * method.n_steps;
+    MethodOptions options;
+    options.stepper = method.stepper;
+    options.solver = SolverKind::eigen;
+    options.tolerance = kNewtonTolerance;
+    options.step = kDuration / n_steps;
+    State state = problem.start;
+    const auto stepper = make_stepper(problem.model, options);
+    for (int s = 0; s < n_steps; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
+    errors.push_back(position_error(state, reference));
+  }
+  CAPTURE(name(method.stepper), errors[0], errors[1], errors[2]);
+  CHECK(std::log2(errors[0] / errors[1]) == Approx(method.order).margin(0.25));
+  CHECK(std::log2(errors[1] / errors[2]) == Approx(method.order).margin(0.15));
 }
 
 TEST_CASE("steppers: substeps are steps of their own length", "[dynamics]") {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/check.h"
+#include "core/dynamics/stability_bound.h"
 #include "core/dynamics/system_matrix.h"
 #include "native-tests/support/models.h"
 
@@ -25,7 +26,7 @@ double amplification(const ClothModel& model, const Positions& x, double h) {
   const Eigen::Index n = 3 * model.n_vertices();
   const Eigen::VectorXd inverse_mass = dense(mass_matrix(model)).diagonal().cwiseInverse();
   const Eigen::MatrixXd K =
-      inverse_mass.asDiagonal() * dense(stiffness_matrix(model, x, SpringHessian::projected));
+      inverse_mass.asDiagonal() * dense(stiffness_matrix(model, x, ElementHessian::projected));
   const Eigen::MatrixXd C = inverse_mass.asDiagonal() * dense(damping_matrix(model, x));
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
   Eigen::MatrixXd step(2 * n, 2 * n);  // of (x, v)
@@ -79,7 +80,7 @@ TEST_CASE("explicit: below the bound nothing grows, on any graph of springs", "[
   Random random(GENERATE(range(1, 21)));
   Positions x;
   const ClothModel model = random_graph(random, x);
-  CHECK(amplification(model, x, StepperExplicit::largest_stable_step(model)) < 1 + 1e-6);
+  CHECK(amplification(model, x, largest_stable_step(model)) < 1 + 1e-6);
 }
 
 TEST_CASE("explicit: below the bound nothing grows on a sheet with bending", "[dynamics]") {
@@ -91,7 +92,7 @@ TEST_CASE("explicit: below the bound nothing grows on a sheet with bending", "[d
   fabric.damping_ratio *= damping;
   CAPTURE(name, damping);
   const ClothModel model = sheet_model(mesh, fabric);
-  const double bound = StepperExplicit::largest_stable_step(model);
+  const double bound = largest_stable_step(model);
   CHECK(amplification(model, mesh.rest_positions(), bound) < 1 + 1e-6);
   // The bound is a bound by circles, at most about twice too careful on a sheet.
   CHECK(amplification(model, mesh.rest_positions(), 2.2 * bound) > 1.01);
@@ -101,7 +102,7 @@ TEST_CASE("explicit: the bound of two masses on a spring is the exact one", "[dy
   const double damping = GENERATE(0.0, 0.5);
   CAPTURE(damping);
   const ClothModel model = pair_model(damping);
-  const double bound = StepperExplicit::largest_stable_step(model);
+  const double bound = largest_stable_step(model);
   // h^2 k/mu + 2 h c/mu = 4 with the reduced mass mu.
   const double mu = 0.005;
   CHECK(bound * bound * 100 / mu + 2 * bound * damping / mu == Approx(4));
@@ -115,13 +116,13 @@ TEST_CASE("explicit: the bound of one bending element is exact where masses go a
   model.masses = Eigen::Vector3d(1, 2, 1);
   model.bends = {{{VertexId(0), VertexId(1), VertexId(2)}, {1, -2, 1}, 7}};
   // Its one eigenvalue is s (1/1 + 4/2 + 1/1) = 4 s.
-  CHECK(StepperExplicit::largest_stable_step(model) == Approx(2 / std::sqrt(4 * 7.0)));
+  CHECK(largest_stable_step(model) == Approx(2 / std::sqrt(4 * 7.0)));
 }
 
 TEST_CASE("explicit: a run just below the bound stays, one just above is refused", "[dynamics]") {
   const double damping = GENERATE(0.0, 0.5);
   CAPTURE(damping);
-  const double bound = StepperExplicit::largest_stable_step(pair_model(damping));
+  const double bound = largest_stable_step(pair_model(damping));
   CHECK(largest_stretch(pair_model(damping), 0.999 * bound) < 1e-3);
   CHECK_THROWS_AS(largest_stretch(pair_model(damping), 1.001 * bound), InputError);
 }
@@ -156,7 +157,7 @@ TEST_CASE("explicit: cloth that needs more substeps than there can be is refused
 TEST_CASE("explicit: left to choose, it takes the fewest substeps within its share of the bound",
           "[dynamics]") {
   ClothModel model = sheet_model(square_sheet(8), library_fabric("silk"));
-  const double bound = StepperExplicit::largest_stable_step(model);
+  const double bound = largest_stable_step(model);
   const int substeps = make_stepper(model, explicit_method(1.0 / 60, 0))->substeps();
   CHECK(1.0 / 60 / substeps <= 0.9 * bound);
   CHECK(1.0 / 60 / (substeps - 1) > 0.9 * bound);
@@ -165,7 +166,7 @@ TEST_CASE("explicit: left to choose, it takes the fewest substeps within its sha
 TEST_CASE("explicit: cloth without stiffness has no bound", "[dynamics]") {
   ClothModel model;
   model.masses = Eigen::VectorXd::Ones(3);
-  CHECK(std::isinf(StepperExplicit::largest_stable_step(model)));
+  CHECK(std::isinf(largest_stable_step(model)));
   CHECK(make_stepper(model, explicit_method(1, 0))->substeps() == 1);
 }
 

@@ -46,7 +46,7 @@ State expected_step(double h) {
   const Positions& x = cloth.state.positions;
   const Positions& v = cloth.state.velocities;
   const Eigen::Index n = x.size();
-  const Eigen::MatrixXd K = dense(stiffness_matrix(model, x, SpringHessian::projected));
+  const Eigen::MatrixXd K = dense(stiffness_matrix(model, x, ElementHessian::projected));
   const Eigen::MatrixXd A =
       dense(mass_matrix(model)) + h * dense(damping_matrix(model, x)) + h * h * K;
   Positions forces = Positions::Zero(3, x.cols());

@@ -8,14 +8,6 @@
 namespace pleat {
 namespace {
 
-/// A symmetric block, another one for each spring.
-Mat3 block_of(std::size_t spring) {
-  Random random(100 + spring);
-  Mat3 block;
-  for (double& value : block.reshaped()) value = random.uniform(-1, 1);
-  return block + block.transpose().eval() + 8 * Mat3::Identity();
-}
-
 /// Some springs with b before a, as scenes may write them.
 ClothModel mixed_model() {
   ClothModel model = sheet_model(square_sheet(3), soft_fabric());
@@ -24,28 +16,39 @@ ClothModel mixed_model() {
   return model;
 }
 
+Positions moved_positions(const ClothModel& model) {
+  Random random(7);
+  QuadMesh mesh = square_sheet(3);
+  REQUIRE(mesh.n_vertices() == model.n_vertices());
+  return shaken(mesh.rest_positions(), 0.1, random);
+}
+
+/// 2 M + 3 K + 5 C.
 SystemMatrix assembled(const ClothModel& model) {
   SystemMatrix matrix(model);
   matrix.set_zero();
-  matrix.add_masses(model.masses, 2);
-  for (std::size_t s = 0; s < model.springs.size(); ++s) matrix.add_spring(s, block_of(s));
-  for (std::size_t b = 0; b < model.bends.size(); ++b) matrix.add_bend(b, 3);
+  matrix.add_masses(2);
+  matrix.add_elasticity(moved_positions(model), 3, 5, ElementHessian::exact);
   return matrix;
 }
 
 /// The same sum, element by element into a dense matrix.
 Eigen::MatrixXd expected_sum(const ClothModel& model) {
   const int n = model.n_vertices();
+  const Positions x = moved_positions(model);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (int i = 0; i < n; ++i)
     sum.block<3, 3>(3 * i, 3 * i) += 2 * model.masses[i] * Mat3::Identity();
-  for (std::size_t s = 0; s < model.springs.size(); ++s) {
-    const int a = 3 * model.springs[s].a;
-    const int b = 3 * model.springs[s].b;
-    sum.block<3, 3>(a, a) += block_of(s);
-    sum.block<3, 3>(b, b) += block_of(s);
-    sum.block<3, 3>(a, b) -= block_of(s);
-    sum.block<3, 3>(b, a) -= block_of(s);
+  for (const Spring& spring : model.springs) {
+    const SpringAxis axis = spring_axis(spring, x);
+    const Mat3 block = 3 * spring_stiffness(spring, axis, ElementHessian::exact) +
+                       5 * spring_damping(spring, axis, model.damping_direction);
+    const int a = 3 * spring.a;
+    const int b = 3 * spring.b;
+    sum.block<3, 3>(a, a) += block;
+    sum.block<3, 3>(b, b) += block;
+    sum.block<3, 3>(a, b) -= block;
+    sum.block<3, 3>(b, a) -= block;
   }
   for (const BendElement& bend : model.bends)
     for (int i = 0; i < 3; ++i)
@@ -67,7 +70,7 @@ TEST_CASE("system_matrix: a second assembly leaves nothing of the first", "[dyna
   const ClothModel model = mixed_model();
   SystemMatrix matrix = assembled(model);
   matrix.set_zero();
-  matrix.add_masses(model.masses, 1);
+  matrix.add_masses(1);
   const Eigen::MatrixXd expected = dense(mass_matrix(model));
   CHECK((dense(matrix.lower()) - expected).norm() == 0);
 }

@@ -112,7 +112,7 @@ TEST_CASE("spring_lattice: a strip pulled at both ends shows K_u - G^2/K_v", "[f
   const FabricConstants fabric = library_fabric(name);
   const ClothModel model = sheet_model(mesh, fabric);
   const Eigen::MatrixXd K =
-      dense(stiffness_matrix(model, strained(mesh, {}), SpringHessian::exact));
+      dense(stiffness_matrix(model, strained(mesh, {}), ElementHessian::exact));
   // A line load of 1 N/m along both ends; corners carry half a cell.
   const RestCoordinates& uv = mesh.rest_coordinates();
   const double height = uv.row(0).maxCoeff();

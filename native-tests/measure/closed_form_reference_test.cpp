@@ -68,8 +68,7 @@ Scene rope_scene() {
 
 /// Force that is left on free vertices, over the weight [1].
 double imbalance(const Scene& scene, const Positions& positions) {
-  const auto mesh = scene_mesh(scene);
-  const ClothModel model = scene_model(scene, mesh ? &*mesh : nullptr, {});
+  const ClothModel model = scene_model(scene, rest_cloth(scene, scene.level));
   Positions forces = model.gravity * model.masses.transpose();
   add_elastic_forces(model, positions, forces);
   for (const Pin& pin : model.pins) forces.col(pin.vertex).setZero();
@@ -129,7 +128,7 @@ TEST_CASE("closed_form_reference: a strip held by two rows is an elastica from b
   const double tip[] = {strip.length};
   const Eigen::Vector2d place = heavy_elastica(strip, tip).col(0);
   CHECK(x.col(x.cols() - 1).isApprox(Vec3(0.1, 1 - place.y(), row / 2 + place.x()), 1e-12));
-  CHECK(x.leftCols(6).isApprox(scene_mesh(scene)->rest_positions().leftCols(6)));
+  CHECK(x.leftCols(6).isApprox(rest_cloth(scene, scene.level).quads->rest_positions().leftCols(6)));
 }
 
 TEST_CASE("closed_form_reference: a static shape does not depend on the method", "[measure]") {

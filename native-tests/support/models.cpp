@@ -87,7 +87,10 @@ std::vector<MethodOptions> converged_methods(double step) {
   projective.iterations = 300;
   MethodOptions xpbd = method(StepperKind::xpbd, step);
   xpbd.iterations = 100;
-  return {explicit_method, method(StepperKind::implicit_euler, step), projective, xpbd};
+  MethodOptions newton = method(StepperKind::newton, step);
+  newton.rule = NewtonRule::backward_euler;
+  newton.tolerance = kNewtonTolerance;
+  return {explicit_method, method(StepperKind::implicit_euler, step), projective, xpbd, newton};
 }
 
 std::vector<MethodOptions> everyday_methods() {

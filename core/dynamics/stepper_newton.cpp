@@ -1,0 +1,290 @@
+#include "core/dynamics/stepper_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 200;  // of a step in time; reaching it is reported
+constexpr int kMaxEquilibriumIterations = 5000;
+constexpr int kMaxHalvings = 40;              // of a step along a direction
+constexpr double kSufficientDecrease = 1e-4;  // Armijo's condition
+constexpr double kShiftFactor = 4;            // the shift follows the steps by this factor
+constexpr double kLinearTolerance = 1e-4;  // relative residual: Newton gains as much an iteration
+constexpr int kMaxLinearIterations = 15;   // with a kept factor; more cost as much as a new one
+constexpr double kSmallestShift = 1e-6;    // of the first one; below, the true Hessian stands
+
+Eigen::Map<Eigen::VectorXd> flat(Positions& columns) { return {columns.data(), columns.size()}; }
+Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
+  return {columns.data(), columns.size()};
+}
+
+double box_diagonal(const Positions& x) {
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+}
+
+double largest_norm(const Positions& columns) {
+  return std::sqrt(columns.colwise().squaredNorm().maxCoeff());
+}
+
+double diagonal_norm(const SparseMatrix& lower) {
+  double sum = 0;
+  for (int column = 0; column < lower.outerSize(); ++column) {
+    const double entry = lower.valuePtr()[lower.outerIndexPtr()[column]];
+    sum += entry * entry;
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
+    : Stepper(model, options, options.substeps, ContactMemory::last_substep), matrix_(model) {
+  if (options.solver == SolverKind::cg)
+    throw InputError("/method/solver",
+                     "expected cholmod or eigen for newton, which is exact, got cg");
+  if (is_at_rest() && model.contact)
+    throw InputError("/method/rule",
+                     "expected backward_euler or midpoint beside solids, got equilibrium");
+  solver_ = make_solver(options, 3);
+  solver_->analyze(matrix_.lower());
+  for (Positions* columns : {&loads_, &gradient_, &direction_, &trial_, &velocities_, &product_})
+    columns->resize(3, model.n_vertices());
+  for (Eigen::VectorXd* vector : {&right_side_, &residual_, &preconditioned_, &search_, &image_})
+    vector->resize(3 * model.n_vertices());
+  refresh();
+}
+
+void StepperNewton::refresh() {
+  std::vector<VertexId> vertices;
+  for (const Pin& pin : model_.pins) vertices.push_back(pin.vertex);
+  matrix_.choose_prescribed(vertices);
+  no_change_ = Positions::Zero(3, static_cast<Eigen::Index>(vertices.size()));
+  has_factor_ = false;
+}
+
+double StepperNewton::first_shift() const { return std::max(model_.gravity.norm(), 1.0) / extent_; }
+
+void StepperNewton::set_up(const State& state, double h) {
+  const StageScope scope(observer_, Stage::assembly);
+  begin_ = state.positions;
+  extent_ = box_diagonal(begin_);
+  set_steady_forces(loads_);
+  matrix_.set_zero();
+  if (!is_at_rest()) {
+    interval_ = options().rule == NewtonRule::midpoint ? h / 2 : h;
+    const double rate = 1 / interval_;
+    matrix_.add_masses(rate * rate);
+    trial_ = begin_;
+    if (options().rule == NewtonRule::midpoint) trial_ += interval_ * state.velocities;
+    matrix_.add_elasticity(trial_, 0, rate, ElementHessian::projected);
+    loads_ += rate * state.velocities * model_.masses.asDiagonal();
+  }
+  base_ = matrix_.lower();
+}
+
+void StepperNewton::place_first_guess(const State& state, double time_end) {
+  positions_ = begin_;
+  if (!is_at_rest()) positions_ += interval_ * state.velocities;
+  for (const Pin& pin : model_.pins) {
+    const Vec3 end = pin.position(time_end);
+    positions_.col(pin.vertex) =
+        options().rule == NewtonRule::midpoint ? Vec3((begin_.col(pin.vertex) + end) / 2) : end;
+  }
+}
+
+/// At the present iterate, where drag is expanded. `magnitude` (may be null) gets the sum of the
+/// terms' sizes.
+double StepperNewton::potential(const Positions& positions, double* magnitude) {
+  const auto change = flat(positions) - flat(begin_);
+  flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change;
+  const double kinetic = 0.5 * change.dot(flat(product_));
+  const double work = change.dot(flat(loads_));
+  const double elastic = elastic_energy(model_, positions);
+  double drag = 0;
+  if (model_.air && !is_at_rest()) {
+    for (int i = 0; i < model_.n_vertices(); ++i) {
+      const Vec3 step = positions.col(i) - positions_.col(i);
+      const Mat3 resistance = model_.air->resistance(VertexId(i));
+      drag += step.dot(resistance * step) / (2 * interval_) - step.dot(model_.air->forces().col(i));
+    }
+  }
+  if (magnitude != nullptr) *magnitude = std::abs(kinetic) + std::abs(work) + std::abs(elastic);
+  return kinetic - work + elastic + drag;
+}
+
+void StepperNewton::evaluate_gradient() {
+  const StageScope scope(observer_, Stage::forces);
+  gradient_.setZero();
+  add_elastic_forces(model_, positions_, gradient_);
+  if (model_.air && !is_at_rest()) {
+    velocities_ = (positions_ - begin_) / interval_;
+    model_.air->evaluate(positions_, velocities_);
+    gradient_ += model_.air->forces();
+  }
+  residual_scale_ = loads_.norm() + gradient_.norm();
+  flat(product_).noalias() =
+      base_.selfadjointView<Eigen::Lower>() * (flat(positions_) - flat(begin_));
+  gradient_ = product_ - loads_ - gradient_;
+  for (const Pin& pin : model_.pins) gradient_.col(pin.vertex).setZero();
+}
+
+void StepperNewton::fill_matrix(ElementHessian hessian) {
+  const StageScope scope(observer_, Stage::assembly);
+  matrix_.set_values(base_);
+  matrix_.add_elasticity(positions_, 1, 0, hessian);
+  if (model_.air && !is_at_rest())
+    for (int i = 0; i < model_.n_vertices(); ++i)
+      matrix_.add_diagonal(VertexId(i), model_.air->resistance(VertexId(i)) / interval_);
+  if (shift_ > 0) matrix_.add_masses(shift_);
+  // What rounding of places alone changes in the forces.
+  rounding_ = kEpsilon * extent_ * diagonal_norm(matrix_.lower());
+  right_side_ = -flat(gradient_);
+  matrix_.prescribe(no_change_, right_side_);
+}
+
+SolveReport StepperNewton::solve_with_new_factor() {
+  {
+    const StageScope scope(observer_, Stage::factor);
+    SolveReport report = solver_->factorize(matrix_.lower());
+    has_factor_ = report.ok();
+    if (!report.ok()) return report;
+  }
+  const StageScope scope(observer_, Stage::solve);
+  return solver_->solve(right_side_, flat(direction_));
+}
+
+/// Conjugate gradients on the matrix with the kept factor as preconditioner.
+SolveReport StepperNewton::solve_with_kept_factor() {
+  const StageScope scope(observer_, Stage::solve);
+  const auto A = matrix_.lower().selfadjointView<Eigen::Lower>();
+  Eigen::Map<Eigen::VectorXd> x = flat(direction_);
+  x.setZero();
+  residual_ = right_side_;
+  const double enough = kLinearTolerance * right_side_.norm();
+  double product = 0;
+  SolveReport report;
+  for (report.iterations = 0; report.iterations < kMaxLinearIterations; ++report.iterations) {
+    if (residual_.norm() <= enough) return report;
+    solver_->solve(residual_, preconditioned_);
+    const double last_product = product;
+    product = residual_.dot(preconditioned_);
+    if (report.iterations == 0)
+      search_ = preconditioned_;
+    else
+      search_ = preconditioned_ + product / last_product * search_;
+    image_.noalias() = A * search_;
+    const double curvature = search_.dot(image_);
+    if (curvature <= 0) {
+      report.status = SolveStatus::not_positive_definite;
+      return report;
+    }
+    x += product / curvature * search_;
+    residual_ -= product / curvature * image_;
+  }
+  report.status = SolveStatus::not_converged;
+  return report;
+}
+
+SolveReport StepperNewton::solve_linear_system() {
+  if (has_factor_) {
+    SolveReport report = solve_with_kept_factor();
+    if (report.status != SolveStatus::not_converged) return report;
+  }
+  return solve_with_new_factor();
+}
+
+SolveReport StepperNewton::find_direction() {
+  fill_matrix(ElementHessian::exact);
+  SolveReport report = solve_linear_system();
+  if (report.status == SolveStatus::not_positive_definite) {
+    fill_matrix(ElementHessian::projected);
+    report = solve_linear_system();
+  }
+  while (is_at_rest() && report.status == SolveStatus::not_positive_definite &&
+         shift_ < first_shift() / kEpsilon) {
+    shift_ = std::max(first_shift(), kShiftFactor * shift_);
+    fill_matrix(ElementHessian::projected);
+    report = solve_linear_system();
+  }
+  return report;
+}
+
+/// The share of the direction after which the potential is lower; 0 when there is none.
+double StepperNewton::search_line() {
+  const StageScope scope(observer_, Stage::solve);
+  double magnitude = 0;
+  const double before = potential(positions_, &magnitude);
+  const double slope = gradient_.cwiseProduct(direction_).sum();
+  const double noise = 64 * kEpsilon * magnitude;  // sums of many rounded terms
+  double share = 1;
+  for (int halving = 0; halving < kMaxHalvings; ++halving, share /= 2) {
+    trial_ = positions_ + share * direction_;
+    if (potential(trial_, nullptr) <= before + kSufficientDecrease * share * slope + noise)
+      return share;
+  }
+  return 0;
+}
+
+SolveReport StepperNewton::minimise() {
+  const int max_iterations = is_at_rest() ? kMaxEquilibriumIterations : kMaxIterations;
+  shift_ = 0;
+  SolveReport report;
+  evaluate_gradient();
+  for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+    SolveReport solved = find_direction();
+    if (!solved.ok()) return solved;
+    report.iterations = iteration;
+    const bool is_last = shift_ == 0 && largest_norm(direction_) <= options().tolerance * extent_;
+    const double share = is_last ? 1 : search_line();
+    positions_ += share * direction_;
+    evaluate_gradient();
+    report.relative_residual = residual_scale_ > 0 ? gradient_.norm() / residual_scale_ : 0;
+    if (is_last || gradient_.norm() <= rounding_) return report;
+    if (!is_at_rest() && share == 0) break;
+    if (share < 0.5)
+      shift_ = is_at_rest() ? std::max(first_shift(), kShiftFactor * shift_) : 0;
+    else if (share == 1)
+      shift_ = shift_ > kSmallestShift * first_shift() ? shift_ / kShiftFactor : 0;
+  }
+  report.status = SolveStatus::not_converged;
+  report.message = "newton stopped after " + std::to_string(report.iterations) +
+                   " iterations with its equations not solved";
+  return report;
+}
+
+SolveReport StepperNewton::substep(State& state, double time_end, double h) {
+  positions_begin_ = state.positions;
+  set_up(state, h);
+  place_first_guess(state, time_end);
+  SolveReport report = minimise();
+  if (report.ends_run()) return report;
+  switch (options().rule) {
+    case NewtonRule::backward_euler:
+      state.velocities = (positions_ - begin_) / interval_;
+      state.positions = positions_;
+      break;
+    case NewtonRule::midpoint:
+      state.velocities = 2 / interval_ * (positions_ - begin_) - state.velocities;
+      state.positions = 2 * positions_ - begin_;
+      break;
+    case NewtonRule::equilibrium:
+      state.velocities.setZero();
+      state.positions = positions_;
+      break;
+  }
+  for (const Pin& pin : model_.pins) {
+    state.positions.col(pin.vertex) = pin.position(time_end);
+    state.velocities.col(pin.vertex) =
+        is_at_rest() ? Vec3(Vec3::Zero()) : pin.motion.velocity(time_end);
+  }
+  resolve_contacts(positions_begin_, state, time_end, h);
+  return report;
+}
+
+}  // namespace pleat

@@ -1,0 +1,107 @@
+#include "core/measure/run_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/dynamics/carry_over.h"
+#include "core/measure/surface_distance.h"
+
+namespace pleat {
+namespace {
+
+/// Mean length of the unrefined cloth's edges [m].
+double base_edge(const Scene& scene) {
+  const RestCloth base = rest_cloth(scene, 0);
+  double sum = 0;
+  int count = 0;
+  for (const MeshEdge& edge : mesh_edges(base.mesh.triangles)) {
+    sum += (base.mesh.rest_positions.col(edge.a) - base.mesh.rest_positions.col(edge.b)).norm();
+    ++count;
+  }
+  return sum / count;
+}
+
+/// Edge middles of all refinements of a mesh from one level to another.
+std::vector<std::array<VertexId, 2>> middles_between(const RestCloth& coarse, int levels) {
+  std::vector<std::array<VertexId, 2>> middles;
+  if (!coarse.quads && levels > 0) subdivided(coarse.mesh, levels, &middles);
+  return middles;
+}
+
+double root_of_mean(double sum_of_squares, std::size_t count) {
+  return std::sqrt(sum_of_squares / static_cast<double>(count));
+}
+
+void check_times(std::span<const Sample> run, std::span<const Sample> reference) {
+  PLEAT_CHECK(!run.empty() && run.size() == reference.size(), "two runs have samples to compare");
+  for (std::size_t s = 0; s < run.size(); ++s)
+    PLEAT_CHECK(run[s].time == reference[s].time, "two runs are compared at the same times");
+}
+
+/// Over vertices that both have and times [m].
+double position_distance(std::span<const Sample> run, std::span<const Sample> reference,
+                         const Eigen::VectorXd& areas) {
+  check_times(run, reference);
+  double sum = 0;
+  for (std::size_t s = 0; s < run.size(); ++s) {
+    const double error = position_error(run[s].positions, reference[s].positions, areas);
+    sum += error * error;
+  }
+  return root_of_mean(sum, run.size());
+}
+
+}  // namespace
+
+RunComparison::RunComparison(const Scene& scene, int reference_level)
+    : own_(rest_cloth(scene, scene.level)),
+      reference_(rest_cloth(scene, reference_level)),
+      own_is_finer_(scene.level > reference_level),
+      areas_(own_is_finer_ ? rest_areas(scene, reference_) : rest_areas(scene, own_)) {
+  const RestCloth& coarse = own_is_finer_ ? reference_ : own_;
+  const RestCloth& fine = own_is_finer_ ? own_ : reference_;
+  middles_ = middles_between(coarse, std::abs(scene.level - reference_level));
+  const bool has_curvature = !fine.mesh.warp_directions.empty();
+  if (has_curvature) bend_.emplace(fine.mesh, base_edge(scene));
+}
+
+Positions RunComparison::on_finer_mesh(const Positions& positions, bool is_finer) const {
+  if (is_finer || own_.mesh.n_vertices() == reference_.mesh.n_vertices()) return positions;
+  const RestCloth& fine = own_is_finer_ ? own_ : reference_;
+  if (fine.quads) return carried_positions(positions, *fine.quads);
+  return subdivided_positions(positions, middles_);
+}
+
+RunErrors RunComparison::errors(std::span<const Sample> run,
+                                std::span<const Sample> reference) const {
+  RunErrors errors;
+  errors.position = position_distance(run, reference, areas_);
+  if (!bend_) return errors;
+  const auto n = static_cast<double>(run.size());
+  double surface_squares = 0;
+  errors.surface_95 = errors.bend_distribution = errors.bend_regions = 0;
+  for (std::size_t s = 0; s < run.size(); ++s) {
+    const SurfaceError surface = surface_error(own_.mesh.triangles, run[s].positions,
+                                               reference_.mesh.triangles, reference[s].positions);
+    const BendError bend = bend_->error(on_finer_mesh(run[s].positions, own_is_finer_),
+                                        on_finer_mesh(reference[s].positions, !own_is_finer_));
+    surface_squares += surface.rms * surface.rms;
+    errors.surface_95 += surface.percentile_95 / n;
+    errors.bend_distribution += bend.distribution / n;
+    errors.bend_regions += bend.regions / n;
+  }
+  errors.surface_rms = root_of_mean(surface_squares, run.size());
+  return errors;
+}
+
+double run_distance(const Scene& scene, std::span<const Sample> run,
+                    std::span<const Sample> reference) {
+  PLEAT_CHECK(!run.empty() && !reference.empty(), "two runs have samples to compare");
+  int level = 0;
+  Eigen::VectorXd areas = rest_areas(scene, rest_cloth(scene, level));
+  const Eigen::Index n = std::min(run[0].positions.cols(), reference[0].positions.cols());
+  while (areas.size() < n) areas = rest_areas(scene, rest_cloth(scene, ++level));
+  return position_distance(run, reference, areas);
+}
+
+}  // namespace pleat

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/measure/bend_error.h"
+#include "core/measure/sampled_run.h"
+#include "core/scene/rest_cloth.h"
+
+namespace pleat {
+
+/// How far a run is from another one of the same cloth, at the same times. NaN: not comparable.
+struct RunErrors {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  double position = kUnknown;           ///< RMS over material points and times [m]
+  double surface_rms = kUnknown;        ///< RMS over times of SurfaceError::rms [m]
+  double surface_95 = kUnknown;         ///< mean over times of SurfaceError::percentile_95 [m]
+  double bend_distribution = kUnknown;  ///< mean over times of BendError [1/m]
+  double bend_regions = kUnknown;       ///< the same [1/m]
+};
+
+/// Compares runs of one cloth at two levels of refinement.
+///
+/// Positions are compared at the vertices that both have, by area. Surfaces and curvatures need
+/// triangles: of particles they are unknown. For curvature the coarser run is taken to the finer
+/// mesh along mesh lines, and both are smoothed over an edge of the unrefined cloth.
+class RunComparison {
+ public:
+  /// scene            whose cloth it is, at its own level
+  /// reference_level  of the run that is taken for right
+  RunComparison(const Scene& scene, int reference_level);
+
+  /// Throws ContractError unless both have samples at the same times.
+  RunErrors errors(std::span<const Sample> run, std::span<const Sample> reference) const;
+
+ private:
+  Positions on_finer_mesh(const Positions& positions, bool is_finer) const;
+
+  RestCloth own_;
+  RestCloth reference_;
+  bool own_is_finer_;
+  Eigen::VectorXd areas_;                         // of the vertices that both have
+  std::vector<std::array<VertexId, 2>> middles_;  // of a triangle mesh, coarser to finer
+  std::optional<BendMeasure> bend_;
+};
+
+/// RMS distance between two runs [m]: RunErrors::position, of runs at any two levels.
+double run_distance(const Scene& scene, std::span<const Sample> run,
+                    std::span<const Sample> reference);
+
+}  // namespace pleat

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/scene/rest_cloth.h"
+
+namespace pleat {
+
+/// Gives a model its masses and what holds the cloth together: what scene.model names, and nothing
+/// else.
+///
+/// cloth  of this scene
+/// Throws InputError for a fabric whose shear the cells or the membrane cannot carry.
+void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth);
+
+}  // namespace pleat

@@ -1,0 +1,108 @@
+#include "core/scene/model_section.h"
+
+#include <algorithm>
+
+namespace pleat {
+namespace {
+
+constexpr std::array<Word<Elasticity>, 2> kElasticities{
+    {{"springs", Elasticity::springs}, {"membrane", Elasticity::membrane}}};
+
+constexpr std::array<Word<BendingModel>, 6> kBendingModels{{{"quadratic", BendingModel::quadratic},
+                                                            {"arc", BendingModel::arc},
+                                                            {"linear", BendingModel::linear},
+                                                            {"fitted", BendingModel::fitted},
+                                                            {"hinge", BendingModel::hinge},
+                                                            {"none", BendingModel::none}}};
+
+constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
+    {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
+
+bool is_sheet(const Scene& scene) { return std::holds_alternative<SheetShape>(scene.cloth); }
+bool is_mesh(const Scene& scene) { return std::holds_alternative<MeshCloth>(scene.cloth); }
+
+BendingModel usual_bending(Elasticity elasticity) {
+  return elasticity == Elasticity::springs ? BendingModel::quadratic : BendingModel::fitted;
+}
+
+/// The bending laws that go with an elasticity and a cloth.
+std::vector<BendingModel> possible_bending(const Scene& scene) {
+  if (scene.model.elasticity == Elasticity::membrane)
+    return {BendingModel::fitted, BendingModel::hinge, BendingModel::none};
+  if (!is_sheet(scene)) return {BendingModel::quadratic, BendingModel::none};
+  return {BendingModel::quadratic, BendingModel::arc, BendingModel::linear, BendingModel::none};
+}
+
+void check_elasticity(const JsonReader& reader, const Scene& scene) {
+  const bool wants_membrane = scene.model.elasticity == Elasticity::membrane;
+  if (wants_membrane && !is_sheet(scene) && !is_mesh(scene))
+    reader.fail("\"springs\" for particles, which have no area");
+  if (!wants_membrane && is_mesh(scene))
+    reader.fail("\"membrane\" for a mesh, as springs follow the threads of a sheet");
+}
+
+void check_bending(const JsonReader& reader, const Scene& scene) {
+  const std::vector<BendingModel> possible = possible_bending(scene);
+  if (std::find(possible.begin(), possible.end(), scene.model.bending) != possible.end()) return;
+  std::string expected = "one of";
+  for (const BendingModel law : possible)
+    expected +=
+        std::string(law == possible.front() ? " \"" : ", \"") + word_for(kBendingModels, law) + '"';
+  reader.fail(expected + " with " + word_for(kElasticities, scene.model.elasticity) +
+              (is_sheet(scene) || is_mesh(scene) ? "" : " of particles"));
+}
+
+}  // namespace
+
+ModelOptions usual_model(const Scene& scene) {
+  ModelOptions model;
+  model.elasticity = is_mesh(scene) ? Elasticity::membrane : Elasticity::springs;
+  model.bending = usual_bending(model.elasticity);
+  return model;
+}
+
+void read_model(const JsonReader& reader, Scene& scene) {
+  reader.allow_keys({"elasticity", "bending", "shear", "damping", "strain_limit", "torsion"});
+  ModelOptions& model = scene.model;
+  if (const auto at = reader.find("elasticity")) {
+    model.elasticity = at->word(kElasticities);
+    check_elasticity(*at, scene);
+    model.bending = usual_bending(model.elasticity);
+  }
+  const bool has_springs = model.elasticity == Elasticity::springs;
+  if (const auto at = reader.find("bending")) {
+    model.bending = at->word(kBendingModels);
+    check_bending(*at, scene);
+  }
+  if (const auto at = reader.find("shear")) {
+    model.shear = at->boolean();
+    if (!has_springs) at->fail("no such key, as only springs can lack their shear");
+  }
+  if (const auto at = reader.find("damping")) {
+    model.damping_direction = at->word(kDampingDirections);
+    if (!has_springs) at->fail("no such key, as a membrane is damped in its strains alone");
+  }
+  if (const auto at = reader.find("strain_limit")) {
+    model.strain_limit = at->number(kNotNegative);
+    if (!is_sheet(scene) && !is_mesh(scene))
+      at->fail("no such key, as particles have springs of their own");
+  }
+  if (const auto at = reader.find("torsion")) {
+    model.torsion = at->number(kNotNegative);
+    if (model.bending != BendingModel::fitted) at->fail("no such key without fitted bending");
+  }
+}
+
+Json json_model(const ModelOptions& model) {
+  Json json = {{"elasticity", word_for(kElasticities, model.elasticity)},
+               {"bending", word_for(kBendingModels, model.bending)}};
+  if (model.elasticity == Elasticity::springs) {
+    json["shear"] = model.shear;
+    json["damping"] = word_for(kDampingDirections, model.damping_direction);
+  }
+  if (model.strain_limit > 0) json["strain_limit"] = model.strain_limit;
+  if (model.bending == BendingModel::fitted) json["torsion"] = model.torsion;
+  return json;
+}
+
+}  // namespace pleat
