@@ -13,6 +13,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMaxIterations = 200;  // of a step in time; reaching it is reported
 constexpr int kMaxEquilibriumIterations = 5000;
 constexpr int kMaxHalvings = 40;              // of a step along a direction
+constexpr double kLargestShare = 1024;        // of a direction of the projected Hessian
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's condition
 constexpr double kShiftFactor = 4;            // the shift follows the steps by this factor
 constexpr double kLinearTolerance = 1e-4;  // relative residual: Newton gains as much an iteration
@@ -202,7 +203,8 @@ SolveReport StepperNewton::solve_linear_system() {
 SolveReport StepperNewton::find_direction() {
   fill_matrix(ElementHessian::exact);
   SolveReport report = solve_linear_system();
-  if (report.status == SolveStatus::not_positive_definite) {
+  is_projected_ = report.status == SolveStatus::not_positive_definite;
+  if (is_projected_) {
     fill_matrix(ElementHessian::projected);
     report = solve_linear_system();
   }
@@ -222,11 +224,22 @@ double StepperNewton::search_line() {
   const double before = potential(positions_, &magnitude);
   const double slope = gradient_.cwiseProduct(direction_).sum();
   const double noise = 64 * kEpsilon * magnitude;  // sums of many rounded terms
+  const auto potential_at = [&](double share) {
+    trial_ = positions_ + share * direction_;
+    return potential(trial_, nullptr);
+  };
   double share = 1;
   for (int halving = 0; halving < kMaxHalvings; ++halving, share /= 2) {
-    trial_ = positions_ + share * direction_;
-    if (potential(trial_, nullptr) <= before + kSufficientDecrease * share * slope + noise)
-      return share;
+    double reached = potential_at(share);
+    if (reached > before + kSufficientDecrease * share * slope + noise) continue;
+    // The projected Hessian is stiffer than the cloth where that buckles: go on while it pays.
+    while (is_projected_ && share >= 1 && share < kLargestShare) {
+      const double further = potential_at(2 * share);
+      if (further >= reached) break;
+      reached = further;
+      share *= 2;
+    }
+    return share;
   }
   return 0;
 }
@@ -249,7 +262,7 @@ SolveReport StepperNewton::minimise() {
     if (!is_at_rest() && share == 0) break;
     if (share < 0.5)
       shift_ = is_at_rest() ? std::max(first_shift(), kShiftFactor * shift_) : 0;
-    else if (share == 1)
+    else if (share >= 1)
       shift_ = shift_ > kSmallestShift * first_shift() ? shift_ / kShiftFactor : 0;
   }
   report.status = SolveStatus::not_converged;

@@ -55,6 +55,7 @@ class StepperNewton final : public Stepper {
   double shift_ = 0;           // multiple of M in the Hessian [1/s^2]
   double extent_ = 0;          // diagonal of the box around the cloth [m]
   double rounding_ = 0;        // below this the gradient is noise [N]
+  bool is_projected_ = false;  // the matrix at hand
   bool has_factor_ = false;    // of some earlier Hessian with the same pins
   double residual_scale_ = 0;  // [N]
   Positions begin_;
