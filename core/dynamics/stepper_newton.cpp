@@ -16,9 +16,9 @@ constexpr int kMaxHalvings = 40;              // of a step along a direction
 constexpr double kLargestShare = 1024;        // of a direction of the projected Hessian
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's condition
 constexpr double kShiftFactor = 4;            // the shift follows the steps by this factor
-constexpr double kLinearTolerance = 1e-4;  // relative residual: Newton gains as much an iteration
-constexpr int kMaxLinearIterations = 15;   // with a kept factor; more cost as much as a new one
-constexpr double kSmallestShift = 1e-6;    // of the first one; below, the true Hessian stands
+constexpr double kLinearTolerance = 1e-3;     // relative residual of the first linear solve
+constexpr int kMaxLinearIterations = 15;      // with a kept factor; more cost as much as a new one
+constexpr double kSmallestShift = 1e-6;       // of the first one; below, the true Hessian stands
 
 Eigen::Map<Eigen::VectorXd> flat(Positions& columns) { return {columns.data(), columns.size()}; }
 Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
@@ -167,7 +167,9 @@ SolveReport StepperNewton::solve_with_kept_factor() {
   Eigen::Map<Eigen::VectorXd> x = flat(direction_);
   x.setZero();
   residual_ = right_side_;
-  const double enough = kLinearTolerance * right_side_.norm();
+  // In proportion to what is left of the gradient, so that Newton's convergence stays quadratic.
+  const double share_left = right_side_.norm() / first_gradient_norm_;
+  const double enough = kLinearTolerance * std::min(1.0, share_left) * right_side_.norm();
   double product = 0;
   SolveReport report;
   for (report.iterations = 0; report.iterations < kMaxLinearIterations; ++report.iterations) {
@@ -249,6 +251,7 @@ SolveReport StepperNewton::minimise() {
   shift_ = 0;
   SolveReport report;
   evaluate_gradient();
+  first_gradient_norm_ = gradient_.norm();
   for (int iteration = 1; iteration <= max_iterations; ++iteration) {
     SolveReport solved = find_direction();
     if (!solved.ok()) return solved;

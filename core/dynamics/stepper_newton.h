@@ -50,14 +50,15 @@ class StepperNewton final : public Stepper {
 
   SystemMatrix matrix_;
   std::unique_ptr<LinearSolver> solver_;
-  SparseMatrix base_;          // M/k^2 + C/k, fixed during a substep [N/m]
-  double interval_ = 0;        // k [s]
-  double shift_ = 0;           // multiple of M in the Hessian [1/s^2]
-  double extent_ = 0;          // diagonal of the box around the cloth [m]
-  double rounding_ = 0;        // below this the gradient is noise [N]
-  bool is_projected_ = false;  // the matrix at hand
-  bool has_factor_ = false;    // of some earlier Hessian with the same pins
-  double residual_scale_ = 0;  // [N]
+  SparseMatrix base_;               // M/k^2 + C/k, fixed during a substep [N/m]
+  double interval_ = 0;             // k [s]
+  double shift_ = 0;                // multiple of M in the Hessian [1/s^2]
+  double extent_ = 0;               // diagonal of the box around the cloth [m]
+  double first_gradient_norm_ = 0;  // of the substep [N]
+  double rounding_ = 0;             // below this the gradient is noise [N]
+  bool is_projected_ = false;       // the matrix at hand
+  bool has_factor_ = false;         // of some earlier Hessian with the same pins
+  double residual_scale_ = 0;       // [N]
   Positions begin_;
   Positions loads_;      // M v/k + f [N]
   Positions positions_;  // the iterate
