@@ -12,6 +12,7 @@ enum class Outcome {
 
 Outcome run_command(Arguments arguments);
 Outcome sweep_command(Arguments arguments);
+Outcome reference_command(Arguments arguments);
 Outcome bench_command(Arguments arguments);
 
 }  // namespace pleat

@@ -28,9 +28,11 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --set POINTER=V1,V2    values in the scene, such as /method/substeps=1,4; with several of these
                          every value of one with every value of the others
   --levels 0,1,2         the same for /refinement/level (default: the scene's)
-  --steppers A,B         usual settings of explicit, implicit, projective, xpbd (default: all, with
-                         --set the scene's own method)
-  --reference KIND       finest (default), or rigid_chain for a sheet that swings from its edge
+  --steppers A,B         usual settings of explicit, rk4, implicit, newton, projective, xpbd (default:
+                         those that suit the model; with --set the scene's own method)
+  --reference KIND       finest (default): the finest level by implicit; newton: the same exactly,
+                         with step and mesh checked; same_mesh: what steps alone do wrong;
+                         closed_form: a shape at rest; rigid_chain: a sheet swinging from its edge
   --repeat N             timed runs of each setting (default 5)
   --steps N | --duration S    compare over this time
   --out DIR              write rows.jsonl, table.md and front.svg into this folder; started again, a
@@ -38,6 +40,11 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --overwrite            remove those of another sweep from it first
   --cache DIR            keep references here (default: in the folder after --out)
   --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
+pleat reference SCENE.json    make one by newton and tell how well it is known
+  --kind same_mesh       (default) halve its step; newton: halve its step and its mesh
+  --step S               of it (default 1/960 s);  --every S  of its samples (default 1/60 s)
+  --steps N | --duration S
+  --out FILE             keep it, with 32-bit positions
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
@@ -61,6 +68,7 @@ input, 3 a fault of the program.
 Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "run") return run_command(std::move(arguments));
   if (command == "sweep") return sweep_command(std::move(arguments));
+  if (command == "reference") return reference_command(std::move(arguments));
   if (command == "bench") return bench_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
@@ -72,7 +80,8 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
     std::printf("pleat %s\n", core_version());
     return Outcome::ok;
   }
-  throw InputError(cut(command), "unknown command; the commands are run, sweep, bench and help");
+  throw InputError(cut(command),
+                   "unknown command; the commands are run, sweep, reference, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {
