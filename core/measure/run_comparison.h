@@ -24,8 +24,9 @@ struct RunErrors {
 /// Compares runs of one cloth at two levels of refinement.
 ///
 /// Positions are compared at the vertices that both have, by area. Surfaces and curvatures need
-/// triangles: of particles they are unknown. For curvature the coarser run is taken to the finer
-/// mesh along mesh lines, and both are smoothed over an edge of the unrefined cloth.
+/// triangles: of particles they are unknown, and so is curvature beyond three refinements. For it
+/// the coarser run is taken to the finer mesh along mesh lines, and both are smoothed over an edge
+/// of the unrefined cloth.
 class RunComparison {
  public:
   /// scene            whose cloth it is, at its own level

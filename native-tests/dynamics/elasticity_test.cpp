@@ -69,6 +69,73 @@ TEST_CASE("elasticity: the exact stiffness is minus the derivative of the forces
                        -jacobian) < 1e-7);
 }
 
+TEST_CASE("elasticity: every kind of element has its own derivatives", "[dynamics]") {
+  Random random(GENERATE(1, 2, 3));
+  const QuadMesh mesh = sheet_with_aspect(3, 3, 1.2);
+  FabricConstants fabric = library_fabric("wool");
+  fabric.bend_warp *= 1e4;  // so that bending is seen beside stretch
+  fabric.bend_weft *= 1e4;
+  const ClothModel model = model_of_everything(mesh, fabric);
+  REQUIRE(!model.taut_springs.empty());
+  REQUIRE(!model.chord_bends.empty());
+  REQUIRE(!model.hinges.empty());
+  REQUIRE(model.has_fitted_bending());
+  const Eigen::VectorXd x = flat(crumpled(mesh, random));
+  const double step = difference_step(kEdge);
+  const Eigen::VectorXd gradient = difference_gradient(
+      [&](const Eigen::VectorXd& y) { return elastic_energy(model, columns(y)); }, x, step);
+  CHECK(relative_error(-elastic_forces(model, x), gradient) < 1e-7);
+  const Eigen::MatrixXd jacobian = difference_jacobian(
+      [&](const Eigen::VectorXd& y) { return elastic_forces(model, y); }, x, step);
+  CHECK(relative_error(dense(stiffness_matrix(model, columns(x), ElementHessian::exact)),
+                       -jacobian) < 1e-6);
+  const Positions velocities = shaken(Positions::Zero(3, mesh.n_vertices()), 1, random);
+  Positions drag = Positions::Zero(3, mesh.n_vertices());
+  add_damping_forces(model, columns(x), velocities, drag);
+  CHECK(relative_error(flat(drag), -dense(damping_matrix(model, columns(x))) * flat(velocities)) <
+        1e-12);
+  CHECK(drag.cwiseProduct(velocities).sum() < 0);
+}
+
+TEST_CASE("elasticity: the projected stiffness of everything is positive", "[dynamics]") {
+  Random random(GENERATE(5, 6));
+  const QuadMesh mesh = sheet_with_aspect(3, 3, 1.2);
+  const ClothModel model = model_of_everything(mesh, library_fabric("wool"));
+  const Eigen::MatrixXd K =
+      dense(stiffness_matrix(model, crumpled(mesh, random), ElementHessian::projected));
+  const Eigen::VectorXd values = K.selfadjointView<Eigen::Lower>().eigenvalues();
+  CHECK(values[0] > -1e-12 * values.tail<1>()[0]);
+}
+
+TEST_CASE("elasticity: a membrane that moves as one has no forces and no drag", "[dynamics]") {
+  Random random(3);
+  const QuadMesh mesh = small_sheet();
+  const ClothModel model = membrane_model(mesh, library_fabric("wool"));
+  const Mat3 turn = random_rotation(random);
+  const Positions x = (turn * mesh.rest_positions()).colwise() + Vec3(3, -2, 1);
+  const Eigen::VectorXd strained = elastic_forces(model, flat(inflated(mesh, random)));
+  CHECK(elastic_forces(model, flat(x)).norm() < 1e-11 * strained.norm());
+  const Vec3 spin(1, 2, 3);
+  Positions velocities(3, x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) velocities.col(i) = spin.cross(Vec3(x.col(i)));
+  Positions drag = Positions::Zero(3, x.cols());
+  add_damping_forces(model, x, velocities, drag);
+  Positions stretching = Positions::Zero(3, x.cols());
+  add_damping_forces(model, x, x, stretching);
+  REQUIRE(stretching.norm() > 0);
+  CHECK(drag.norm() < 1e-11 * stretching.norm());
+}
+
+TEST_CASE("elasticity: bending weighs the same far from the origin", "[dynamics]") {
+  Random random(4);
+  const QuadMesh mesh = small_sheet();
+  ClothModel model = membrane_model(mesh, library_fabric("wool"));
+  model.membrane.elements.clear();
+  const Positions x = crumpled(mesh, random);
+  const Positions away = x.colwise() + Vec3(1e4, -1e4, 1e4);
+  CHECK(elastic_energy(model, away) == Approx(elastic_energy(model, x)).epsilon(1e-9));
+}
+
 TEST_CASE("elasticity: the bending stiffness alone is the derivative of its forces", "[dynamics]") {
   Random random(4);
   const QuadMesh mesh = small_sheet();

@@ -98,6 +98,28 @@ TEST_CASE("explicit: below the bound nothing grows on a sheet with bending", "[d
   CHECK(amplification(model, mesh.rest_positions(), 2.2 * bound) > 1.01);
 }
 
+TEST_CASE("explicit: below the bound nothing grows on a membrane", "[dynamics]") {
+  const std::string name = GENERATE("canvas", "chiffon", "spandex");
+  const QuadMesh mesh = sheet_with_aspect(4, 4, 1.2);
+  FabricConstants fabric = library_fabric(name);
+  const double bending = GENERATE(1.0, 1e4);
+  fabric.bend_warp *= bending;
+  const double damping = GENERATE(0.0, 1.0);
+  fabric.damping_ratio *= damping;
+  CAPTURE(name, bending, damping);
+  const ClothModel model = membrane_model(mesh, fabric);
+  const double bound = largest_stable_step(model);
+  CHECK(amplification(model, mesh.rest_positions(), bound) < 1 + 1e-6);
+  CHECK(amplification(model, mesh.rest_positions(), 4 * bound) > 1.01);
+}
+
+TEST_CASE("explicit: hinges have no bound and are refused", "[dynamics]") {
+  ClothModel model = model_of_everything(square_sheet(2), library_fabric("wool"));
+  MethodOptions options = explicit_method(1e-5, 1);
+  options.stepper = GENERATE(StepperKind::explicit_euler, StepperKind::rk4);
+  CHECK_THROWS_AS(make_stepper(model, options), InputError);
+}
+
 TEST_CASE("explicit: the bound of two masses on a spring is the exact one", "[dynamics]") {
   const double damping = GENERATE(0.0, 0.5);
   CAPTURE(damping);

@@ -1,5 +1,7 @@
 #include "native-tests/support/models.h"
 
+#include "core/fabric/taut_springs.h"
+#include "core/scene/elastic_model.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {
@@ -47,6 +49,33 @@ ClothModel sheet_model(const QuadMesh& mesh, const FabricConstants& fabric) {
   model.bends = std::move(lattice.bends);
   model.gravity.setZero();
   model.rest_coordinates = mesh.rest_coordinates();
+  return model;
+}
+
+ClothModel membrane_model(const QuadMesh& mesh, const FabricConstants& fabric) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.model.elasticity = Elasticity::membrane;
+  scene.model.bending = BendingModel::fitted;
+  scene.gravity.setZero();
+  RestCloth cloth;
+  cloth.quads = mesh;
+  cloth.mesh = mesh.triangle_mesh();
+  ClothModel model;
+  model.gravity.setZero();
+  add_elasticity(model, scene, cloth);
+  return model;
+}
+
+ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabric) {
+  ClothModel model = membrane_model(mesh, fabric);
+  const ClothModel springs = sheet_model(mesh, fabric);
+  model.springs = springs.springs;
+  model.bends = springs.bends;
+  model.taut_springs = taut_springs(model.springs, 0.02);
+  model.membrane.law.strain_limit = 0.02;
+  model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::arc).chord_bends;
+  model.hinges = hinges(mesh.triangle_mesh(), fabric.bend_warp);
   return model;
 }
 

@@ -22,6 +22,12 @@ FabricConstants soft_fabric();
 /// Springs and bending of a sheet; no pins, no gravity, no air.
 ClothModel sheet_model(const QuadMesh& mesh, const FabricConstants& fabric);
 
+/// The same sheet as a membrane with fitted bending; no pins, no gravity, no air.
+ClothModel membrane_model(const QuadMesh& mesh, const FabricConstants& fabric);
+
+/// A sheet on which every kind of element acts at once.
+ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabric);
+
 /// At rest in the rest shape.
 State rest_state(const QuadMesh& mesh);
 
