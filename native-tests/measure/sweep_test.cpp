@@ -443,3 +443,79 @@ TEST_CASE("sweep: a bad plan is refused at its place", "[measure]") {
   CHECK(std::string(fault_of(grid("/refinement/level", {0, 9})).what()) ==
         "in the scene, /refinement/level: expected a whole number from 0 to 8, got 9");
 }
+
+namespace {
+
+Json newton_method(double step) { return {{"stepper", "newton"}, {"step_s", step}}; }
+
+Json implicit_against_newton(const char* kind) {
+  Json plan = small_plan();
+  plan["grid"]["/method"] = Json::array({implicit_method(1.0 / 60), newton_method(1.0 / 60)});
+  plan["duration_s"] = 0.3;
+  plan["repeats"] = 1;
+  plan["reference"] = kind;
+  return plan;
+}
+
+}  // namespace
+
+TEST_CASE("sweep: on the same mesh only the steps are wrong", "[measure]") {
+  const std::vector<BenchRow> rows = rows_of(implicit_against_newton("same_mesh"), kLongSlice);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0].reference.id != rows[2].reference.id);  // one for each level
+  CHECK(rows[0].reference.id == rows[1].reference.id);
+  for (std::size_t level = 0; level < 2; ++level) {
+    const BenchRow& implicit = rows[2 * level];
+    const BenchRow& newton = rows[2 * level + 1];
+    CHECK(implicit.level == newton.level);
+    CHECK(implicit.position_error > 4 * implicit.reference.uncertainty);
+    CHECK(implicit.position_error > 5 * newton.position_error);
+    CHECK(implicit.surface_error > 0);
+    CHECK(implicit.surface_error <= implicit.position_error);
+    CHECK(implicit.bend_error >= 0);
+    CHECK(implicit.reference.converged);
+  }
+}
+
+TEST_CASE("sweep: newton's reference knows what its mesh leaves open", "[measure]") {
+  const std::vector<BenchRow> same = rows_of(implicit_against_newton("same_mesh"), kLongSlice);
+  const std::vector<BenchRow> rows = rows_of(implicit_against_newton("newton"), kLongSlice);
+  CHECK(rows[0].reference.id == rows[3].reference.id);
+  CHECK(rows[0].reference.uncertainty > 3 * same[2].reference.uncertainty);
+  CHECK(rows[0].reference.description.find("halving its mesh") != std::string::npos);
+}
+
+TEST_CASE("sweep: an error that the reference cannot tell is not shown, and said so", "[measure]") {
+  Json plan = implicit_against_newton("same_mesh");
+  plan["grid"]["/method"] = Json::array({newton_method(1.0 / 480)});
+  plan["reference_step_s"] = 1.0 / 60;  // coarser than what it judges
+  const std::vector<BenchRow> rows = rows_of(plan, kLongSlice);
+  for (const BenchRow& row : rows) {
+    CHECK(std::isnan(row.position_error));
+    CHECK(std::isnan(row.position_error_percent));
+    CHECK_FALSE(row.reference.converged);
+    CHECK(row.message.find("no position error") != std::string::npos);
+    CHECK(row.finished());
+  }
+  CHECK(front_of(rows).empty());
+  CHECK(markdown_table(rows).find("no position error") != std::string::npos);
+}
+
+TEST_CASE("sweep: a shape at rest is compared with its closed form", "[measure]") {
+  Json plan = small_plan();
+  plan["scene"]["fabric"] = {{"areal_density_kg_per_m2", 0.2},
+                             {"stretch_warp_n_per_m", 50},
+                             {"stretch_weft_n_per_m", 50},
+                             {"shear_n_per_m", 0}};
+  plan["scene"]["cloth"]["sheet"]["warp_direction"] = {0, -1, 0};
+  plan["scene"]["model"] = {{"bending", "none"}};
+  Json at_rest = newton_method(0.05);
+  at_rest["rule"] = "equilibrium";
+  plan["grid"]["/method"] = Json::array({at_rest});
+  plan["reference"] = "closed_form";
+  for (const BenchRow& row : rows_of(plan, kLongSlice)) {
+    CHECK(row.status == "ok");
+    CHECK(row.position_error < 1e-9);
+    CHECK(row.reference.converged);
+  }
+}
