@@ -75,6 +75,7 @@ Outcome reference_command(Arguments arguments) {
   const double step = input.is_set_by("--step") ? input.scene.method.step : kUsualStep;
   recipe.scene.method = MethodOptions{};
   recipe.scene.method.stepper = StepperKind::newton;
+  recipe.scene.method.rule = NewtonRule::midpoint;
   recipe.scene.method.solver = best_direct_solver();
   recipe.scene.method.tolerance = kNewtonTolerance;
   recipe.scene.method.step = step;

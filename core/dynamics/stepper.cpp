@@ -137,11 +137,11 @@ void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Posit
 }
 
 // With f the remembered force, zero without memory, the proposed place and velocity without it are
-// x - h^2 f/m and v - h f/m: what the vertex would do were it let go. The contact acts on those, so
-// that the new force, m dv/h, is the whole one: never pulling, and inside Coulomb's cone. It equals
-// f where the vertex is held in equilibrium and vanishes where it leaves.
+// x - h^2 f/m (times travel_share) and v - h f/m: what the vertex would do were it let go. The
+// contact acts on those, so that the new force, m dv/h, is the whole one: never pulling, and inside
+// Coulomb's cone. It equals f where the vertex is held in equilibrium and vanishes where it leaves.
 void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double time_end,
-                               double h) {
+                               double h, double travel_share) {
   if (!model_.contact) return;
   const StageScope scope(observer_, Stage::contact);
   const bool remembers = memory_ != ContactMemory::none;
@@ -152,7 +152,7 @@ void Stepper::resolve_contacts(const Positions& positions_begin, State& state, d
     Vec3 velocity = state.velocities.col(i);
     if (remembers) {
       velocity -= mobility * contact_forces_.col(i);
-      position -= h * mobility * contact_forces_.col(i);
+      position -= travel_share * h * mobility * contact_forces_.col(i);
     }
     const Vec3 free_velocity = velocity;
     model_.contact->resolve(positions_begin.col(i), position, velocity);

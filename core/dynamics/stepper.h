@@ -36,7 +36,7 @@ enum class Constraints {
 /// What `newton` solves for in a substep.
 enum class NewtonRule {
   backward_euler,  ///< first order, loses energy
-  midpoint,        ///< implicit midpoint: second order, keeps the energy of small vibrations
+  midpoint,        ///< implicit midpoint: second order, keeps all energy: for small steps
   equilibrium,     ///< rest under the forces at the end of the substep, whatever the mass
 };
 
@@ -50,7 +50,7 @@ struct MethodOptions {
   /// implicit_euler with cg: relative residual at which it stops. newton: the last correction, in
   /// shares of the cloth's extent, which then is already made. In (0, 1).
   double tolerance = 1e-3;
-  NewtonRule rule = NewtonRule::midpoint;            ///< newton
+  NewtonRule rule = NewtonRule::backward_euler;      ///< newton
   Constraints constraints = Constraints::compliant;  ///< xpbd
 
   /// Throws ContractError.
@@ -114,7 +114,10 @@ class Stepper {
 
   /// The shared way a substep ends for steppers that work on `State` itself: contact on every
   /// vertex.
-  void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h);
+  ///
+  /// travel_share  how far a force moves a vertex within the substep, in shares of h^2 f/m
+  void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h,
+                        double travel_share = 1);
   /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
   /// [s] (0: explicit), remembered contact [N].
   void set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces);

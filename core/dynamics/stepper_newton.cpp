@@ -54,9 +54,11 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
                      "expected backward_euler or midpoint beside solids, got equilibrium");
   solver_ = make_solver(options, 3);
   solver_->analyze(matrix_.lower());
+  base_ = matrix_.lower();
   for (Positions* columns : {&loads_, &gradient_, &direction_, &trial_, &velocities_, &product_})
     columns->resize(3, model.n_vertices());
-  for (Eigen::VectorXd* vector : {&right_side_, &residual_, &preconditioned_, &search_, &image_})
+  for (Eigen::VectorXd* vector :
+       {&change_, &right_side_, &residual_, &preconditioned_, &search_, &image_})
     vector->resize(3 * model.n_vertices());
   refresh();
 }
@@ -86,7 +88,7 @@ void StepperNewton::set_up(const State& state, double h) {
     matrix_.add_elasticity(trial_, 0, rate, ElementHessian::projected);
     loads_ += rate * state.velocities * model_.masses.asDiagonal();
   }
-  base_ = matrix_.lower();
+  base_.coeffs() = matrix_.lower().coeffs();
 }
 
 void StepperNewton::place_first_guess(const State& state, double time_end) {
@@ -102,10 +104,10 @@ void StepperNewton::place_first_guess(const State& state, double time_end) {
 /// At the present iterate, where drag is expanded. `magnitude` (may be null) gets the sum of the
 /// terms' sizes.
 double StepperNewton::potential(const Positions& positions, double* magnitude) {
-  const auto change = flat(positions) - flat(begin_);
-  flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change;
-  const double kinetic = 0.5 * change.dot(flat(product_));
-  const double work = change.dot(flat(loads_));
+  change_ = flat(positions) - flat(begin_);
+  flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
+  const double kinetic = 0.5 * change_.dot(flat(product_));
+  const double work = change_.dot(flat(loads_));
   const double elastic = elastic_energy(model_, positions);
   double drag = 0;
   if (model_.air && !is_at_rest()) {
@@ -129,8 +131,8 @@ void StepperNewton::evaluate_gradient() {
     gradient_ += model_.air->forces();
   }
   residual_scale_ = loads_.norm() + gradient_.norm();
-  flat(product_).noalias() =
-      base_.selfadjointView<Eigen::Lower>() * (flat(positions_) - flat(begin_));
+  change_ = flat(positions_) - flat(begin_);
+  flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
   gradient_ = product_ - loads_ - gradient_;
   for (const Pin& pin : model_.pins) gradient_.col(pin.vertex).setZero();
 }
@@ -299,7 +301,8 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
     state.velocities.col(pin.vertex) =
         is_at_rest() ? Vec3(Vec3::Zero()) : pin.motion.velocity(time_end);
   }
-  resolve_contacts(positions_begin_, state, time_end, h);
+  const double travel_share = options().rule == NewtonRule::midpoint ? 0.5 : 1;
+  resolve_contacts(positions_begin_, state, time_end, h, travel_share);
   return report;
 }
 

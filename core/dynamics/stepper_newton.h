@@ -65,9 +65,10 @@ class StepperNewton final : public Stepper {
   Positions gradient_;   // of the potential there; 0 where pinned [N]
   Positions direction_;
   Positions trial_;
-  Positions velocities_;  // (x - x_begin)/k, for drag
-  Positions product_;     // base times d [N]
-  Positions no_change_;   // of pins
+  Positions velocities_;    // (x - x_begin)/k, for drag
+  Positions product_;       // base times d [N]
+  Positions no_change_;     // of pins
+  Eigen::VectorXd change_;  // since the begin [m]
   Eigen::VectorXd right_side_;
   Eigen::VectorXd residual_;  // of conjugate gradients, and what they keep beside
   Eigen::VectorXd preconditioned_;

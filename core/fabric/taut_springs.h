@@ -5,7 +5,7 @@
 namespace pleat {
 
 /// Where cloth gets stiffer in tension: its stiffness beyond the strain limit over that below.
-/// Source: assets/SOURCES.md, membrane.
+/// Source: assets/SOURCES.md, stretch and shear.
 constexpr double kTautFactor = 10;
 
 /// Springs that add to the warp and weft springs among `springs` what makes them kTautFactor times

@@ -137,10 +137,10 @@ std::string content_hash(std::string_view bytes) {
 }
 
 std::string content_id(const Scene& scene) {
-  Scene content = moving_part(scene);
-  content.level = 0;
-  content.method = MethodOptions{};
-  return content_hash(write_scene(content));
+  Json content = parse_json(write_scene(moving_part(scene)));
+  content.erase("refinement");
+  content.erase("method");
+  return content_hash(content.dump());
 }
 
 std::string reference_id(std::string_view prefix, const Scene& scene,

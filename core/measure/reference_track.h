@@ -26,8 +26,8 @@ class ReferenceTrack {
   };
 
   /// From the simulation's present state to the reference at its time; nothing beyond its end.
-  /// Between samples the reference goes straight; a mesh that is finer than it is compared at the
-  /// vertices that both have.
+  /// Between samples the reference goes straight. A sheet that is finer than it is compared with
+  /// it along its mesh lines, another mesh at the vertices that both have.
   ///
   /// simulation  whose scene `is_of` accepts
   std::optional<Distance> distance(const Simulation& simulation);

@@ -59,6 +59,7 @@ MethodOptions reference_method(const SweepPlan& plan, const Group& group) {
     case ReferenceKind::newton:
     case ReferenceKind::same_mesh:
       method.stepper = StepperKind::newton;
+      method.rule = NewtonRule::midpoint;
       method.tolerance = kNewtonTolerance;
       break;
     case ReferenceKind::rigid_chain:
@@ -136,10 +137,13 @@ class RunMaker : public ReferenceMaker {
 class NewtonMaker : public ReferenceMaker {
  public:
   NewtonMaker(const ReferenceRecipe& recipe, std::vector<double> times)
-      : id_(recipe.id), times_(std::move(times)) {
+      : id_(recipe.id),
+        times_(std::move(times)),
+        mesh_counts_(recipe.kind == ReferenceKind::newton),
+        checks_mesh_(mesh_counts_ && recipe.scene.level > 0) {
     scenes_.push_back(recipe.scene);
     scenes_.back().method.step *= 2;
-    if (recipe.kind == ReferenceKind::newton && recipe.scene.level > 0) {
+    if (checks_mesh_) {
       scenes_.push_back(recipe.scene);
       --scenes_.back().level;
     }
@@ -175,7 +179,9 @@ class NewtonMaker : public ReferenceMaker {
       return reference;
     }
     reference.content = content_id(scene);
-    reference.label.converged = true;
+    // On the coarsest mesh there is no coarser one to see what a mesh leaves open.
+    reference.label.converged = checks_mesh_ || !mesh_counts_;
+    if (!reference.label.converged) reference.label.description += "; its mesh is not checked";
     reference.label.uncertainty = 0;
     for (Sample& sample : reference.samples) sample.uncertainty = 0;
     for (std::size_t r = 0; r + 1 < runs_.size(); ++r) {
@@ -197,6 +203,8 @@ class NewtonMaker : public ReferenceMaker {
  private:
   std::string id_;
   std::vector<double> times_;
+  bool mesh_counts_;
+  bool checks_mesh_;
   std::vector<Scene> scenes_;  // to run, the reference itself last
   std::vector<std::vector<Sample>> runs_;
   std::unique_ptr<SampledRun> run_;  // at hand

@@ -82,13 +82,15 @@ void clear_method(Json& scene, const Json& stepper) {
   if (!method.is_object() ||
       method.value("stepper", Json(name(MethodOptions{}.stepper))) == stepper)
     return;
-  if (stepper == name(StepperKind::explicit_euler)) {
+  const bool is_newton = stepper == name(StepperKind::newton);
+  if (stepper == name(StepperKind::explicit_euler) || stepper == name(StepperKind::rk4)) {
     method["substeps"] = "stable";
   } else if (method.contains("substeps") && method["substeps"].is_string()) {
     method.erase("substeps");
   }
-  if (stepper == name(StepperKind::projective) && method.value("solver", Json()) == "cg")
-    method.erase("solver");
+  const bool needs_factor = is_newton || stepper == name(StepperKind::projective);
+  if (needs_factor && method.value("solver", Json()) == "cg") method.erase("solver");
+  if (is_newton) method.erase("tolerance");  // that of another stepper's linear solves
 }
 
 /// Those of lower rank are set first.

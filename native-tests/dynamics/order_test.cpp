@@ -123,6 +123,7 @@ TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]
     const int n_steps = refinement * method.n_steps;
     MethodOptions options;
     options.stepper = method.stepper;
+    options.rule = NewtonRule::midpoint;
     options.solver = SolverKind::eigen;
     options.tolerance = kNewtonTolerance;
     options.step = kDuration / n_steps;

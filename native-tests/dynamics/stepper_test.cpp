@@ -193,11 +193,25 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
   if (!kCountsAllocations) return;
   const bool with_air = GENERATE(false, true);
   const bool with_contact = GENERATE(false, true);
-  CAPTURE(with_air, with_contact);
-  for (MethodOptions options : everyday_methods()) {
+  const bool is_membrane = GENERATE(false, true);
+  CAPTURE(with_air, with_contact, is_membrane);
+  std::vector<MethodOptions> methods = everyday_methods();
+  for (const MethodOptions& options : accurate_methods(1.0 / 240)) methods.push_back(options);
+  for (MethodOptions options : methods) {
     CAPTURE(name(options.stepper));
     if (options.stepper == StepperKind::projective) options.solver = SolverKind::eigen;
+    if (options.stepper == StepperKind::newton) {
+      if (!is_available(SolverKind::cholmod)) continue;  // Eigen's factorisation allocates
+      options.solver = SolverKind::cholmod;
+    }
     ClothModel model = held_model({});
+    if (is_membrane) {
+      const std::vector<Pin> pins = model.pins;
+      model = membrane_model(sheet(), library_fabric("fine cotton"));
+      model.pins = pins;
+      if (options.stepper == StepperKind::projective || options.stepper == StepperKind::xpbd)
+        continue;
+    }
     if (with_air) model.air.emplace(sheet().triangles(), AirOptions{}, model.n_vertices());
     if (with_contact) {
       const Collider floor{Plane{{0, -1.01, 0}, {0, 1, 0}}, {}, 0.3};

@@ -37,6 +37,7 @@ TEST_CASE("shipped references: made anew, they begin the same", "[measure][long]
   ReferenceRecipe recipe{"anew", ReferenceKind::same_mesh, shipped_scene(name)};
   recipe.scene.method = MethodOptions{};
   recipe.scene.method.stepper = StepperKind::newton;
+  recipe.scene.method.rule = NewtonRule::midpoint;
   recipe.scene.method.solver = best_direct_solver();
   recipe.scene.method.tolerance = kNewtonTolerance;
   recipe.scene.method.step = 1.0 / 960;

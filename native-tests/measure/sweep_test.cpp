@@ -446,7 +446,9 @@ TEST_CASE("sweep: a bad plan is refused at its place", "[measure]") {
 
 namespace {
 
-Json newton_method(double step) { return {{"stepper", "newton"}, {"step_s", step}}; }
+Json newton_method(double step) {
+  return {{"stepper", "newton"}, {"rule", "midpoint"}, {"step_s", step}};
+}
 
 Json implicit_against_newton(const char* kind) {
   Json plan = small_plan();

@@ -51,6 +51,11 @@ TEST_CASE("scene override: another stepper leaves out what it cannot take", "[sc
         R"({"method":{"substeps":3,"stepper":"projective"}})");
   CHECK(overridden(cg, R"({"/method/stepper": "explicit"})") ==
         R"({"method":{"solver":"cg","substeps":"stable","stepper":"explicit"}})");
+  CHECK(overridden(cg, R"({"/method/stepper": "rk4"})") ==
+        R"({"method":{"solver":"cg","substeps":"stable","stepper":"rk4"}})");
+  const std::string loose = R"({"method": {"solver": "cg", "tolerance": 0.01}})";
+  CHECK(overridden(loose, R"({"/method/stepper": "newton"})") ==
+        R"({"method":{"stepper":"newton"}})");
 }
 
 TEST_CASE("scene override: another fabric leaves out the scene's own numbers", "[scene]") {

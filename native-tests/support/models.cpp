@@ -134,6 +134,15 @@ std::vector<MethodOptions> everyday_methods() {
   return {explicit_method, implicit, projective, xpbd};
 }
 
+std::vector<MethodOptions> accurate_methods(double step) {
+  MethodOptions newton = method(StepperKind::newton, step);
+  newton.rule = NewtonRule::midpoint;
+  newton.tolerance = kNewtonTolerance;
+  MethodOptions rk4 = method(StepperKind::rk4, step);
+  rk4.substeps = 0;
+  return {newton, rk4};
+}
+
 Scene released_sheet_scene(int cells, const std::string& fabric) {
   SheetShape shape;
   shape.rows = cells;

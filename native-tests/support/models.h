@@ -56,6 +56,9 @@ std::vector<MethodOptions> converged_methods(double step);
 /// Every stepper with the settings that people use: a step of 1/60 s.
 std::vector<MethodOptions> everyday_methods();
 
+/// The exact and the explicit method of higher order, with steps of `step` [s].
+std::vector<MethodOptions> accurate_methods(double step);
+
 /// A sheet of 1 m x 1 m with `cells` x `cells` cells of a library fabric, held by its upper edge,
 /// horizontal at first.
 Scene released_sheet_scene(int cells, const std::string& fabric);
