@@ -73,14 +73,9 @@ Outcome reference_command(Arguments arguments) {
   arguments.finish();
   ReferenceRecipe recipe{"", kind, input.scene};
   const double step = input.is_set_by("--step") ? input.scene.method.step : kUsualStep;
-  recipe.scene.method = MethodOptions{};
-  recipe.scene.method.stepper = StepperKind::newton;
-  recipe.scene.method.rule = NewtonRule::midpoint;
-  recipe.scene.method.solver = best_direct_solver();
-  recipe.scene.method.tolerance = kNewtonTolerance;
-  recipe.scene.method.step = step;
+  recipe.scene.method = exact_method(step);
   const std::vector<double> times = sample_times(input.scene, every);
-  recipe.id = reference_id("newton", recipe.scene, times);
+  recipe.id = reference_id(id_prefix(kind), recipe.scene, times);
   if (out) check_writable(*out);
   const Reference reference = with_source_named(input, [&] { return made(recipe, times); });
   print_reference(reference);

@@ -199,6 +199,8 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   std::printf("stretch at the end: rms %.3g %%, largest %.3g %%; largest of all %.3g %%\n",
               100 * summary.last_stretch.rms, 100 * summary.last_stretch.largest,
               100 * summary.largest_stretch);
+  if (!summary.report.message.empty() && !summary.report.ends_run())
+    std::printf("%s\n", summary.report.message.c_str());
   std::printf("largest residual %.3g\n", summary.report.relative_residual);
   if (ledger != nullptr)
     std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n", ledger->drift(),

@@ -78,7 +78,7 @@ class Stepper {
   /// pins. After each substep the model's contact corrects the result. The report's residual is
   /// that of the last substep's own equations, its iterations the sum. A state that is not finite,
   /// or beyond kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates
-  /// nothing after the first call.
+  /// nothing after the first call but messages.
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;

@@ -5,12 +5,14 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/base/random.h"
 
 namespace pleat {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMaxIterations = 200;  // of a step in time; reaching it is reported
+constexpr int kMaxPushes = 8;        // off saddles
+constexpr int kMaxIterations = 200;  // of a substep in time; reaching it is reported
 constexpr int kMaxEquilibriumIterations = 5000;
 constexpr int kMaxHalvings = 40;              // of a step along a direction
 constexpr double kLargestShare = 1024;        // of a direction of the projected Hessian
@@ -52,6 +54,14 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
   if (is_at_rest() && model.contact)
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint beside solids, got equilibrium");
+  if (is_at_rest() && model.pins.empty() && !model.gravity.isZero(0))
+    throw InputError("/pins", "expected something held, as weight alone has no rest, got nothing");
+  const bool has_jumps = std::any_of(model.chord_bends.begin(), model.chord_bends.end(),
+                                     [](const ChordBend& b) { return b.law == ChordLaw::arc; });
+  if (has_jumps)
+    throw InputError("/model/bending",
+                     "expected quadratic, linear or none for newton, which solves no force that "
+                     "jumps, got arc");
   solver_ = make_solver(options, 3);
   solver_->analyze(matrix_.lower());
   base_ = matrix_.lower();
@@ -77,6 +87,7 @@ void StepperNewton::set_up(const State& state, double h) {
   const StageScope scope(observer_, Stage::assembly);
   begin_ = state.positions;
   extent_ = box_diagonal(begin_);
+  if (extent_ == 0) extent_ = 1;  // vertices in one place: per metre
   set_steady_forces(loads_);
   matrix_.set_zero();
   if (!is_at_rest()) {
@@ -248,9 +259,29 @@ double StepperNewton::search_line() {
   return 0;
 }
 
+/// True where the true Hessian is positive definite: not on a saddle, and not free to move.
+bool StepperNewton::is_stable() {
+  shift_ = 0;
+  fill_matrix(ElementHessian::exact);
+  const StageScope scope(observer_, Stage::factor);
+  has_factor_ = solver_->factorize(matrix_.lower()).ok();
+  return has_factor_;
+}
+
+/// Off a saddle, where cloth would stand on its edge for ever.
+void StepperNewton::push_off(int attempt) {
+  constexpr double kPush = 1e-6;  // of the extent: far below what is seen, far above rounding
+  Random random(static_cast<std::uint64_t>(attempt));
+  for (double& coordinate : trial_.reshaped()) coordinate = random.uniform(-1, 1);
+  for (const Pin& pin : model_.pins) trial_.col(pin.vertex).setZero();
+  positions_ += kPush * extent_ * trial_;
+  evaluate_gradient();
+}
+
 SolveReport StepperNewton::minimise() {
   const int max_iterations = is_at_rest() ? kMaxEquilibriumIterations : kMaxIterations;
   shift_ = 0;
+  int n_pushes = 0;
   SolveReport report;
   evaluate_gradient();
   first_gradient_norm_ = gradient_.norm();
@@ -262,8 +293,12 @@ SolveReport StepperNewton::minimise() {
     const double share = is_last ? 1 : search_line();
     positions_ += share * direction_;
     evaluate_gradient();
-    report.relative_residual = residual_scale_ > 0 ? gradient_.norm() / residual_scale_ : 0;
-    if (is_last || gradient_.norm() <= rounding_) return report;
+    const bool is_noise = gradient_.norm() <= rounding_;
+    report.relative_residual = is_noise ? 0 : gradient_.norm() / residual_scale_;
+    if (is_last || is_noise) {
+      if (!is_at_rest() || n_pushes == kMaxPushes || is_stable()) return report;
+      push_off(n_pushes++);
+    }
     if (!is_at_rest() && share == 0) break;
     if (share < 0.5)
       shift_ = is_at_rest() ? std::max(first_shift(), kShiftFactor * shift_) : 0;

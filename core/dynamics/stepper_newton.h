@@ -23,8 +23,8 @@ namespace pleat {
 /// docs/methods/newton.md.
 class StepperNewton final : public Stepper {
  public:
-  /// Throws InputError when the wanted solver is cg or not available, or when equilibrium is asked
-  /// for beside solids.
+  /// Throws InputError when the wanted solver is cg or not available, for `arc` bending, whose
+  /// force jumps, and for an equilibrium beside solids or of cloth that nothing holds.
   StepperNewton(ClothModel& model, const MethodOptions& options);
 
   void refresh() override;
@@ -36,6 +36,8 @@ class StepperNewton final : public Stepper {
   void set_up(const State& state, double h);
   void place_first_guess(const State& state, double time_end);
   SolveReport minimise();
+  bool is_stable();
+  void push_off(int attempt);
   void evaluate_gradient();
   double potential(const Positions& positions, double* magnitude);
   void fill_matrix(ElementHessian hessian);

@@ -56,14 +56,17 @@ class UnfoldedPatch {
     for (std::size_t k = 0; k < 3; ++k) add_beyond(0, k);
   }
 
-  /// Adds the triangles that share a vertex with those added before, breadth first.
+  /// Adds the triangles that share a vertex with those added before, breadth first and not many
+  /// more than a fit needs: the cap of a cylinder may be a fan of hundreds.
   void add_ring() {
+    constexpr std::size_t kEnough = 60;  // vertices: two rings of six or eight triangles each
     const std::vector<VertexId> core = vertices_;
     const auto touches_core = [&](const Triangle& t) {
       return std::find_first_of(t.begin(), t.end(), core.begin(), core.end()) != t.end();
     };
     for (std::size_t f = 0; f < faces_.size(); ++f) {  // the list grows meanwhile
       for (std::size_t k = 0; k < 3; ++k) {
+        if (vertices_.size() >= kEnough) return;
         const FaceId next = (*beside_)[faces_[f]][k];
         if (next.valid() && touches_core(mesh_->triangles[next])) add_beyond(f, k);
       }

@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/fabric/taut_springs.h"
 
 namespace pleat {
 namespace {
 
-/// Stiffness beyond the strain limit is 1 + kStiffening times that before it: yarns stretch instead
-/// of straightening.
-constexpr double kStiffening = 9;
+/// What yarns that stretch instead of straightening add beyond the strain limit, in shares of the
+/// stiffness before it.
+constexpr double kStiffening = kTautFactor - 1;
 
 /// The columns of F = dx/d(u, v) and the Green strain E = 1/2 (F^T F - I).
 struct Deformation {

@@ -58,18 +58,17 @@ MethodOptions reference_method(const SweepPlan& plan, const Group& group) {
       break;
     case ReferenceKind::newton:
     case ReferenceKind::same_mesh:
-      method.stepper = StepperKind::newton;
-      method.rule = NewtonRule::midpoint;
-      method.tolerance = kNewtonTolerance;
-      break;
+      return exact_method(plan.reference_step > 0 ? plan.reference_step : reference_step(group));
     case ReferenceKind::rigid_chain:
     case ReferenceKind::closed_form:
       return method;  // they do not depend on it
   }
-  method.step = plan.reference_step > 0 ? plan.reference_step : reference_step(group);
+  method.step = reference_step(group);
   method.solver = best_direct_solver();
   return method;
 }
+
+}  // namespace
 
 const char* id_prefix(ReferenceKind kind) {
   switch (kind) {
@@ -86,6 +85,18 @@ const char* id_prefix(ReferenceKind kind) {
   }
   return "";
 }
+
+MethodOptions exact_method(double step) {
+  MethodOptions method;
+  method.stepper = StepperKind::newton;
+  method.rule = NewtonRule::midpoint;
+  method.step = step;
+  method.solver = best_direct_solver();
+  method.tolerance = kNewtonTolerance;
+  return method;
+}
+
+namespace {
 
 ReferenceRecipe recipe_for(const SweepPlan& plan, const Group& group,
                            const std::vector<double>& times) {
@@ -156,7 +167,7 @@ class NewtonMaker : public ReferenceMaker {
           std::make_unique<SampledRun>(scenes_[runs_.size()], times_, SampledRun::Parts::untimed);
     run_->advance(budget);
     if (!run_->done()) return;
-    if (run_->failed()) failure_ = run_->report().message;
+    if (!run_->report().ok()) failure_ = run_->report().message;  // wrong, if only once
     runs_.push_back(run_->samples());
     run_.reset();
   }
@@ -175,7 +186,7 @@ class NewtonMaker : public ReferenceMaker {
     Reference reference{{id_, run_phrase(scene) + ", midpoint rule"}, runs_.back()};
     if (!failure_.empty()) {
       reference.samples.clear();
-      reference.label.description += ", which ended early: " + failure_;
+      reference.label.description += ", which could not be solved: " + failure_;
       return reference;
     }
     reference.content = content_id(scene);

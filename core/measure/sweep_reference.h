@@ -9,6 +9,14 @@
 
 namespace pleat {
 
+/// What the id of such a reference begins with.
+const char* id_prefix(ReferenceKind kind);
+
+/// newton with the midpoint rule and a direct solver: how exact references are run.
+///
+/// step  [s], positive
+MethodOptions exact_method(double step);
+
 /// What one reference of a sweep is made from.
 struct ReferenceRecipe {
   std::string id;  ///< of the reference

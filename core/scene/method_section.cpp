@@ -5,6 +5,8 @@ namespace {
 
 constexpr std::int64_t kMaxIterations = 100000;
 constexpr NumberRange kTolerance{0, 1, NumberRange::Ends::excluded};
+// A looser newton is no newton: its equations would be as wrong as those of one linearisation.
+constexpr NumberRange kNewtonTolerances{0, 1e-6, NumberRange::Ends::low_excluded};
 
 constexpr std::array<Word<StepperKind>, 6> kSteppers{{{"explicit", StepperKind::explicit_euler},
                                                       {"rk4", StepperKind::rk4},
@@ -51,11 +53,12 @@ void read_method(const JsonReader& reader, MethodOptions& method) {
   if (const auto at = reader.find("iterations"))
     method.iterations = static_cast<int>(at->integer(1, kMaxIterations));
   // projective keeps a factor and newton is exact, which the general defaults do not serve.
-  if (method.stepper == StepperKind::projective || method.stepper == StepperKind::newton)
-    method.solver = best_direct_solver();
-  if (method.stepper == StepperKind::newton) method.tolerance = kNewtonTolerance;
+  const bool is_newton = method.stepper == StepperKind::newton;
+  if (method.stepper == StepperKind::projective || is_newton) method.solver = best_direct_solver();
+  if (is_newton) method.tolerance = kNewtonTolerance;
   if (const auto at = reader.find("solver")) method.solver = at->word(kSolvers);
-  if (const auto at = reader.find("tolerance")) method.tolerance = at->number(kTolerance);
+  if (const auto at = reader.find("tolerance"))
+    method.tolerance = at->number(is_newton ? kNewtonTolerances : kTolerance);
   if (const auto at = reader.find("constraints")) method.constraints = at->word(kConstraints);
   if (const auto at = reader.find("rule")) method.rule = at->word(kNewtonRules);
 }

@@ -197,6 +197,47 @@ TEST_CASE("newton: a rope of springs hangs in a catenary, with second order", "[
   CHECK(std::log2(errors[1] / errors[2]) == Approx(2).margin(0.2));
 }
 
+TEST_CASE("newton: equilibrium does not stay on a saddle", "[dynamics]") {
+  // A flat sheet pushed together by a fifth, without weight: flat it is at rest, and unstable.
+  const QuadMesh mesh = square_sheet(6);
+  ClothModel model = sheet_model(mesh, library_fabric("linen"));
+  State state = rest_state(mesh);
+  for (int i = 0; i < mesh.n_vertices(); ++i) {
+    const double v = mesh.rest_coordinates()(1, i);
+    if (v > 0 && v < 1) continue;
+    state.positions(0, i) += v > 0 ? -0.2 : 0;
+    model.pins.push_back({VertexId(i), state.positions.col(i), {}});
+  }
+  const auto stepper = make_stepper(model, newton(NewtonRule::equilibrium, 1));
+  const SolveReport report = stepper->advance(state, 0);
+  CAPTURE(report.message, report.iterations);
+  REQUIRE(report.ok());
+  CHECK(state.positions.row(2).cwiseAbs().maxCoeff() > 0.1);
+}
+
+TEST_CASE("newton: vertices in one place fall like others", "[dynamics]") {
+  const int n = GENERATE(1, 2);
+  ClothModel model;
+  model.masses = Eigen::VectorXd::Constant(n, 0.1);
+  State state{Positions::Zero(3, n), Positions::Zero(3, n)};
+  const auto stepper = make_stepper(model, newton(NewtonRule::midpoint, 0.01));
+  for (int s = 0; s < 10; ++s) REQUIRE(stepper->advance(state, s * 0.01).ok());
+  CHECK(state.positions(1, 0) == Approx(-0.5 * 9.81 * 0.01));
+}
+
+TEST_CASE("newton: bending whose force jumps is refused, as is weight that nothing holds",
+          "[dynamics]") {
+  ClothModel model = sheet_model(square_sheet(3), library_fabric("linen"));
+  model.gravity = {0, -9.81, 0};
+  CHECK_THROWS_AS(make_stepper(model, newton(NewtonRule::equilibrium, 1)), InputError);
+  const auto law = GENERATE(ChordLaw::arc, ChordLaw::linear);
+  model.chord_bends = {{VertexId(0), VertexId(2), 0.3, 1e-6, law}};
+  if (law == ChordLaw::arc)
+    CHECK_THROWS_AS(make_stepper(model, newton(NewtonRule::midpoint, 0.01)), InputError);
+  else
+    CHECK_NOTHROW(make_stepper(model, newton(NewtonRule::midpoint, 0.01)));
+}
+
 TEST_CASE("newton: takes an exact solver and no solids at rest", "[dynamics]") {
   HardProblem problem;
   MethodOptions options = newton(NewtonRule::midpoint, 0.01);

@@ -217,7 +217,8 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
       const Collider floor{Plane{{0, -1.01, 0}, {0, 1, 0}}, {}, 0.3};
       model.contact.emplace(std::vector<Collider>{floor}, ContactOptions{});
     }
-    State state = tossed_state();
+    // A factorisation that newton finds impossible, in crumpled cloth, is told in a message.
+    State state = options.stepper == StepperKind::newton ? rest_state(sheet()) : tossed_state();
     const auto stepper = make_stepper(model, options);
     stepper->advance(state, 0);
     CHECK(allocations_in([&] {

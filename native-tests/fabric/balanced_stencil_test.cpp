@@ -112,6 +112,24 @@ TEST_CASE("balanced_stencil: parallelograms keep the stencils of the fit", "[fab
   CHECK(n_compact > 40);
 }
 
+TEST_CASE("balanced_stencil: a fan of hundreds of triangles stays cheap", "[fabric]") {
+  // The cap of a cylinder: every vertex on one circle, which is a conic.
+  constexpr int kCorners = 300;
+  TriangleMesh mesh;
+  mesh.rest_positions.resize(3, kCorners);
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * 3.141592653589793 * i / kCorners;
+    mesh.rest_positions.col(i) << std::cos(angle), std::sin(angle), 0;
+  }
+  for (int i = 1; i + 1 < kCorners; ++i)
+    mesh.triangles.push_back({VertexId(0), VertexId(i), VertexId(i + 1)});
+  mesh.warp_directions.assign(mesh.triangles.size(), Vec3::UnitX());
+  for (const CurvatureStencil& stencil : balanced_stencils(mesh)) {
+    CHECK(stencil.vertices.size() < 250);
+    CHECK(stencil.weights.allFinite());
+  }
+}
+
 TEST_CASE("fitted_bending: a cantilever's sag converges to the beam's on any triangulation",
           "[fabric]") {
   const auto pattern =
