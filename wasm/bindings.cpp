@@ -1,67 +1,29 @@
-// The one boundary between the core and JavaScript. Cold calls take and return JSON text in an
-// envelope, {"ok": true, ...} or {"ok": false, "kind", "where", "what"}; hot calls return numbers
-// and views. A view of memory dies when memory grows: take it anew after each call. No C++
-// exception may leave this file, JavaScript would see a bare pointer.
+// What a page shows a cloth with: scenes and a simulation. Cold calls take and return JSON text in
+// an envelope (envelope.h); hot calls return numbers and views. A view of memory dies when memory
+// grows: take it anew after each call.
 #include <emscripten/bind.h>
-#include <emscripten/val.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/measure/core_version.h"
 #include "core/measure/error_norms.h"
 #include "core/measure/stage_timer.h"
-#include "core/measure/sweep.h"
+#include "core/scene/obj_file.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulation.h"
+#include "wasm/envelope.h"
 
 namespace {
 
 using emscripten::val;
-
-std::string json_text(const val& object) {
-  return val::global("JSON").call<std::string>("stringify", object);
-}
-
-val json_value(std::string_view text) {
-  return val::global("JSON").call<val>("parse", std::string(text));
-}
-
-template <class Items>
-val json_array(const Items& items) {
-  val array = val::array();
-  for (const auto& item : items) array.call<void>("push", item);
-  return array;
-}
-
-val json_vec3(const pleat::Vec3& v) { return json_array(std::vector<double>{v.x(), v.y(), v.z()}); }
-
-std::string failure(const char* kind, const std::string& where, const std::string& what) {
-  val envelope = val::object();
-  envelope.set("ok", false);
-  envelope.set("kind", std::string(kind));
-  envelope.set("where", where);
-  envelope.set("what", what);
-  return json_text(envelope);
-}
-
-/// Runs `work`, which fills in the envelope that it is given.
-template <class Work>
-std::string guarded(Work&& work) {
-  try {
-    val envelope = val::object();
-    envelope.set("ok", true);
-    work(envelope);
-    return json_text(envelope);
-  } catch (const pleat::InputError& error) {
-    return failure("input", error.where(), error.what());
-  } catch (const std::exception& error) {
-    return failure("internal", "", error.what());
-  }
-}
+using pleat::guarded;
+using pleat::json_array;
+using pleat::json_value;
+using pleat::json_triple;
 
 val summary(const pleat::Simulation& simulation) {
   const pleat::ClothModel& model = simulation.model();
@@ -99,8 +61,9 @@ class Scene {
   }
 
   std::string schema() const {
-    return guarded(
-        [](val& envelope) { envelope.set("schema", json_value(pleat::scene_schema())); });
+    return guarded([](val& envelope) {
+      envelope.set("schema", json_value(std::string(pleat::scene_schema())));
+    });
   }
 
   std::string parse(const std::string& scene_text) const {
@@ -108,6 +71,30 @@ class Scene {
       const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_));
       envelope.set("scene", json_value(pleat::write_scene(scene)));
       envelope.set("summary", summary(pleat::Simulation(scene)));
+    });
+  }
+
+  /// The mesh of an OBJ file, written out, with what a page says of it. `mesh_text` is the section
+  /// "mesh" of a scene that names the file.
+  std::string read_obj(const std::string& obj_text, const std::string& mesh_text) const {
+    return guarded([&](val& envelope) {
+      const auto file = [&](const std::string&) { return obj_text; };
+      const pleat::Scene scene = pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
+                                                   pleat::read_fabrics(fabrics_json_), file);
+      const auto& cloth = std::get<pleat::MeshCloth>(scene.cloth);
+      const pleat::Positions& x = cloth.mesh.rest_positions;
+      envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
+      std::vector<std::string> names;
+      for (const pleat::VertexGroup& group : cloth.groups) names.push_back(group.name);
+      envelope.set("groups", json_array(names));
+      envelope.set("n_vertices", cloth.mesh.n_vertices());
+      envelope.set("n_triangles", cloth.mesh.triangles.size());
+      envelope.set("low_m", json_triple(x.rowwise().minCoeff()));
+      envelope.set("high_m", json_triple(x.rowwise().maxCoeff()));
+      const auto textures = pleat::read_obj(obj_text).textures;
+      envelope.set("needs_direction",
+                   std::any_of(textures.begin(), textures.end(),
+                               [](const auto& texture) { return !texture.has_value(); }));
     });
   }
 
@@ -190,12 +177,12 @@ class Simulation {
         val entry = val::object();
         if (const auto* sphere = std::get_if<pleat::Sphere>(&shape)) {
           entry.set("shape", std::string("sphere"));
-          entry.set("centre", json_vec3(sphere->centre));
+          entry.set("centre", json_triple(sphere->centre));
           entry.set("radius_m", sphere->radius);
         } else {
           entry.set("shape", std::string("plane"));
-          entry.set("point", json_vec3(std::get<pleat::Plane>(shape).point));
-          entry.set("normal", json_vec3(std::get<pleat::Plane>(shape).normal));
+          entry.set("point", json_triple(std::get<pleat::Plane>(shape).point));
+          entry.set("normal", json_triple(std::get<pleat::Plane>(shape).normal));
         }
         list.call<void>("push", entry);
       }
@@ -299,38 +286,6 @@ class Simulation {
   std::vector<std::uint32_t> triangles_;
 };
 
-/// A sweep on the visitor's machine, in slices short enough to show progress and to give up between
-/// them.
-class Experiment {
- public:
-  explicit Experiment(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
-
-  std::string start(const std::string& plan_text) {
-    return guarded([&](val&) {
-      const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
-      const auto read = [fabrics](std::string_view text) {
-        return pleat::read_scene(text, fabrics);
-      };
-      sweep_.emplace(pleat::read_sweep_plan(plan_text, read), references_, pleat::core_version());
-    });
-  }
-
-  std::string advance(double budget_ms) {
-    return guarded([&](val& envelope) {
-      if (!sweep_) throw pleat::InputError("", "expected a started experiment, got none");
-      sweep_->advance(1e-3 * budget_ms);
-      const val report = json_value(sweep_->report_json());
-      for (const char* key : {"done", "progress", "rows", "front", "message"})
-        envelope.set(key, report[key]);
-    });
-  }
-
- private:
-  std::string fabrics_json_;
-  pleat::MemoryReferenceStore references_;
-  std::optional<pleat::Sweep> sweep_;
-};
-
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(pleat) {
@@ -338,7 +293,8 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .constructor<std::string>()
       .function("fabrics", &Scene::fabrics)
       .function("schema", &Scene::schema)
-      .function("parse", &Scene::parse);
+      .function("parse", &Scene::parse)
+      .function("readObj", &Scene::read_obj);
   emscripten::class_<Simulation>("Simulation")
       .constructor<std::string>()
       .function("load", &Simulation::load)
@@ -356,8 +312,4 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("masses", &Simulation::masses)
       .function("stretch", &Simulation::stretch)
       .function("triangles", &Simulation::triangles);
-  emscripten::class_<Experiment>("Experiment")
-      .constructor<std::string>()
-      .function("start", &Experiment::start)
-      .function("advance", &Experiment::advance);
 }

@@ -127,19 +127,22 @@ export function nativeSweep(scene, { levels, repeat, reference: kind, duration }
   });
 }
 
-let compiled;
+const compiled = {};
 
-/** A module of its own for each run, so that memory and state are the run's alone. */
-export async function wasmModule() {
-  if (!compiled) {
+/**
+ * A module of its own for each run, so that memory and state are the run's alone: "pleat" has
+ * Scene and Simulation, "sweep" has Experiment.
+ */
+export async function wasmModule(name = 'pleat') {
+  if (!compiled[name]) {
     // V8 would begin with unoptimised code and swap it at a moment of its own.
     v8.setFlagsFromString('--no-liftoff');
-    compiled = await WebAssembly.compile(readFileSync(join(wasmFolder, 'pleat.wasm')));
+    compiled[name] = await WebAssembly.compile(readFileSync(join(wasmFolder, `${name}.wasm`)));
   }
-  const { default: create } = await import(join(wasmFolder, 'pleat.mjs'));
+  const { default: create } = await import(join(wasmFolder, `${name}.mjs`));
   return create({
     instantiateWasm: (imports, receive) => {
-      WebAssembly.instantiate(compiled, imports).then((instance) => receive(instance));
+      WebAssembly.instantiate(compiled[name], imports).then((instance) => receive(instance));
       return {};
     },
   });

@@ -61,7 +61,7 @@ async function wasmSweep(scene, { repeat, reference }, nativeRows) {
     repeats: repeat,
     reference,
   };
-  const module = await wasmModule();
+  const module = await wasmModule('sweep');
   const experiment = new module.Experiment(fabricsText());
   let answer = JSON.parse(experiment.start(JSON.stringify(plan)));
   while (answer.ok && !answer.done) {

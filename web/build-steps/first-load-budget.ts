@@ -2,6 +2,9 @@
 import { gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 
+/** Fetched only when it is asked for: the example mesh, references, and what a sweep needs. */
+const LATER = /\.(map|obj|reference)$|(^|\/)sweep[-.]/;
+
 /** Bounds of a first load, gzipped [kB]. */
 const BOUNDS_KB = { page: 200, wasm: 350 };
 
@@ -19,7 +22,7 @@ export function firstLoadBudget(): Plugin {
       handler(_options, bundle) {
         const sums = { page: 0, wasm: 0 };
         for (const output of Object.values(bundle)) {
-          if (output.fileName.endsWith('.map')) continue;
+          if (LATER.test(output.fileName)) continue;
           const content = output.type === 'chunk' ? output.code : output.source;
           const kind = output.fileName.endsWith('.wasm') ? 'wasm' : 'page';
           sums[kind] += gzippedKilobytes(content);

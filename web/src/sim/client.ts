@@ -1,18 +1,18 @@
-// The page's end of a worker: typed messages, and one sentence when the worker itself breaks.
-import type { FromWorker, ToWorker } from './protocol';
+// The page's end of its workers: typed messages, and one sentence when a worker itself breaks.
+import type { FromWorker, SweepMessage, ToWorker } from './protocol';
 
-export interface WorkerClient {
-  send(message: ToWorker, transfer?: Transferable[]): void;
+export interface WorkerClient<Message> {
+  send(message: Message, transfer?: Transferable[]): void;
   /** Ends the worker at once, whatever it is doing. */
   terminate(): void;
 }
 
-/** Starts a worker with its own module. `onBroken` hears of a worker that cannot go on. */
-export function startWorker(
+/** `onBroken` hears of a worker that cannot go on. */
+function connect<Message>(
+  worker: Worker,
   receive: (message: FromWorker) => void,
   onBroken: (reason: string) => void,
-): WorkerClient {
-  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+): WorkerClient<Message> {
   worker.onmessage = (event: MessageEvent<FromWorker>) => receive(event.data);
   worker.onerror = (event) => {
     event.preventDefault();
@@ -22,4 +22,18 @@ export function startWorker(
     send: (message, transfer = []) => worker.postMessage(message, transfer),
     terminate: () => worker.terminate(),
   };
+}
+
+type Ends = [receive: (message: FromWorker) => void, onBroken: (reason: string) => void];
+
+/** Starts a worker that runs the shown cloth. */
+export function startWorker(...ends: Ends): WorkerClient<ToWorker> {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
+  return connect(worker, ...ends);
+}
+
+/** Starts a worker that runs one sweep. */
+export function startSweepWorker(...ends: Ends): WorkerClient<SweepMessage> {
+  const worker = new Worker(new URL('./sweep-worker.ts', import.meta.url), { type: 'module' });
+  return connect(worker, ...ends);
 }

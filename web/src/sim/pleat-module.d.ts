@@ -5,3 +5,10 @@ declare module '*/pleat.mjs' {
   const createPleat: (options?: { wasmBinary?: Uint8Array }) => Promise<PleatModule>;
   export default createPleat;
 }
+
+declare module '*/sweep.mjs' {
+  import type { SweepModule } from './wasm-module';
+
+  const createSweep: (options?: { wasmBinary?: Uint8Array }) => Promise<SweepModule>;
+  export default createSweep;
+}

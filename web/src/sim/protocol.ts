@@ -1,4 +1,5 @@
 // Messages between the page and its workers, both ways. Lengths in metres, times in seconds.
+import type { ObjMesh } from '../state/obj-mesh';
 import type { Collider, Failure, RunNumbers, SceneSummary, SweepReport } from './wasm-module';
 
 export type ToWorker =
@@ -7,13 +8,20 @@ export type ToWorker =
   /** `request` comes back in the answer, so that a late answer can be told from a current one. */
   | { type: 'load'; sceneText: string; keepMotion: boolean; request: number }
   | { type: 'reset'; request: number }
+  /** `isOwn`: the visitor brought it. Whatever runs goes on. */
+  | { type: 'readObj'; name: string; objText: string; isOwn: boolean }
   /** The buffer is given away here and comes back filled in `frame`. */
   | { type: 'step'; count: number; wantsNumbers: boolean; request: number; buffer: ArrayBuffer }
   | { type: 'grab'; vertex: number }
   | { type: 'moveGrab'; target: [number, number, number] }
-  | { type: 'releaseGrab' }
-  /** Runs to its end; to cancel, terminate the worker. */
-  | { type: 'sweep'; planText: string };
+  | { type: 'releaseGrab' };
+
+/** To a worker of its own. Runs to its end; to cancel, terminate the worker. */
+export interface SweepMessage {
+  type: 'sweep';
+  fabricsText: string;
+  planText: string;
+}
 
 export interface LoadedMessage {
   type: 'loaded';
@@ -51,6 +59,8 @@ export type FromWorker =
   | { type: 'broken'; reason: string }
   | LoadedMessage
   | FrameMessage
+  | { type: 'objRead'; mesh: ObjMesh }
+  | { type: 'objRefused'; failure: Failure }
   /** A load, reset or sweep that was refused; `request` is -1 when the message had none. */
   | { type: 'refused'; request: number; failure: Failure }
   | { type: 'sweepReport'; report: SweepReport };

@@ -2,8 +2,9 @@
 import type { AppState, SweepState } from '../state/app-state';
 import { fabricsText } from '../state/fabric-data';
 import type { Store } from '../state/store';
-import { sweepPlan } from '../state/sweep-plan';
-import { startWorker, type WorkerClient } from './client';
+import { sweepPlan, sweptScene } from '../state/sweep-plan';
+import { startSweepWorker, type WorkerClient } from './client';
+import type { SweepMessage } from './protocol';
 
 export interface Sweep {
   /** Measures levels 0 to `finest` of the shown preset. */
@@ -13,7 +14,7 @@ export interface Sweep {
 }
 
 export function createSweep(store: Store<AppState>): Sweep {
-  let worker: WorkerClient | null = null;
+  let worker: WorkerClient<SweepMessage> | null = null;
 
   function patch(change: Partial<SweepState>): void {
     store.set({ sweep: { ...store.get().sweep, ...change } });
@@ -35,7 +36,7 @@ export function createSweep(store: Store<AppState>): Sweep {
   return {
     start(finest) {
       worker?.terminate();
-      const { setting } = store.get();
+      const { setting, mesh } = store.get();
       store.set({
         playing: false, // a second busy worker would make every time too long
         sweepOpen: true,
@@ -45,11 +46,11 @@ export function createSweep(store: Store<AppState>): Sweep {
           message: 'Computing the reference',
           rows: [],
           front: [],
-          scene: { preset: setting.preset, fabric: setting.fabric },
+          scene: sweptScene(setting, mesh),
           disturbed: false,
         },
       });
-      worker = startWorker(
+      worker = startSweepWorker(
         (message) => {
           if (message.type === 'sweepReport') {
             const { rows, front, progress, done, message: text } = message.report;
@@ -61,8 +62,8 @@ export function createSweep(store: Store<AppState>): Sweep {
         },
         (reason) => end('failed', reason),
       );
-      worker.send({ type: 'open', fabricsText });
-      worker.send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, finest)) });
+      const planText = JSON.stringify(sweepPlan(setting, finest, mesh));
+      worker.send({ type: 'sweep', fabricsText, planText });
     },
     cancel() {
       if (worker) end('cancelled', 'Cancelled; the rows so far stay.');

@@ -1,5 +1,5 @@
-// The classes bound by the WebAssembly module, and the shape of the texts they answer with.
-// Each class has a list of its methods; a test holds the lists against the real module.
+// The classes bound by the WebAssembly modules, and the shape of the texts they answer with.
+// Each class has a list of its methods; a test holds the lists against the real modules.
 
 /** Every text answer: the payload beside `ok`, or one sentence about what was wrong and where. */
 export type Answer<Payload> = ({ ok: true } & Payload) | Failure;
@@ -51,6 +51,19 @@ export type Triple = [number, number, number];
 export type Collider =
   | { shape: 'plane'; point: Triple; normal: Triple }
   | { shape: 'sphere'; centre: Triple; radius_m: number };
+
+/** What `readObj` finds in a file. */
+export interface ObjAnswer {
+  /** The section "cloth" of a scene, with the mesh written out. */
+  cloth: object;
+  groups: string[];
+  n_vertices: number;
+  n_triangles: number;
+  low_m: Triple;
+  high_m: Triple;
+  /** Some triangle has no texture coordinates. */
+  needs_direction: boolean;
+}
 
 export interface BenchMethod {
   stepper: string;
@@ -107,6 +120,8 @@ export interface SceneHandle {
   fabrics(): string;
   schema(): string;
   parse(sceneText: string): string;
+  /** The mesh of an OBJ file. `meshText`: the section "mesh" of a scene that names the file. */
+  readObj(objText: string, meshText: string): string;
   delete(): void;
 }
 
@@ -144,6 +159,10 @@ export interface ExperimentHandle {
 export interface PleatModule {
   Scene: new (fabricsText: string) => SceneHandle;
   Simulation: new (fabricsText: string) => SimulationHandle;
+}
+
+/** A module of its own, fetched when the first sweep is asked for. */
+export interface SweepModule {
   Experiment: new (fabricsText: string) => ExperimentHandle;
 }
 
@@ -153,8 +172,14 @@ function methodsOf<Handle>(names: Record<keyof Handle, true>): string[] {
 }
 
 /** The methods of each bound class by name. */
-export const BOUND_METHODS: Record<keyof PleatModule, string[]> = {
-  Scene: methodsOf<SceneHandle>({ fabrics: true, schema: true, parse: true, delete: true }),
+export const BOUND_METHODS: Record<keyof (PleatModule & SweepModule), string[]> = {
+  Scene: methodsOf<SceneHandle>({
+    fabrics: true,
+    schema: true,
+    parse: true,
+    readObj: true,
+    delete: true,
+  }),
   Simulation: methodsOf<SimulationHandle>({
     load: true,
     carryOver: true,

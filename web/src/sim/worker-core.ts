@@ -1,22 +1,25 @@
-// What a worker does with each message, as a function of the module and of where answers go.
+// What the workers do with each message, as a function of the module and of where answers go.
 // The only file that calls delete().
+import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
 import {
   FLOATS_PER_VERTEX,
   frameViews,
   type Post,
   type RunReport,
+  type SweepMessage,
   type ToWorker,
 } from './protocol';
 import type {
   Answer,
   Collider,
-  ExperimentHandle,
   Failure,
+  ObjAnswer,
   PleatModule,
   RunNumbers,
   RunStatus,
   SceneSummary,
   SimulationHandle,
+  SweepModule,
   SweepReport,
 } from './wasm-module';
 
@@ -71,7 +74,6 @@ export function createWorkerCore(
 ): { receive: (message: ToWorker) => void; close: () => void } {
   let fabricsText: string | null = null;
   let simulation: SimulationHandle | null = null;
-  let experiment: ExperimentHandle | null = null;
   let loaded: SceneSummary | null = null;
   let isHeld = false;
 
@@ -122,17 +124,23 @@ export function createWorkerCore(
     post({ type: 'frame', request, count, buffer, hasEnded, report, colliders }, [buffer]);
   }
 
-  function sweep(planText: string): void {
-    if (fabricsText === null) return refuse(-1, internalFailure('sweep before open'));
-    experiment?.delete();
-    experiment = new module.Experiment(fabricsText);
-    const started = read<object>(experiment.start(planText));
-    if (!started.ok) return refuse(-1, started);
-    for (let done = false; !done; ) {
-      const report = read<SweepReport>(experiment.advance(SWEEP_SLICE_MS));
-      if (!report.ok) return refuse(-1, report);
-      post({ type: 'sweepReport', report }, []);
-      done = report.done;
+  function readObj(text: string, message: Extract<ToWorker, { type: 'readObj' }>): void {
+    const { name, objText, isOwn } = message;
+    const scene = new module.Scene(text);
+    const readAlong = (threads: keyof typeof DIRECTIONS) => {
+      const meshText = JSON.stringify({ obj: name, warp_direction: DIRECTIONS[threads] });
+      return { threads, answer: read<ObjAnswer>(scene.readObj(objText, meshText)) };
+    };
+    try {
+      let { threads, answer } = readAlong('down');
+      const isFlat = answer.ok && liesFlat({ low: answer.low_m, high: answer.high_m });
+      if (answer.ok && answer.needs_direction && isFlat)
+        ({ threads, answer } = readAlong('along_x'));
+      if (!answer.ok) return post({ type: 'objRefused', failure: answer }, []);
+      const known = answer.needs_direction ? threads : 'texture';
+      post({ type: 'objRead', mesh: objMesh({ name, isOwn, threads: known }, answer) }, []);
+    } finally {
+      scene.delete();
     }
   }
 
@@ -146,9 +154,10 @@ export function createWorkerCore(
 
   function handle(message: ToWorker): void {
     if (message.type === 'open') return open(message.fabricsText);
-    if (message.type === 'sweep') return sweep(message.planText);
-    if (!simulation) throw new Error(`${message.type} before open`);
+    if (!simulation || fabricsText === null) throw new Error(`${message.type} before open`);
     switch (message.type) {
+      case 'readObj':
+        return readObj(fabricsText, message);
       case 'load':
         isHeld = false;
         return load(simulation, message);
@@ -181,9 +190,27 @@ export function createWorkerCore(
     },
     close() {
       simulation?.delete();
-      experiment?.delete();
       simulation = null;
-      experiment = null;
     },
   };
+}
+
+/** Runs a sweep to its end, and reports as it goes. */
+export function runSweep(module: SweepModule, message: SweepMessage, post: Post): void {
+  const refuse = (failure: Failure) => post({ type: 'refused', request: -1, failure }, []);
+  const experiment = new module.Experiment(message.fabricsText);
+  try {
+    const started = read<object>(experiment.start(message.planText));
+    if (!started.ok) return refuse(started);
+    for (let done = false; !done; ) {
+      const report = read<SweepReport>(experiment.advance(SWEEP_SLICE_MS));
+      if (!report.ok) return refuse(report);
+      post({ type: 'sweepReport', report }, []);
+      done = report.done;
+    }
+  } catch (error) {
+    refuse(internalFailure(describe(error)));
+  } finally {
+    experiment.delete();
+  }
 }

@@ -1,0 +1,58 @@
+// What a page measures speed and error with. A module of its own: only who presses the button has
+// to fetch it.
+#include <emscripten/bind.h>
+
+#include <optional>
+#include <string>
+
+#include "core/base/check.h"
+#include "core/measure/core_version.h"
+#include "core/measure/sweep.h"
+#include "core/scene/scene_file.h"
+#include "wasm/envelope.h"
+
+namespace {
+
+using emscripten::val;
+using pleat::guarded;
+
+/// A sweep on the visitor's machine, in slices short enough to show progress and to give up between
+/// them.
+class Experiment {
+ public:
+  explicit Experiment(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
+
+  std::string start(const std::string& plan_text) {
+    return guarded([&](val&) {
+      const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
+      const auto read = [fabrics](std::string_view text) {
+        return pleat::read_scene(text, fabrics);
+      };
+      sweep_.emplace(pleat::read_sweep_plan(plan_text, read), references_, pleat::core_version());
+    });
+  }
+
+  std::string advance(double budget_ms) {
+    return guarded([&](val& envelope) {
+      if (!sweep_) throw pleat::InputError("", "expected a started experiment, got none");
+      sweep_->advance(1e-3 * budget_ms);
+      const val report = pleat::json_value(sweep_->report_json());
+      for (const char* key : {"done", "progress", "rows", "front", "message"})
+        envelope.set(key, report[key]);
+    });
+  }
+
+ private:
+  std::string fabrics_json_;
+  pleat::MemoryReferenceStore references_;
+  std::optional<pleat::Sweep> sweep_;
+};
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(pleat_sweep) {
+  emscripten::class_<Experiment>("Experiment")
+      .constructor<std::string>()
+      .function("start", &Experiment::start)
+      .function("advance", &Experiment::advance);
+}
