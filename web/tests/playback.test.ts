@@ -5,6 +5,7 @@ import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol'
 import type { PleatModule } from '../src/sim/wasm-module';
 import { createWorkerCore } from '../src/sim/worker-core';
 import { initialState } from '../src/state/app-state';
+import { presetSetting, withModel } from '../src/state/setting';
 import { createStore } from '../src/state/store';
 import { decodeLink } from '../src/state/url-codec';
 import diverging from './support/diverging.json';
@@ -122,6 +123,16 @@ describe('playback', () => {
     expect(page.store.get().numbers?.step).toBe(0);
   });
 
+  it('starts anew when the model changes', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.playback.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    page.store.set({ setting: withModel(page.store.get().setting, 'membrane') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(0);
+  });
+
   it('answers a refused setting with the sentence, and the next good one clears it', async () => {
     const page = open('#scene=curtain&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
@@ -132,5 +143,81 @@ describe('playback', () => {
     page.store.set({ setting });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
+  });
+});
+
+describe('playback of a mesh', () => {
+  const triangle = (top: number) => `v 0 ${top} 0\nv 1 0 0\nv 0 0 1\ng waist\nf 1 2 3\n`;
+  const file = (name: string, text: string) => new File([text], name);
+  const fetched = vi.fn();
+
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+    fetched.mockReset();
+    fetched.mockResolvedValue(new Response(triangle(1)));
+    vi.stubGlobal('fetch', fetched);
+  });
+
+  it('fetches the example only when it is wanted', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(fetched).not.toHaveBeenCalled();
+    page.store.set({ setting: presetSetting('obj') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().mesh).toMatchObject({ name: 'skirt.obj', isOwn: false });
+  });
+
+  it('puts the visitor’s file in its place, from any scene, and keeps it', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await page.playback.openObj(file('hat.OBJ', triangle(2)));
+    await vi.waitUntil(() => page.store.get().mesh !== null && phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({
+      mesh: { name: 'hat.OBJ', isOwn: true, high: [1, 2, 1] },
+      setting: { preset: 'obj', hold: 'highest' },
+    });
+    const { setting } = page.store.get();
+    page.store.set({ setting: presetSetting('curtain') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.store.set({ setting });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().mesh?.name).toBe('hat.OBJ');
+    expect(fetched).not.toHaveBeenCalled();
+  });
+
+  it('says what is wrong with a file and goes on with the cloth', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const sentence = () => page.store.get().problem?.sentence ?? '';
+    const { setting } = page.store.get();
+    await page.playback.openObj(file('hat.obj', 'v 0 0 0\nwobble\n'));
+    await vi.waitUntil(() => sentence() !== '');
+    expect(sentence()).toContain('hat.obj: line 2: expected');
+    await page.playback.openObj(file('hat.stl', 'solid'));
+    expect(sentence()).toContain('hat.stl is no OBJ file');
+    expect(page.store.get()).toMatchObject({ setting, mesh: null, phase: 'ready' });
+    page.playback.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+  });
+
+  it('says that the example cannot be had, and takes a file all the same', async () => {
+    fetched.mockRejectedValue(new TypeError('offline'));
+    const page = open('#scene=obj');
+    await vi.waitUntil(() => phaseOf(page) === 'refused');
+    expect(page.store.get().problem?.sentence).toContain('could not be fetched');
+    await page.playback.openObj(file('hat.obj', triangle(1)));
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+  });
+
+  it('starts anew when the fabric changes, as there are no mesh lines', async () => {
+    const page = open('#scene=obj');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.playback.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    page.store.set({ setting: { ...page.store.get().setting, fabric: 'silk' } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(0);
   });
 });

@@ -3,13 +3,21 @@ import type { BenchRow } from '../src/sim/wasm-module';
 import { NO_SWEEP } from '../src/state/app-state';
 import {
   isSameMethod,
+  modelsOf,
   PRESET_IDS,
   presetSetting,
   STEPPERS,
   sceneOf,
+  withModel,
   withStepper,
 } from '../src/state/setting';
-import { FINEST_EXPLICIT, rowOfSetting, settingOfRow, sweepPlan } from '../src/state/sweep-plan';
+import {
+  FINEST_EXPLICIT,
+  rowOfSetting,
+  settingOfRow,
+  sweepPlan,
+  sweptScene,
+} from '../src/state/sweep-plan';
 
 const start = presetSetting('curtain');
 
@@ -60,6 +68,26 @@ describe('setting', () => {
   });
 });
 
+describe('model', () => {
+  it('is the one choice of a mesh, and springs first for a sheet', () => {
+    expect(modelsOf('obj')).toEqual(['membrane']);
+    expect(presetSetting('obj').model).toBe('membrane');
+    expect(presetSetting('curtain').model).toBe('springs');
+  });
+
+  it('takes a stepper that can run it, and leaves one that can', () => {
+    const xpbd = withStepper(start, 'xpbd');
+    expect(withModel(xpbd, 'membrane')).toMatchObject({ model: 'membrane', stepper: 'implicit' });
+    expect(withModel(withStepper(start, 'rk4'), 'membrane').stepper).toBe('rk4');
+    expect(withModel(xpbd, 'springs').stepper).toBe('xpbd');
+  });
+
+  it('stands in the scene', () => {
+    const scene = sceneOf(withModel(start, 'membrane'));
+    expect(scene.model).toEqual({ elasticity: 'membrane' });
+  });
+});
+
 describe('sweep-plan', () => {
   const settingsOf = (level: number, finest: number) =>
     sweepPlan(start, finest).settings.filter((one) => one['/refinement/level'] === level);
@@ -69,11 +97,20 @@ describe('sweep-plan', () => {
   it('measures every level up to the finest, with every stepper that can keep up', () => {
     expect(settingsOf(3, 3).length).toBeGreaterThan(0);
     expect(settingsOf(4, 3)).toEqual([]);
-    const others = STEPPERS.filter((stepper) => stepper !== 'explicit');
+    const others = ['implicit', 'projective', 'xpbd'];
     for (const level of [0, 1, 2, 3]) {
-      const expected = level <= FINEST_EXPLICIT ? STEPPERS : others;
+      const expected = level <= FINEST_EXPLICIT ? [...others, 'explicit'] : others;
       expect(steppersOf(level)).toEqual(new Set(expected));
     }
+  });
+
+  it('measures a membrane with what can run it', () => {
+    const { scene, settings } = sweepPlan(withModel(start, 'membrane'), 1);
+    expect(scene.model).toEqual({ elasticity: 'membrane' });
+    expect(settings.map((one) => one['/method'].stepper)).toEqual([
+      ...['implicit', 'implicit', 'newton'],
+      ...['implicit', 'implicit', 'newton'],
+    ]);
   });
 
   it('gives explicit as many substeps as each level asks for', () => {
@@ -85,21 +122,24 @@ describe('sweep-plan', () => {
     const rows = sweepPlan(start, 2).settings.map((one) =>
       rowFor(one['/refinement/level'], { ...one['/method'] }),
     );
-    const scene = { preset: start.preset, fabric: start.fabric };
+    const scene = sweptScene(start, null);
     for (const row of rows) {
       const setting = settingOfRow(row, start);
-      expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows, scene }, setting })).toBe(row);
+      expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows, scene }, setting, mesh: null })).toBe(row);
     }
   });
 
-  it('takes no row of another fabric or of a failed run', () => {
+  it('takes no row of another fabric or model, or of a failed run', () => {
     const method = { stepper: 'implicit', step_s: 1 / 60, substeps: 1 };
     const row = rowFor(1, method);
     const setting = settingOfRow(row, start);
-    const other = { ...NO_SWEEP, rows: [row], scene: { preset: start.preset, fabric: 'silk' } };
-    expect(rowOfSetting({ sweep: other, setting })).toBeNull();
+    for (const change of [{ fabric: 'silk' }, { model: 'membrane' as const }]) {
+      const scene = { ...sweptScene(start, null), ...change };
+      const sweep = { ...NO_SWEEP, rows: [row], scene };
+      expect(rowOfSetting({ sweep, setting, mesh: null })).toBeNull();
+    }
     const failed = { ...row, status: 'not_positive_definite' };
-    const scene = { preset: start.preset, fabric: start.fabric };
-    expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows: [failed], scene }, setting })).toBeNull();
+    const sweep = { ...NO_SWEEP, rows: [failed], scene: sweptScene(start, null) };
+    expect(rowOfSetting({ sweep, setting, mesh: null })).toBeNull();
   });
 });

@@ -1,17 +1,28 @@
 import { describe, expect, it } from 'vitest';
 import { fabrics } from '../src/state/fabric-data';
-import { PRESET_IDS, presetSetting, STEPPERS, withStepper } from '../src/state/setting';
+import {
+  canRun,
+  MODELS,
+  modelsOf,
+  PRESET_IDS,
+  presetSetting,
+  STEPPERS,
+  withModel,
+  withStepper,
+} from '../src/state/setting';
 import { decodeLink, encodeLink, type LinkState, slug } from '../src/state/url-codec';
 
 const link: LinkState = {
   setting: {
     preset: 'tablecloth',
     fabric: 'coarse cotton (denim)',
+    model: 'springs',
     level: 3,
     stepper: 'xpbd',
     stepS: 1 / 120,
     substeps: 45,
     iterations: 2,
+    hold: 'highest',
   },
   heat: 'signed',
   heatRange: 2,
@@ -28,7 +39,8 @@ describe('url-codec', () => {
 
   it('keeps every preset, stepper and fabric', () => {
     for (const preset of PRESET_IDS) {
-      for (const stepper of STEPPERS) {
+      const { model } = presetSetting(preset);
+      for (const stepper of STEPPERS.filter((one) => canRun(one, model))) {
         for (const fabric of fabrics) {
           const setting = {
             ...withStepper(presetSetting(preset), stepper),
@@ -40,6 +52,36 @@ describe('url-codec', () => {
         }
       }
     }
+  });
+
+  it('keeps every model that a preset can have', () => {
+    for (const preset of PRESET_IDS) {
+      for (const model of modelsOf(preset)) {
+        const setting = withModel(presetSetting(preset), model);
+        expect(decodeLink(`#${encodeLink({ ...link, setting })}`).link.setting).toEqual(setting);
+      }
+    }
+  });
+
+  it('refuses a stepper that cannot run the model, and a model that the scene cannot have', () => {
+    const membrane = decodeLink('#scene=curtain&model=membrane&stepper=xpbd');
+    expect(membrane.link.setting).toMatchObject({ model: 'membrane', stepper: 'implicit' });
+    expect(membrane.problems.join()).toContain('stepper: expected implicit, explicit, rk4, newton');
+    const mesh = decodeLink('#scene=obj&model=springs');
+    expect(mesh.link.setting).toMatchObject({ preset: 'obj', model: 'membrane' });
+    expect(mesh.problems.join()).toContain(`model: expected membrane, found "${MODELS[0]}"`);
+  });
+
+  it('carries what holds a mesh, whatever its groups are called', () => {
+    const own = presetSetting('obj');
+    for (const hold of ['nothing', 'group:waist & hem, 50 % ü'] as const) {
+      const { link: read, problems } = decodeLink(
+        `#${encodeLink({ ...link, setting: { ...own, hold } })}`,
+      );
+      expect(problems).toEqual([]);
+      expect(read.setting.hold).toBe(hold);
+    }
+    expect(decodeLink('#scene=obj&hold=string').problems).toHaveLength(1);
   });
 
   it('gives the first preset and no problem for an empty link', () => {

@@ -1,10 +1,16 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
-import { BOUND_METHODS, type PleatModule, type RunNumbers } from '../src/sim/wasm-module';
-import { createWorkerCore } from '../src/sim/worker-core';
+import {
+  BOUND_METHODS,
+  type PleatModule,
+  type RunNumbers,
+  type SweepModule,
+} from '../src/sim/wasm-module';
+import { createWorkerCore, runSweep } from '../src/sim/worker-core';
 import { fabricsText } from '../src/state/fabric-data';
 import {
+  canRun,
   PRESET_IDS,
   PRESETS,
   presetSetting,
@@ -12,30 +18,41 @@ import {
   STEPPER_TRAITS,
   STEPPERS,
   sceneOf,
+  withModel,
   withStepper,
 } from '../src/state/setting';
 import { settingOfRow, sweepPlan } from '../src/state/sweep-plan';
 import { createFakeModule } from './support/fake-module';
 
-const wasmFile = new URL('../src/wasm/pleat.wasm', import.meta.url);
-const glueFile = new URL('../src/wasm/pleat.mjs', import.meta.url);
-const hasModule = existsSync(wasmFile);
+type AllModules = PleatModule & SweepModule;
 
-async function loadRealModule(): Promise<PleatModule> {
-  const { default: createPleat } = await import(/* @vite-ignore */ glueFile.href);
-  return createPleat({ wasmBinary: readFileSync(wasmFile) });
+const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
+const hasModule = existsSync(fileOf('pleat.wasm')) && existsSync(fileOf('sweep.wasm'));
+
+async function loadRealModule(): Promise<AllModules> {
+  const create = async (name: string) => {
+    const { default: make } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
+    return make({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
+  };
+  const pleat: PleatModule = await create('pleat');
+  const sweep: SweepModule = await create('sweep');
+  return { ...pleat, ...sweep };
 }
 
 type Sent<Type extends FromWorker['type']> = Extract<FromWorker, { type: Type }>;
 
 /** A core with everything it posted; `take` removes and returns the next message. */
-function serve(module: PleatModule) {
+function serve(module: AllModules) {
   const posted: FromWorker[] = [];
   const core = createWorkerCore(module, (message) => posted.push(message));
   return {
     core,
     posted,
     send: (message: ToWorker) => core.receive(message),
+    sweep: (plan: object) =>
+      runSweep(module, { type: 'sweep', fabricsText, planText: JSON.stringify(plan) }, (message) =>
+        posted.push(message),
+      ),
     take<Type extends FromWorker['type']>(type: Type): Sent<Type> {
       const message = posted.shift();
       if (message?.type !== type) throw new Error(`${type} expected: ${JSON.stringify(message)}`);
@@ -48,7 +65,7 @@ const setting: Setting = { ...presetSetting('curtain'), level: 1 };
 const sceneText = (patch: Partial<Setting> = {}) =>
   JSON.stringify(sceneOf({ ...setting, ...patch }));
 
-function open(module: PleatModule) {
+function open(module: AllModules) {
   const server = serve(module);
   server.send({ type: 'open', fabricsText });
   server.take('ready');
@@ -56,7 +73,16 @@ function open(module: PleatModule) {
   return { ...server, loaded: server.take('loaded') };
 }
 
-const modules: [string, () => Promise<PleatModule>][] = [
+/** Two triangles, upright or level, in a group. */
+function objText(isFlat: boolean, isTextured = false): string {
+  const point = (a: number, b: number) => (isFlat ? `v ${a} 1 ${b}` : `v ${a} ${b} 0`);
+  const points = [point(0, 1), point(0, 0), point(1, 0), point(1, 1)];
+  if (!isTextured) return [...points, 'g hem', 'f 1 2 3', 'f 1 3 4', ''].join('\n');
+  const texture = ['vt 0 0', 'vt 0 1', 'vt 1 1', 'vt 1 0'];
+  return [...points, ...texture, 'g hem', 'f 1/1 2/2 3/3', 'f 1/1 3/3 4/4', ''].join('\n');
+}
+
+const modules: [string, () => Promise<AllModules>][] = [
   ['the stand-in', async () => createFakeModule().module],
 ];
 if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
@@ -120,6 +146,26 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
     });
   });
 
+  it('runs a membrane with every stepper that the page offers for it', async () => {
+    const { send, take } = open(await load());
+    const membrane = withModel({ ...setting, level: 0 }, 'membrane');
+    const possible = STEPPERS.filter((stepper) => canRun(stepper, 'membrane'));
+    expect(possible).not.toContain('xpbd');
+    possible.forEach((stepper, index) => {
+      const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: index });
+      const [, buffer] = take('loaded').buffers;
+      send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
+      expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
+    });
+    for (const stepper of STEPPERS.filter((one) => !possible.includes(one))) {
+      if (_name === 'the stand-in') continue;
+      const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 9 });
+      expect(take('refused').failure.kind).toBe('input');
+    }
+  });
+
   it('says why a scene is refused and keeps the cloth it had', async () => {
     const { send, take, loaded } = open(await load());
     const refusedText = sceneText({ stepper: 'explicit', substeps: 1 });
@@ -163,10 +209,10 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
   });
 
   it('measures a small sweep: every row with speed, error and reference', async () => {
-    const { send, posted } = open(await load());
+    const { sweep, posted } = open(await load());
     const { scene, settings } = sweepPlan(setting, 0);
     const plan = { scene, settings: settings.slice(0, 5), duration_s: 0.1, repeats: 1 };
-    send({ type: 'sweep', planText: JSON.stringify(plan) });
+    sweep(plan);
     const { report } = posted.at(-1) as Sent<'sweepReport'>;
     expect(report.done).toBe(true);
     expect(report.rows).toHaveLength(5);
@@ -185,6 +231,55 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
     const { send, posted } = open(await load());
     send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: new ArrayBuffer(16) });
     expect(posted).toEqual([]);
+  });
+
+  it('reads an OBJ file into a mesh that moves', async () => {
+    const { send, take } = open(await load());
+    send({ type: 'readObj', name: 'two.obj', objText: objText(false), isOwn: true });
+    const { mesh } = take('objRead');
+    expect(mesh).toMatchObject({
+      ...{ name: 'two.obj', isOwn: true, threads: 'down', groups: ['hem'] },
+      ...{ nVertices: 4, nTriangles: 2, low: [0, 0, 0], high: [1, 1, 0] },
+    });
+    for (const hold of ['highest', 'nothing', 'group:hem'] as const) {
+      const text = JSON.stringify(sceneOf({ ...presetSetting('obj'), hold }, mesh));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+      const { buffers } = take('loaded');
+      const [first, buffer] = buffers;
+      send({ type: 'step', count: 3, wantsNumbers: true, request: 2, buffer });
+      const moved = frameViews(take('frame').buffer).positions;
+      const [lowest, before] = [moved[4], frameViews(first).positions[4]];
+      if (_name === 'the stand-in') continue;
+      expect(before).toBe(0);
+      if (hold === 'group:hem') expect(lowest).toBe(0);
+      else expect(lowest).toBeLessThan(0);
+    }
+  });
+
+  it('takes threads from texture coordinates, else downward, or along x on a flat mesh', async () => {
+    const { send, take } = open(await load());
+    const threadsOf = (text: string) => {
+      send({ type: 'readObj', name: 'two.obj', objText: text, isOwn: false });
+      const { mesh } = take('objRead');
+      return { threads: mesh.threads, cloth: JSON.parse(mesh.clothText) };
+    };
+    expect(threadsOf(objText(false)).threads).toBe('down');
+    const { threads, cloth } = threadsOf(objText(true));
+    expect(threads).toBe('along_x');
+    if (_name === 'the stand-in') expect(cloth.mesh.warp_direction).toEqual([1, 0, 0]);
+    else expect(cloth.mesh.warp_directions[1][0]).toBeCloseTo(1, 12);
+    expect(threadsOf(objText(true, true)).threads).toBe('texture');
+  });
+
+  it('names the line of a bad OBJ file and keeps the cloth it had', async () => {
+    const { send, take, loaded } = open(await load());
+    const bad = `${objText(false)}wobble 3\n`;
+    send({ type: 'readObj', name: 'bad.obj', objText: bad, isOwn: true });
+    const { failure } = take('objRefused');
+    expect(failure).toMatchObject({ kind: 'input', where: 'bad.obj: line 8' });
+    expect(failure.what).toContain('expected');
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    expect(take('frame').hasEnded).toBe(false);
   });
 
   it('turns an exception into a refusal', async () => {
@@ -209,10 +304,8 @@ describe('worker-core', () => {
   });
 
   it('runs a sweep to its end, with growing rows', () => {
-    const { send, take, posted } = serve(createFakeModule().module);
-    send({ type: 'open', fabricsText });
-    take('ready');
-    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
+    const { sweep, posted } = serve(createFakeModule().module);
+    sweep(sweepPlan(setting, 1));
     const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
     expect(reports.map((report) => report.rows.length)).toEqual(
       Array.from({ length: 14 }, (_, index) => index + 1),
@@ -221,21 +314,20 @@ describe('worker-core', () => {
   });
 
   it('refuses a sweep with the reason of the module', () => {
-    const { send, take } = serve(createFakeModule().module);
-    send({ type: 'open', fabricsText });
-    take('ready');
+    const { sweep, take } = serve(createFakeModule().module);
     const { scene } = sweepPlan(setting, 0);
-    send({ type: 'sweep', planText: JSON.stringify({ scene, settings: [] }) });
+    sweep({ scene, settings: [] });
     expect(take('refused').failure.where).toBe('/settings');
   });
 
   it('deletes every object of the module', () => {
     const { module, alive } = createFakeModule();
-    const { send, core } = serve(module);
+    const { send, sweep, core } = serve(module);
     send({ type: 'open', fabricsText });
     send({ type: 'open', fabricsText });
-    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
-    expect(alive()).toBe(2);
+    sweep(sweepPlan(setting, 1));
+    send({ type: 'readObj', name: 'two.obj', objText: objText(false), isOwn: true });
+    expect(alive()).toBe(1);
     core.close();
     expect(alive()).toBe(0);
   });
@@ -256,8 +348,8 @@ describe('worker-core with a module that lacks CHOLMOD', () => {
   });
 
   it('sweeps with Eigen, in the reference and in projective, and its rows can be applied', () => {
-    const { send, take, posted } = open(module);
-    send({ type: 'sweep', planText: JSON.stringify(sweepPlan(setting, 1)) });
+    const { send, sweep, take, posted } = open(module);
+    sweep(sweepPlan(setting, 1));
     const { rows } = (posted.at(-1) as Sent<'sweepReport'>).report;
     expect(rows.every((row) => row.reference.description === 'implicit with eigen')).toBe(true);
     const projective = rows.filter((row) => row.method.stepper === 'projective');

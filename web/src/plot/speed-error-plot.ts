@@ -28,6 +28,8 @@ const MARKS: Record<string, string> = {
   projective: 'M-4.2-4.2H4.2V4.2H-4.2Z',
   xpbd: 'M0-5.4L5 3.8H-5Z',
   explicit: 'M0-5.6L5.6 0L0 5.6L-5.6 0Z',
+  rk4: 'M-5-3.4H5L0 5.2Z',
+  newton: 'M-1.7-5H1.7V-1.7H5V1.7H1.7V5H-1.7V1.7H-5V-1.7H-1.7Z',
 };
 
 export function markOf(stepper: string): string {

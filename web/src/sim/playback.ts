@@ -1,8 +1,10 @@
 // Runs the shown cloth: turns changes of the state into messages, and answers into state and frames.
 
+import exampleUrl from '../../../assets/meshes/skirt.obj?url';
 import type { AppState } from '../state/app-state';
 import { fabricsText } from '../state/fabric-data';
-import { type Setting, sceneOf } from '../state/setting';
+import type { ObjMesh } from '../state/obj-mesh';
+import { presetSetting, type Setting, sceneOf } from '../state/setting';
 import type { Store } from '../state/store';
 import { startWorker } from './client';
 import { createPacer } from './pacer';
@@ -43,6 +45,25 @@ export interface Playback {
   grab(vertex: number): void;
   moveGrab(target: Triple): void;
   releaseGrab(): void;
+  /** Shows the visitor's mesh, or says what is wrong with the file while the cloth goes on. */
+  openObj(file: File): Promise<void>;
+}
+
+/** What a load is of. */
+interface Content {
+  setting: Setting;
+  mesh: ObjMesh | null;
+}
+
+function isSameScene(a: Content | null, b: Content): boolean {
+  const isMesh = b.setting.preset === 'obj';
+  return a?.setting.preset === b.setting.preset && (!isMesh || a.mesh === b.mesh);
+}
+
+/** A free mesh has no mesh lines to carry motion along, and tension is another in another model. */
+function canKeepMotion(a: Content | null, b: Content): boolean {
+  const { preset, model } = b.setting;
+  return isSameScene(a, b) && preset !== 'obj' && a?.setting.model === model;
 }
 
 /** One sentence for a failure, with the place in the scene when there is one. */
@@ -79,8 +100,8 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   let isStepping = false;
   let shown: ArrayBuffer | null = null;
   let spare: ArrayBuffer | null = null;
-  let loadedSetting: Setting | null = null;
-  let pendingSetting: Setting | null = null;
+  let loaded: Content | null = null;
+  let pending: Content | null = null;
   let aheadSinceMs: number | null = null; // running to the start time, nothing is shown
   let tickHandle = 0;
   let lastTickMs = 0;
@@ -92,22 +113,54 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
   }
 
-  function load(setting: Setting): void {
-    const { numbers, phase } = store.get();
-    const sameScene = loadedSetting?.preset === setting.preset;
-    const keepMotion = sameScene && phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
-    pendingSetting = setting;
+  function load(): void {
+    const { numbers, phase, setting, mesh } = store.get();
+    pending = { setting, mesh };
+    const isMoving = phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
+    const keepMotion = isMoving && canKeepMotion(loaded, pending);
     aheadSinceMs = null;
     isWaiting = true;
     request += 1;
-    const sceneText = JSON.stringify(sceneOf(setting));
     store.set({ phase: 'loading', held: false, ahead: null });
+    if (setting.preset === 'obj' && !mesh) return void bringExample();
+    const sceneText = JSON.stringify(sceneOf(setting, mesh));
     client.send({ type: 'load', sceneText, keepMotion, request });
   }
 
+  /** The mesh that stands in until there is one of the visitor's. */
+  async function bringExample(): Promise<void> {
+    try {
+      const answer = await fetch(exampleUrl);
+      if (!answer.ok) throw new Error(answer.statusText);
+      client.send({
+        type: 'readObj',
+        name: 'skirt.obj',
+        objText: await answer.text(),
+        isOwn: false,
+      });
+    } catch {
+      if (store.get().setting.preset !== 'obj') return;
+      const sentence =
+        'The example mesh could not be fetched. Check the connection, or bring yours.';
+      store.set({ phase: 'refused', playing: false, problem: { source: 'setting', sentence } });
+    }
+  }
+
+  function receiveMesh(mesh: ObjMesh): void {
+    const { setting, mesh: present } = store.get();
+    if (mesh.isOwn) {
+      const start = setting.preset === 'obj' ? setting : presetSetting('obj');
+      const patch = { startS: 0, playing: false, invited: true };
+      return store.set({ mesh, setting: { ...start, level: 0, hold: 'highest' }, ...patch });
+    }
+    if (present) return; // the visitor was quicker
+    store.set({ mesh });
+    if (setting.preset === 'obj') load();
+  }
+
   function receiveLoaded(message: LoadedMessage): void {
-    const isNewScene = loadedSetting?.preset !== pendingSetting?.preset;
-    loadedSetting = pendingSetting;
+    const isNewScene = !pending || !isSameScene(loaded, pending);
+    loaded = pending;
     isWaiting = false;
     isStepping = false;
     [shown, spare] = message.buffers;
@@ -118,7 +171,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
     view.showFrame(shown);
     const { problem, startS } = store.get();
-    const isSolved = problem?.source === 'setting' || problem?.source === 'run';
+    const isSolved = problem !== null && ['setting', 'run', 'file'].includes(problem.source);
     store.set({
       phase: 'ready',
       summary: message.summary,
@@ -187,7 +240,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   function receive(message: FromWorker): void {
     switch (message.type) {
       case 'ready':
-        return load(store.get().setting);
+        return load();
       case 'broken':
         return broken(message.reason);
       case 'loaded':
@@ -196,6 +249,10 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
       case 'frame':
         if (message.request === request) receiveFrame(message);
         return;
+      case 'objRead':
+        return receiveMesh(message.mesh);
+      case 'objRefused':
+        return store.set({ problem: { source: 'file', sentence: sentenceOf(message.failure) } });
       case 'refused':
         if (message.request >= 0 && message.request !== request) return;
         isWaiting = false;
@@ -246,7 +303,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   }
 
   store.subscribe((state, previous) => {
-    if (state.setting !== previous.setting && state.phase !== 'broken') load(state.setting);
+    if (state.setting !== previous.setting && state.phase !== 'broken') load();
     if (state.playing && !previous.playing) start();
   });
   client.send({ type: 'open', fabricsText });
@@ -264,13 +321,14 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
       if (store.get().phase === 'ready' && !isWaiting && !isStepping) send(1);
     },
     reset() {
-      if (store.get().phase === 'broken' || !loadedSetting) return;
+      const { phase, setting } = store.get();
+      if (phase === 'broken' || !loaded) return;
       aheadSinceMs = null;
       store.set({ playing: false, held: false, phase: 'loading', startS: 0, ahead: null });
-      if (loadedSetting !== store.get().setting) return load(store.get().setting);
+      if (loaded.setting !== setting) return load();
       request += 1;
       isWaiting = true;
-      pendingSetting = loadedSetting;
+      pending = loaded;
       client.send({ type: 'reset', request });
     },
     grab(vertex) {
@@ -281,6 +339,17 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     releaseGrab() {
       client.send({ type: 'releaseGrab' });
       store.set({ held: false });
+    },
+    async openObj(file) {
+      const { name } = file;
+      const refuse = (reason: string) =>
+        store.set({ problem: { source: 'file', sentence: `${name} ${reason}` } });
+      if (!/\.obj$/i.test(name)) return refuse('is no OBJ file: the name does not end in .obj.');
+      try {
+        client.send({ type: 'readObj', name, objText: await file.text(), isOwn: true });
+      } catch {
+        refuse('could not be read.');
+      }
     },
   };
 }

@@ -27,10 +27,13 @@ export interface Surroundings {
   setTheme(colours: { floor: string; grid: string; body: string }): void;
 }
 
-/** Half the side of the grid [m], and its line spacing [m]. */
+/** Half the side of the grid, and its line spacing: metres, or a power of ten of them [m]. */
 const GRID_REACH_M = 4;
 const GRID_SPACING_M = 0.5;
 const LINE_PIECES = 16;
+
+/** How far along its normal a surface looks for its shadow, in a scene of a metre [m]. */
+const NORMAL_BIAS = 0.012;
 
 /** Alpha that fades to nothing at the edge of the floor, with distance from its middle [m]. */
 function fade(distance: number): number {
@@ -117,7 +120,6 @@ export function createSurroundings(): Surroundings {
   key.shadow.mapSize.set(1024, 1024);
   key.shadow.radius = 4;
   key.shadow.bias = -0.0004;
-  key.shadow.normalBias = 0.012;
   object.add(floor, sky, key, key.target);
 
   const bodyMaterial = new MeshStandardMaterial({ roughness: 0.75 });
@@ -149,6 +151,9 @@ export function createSurroundings(): Surroundings {
       });
     },
     frame(centre, radius, height) {
+      const scale = 10 ** Math.round(Math.log10(radius));
+      floor.scale.setScalar(scale);
+      key.shadow.normalBias = NORMAL_BIAS * scale;
       floor.position.set(centre.x, height, centre.z);
       key.position.set(centre.x + 1.2 * radius, centre.y + 3 * radius, centre.z + 1.6 * radius);
       key.target.position.copy(centre);

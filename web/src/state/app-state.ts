@@ -1,12 +1,14 @@
 // Everything the page shows. Only this and the frames travel between its parts.
 import type { BenchRow, Collider, RunNumbers, SceneSummary } from '../sim/wasm-module';
+import type { ObjMesh } from './obj-mesh';
+import type { SweptScene } from './sweep-plan';
 import type { HeatMap, LinkState } from './url-codec';
 
 export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
 
 export interface Problem {
-  /** Who has to act: the link, the settings, the run's numbers, or the browser itself. */
-  source: 'link' | 'setting' | 'run' | 'browser' | 'sweep';
+  /** Who has to act: the link, the settings, a file, the run's numbers, or the browser itself. */
+  source: 'link' | 'setting' | 'file' | 'run' | 'browser' | 'sweep';
   sentence: string;
 }
 
@@ -36,8 +38,8 @@ export interface SweepState {
   rows: BenchRow[];
   /** Indices into `rows`. */
   front: number[];
-  /** The scene the rows are of: a row of another scene or fabric says nothing about this one. */
-  scene: { preset: string; fabric: string } | null;
+  /** The scene the rows are of. */
+  scene: SweptScene | null;
   /** The cloth was running at the same time, so that the times are too long. */
   disturbed: boolean;
 }
@@ -51,6 +53,8 @@ export interface AppState extends LinkState {
   held: boolean;
   /** Nobody has grabbed or played yet: the invitation is shown. */
   invited: boolean;
+  /** What "Your OBJ" shows: the visitor's mesh or the example, null until one is there. */
+  mesh: ObjMesh | null;
   summary: SceneSummary | null;
   numbers: RunNumbers | null;
   timing: StepTiming | null;
@@ -85,6 +89,7 @@ export function initialState(link: LinkState, problems: string[]): AppState {
     speed: 1,
     held: false,
     invited: true,
+    mesh: null,
     summary: null,
     numbers: null,
     timing: null,

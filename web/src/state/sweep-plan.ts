@@ -1,8 +1,10 @@
 // What one press of the sweep button measures, and how its rows map back to settings.
 import type { BenchRow } from '../sim/wasm-module';
 import type { AppState } from './app-state';
+import type { ObjMesh } from './obj-mesh';
 import {
   isSameMethod,
+  type Model,
   type Setting,
   STABLE_SUBSTEPS,
   STEPPERS,
@@ -22,7 +24,7 @@ export interface PlannedMethod {
 const DURATION_S = 1;
 
 /** Two costs for each stepper, so that every level shows which way its knob moves it. */
-const METHODS: readonly PlannedMethod[] = [
+const SPRING_METHODS: readonly PlannedMethod[] = [
   { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
   { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
   { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5 },
@@ -31,6 +33,15 @@ const METHODS: readonly PlannedMethod[] = [
   { stepper: 'xpbd', step_s: 1 / 60, substeps: 60, iterations: 1 },
   { stepper: 'explicit', step_s: 1 / 60, substeps: STABLE_SUBSTEPS },
 ];
+
+const METHODS: Record<Model, readonly PlannedMethod[]> = {
+  springs: SPRING_METHODS,
+  membrane: [
+    { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
+    { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
+    { stepper: 'newton', step_s: 1 / 60, substeps: 1 },
+  ],
+};
 
 /**
  * The finest level that explicit is measured at. Each level has four times the vertices and asks
@@ -51,16 +62,20 @@ export interface SweepPlan {
   duration_s: number;
 }
 
-/** Levels 0 to `finest` of the shown preset and fabric, each with every method that can keep up. */
-export function sweepPlan(setting: Setting, finest: number): SweepPlan {
+/** Levels 0 to `finest` of the shown scene, each with every method that can keep up. */
+export function sweepPlan(
+  setting: Setting,
+  finest: number,
+  mesh: ObjMesh | null = null,
+): SweepPlan {
   const settings: PlannedSetting[] = [];
   for (let level = 0; level <= finest; ++level) {
-    for (const method of METHODS) {
+    for (const method of METHODS[setting.model]) {
       if (method.stepper === 'explicit' && level > FINEST_EXPLICIT) continue;
       settings.push({ '/refinement/level': level, '/method': method });
     }
   }
-  return { scene: sceneOf(setting), settings, duration_s: DURATION_S };
+  return { scene: sceneOf(setting, mesh), settings, duration_s: DURATION_S };
 }
 
 /** True for a run that came to its end: only such a row has a time and an error. */
@@ -82,12 +97,30 @@ export function settingOfRow(row: BenchRow, present: Setting): Setting {
   };
 }
 
+/** What a sweep is of: a row of another scene, fabric or model says nothing about this one. */
+export interface SweptScene extends Pick<Setting, 'preset' | 'fabric' | 'model' | 'hold'> {
+  mesh: ObjMesh | null;
+}
+
+export function sweptScene(setting: Setting, mesh: ObjMesh | null): SweptScene {
+  const { preset, fabric, model, hold } = setting;
+  return { preset, fabric, model, hold, mesh: preset === 'obj' ? mesh : null };
+}
+
+function isOf(swept: SweptScene | null, shown: SweptScene): boolean {
+  return (
+    swept !== null &&
+    (Object.keys(shown) as (keyof SweptScene)[]).every((key) => swept[key] === shown[key])
+  );
+}
+
 /** The row of the last sweep that was measured with just the shown setting, if there is one. */
 export function rowOfSetting({
   sweep,
   setting,
-}: Pick<AppState, 'sweep' | 'setting'>): BenchRow | null {
-  if (sweep.scene?.preset !== setting.preset || sweep.scene.fabric !== setting.fabric) return null;
+  mesh,
+}: Pick<AppState, 'sweep' | 'setting' | 'mesh'>): BenchRow | null {
+  if (!isOf(sweep.scene, sweptScene(setting, mesh))) return null;
   const found = sweep.rows.find((row) => {
     const measured = settingOfRow(row, setting);
     return measured.level === setting.level && isSameMethod(measured, setting);

@@ -1,11 +1,14 @@
 // The state that a link carries, to text and back. A part that cannot be read gives its default
 // and one sentence; it never stops the page.
 import { fabrics } from './fabric-data';
+import type { Hold } from './obj-mesh';
 import {
   type Count,
+  canRun,
   LEVELS,
   MOST_ITERATIONS,
   MOST_SUBSTEPS,
+  modelsOf,
   PRESET_IDS,
   type PresetId,
   presetSetting,
@@ -13,6 +16,7 @@ import {
   STEPPER_TRAITS,
   STEPPERS,
   STEPS_PER_SECOND,
+  withModel,
   withStepper,
 } from './setting';
 
@@ -95,12 +99,18 @@ function startTime(text: string): number | undefined {
   return value <= LATEST_START_S ? value : undefined;
 }
 
+function holdIn(text: string): Hold | undefined {
+  if (text === 'highest' || text === 'nothing') return text;
+  return text.startsWith('group:') ? (text as Hold) : undefined;
+}
+
 /** The part of a link after `#`. */
 export function encodeLink(link: LinkState): string {
   const { setting } = link;
   const parts: [string, string][] = [
     ['scene', setting.preset],
     ['fabric', slug(setting.fabric)],
+    ['model', setting.model],
     ['level', String(setting.level)],
     ['stepper', setting.stepper],
     ['step', `1/${Math.round(1 / setting.stepS)}`],
@@ -111,6 +121,7 @@ export function encodeLink(link: LinkState): string {
     ['edges', link.edges ? 'on' : 'off'],
     ['start', String(link.startS)],
   ];
+  if (setting.preset === 'obj') parts.push(['hold', encodeURIComponent(setting.hold)]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
 }
 
@@ -119,9 +130,13 @@ export function decodeLink(hash: string): { link: LinkState; problems: string[] 
   const text = hash.replace(/^#/, '');
   const { take, finish } = createReader(new URLSearchParams(text));
   const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
+  const models = modelsOf(preset);
   const own = presetSetting(preset);
-  const stepper = take('stepper', own.stepper, STEPPERS.join(', '), oneOf(STEPPERS));
-  const start = withStepper(own, stepper);
+  const model = take('model', own.model, models.join(', '), oneOf(models));
+  const usual = withModel(own, model);
+  const steppers = STEPPERS.filter((stepper) => canRun(stepper, model));
+  const stepper = take('stepper', usual.stepper, steppers.join(', '), oneOf(steppers));
+  const start = withStepper(usual, stepper);
   const takeCount = (count: Count, most: number) => {
     const least = STEPPER_TRAITS[stepper].counts[count]?.least ?? 1;
     return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
@@ -131,11 +146,13 @@ export function decodeLink(hash: string): { link: LinkState; problems: string[] 
     fabric: take('fabric', own.fabric, 'the name of a fabric', (text) => {
       return fabrics.find((fabric) => slug(fabric.name_en) === text)?.name_en;
     }),
+    model,
     level: take('level', own.level, '0 to 4', oneOf(LEVELS)),
     stepper,
     stepS: take('step', start.stepS, '1/30 to 1/960', stepFraction),
     substeps: takeCount('substeps', MOST_SUBSTEPS),
     iterations: takeCount('iterations', MOST_ITERATIONS),
+    hold: take('hold', own.hold, 'highest, nothing or group:NAME', holdIn),
   };
   const heat = take('heat', 'off', HEAT_MAPS.join(', '), oneOf(HEAT_MAPS));
   const range = take<LinkState['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>

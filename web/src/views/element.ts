@@ -41,11 +41,18 @@ export function field(
   );
 }
 
+export interface Choice<Value> {
+  control: HTMLSelectElement;
+  select(value: Value): void;
+  /** Disables the options for which there is a reason, and names it behind their titles. */
+  limit(reason: (value: Value) => string | null): void;
+}
+
 /** A choice of named values. `onChoice` gets the chosen value. */
 export function choice<Value extends string | number>(
   options: readonly { value: Value; title: string }[],
   onChoice: (value: Value) => void,
-): { control: HTMLSelectElement; select(value: Value): void } {
+): Choice<Value> {
   const control = element('select', {
     change: () => {
       const chosen = options[control.selectedIndex];
@@ -57,6 +64,15 @@ export function choice<Value extends string | number>(
     control,
     select(value) {
       control.selectedIndex = options.findIndex((option) => option.value === value);
+    },
+    limit(reason) {
+      options.forEach(({ value, title }, index) => {
+        const why = reason(value);
+        const option = control.options[index];
+        if (!option) return;
+        option.disabled = why !== null;
+        setText(option, why === null ? title : `${title}: ${why}`);
+      });
     },
   };
 }

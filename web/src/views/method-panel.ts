@@ -1,15 +1,21 @@
-// How it is computed: level, stepper, step, and the one count that the stepper listens to.
+// How it is computed: model, level, stepper, step, and the one count that the stepper listens to.
 import type { AppState } from '../state/app-state';
 import {
   COUNTS,
   type Count,
+  canRun,
   LEVELS,
+  MODEL_TRAITS,
+  MODELS,
   MOST_ITERATIONS,
   MOST_SUBSTEPS,
+  type Model,
+  modelsOf,
   type Setting,
   STEPPER_TRAITS,
   STEPPERS,
   STEPS_PER_SECOND,
+  withModel,
   withStepper,
 } from '../state/setting';
 import { type Store, watch } from '../state/store';
@@ -42,6 +48,42 @@ function levelPicker(onChoice: (level: number) => void) {
       inputs.forEach((input, index) => {
         input.checked = index === level;
       });
+    },
+  };
+}
+
+/** Each model with its sentence, or with why this scene cannot have it. */
+function modelPicker(onChoice: (model: Model) => void) {
+  const lines = MODELS.map((model) => {
+    const note = element('span', { class: 'note', id: `model-${model}` });
+    const input = element('input', {
+      type: 'radio',
+      name: 'model',
+      'aria-describedby': note.id,
+      change: () => onChoice(model),
+    });
+    const label = element('label', {}, input, MODEL_TRAITS[model].title);
+    return { model, input, note, line: element('div', { class: 'option' }, label, note) };
+  });
+  const group = element(
+    'fieldset',
+    { class: 'field' },
+    element('legend', {}, 'Model'),
+    ...lines.map(({ line }) => line),
+  );
+  return {
+    group,
+    show({ preset, model: chosen }: Setting) {
+      const possible = modelsOf(preset);
+      for (const { model, input, note } of lines) {
+        const isPossible = possible.includes(model);
+        input.checked = model === chosen;
+        input.disabled = !isPossible;
+        setText(
+          note,
+          isPossible ? MODEL_TRAITS[model].meaning : 'Springs need the threads of a sheet.',
+        );
+      }
     },
   };
 }
@@ -85,6 +127,9 @@ export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): 
     store.set({ setting: { ...store.get().setting, ...patch } });
   }
 
+  const model = modelPicker((chosen) =>
+    store.set({ setting: withModel(store.get().setting, chosen) }),
+  );
   const level = levelPicker((chosen) => change({ level: chosen }));
   const meshNote = element('p', { class: 'note' });
   const stepper = choice(
@@ -108,6 +153,7 @@ export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): 
     element(
       'section',
       { 'aria-label': 'Method' },
+      model.group,
       level.group,
       meshNote,
       field('Stepper', stepper.control, stepperNote),
@@ -118,7 +164,9 @@ export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): 
 
   const stopSetting = watch(store, ['setting'], ({ setting }) => {
     const traits = STEPPER_TRAITS[setting.stepper];
+    model.show(setting);
     level.select(setting.level);
+    stepper.limit((value) => (canRun(value, setting.model) ? null : 'needs springs'));
     stepper.select(setting.stepper);
     step.select(Math.round(1 / setting.stepS));
     const { substeps, iterations } = traits.counts;
@@ -128,14 +176,16 @@ export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): 
   });
   const stopSummary = watch(store, ['summary'], ({ summary, setting }) => {
     if (!summary) return;
-    const { n_vertices, n_springs, n_bends, built, left_out, notes } = summary;
-    const isAutomatic = setting.stepper === 'explicit' && setting.substeps === 0;
+    const { n_vertices, n_triangles, n_springs, n_bends, built, left_out, notes } = summary;
+    const isAutomatic = setting.substeps === 0;
     const substeps = isAutomatic ? ` One step takes ${summary.substeps} substeps.` : '';
+    const parts =
+      n_springs > 0 ? `${n_springs} springs, ${n_bends} bends` : `${n_triangles} triangles`;
     setText(
       meshNote,
-      `${n_vertices} vertices, ${n_springs} springs, ${n_bends} bends. Each level halves the mesh size.${substeps}`,
+      `${n_vertices} vertices, ${parts}. Each level halves the mesh size.${substeps}`,
     );
-    const parts = [
+    const needs = [
       built.length > 0 ? `Built: ${built.join(', ')}.` : '',
       left_out.length > 0
         ? `Left out, because nothing here asks for it: ${left_out.join(', ')}.`
@@ -143,7 +193,7 @@ export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): 
       ...(notes ?? []),
       `One step is ${stepTitle(setting.stepS)}.`,
     ];
-    setText(builtNote, parts.filter((part) => part !== '').join(' '));
+    setText(builtNote, needs.filter((part) => part !== '').join(' '));
   });
   return () => {
     stopSetting();

@@ -73,7 +73,7 @@ const ITEMS: readonly Item[] = [
   {
     title: 'Stretch',
     width: 'narrow',
-    meaning: 'Largest and root-mean-square change of length of the springs, now.',
+    meaning: 'Largest and root-mean-square change of length of the threads, now.',
     text: ({ numbers }) => (numbers ? percent(numbers.largest_stretch) : '–'),
     detail: ({ numbers }) => (numbers ? `RMS ${percent(numbers.rms_stretch)}` : ''),
   },
@@ -90,7 +90,7 @@ const ITEMS: readonly Item[] = [
     width: 'narrow',
     meaning: 'Points whose motion is computed.',
     text: ({ summary }) => (summary ? String(summary.n_vertices) : '–'),
-    detail: ({ summary }) => (summary ? `${summary.n_springs} springs` : ''),
+    detail: ({ summary }) => (summary ? `${summary.n_triangles} faces` : ''),
   },
   {
     title: 'Fabric',
@@ -120,7 +120,18 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>):
   parent.append(element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)));
   return watch(
     store,
-    ['numbers', 'timing', 'summary', 'phase', 'playing', 'ahead', 'pace', 'sweep', 'setting'],
+    [
+      'numbers',
+      'timing',
+      'summary',
+      'phase',
+      'playing',
+      'ahead',
+      'pace',
+      'sweep',
+      'setting',
+      'mesh',
+    ],
     (state) => {
       for (const { item, value, detail } of cells) {
         setText(value, item.text(state));

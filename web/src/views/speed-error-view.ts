@@ -1,21 +1,32 @@
 // The sweep's chart with its table beside it; a chosen point becomes the shown setting.
 import { createSpeedErrorPlot, markOf } from '../plot/speed-error-plot';
 import { createSpeedErrorTable } from '../plot/speed-error-table';
+import type { BenchRow } from '../sim/wasm-module';
 import type { AppState } from '../state/app-state';
-import { PRESET_IDS, PRESETS, STEPPER_TRAITS, STEPPERS } from '../state/setting';
+import { PRESETS, STEPPER_TRAITS, STEPPERS } from '../state/setting';
 import { type Store, watch } from '../state/store';
 import { hasFinished, rowOfSetting, settingOfRow } from '../state/sweep-plan';
 import { element, setText } from './element';
 
-function legend(): HTMLElement {
+/** The marks of the steppers that have a row. */
+function createLegend() {
   const list = element('ul', { class: 'marks' });
-  for (const stepper of STEPPERS) {
+  const items = STEPPERS.map((stepper) => {
     const item = element('li', { class: `point-${stepper}` });
     item.innerHTML = `<svg viewBox="-7 -7 14 14" aria-hidden="true"><path class="point-mark" d="${markOf(stepper)}"/></svg>`;
     item.append(STEPPER_TRAITS[stepper].title);
-    list.append(item);
-  }
-  return list;
+    return item;
+  });
+  list.append(...items);
+  return {
+    list,
+    update(rows: BenchRow[]) {
+      STEPPERS.forEach((stepper, index) => {
+        const item = items[index];
+        if (item) item.hidden = !rows.some((row) => row.method.stepper === stepper);
+      });
+    },
+  };
 }
 
 /** What the numbers are, and how far to trust them. */
@@ -39,9 +50,9 @@ export function createSpeedErrorView(parent: HTMLElement, store: Store<AppState>
     const { sweep, setting } = store.get();
     const row = sweep.rows[index];
     if (!row || !sweep.scene) return;
-    const { fabric } = sweep.scene;
-    const preset = PRESET_IDS.find((id) => id === sweep.scene?.preset) ?? setting.preset;
-    store.set({ setting: settingOfRow(row, { ...setting, preset, fabric }) });
+    const { mesh, ...swept } = sweep.scene;
+    const content = { setting: settingOfRow(row, { ...setting, ...swept }) };
+    store.set(mesh ? { ...content, mesh } : content);
   }
 
   const heading = element('h2', {}, 'Speed and error');
@@ -53,7 +64,8 @@ export function createSpeedErrorView(parent: HTMLElement, store: Store<AppState>
   const figure = element('figure', { class: 'chart' });
   const plot = createSpeedErrorPlot(figure, use);
   const note = element('figcaption');
-  figure.append(legend(), note);
+  const legend = createLegend();
+  figure.append(legend.list, note);
   const tableBox = element('div', {
     class: 'table-box',
     tabindex: 0,
@@ -70,8 +82,10 @@ export function createSpeedErrorView(parent: HTMLElement, store: Store<AppState>
     parent.hidden = !state.sweepOpen;
     if (!state.sweepOpen) return;
     const { sweep } = state;
-    const preset = PRESET_IDS.find((id) => id === sweep.scene?.preset);
-    const scene = preset ? `: ${PRESETS[preset].title}, ${sweep.scene?.fabric}` : '';
+    const { scene: swept } = sweep;
+    const scene = swept
+      ? `: ${swept.mesh?.name ?? PRESETS[swept.preset].title}, ${swept.fabric}`
+      : '';
     setText(heading, `Speed and error${scene}`);
     const row = rowOfSetting(state);
     const content = {
@@ -84,6 +98,7 @@ export function createSpeedErrorView(parent: HTMLElement, store: Store<AppState>
     const text = JSON.stringify(content);
     if (text === drawn) return;
     drawn = text;
+    legend.update(sweep.rows);
     plot.update(content);
     table.update(content);
   });

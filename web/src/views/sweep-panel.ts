@@ -25,6 +25,11 @@ export function createSweepPanel(
     finest = level;
   });
   levels.select(finest);
+  const explicitNote = element(
+    'p',
+    { class: 'note' },
+    `Explicit takes part up to level ${FINEST_EXPLICIT}. Its stable substeps cost sixteen times as much a level: fine cotton at level 2 takes about ten minutes.`,
+  );
   const start = element(
     'button',
     { type: 'button', class: 'wide', click: () => sweep.start(finest) },
@@ -52,11 +57,7 @@ export function createSweepPanel(
         'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
       ),
       field('Levels', levels.control),
-      element(
-        'p',
-        { class: 'note' },
-        `Explicit takes part up to level ${FINEST_EXPLICIT}. Its stable substeps cost sixteen times as much a level: fine cotton at level 2 takes about ten minutes.`,
-      ),
+      explicitNote,
       start,
       cancel,
       progress,
@@ -64,7 +65,8 @@ export function createSweepPanel(
       open,
     ),
   );
-  return watch(store, ['sweep', 'sweepOpen', 'phase'], (state) => {
+  return watch(store, ['sweep', 'sweepOpen', 'phase', 'setting'], (state) => {
+    explicitNote.hidden = state.setting.model !== 'springs';
     const { phase } = state.sweep;
     const isRunning = phase === 'running';
     start.hidden = isRunning;

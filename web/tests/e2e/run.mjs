@@ -50,7 +50,7 @@ async function visit(hash, work, options) {
   }
 }
 
-for (const preset of ['curtain', 'tablecloth', 'swinging-sheet']) {
+for (const preset of ['curtain', 'tablecloth', 'swinging-sheet', 'obj']) {
   await check(`${preset}: loads still, then moves, in positions and in pixels`, () =>
     visit(`#scene=${preset}`, async (page) => {
       const [before, still] = [await positionsOf(page), await picture(page)];
@@ -223,6 +223,135 @@ await check('keys play, step, reset, turn, take and let go, only with the stage 
   }),
 );
 
+/** A square cloth of `size` metres that stands upright, in a text of two triangles a cell. */
+function squareObj(size, cells = 6) {
+  const at = (row, column) => row * (cells + 1) + column + 1;
+  const lines = [];
+  for (let row = 0; row <= cells; ++row)
+    for (let column = 0; column <= cells; ++column)
+      lines.push(`v ${(size * column) / cells} ${size * (2 - row / cells)} 0`);
+  for (let row = 0; row < cells; ++row)
+    for (let column = 0; column < cells; ++column) {
+      const [a, b, c, d] = [
+        at(row, column),
+        at(row + 1, column),
+        at(row + 1, column + 1),
+        at(row, column + 1),
+      ];
+      lines.push(`f ${a} ${b} ${c}`, `f ${a} ${c} ${d}`);
+    }
+  return `${lines.join('\n')}\n`;
+}
+
+/** Drops a file on the page, as a visitor's hand does. */
+async function drop(page, name, text) {
+  const transfer = await page.evaluateHandle(
+    ([fileName, content]) => {
+      const made = new DataTransfer();
+      made.items.add(new File([content], fileName));
+      return made;
+    },
+    [name, text],
+  );
+  await page.dispatchEvent('canvas', 'dragover', { dataTransfer: transfer });
+  await page.dispatchEvent('canvas', 'drop', { dataTransfer: transfer });
+}
+
+await check('an OBJ file, chosen or dropped, becomes the cloth, and stays over other scenes', () =>
+  visit('#scene=obj', async (page) => {
+    expectThat((await stateOf(page)).mesh.name === 'skirt.obj', 'the skirt is not shown');
+    await page.getByLabel('OBJ file').setInputFiles({
+      name: 'banner.obj',
+      mimeType: 'model/obj',
+      buffer: Buffer.from(squareObj(1)),
+    });
+    await until(page, (state) => state.mesh.name === 'banner.obj' && state.phase === 'ready');
+    expectThat((await positionsOf(page)).length === 3 * 49, 'it has other vertices');
+    await choice(page, 'Scene').selectOption({ label: 'Curtain' });
+    await isReady(page);
+    await drop(page, 'small.obj', squareObj(0.01, 4));
+    await until(page, (state) => state.mesh.name === 'small.obj' && state.phase === 'ready');
+    const note = await page.locator('.mesh').textContent();
+    expectThat(/threads run downward/.test(note) && /no link carries it/.test(note), note);
+    await choice(page, 'Scene').selectOption({ label: 'Tablecloth on a ball' });
+    await isReady(page);
+    await choice(page, 'Scene').selectOption({ label: 'Your OBJ' });
+    await isReady(page);
+    expectThat((await stateOf(page)).mesh.name === 'small.obj', 'it is gone');
+  }),
+);
+
+for (const size of [0.01, 100]) {
+  await check(`a mesh of ${size} m fills the picture as one of a metre does, and moves`, () =>
+    visit('#scene=obj', async (page) => {
+      const spanOnScreen = async () => {
+        const [a, b] = await page.evaluate(() => [0, 48].map((v) => window.pleat.project(v)));
+        return Math.hypot(a.x - b.x, a.y - b.y);
+      };
+      await drop(page, 'metre.obj', squareObj(1));
+      await until(page, (state) => state.mesh.name === 'metre.obj' && state.phase === 'ready');
+      await picture(page);
+      const expected = await spanOnScreen();
+      await drop(page, 'scaled.obj', squareObj(size));
+      await until(page, (state) => state.mesh.name === 'scaled.obj' && state.phase === 'ready');
+      expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
+      const span = await spanOnScreen();
+      expectThat(Math.abs(span / expected - 1) < 0.01, `${span} px instead of ${expected} px`);
+      const before = await positionsOf(page);
+      await choice(page, 'Held by').selectOption({ label: 'Nothing' });
+      await isReady(page);
+      await button(page, 'Play').click();
+      await until(page, (state) => state.numbers.time_s > 0.2);
+      const move = largestMove(before, await positionsOf(page));
+      expectThat(move > 0.001 * size, `it moved ${move} m`);
+    }),
+  );
+}
+
+await check('a bad OBJ file is a sentence with its line, and the cloth goes on', () =>
+  visit('#scene=tablecloth&level=1', async (page) => {
+    await button(page, 'Play').click();
+    await until(page, (state) => state.numbers.time_s > 0.1);
+    await drop(page, 'torn.obj', `${squareObj(1)}f 1 2 999\n`);
+    const alert = page.getByRole('alert');
+    await alert.waitFor();
+    const sentence = await alert.textContent();
+    expectThat(/torn\.obj: line 122: expected/.test(sentence), `it says: ${sentence}`);
+    const { setting, numbers, phase } = await stateOf(page);
+    expectThat(setting.preset === 'tablecloth' && phase === 'ready', 'the scene is another');
+    await until(page, (state) => state.playing && state.numbers.time_s > 0.3);
+    expectThat(numbers.time_s > 0.1, 'it started anew');
+    await button(page, 'Dismiss').click();
+    await drop(page, 'shirt.stl', 'solid');
+    await until(page, (state) => /no OBJ file/.test(state.problem?.sentence));
+  }),
+);
+
+await check('the model changes, disables what cannot run it, and stands in the link', () =>
+  visit('#scene=curtain&level=0&stepper=xpbd', async (page) => {
+    await page.getByLabel('Membrane and fitted bending').check();
+    await isReady(page);
+    const { setting, summary } = await stateOf(page);
+    expectThat(setting.stepper === 'implicit' && summary.n_springs === 0, 'springs are left');
+    const xpbd = choice(page, 'Stepper').locator('option', { hasText: 'XPBD' });
+    expectThat(await xpbd.isDisabled(), 'XPBD can be chosen');
+    expectThat(/needs springs/.test(await xpbd.textContent()), 'no reason is given');
+    for (const stepper of ['Newton (exact, slow)', 'Runge-Kutta 4']) {
+      await choice(page, 'Stepper').selectOption({ label: stepper });
+      await isReady(page);
+      await button(page, 'Step').click();
+      await until(page, (state) => state.numbers.step > 0 && state.problem === null);
+    }
+    await page.reload();
+    await isReady(page);
+    const after = (await stateOf(page)).setting;
+    expectThat(after.model === 'membrane' && after.stepper === 'rk4', JSON.stringify(after));
+    await choice(page, 'Scene').selectOption({ label: 'Your OBJ' });
+    await isReady(page);
+    expectThat(await page.getByLabel('Springs', { exact: true }).isDisabled(), 'mesh of springs');
+  }),
+);
+
 await check('heat map: legend with unit and ends, pixels change', () =>
   visit('#scene=swinging-sheet&level=1', async (page) => {
     const still = await picture(page);
@@ -253,12 +382,12 @@ await check('fabric, level and stepper change while it moves, and the motion goe
       (await stateOf(page)).summary.n_vertices > before.n_vertices,
       'the mesh is the same',
     );
-    for (const stepper of ['Projective', 'XPBD', 'Explicit']) {
+    for (const stepper of ['Projective', 'XPBD', 'Explicit', 'Runge-Kutta 4']) {
       await change(() => choice(page, 'Stepper').selectOption({ label: stepper }));
     }
     const { problem, setting } = await stateOf(page);
     expectThat(problem === null, `problem: ${problem?.sentence}`);
-    expectThat(setting.fabric === 'silk' && setting.stepper === 'explicit', 'wrong setting');
+    expectThat(setting.fabric === 'silk' && setting.stepper === 'rk4', 'wrong setting');
   }),
 );
 

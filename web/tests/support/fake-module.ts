@@ -6,6 +6,8 @@ import type {
   PleatModule,
   SceneHandle,
   SimulationHandle,
+  SweepModule,
+  Triple,
 } from '../../src/sim/wasm-module';
 
 /** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
@@ -241,9 +243,33 @@ function row(level: number, method: BenchRow['method'], reference: string): Benc
   };
 }
 
+const ORIGIN: Triple = [0, 0, 0];
+
+/** Knows positions, names of groups, and whether there are texture coordinates. */
+function fakeObj(text: string, meshText: string): string {
+  const lines = text.split('\n');
+  const bad = lines.findIndex((line) => !/^(v|vt|f|g) |^$/.test(line));
+  const { obj, warp_direction } = JSON.parse(meshText) as { obj: string; warp_direction: Triple };
+  if (bad >= 0) return refuse(`${obj}: line ${bad + 1}`, 'expected a statement of OBJ');
+  const positions = lines
+    .filter((line) => line.startsWith('v '))
+    .map((line) => line.slice(2).split(' ').map(Number) as Triple);
+  const ends = (pick: (...values: number[]) => number) =>
+    ORIGIN.map((_, axis) => pick(...positions.map((position) => position[axis] ?? 0)));
+  return ok({
+    cloth: { mesh: { positions_m: positions, warp_direction } },
+    groups: lines.filter((line) => line.startsWith('g ')).map((line) => line.slice(2)),
+    n_vertices: positions.length,
+    n_triangles: lines.filter((line) => line.startsWith('f ')).length,
+    low_m: ends(Math.min),
+    high_m: ends(Math.max),
+    needs_direction: !text.includes('vt '),
+  });
+}
+
 /** The module, and how many of its objects are still alive. */
 export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
-  module: PleatModule;
+  module: PleatModule & SweepModule;
   alive: () => number;
 } {
   let nAlive = 0;
@@ -258,6 +284,7 @@ export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
     fabrics = () => ok({ fabrics: [] });
     schema = () => ok({ schema: {} });
     parse = () => ok({});
+    readObj = fakeObj;
     delete(): void {
       this.onDelete();
     }
