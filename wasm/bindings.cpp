@@ -11,6 +11,7 @@
 
 #include "core/base/check.h"
 #include "core/measure/error_norms.h"
+#include "core/measure/reference_track.h"
 #include "core/measure/stage_timer.h"
 #include "core/scene/obj_file.h"
 #include "core/scene/scene_file.h"
@@ -22,8 +23,8 @@ namespace {
 using emscripten::val;
 using pleat::guarded;
 using pleat::json_array;
-using pleat::json_value;
 using pleat::json_triple;
+using pleat::json_value;
 
 val summary(const pleat::Simulation& simulation) {
   const pleat::ClothModel& model = simulation.model();
@@ -109,6 +110,7 @@ class Simulation {
   std::string load(const std::string& scene_text) {
     return guarded([&](val& envelope) {
       take(build(scene_text));
+      is_disturbed_ = false;
       envelope.set("summary", summary(*simulation_));
     });
   }
@@ -117,7 +119,10 @@ class Simulation {
     return guarded([&](val& envelope) {
       auto fresh = build(scene_text);
       fresh->carry_over(running());
+      const bool was_of_it =
+          pleat::content_id(running().scene()) == pleat::content_id(fresh->scene());
       take(std::move(fresh));
+      is_disturbed_ = is_disturbed_ || !was_of_it;
       envelope.set("summary", summary(*simulation_));
     });
   }
@@ -125,6 +130,7 @@ class Simulation {
   std::string reset() {
     return guarded([&](val&) {
       running().reset();
+      is_disturbed_ = false;
       report_ = {};
       clear_timing();
       frame();
@@ -166,6 +172,19 @@ class Simulation {
       envelope.set("parts_ms", parts);
       envelope.set("steps_ms", 1e3 * timed_seconds_);
       envelope.set("steps_timed", n_timed_);
+      envelope.set("reference", matches_ ? compare() : val::null());
+    });
+  }
+
+  /// Takes the bytes of a reference, against which `numbers` and `distances` compare while the
+  /// loaded scene is what it is of.
+  std::string set_reference(const std::string& bytes) {
+    return guarded([&](val& envelope) {
+      reference_.emplace(pleat::read_reference(bytes));
+      match();
+      envelope.set("matches", matches_);
+      envelope.set("description", reference_->label().description);
+      envelope.set("end_s", reference_->end());
     });
   }
 
@@ -191,7 +210,10 @@ class Simulation {
   }
 
   std::string grab(int vertex) {
-    return guarded([&](val&) { running().grab(pleat::VertexId(vertex)); });
+    return guarded([&](val&) {
+      running().grab(pleat::VertexId(vertex));
+      is_disturbed_ = true;
+    });
   }
   void move_grab(double x, double y, double z) {
     if (simulation_ && simulation_->is_grabbed()) simulation_->move_grab({x, y, z});
@@ -211,6 +233,13 @@ class Simulation {
       return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
     const std::vector<float>& strains = strain_map_->update(simulation_->state().positions);
     return val(emscripten::typed_memory_view(strains.size(), strains.data()));
+  }
+  /// Empty without a reference for the scene at its time.
+  val distances() {
+    if (!matches_ || is_disturbed_ || !reference_->distance(*simulation_))
+      return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
+    const std::vector<float>& distances = reference_->distances();
+    return val(emscripten::typed_memory_view(distances.size(), distances.data()));
   }
   val exact_positions() const {
     if (!simulation_)
@@ -243,6 +272,7 @@ class Simulation {
   void take(std::unique_ptr<pleat::Simulation> fresh) {
     simulation_ = std::move(fresh);
     simulation_->observe(&timer_);
+    match();
     report_ = {};
     clear_timing();
     strain_map_ =
@@ -251,6 +281,21 @@ class Simulation {
     for (const pleat::Triangle& t : simulation_->triangles())
       for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
     frame();
+  }
+
+  void match() { matches_ = reference_ && simulation_ && reference_->is_of(simulation_->scene()); }
+
+  /// Of the loaded scene, which the reference is of. A cloth that was led astray has no distance.
+  val compare() {
+    std::optional<pleat::ReferenceTrack::Distance> distance;
+    if (!is_disturbed_) distance = reference_->distance(*simulation_);
+    val result = val::object();
+    result.set("distance_m", distance ? val(distance->rms) : val::null());
+    result.set("uncertainty_m", distance ? val(distance->uncertainty) : val::null());
+    result.set("end_s", reference_->end());
+    result.set("description", reference_->label().description);
+    result.set("disturbed", is_disturbed_);
+    return result;
   }
 
   /// The first step, in which steppers build what they keep, is not on the clock: the read-out and
@@ -279,6 +324,9 @@ class Simulation {
   pleat::StageTimer timer_;
   std::unique_ptr<pleat::Simulation> simulation_;
   std::unique_ptr<pleat::StrainMap> strain_map_;
+  std::optional<pleat::ReferenceTrack> reference_;
+  bool matches_ = false;       // it is of the loaded scene
+  bool is_disturbed_ = false;  // since the start a hand or another scene moved the cloth
   pleat::SolveReport report_;
   double timed_seconds_ = 0;  // wall time of n_timed_ whole steps, parts and the rest [s]
   int n_timed_ = 0;
@@ -303,6 +351,7 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("step", &Simulation::step)
       .function("status", &Simulation::status)
       .function("numbers", &Simulation::numbers)
+      .function("setReference", &Simulation::set_reference)
       .function("colliders", &Simulation::colliders)
       .function("grab", &Simulation::grab)
       .function("moveGrab", &Simulation::move_grab)
@@ -311,5 +360,6 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("exactPositions", &Simulation::exact_positions)
       .function("masses", &Simulation::masses)
       .function("stretch", &Simulation::stretch)
+      .function("distances", &Simulation::distances)
       .function("triangles", &Simulation::triangles);
 }

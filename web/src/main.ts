@@ -3,7 +3,7 @@ import './design.css';
 import { createPlayback, type Playback } from './sim/playback';
 import { createSweep } from './sim/sweep';
 import { createStage, type Stage } from './stage/stage';
-import { initialState } from './state/app-state';
+import { initialState, shownHeat } from './state/app-state';
 import { fabricNamed } from './state/fabric-data';
 import { createStore, watch } from './state/store';
 import { decodeLink, encodeLink } from './state/url-codec';
@@ -90,7 +90,7 @@ try {
 
 playback = createPlayback(store, {
   showMesh: (...mesh) => stage?.showMesh(...mesh),
-  showFrame: (buffer) => stage?.showFrame(buffer),
+  showFrame: (...frame) => stage?.showFrame(...frame),
 });
 const { play, pause, step, reset } = playback;
 const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
@@ -110,7 +110,9 @@ createSpeedErrorView(place('tray'), store);
 
 watch(store, ['setting'], ({ setting }) => stage?.setFabric(fabricNamed(setting.fabric).id));
 watch(store, ['colliders'], ({ colliders }) => stage?.setColliders(colliders));
-watch(store, ['heat', 'heatRange'], ({ heat, heatRange }) => stage?.setHeat(heat, heatRange));
+watch(store, ['heat', 'heatRange', 'numbers'], (state) =>
+  stage?.setHeat(shownHeat(state), state.heatRange),
+);
 watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
 watch(store, ['setting', 'heat', 'heatRange', 'edges', 'startS'], (state) => {
   const hash = `#${encodeLink(state)}`;

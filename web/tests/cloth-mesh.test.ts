@@ -30,7 +30,7 @@ function triangles(): Uint32Array {
 function makeCloth(slope: number) {
   const cloth = createClothMesh();
   cloth.setTopology(triangles(), SIDE * SIDE);
-  cloth.setFrame(frame(slope));
+  cloth.setFrame(frame(slope), 'stretch');
   const [front] = cloth.object.children as Mesh[];
   const edges = cloth.object.children.at(-1) as LineSegments;
   return { cloth, geometry: front?.geometry as BufferGeometry, edges: edges.geometry };
@@ -68,11 +68,25 @@ describe('cloth-mesh', () => {
     expect(cloth.heatScale().most).toBeCloseTo(0.02, 6);
   });
 
+  it('paints distances on a scale of their own, and grey where there is no number', () => {
+    const { cloth, geometry } = makeCloth(0);
+    const colours = () => Array.from(geometry.getAttribute('color').array as Float32Array);
+    cloth.setHeat('distance', 5);
+    cloth.update();
+    expect(cloth.heatScale().most).toBeNaN();
+    expect(new Set(colours()).size).toBe(1);
+    cloth.setFrame(frame(0), 'distance');
+    cloth.update();
+    expect(cloth.heatScale()).toMatchObject({ map: 'distance', low: 0 });
+    expect(cloth.heatScale().high).toBeCloseTo(0.02, 6);
+    expect(new Set(colours()).size).toBeGreaterThan(3);
+  });
+
   it('takes the new mesh after the level changed', () => {
     const { cloth, geometry } = makeCloth(0);
     cloth.update();
     cloth.setTopology(Uint32Array.from([0, 1, 2]), 3);
-    cloth.setFrame(Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]).buffer);
+    cloth.setFrame(Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]).buffer, 'stretch');
     cloth.update();
     expect(geometry.getAttribute('position').count).toBe(3);
     expect(geometry.getIndex()?.count).toBe(3);

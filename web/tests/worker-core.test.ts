@@ -90,10 +90,10 @@ if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
 describe.each(modules)('worker-core with %s', (_name, load) => {
   it('answers a load with a mesh, a first frame and numbers that fit together', async () => {
     const { loaded } = open(await load());
-    const { positions, stretch } = frameViews(loaded.buffers[0]);
+    const { positions, scalar } = frameViews(loaded.buffers[0]);
     expect(loaded.request).toBe(1);
     expect(positions.length).toBe(3 * loaded.summary.n_vertices);
-    expect(stretch.length).toBe(loaded.summary.n_vertices);
+    expect(scalar.length).toBe(loaded.summary.n_vertices);
     expect(loaded.triangles.length).toBe(3 * loaded.summary.n_triangles);
     expect(Math.max(...loaded.triangles)).toBe(loaded.summary.n_vertices - 1);
     expect(loaded.buffers[1].byteLength).toBe(loaded.buffers[0].byteLength);
@@ -225,6 +225,19 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
       expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
       if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
     }
+  });
+
+  it('goes without a reference that cannot be read', async () => {
+    const { send, posted, take, loaded } = open(await load());
+    const [, buffer] = loaded.buffers;
+    send({ type: 'setReference', bytes: new TextEncoder().encode('<html>').buffer });
+    expect(posted).toEqual([]);
+    const wanted = { wantsNumbers: true, scalar: 'distance' } as const;
+    send({ type: 'step', count: 1, request: 1, buffer, ...wanted });
+    const frame = take('frame');
+    expect(frame.scalar).toBe('distance');
+    expect(frame.report?.numbers.reference).toBeNull();
+    expect(frameViews(frame.buffer).scalar.every(Number.isNaN)).toBe(true);
   });
 
   it('drops a buffer of another mesh instead of writing beyond it', async () => {
@@ -379,6 +392,79 @@ describe('worker-core with a module that lacks CHOLMOD', () => {
   it('has no option and no word that names it', () => {
     const words = JSON.stringify([STEPPER_TRAITS, PRESETS]);
     expect(words.toLowerCase()).not.toContain('cholmod');
+  });
+});
+
+const shippedFile = new URL('../../assets/references/swinging_sheet.reference', import.meta.url);
+
+describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () => {
+  const swinging = presetSetting('swinging-sheet');
+  const textOf = (patch: Partial<Setting>) => JSON.stringify(sceneOf({ ...swinging, ...patch }));
+
+  async function openReferred() {
+    const server = serve(await loadRealModule());
+    const { send, take } = server;
+    send({ type: 'open', fabricsText });
+    take('ready');
+    const loadWith = (patch: Partial<Setting>, keepMotion = false) => {
+      send({ type: 'load', sceneText: textOf(patch), keepMotion, request: 1, scalar: 'distance' });
+      return take('loaded');
+    };
+    const step = (count: number, { buffers }: Sent<'loaded'>) => {
+      const wanted = { wantsNumbers: true, scalar: 'distance' } as const;
+      send({ type: 'step', count, request: 1, buffer: buffers[1], ...wanted });
+      const { report, buffer } = take('frame');
+      return { reference: report?.numbers.reference, distances: frameViews(buffer).scalar };
+    };
+    const first = loadWith({});
+    send({ type: 'setReference', bytes: Uint8Array.from(readFileSync(shippedFile)).buffer });
+    const { reference } = take('referenceSet').numbers;
+    return { ...server, loadWith, step, first, reference };
+  }
+
+  it('tells the distance, of each point and of all, and how well that is known', async () => {
+    const { step, first, reference } = await openReferred();
+    expect(reference).toMatchObject({ distance_m: 0, disturbed: false });
+    const { reference: later, distances } = step(60, first);
+    const distance = later?.distance_m ?? Number.NaN;
+    expect(distance).toBeGreaterThan(0.001);
+    expect(distance).toBeLessThan(0.2);
+    expect(later?.uncertainty_m).toBeLessThan(0.1 * distance);
+    expect(Math.max(...distances)).toBeGreaterThan(distance);
+    expect(Math.min(...distances)).toBe(0); // at the pins
+  });
+
+  it('meets the same scene at any level and method, and no changed one', async () => {
+    const { loadWith } = await openReferred();
+    const meets = (patch: Partial<Setting>) => loadWith(patch).numbers.reference !== null;
+    expect(meets({ level: 1 })).toBe(true);
+    expect(meets(withStepper(swinging, 'xpbd'))).toBe(true);
+    expect(meets({ fabric: 'silk' })).toBe(false);
+    expect(meets({ model: 'membrane' })).toBe(false);
+    expect(meets({ preset: 'curtain' })).toBe(false);
+    expect(meets({})).toBe(true);
+  });
+
+  it('has no distance beyond its end', async () => {
+    const { step, first } = await openReferred();
+    const { reference, distances } = step(120, first);
+    expect(reference).toMatchObject({ distance_m: null, disturbed: false });
+    expect(reference?.end_s).toBeLessThan(2);
+    expect(distances.every(Number.isNaN)).toBe(true);
+  });
+
+  it('has no distance for a cloth that a hand or another fabric moved, until a reset', async () => {
+    const { send, take, loadWith, step, first } = await openReferred();
+    send({ type: 'grab', vertex: 40 });
+    expect(step(2, first).reference).toMatchObject({ distance_m: null, disturbed: true });
+    send({ type: 'reset', request: 1 });
+    expect(take('loaded').numbers.reference).toMatchObject({ distance_m: 0, disturbed: false });
+    step(5, loadWith({ fabric: 'silk' }));
+    const back = loadWith({}, true);
+    expect(back.numbers.reference).toMatchObject({ distance_m: null, disturbed: true });
+    const finer = step(5, loadWith({ level: 1 }));
+    expect(finer.reference?.disturbed).toBe(false);
+    expect(loadWith({}, true).numbers.reference?.disturbed).toBe(false);
   });
 });
 

@@ -1,7 +1,7 @@
 // Runs the shown cloth: turns changes of the state into messages, and answers into state and frames.
 
 import exampleUrl from '../../../assets/meshes/skirt.obj?url';
-import type { AppState } from '../state/app-state';
+import { type AppState, shownHeat } from '../state/app-state';
 import { fabricsText } from '../state/fabric-data';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting, type Setting, sceneOf } from '../state/setting';
@@ -14,7 +14,9 @@ import {
   frameViews,
   type LoadedMessage,
   type RunReport,
+  type Scalar,
 } from './protocol';
+import { referenceUrl } from './references';
 import { createStepTimer } from './step-timing';
 import type { Failure, Triple } from './wasm-module';
 
@@ -34,7 +36,7 @@ export interface PlaybackView {
   /** A new mesh; its first frame follows at once. */
   showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
   /** The buffer stays valid until the next call. */
-  showFrame(buffer: ArrayBuffer): void;
+  showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
 }
 
 export interface Playback {
@@ -99,6 +101,8 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   let isWaiting = false; // for the answer to a load or a reset
   let isStepping = false;
   let shown: ArrayBuffer | null = null;
+  let shownScalar: Scalar = 'stretch';
+  let referenceAt: string | null = null; // that the worker has, or is about to get
   let spare: ArrayBuffer | null = null;
   let loaded: Content | null = null;
   let pending: Content | null = null;
@@ -113,6 +117,10 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
   }
 
+  function scalar(): Scalar {
+    return shownHeat(store.get()) === 'distance' ? 'distance' : 'stretch';
+  }
+
   function load(): void {
     const { numbers, phase, setting, mesh } = store.get();
     pending = { setting, mesh };
@@ -124,7 +132,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     store.set({ phase: 'loading', held: false, ahead: null });
     if (setting.preset === 'obj' && !mesh) return void bringExample();
     const sceneText = JSON.stringify(sceneOf(setting, mesh));
-    client.send({ type: 'load', sceneText, keepMotion, request });
+    client.send({ type: 'load', sceneText, keepMotion, request, scalar: scalar() });
   }
 
   /** The mesh that stands in until there is one of the visitor's. */
@@ -164,12 +172,13 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     isWaiting = false;
     isStepping = false;
     [shown, spare] = message.buffers;
+    shownScalar = message.scalar;
     pacer.clear();
     timer.clear();
     timer.feed(message.numbers);
     paceMark = { clockMs: performance.now(), timeS: message.numbers.time_s };
     view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
-    view.showFrame(shown);
+    view.showFrame(shown, shownScalar);
     const { problem, startS } = store.get();
     const isSolved = problem !== null && ['setting', 'run', 'file'].includes(problem.source);
     store.set({
@@ -182,10 +191,33 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
       pace: null,
       problem: isSolved ? null : problem,
     });
+    bringReference();
     if (message.numbers.time_s === 0 && startS > 0) {
       aheadSinceMs = performance.now();
       runAhead();
     }
+    refill();
+  }
+
+  /** Fetches what the shown cloth is compared with; without it there is no error, and no harm. */
+  async function bringReference(): Promise<void> {
+    const url = loaded && referenceUrl(loaded.setting);
+    if (!url || url === referenceAt) return;
+    referenceAt = url;
+    try {
+      const answer = await fetch(url);
+      if (!answer.ok) throw new Error(answer.statusText);
+      const bytes = await answer.arrayBuffer();
+      if (referenceAt === url) client.send({ type: 'setReference', bytes }, [bytes]);
+    } catch {
+      if (referenceAt === url) referenceAt = null; // the next load tries again
+    }
+  }
+
+  /** Has the frame that stands filled with the number that the colours show. */
+  function refill(): void {
+    const isFree = !isWaiting && !isStepping && aheadSinceMs === null;
+    if (isFree && store.get().phase === 'ready' && shownScalar !== scalar()) send(0);
   }
 
   /** Takes the next steps towards the start time, or shows the frame when there. */
@@ -202,8 +234,9 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     }
     aheadSinceMs = null;
     pacer.clear();
-    if (shown) view.showFrame(shown);
+    if (shown) view.showFrame(shown, shownScalar);
     store.set({ ahead: null });
+    refill();
   }
 
   function receiveReport({ numbers, status }: RunReport): void {
@@ -219,14 +252,20 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     store.set(patch);
   }
 
-  function receiveFrame({ buffer, hasEnded, report, colliders }: FrameMessage): void {
+  function receiveFrame(message: FrameMessage): void {
+    const { buffer, hasEnded, report, colliders } = message;
     isStepping = false;
     spare = shown;
     shown = buffer;
-    if (aheadSinceMs === null || hasEnded) view.showFrame(shown);
+    shownScalar = message.scalar;
+    if (aheadSinceMs === null || hasEnded) view.showFrame(shown, shownScalar);
     if (colliders.length > 0) store.set({ colliders });
     if (report) receiveReport(report);
-    if (!hasEnded) return aheadSinceMs === null ? goOn() : runAhead();
+    if (!hasEnded) {
+      if (aheadSinceMs !== null) return runAhead();
+      goOn();
+      return refill();
+    }
     aheadSinceMs = null;
     store.set({
       phase: 'stopped',
@@ -248,6 +287,9 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
         return;
       case 'frame':
         if (message.request === request) receiveFrame(message);
+        return;
+      case 'referenceSet':
+        if (!isWaiting) store.set({ numbers: message.numbers });
         return;
       case 'objRead':
         return receiveMesh(message.mesh);
@@ -274,7 +316,15 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     const buffer = spare;
     spare = null;
     isStepping = true;
-    client.send({ type: 'step', count, wantsNumbers, request, buffer }, [buffer]);
+    const message = {
+      type: 'step',
+      count,
+      wantsNumbers,
+      request,
+      scalar: scalar(),
+      buffer,
+    } as const;
+    client.send(message, [buffer]);
   }
 
   /** Asks for the steps that are due by the clock; called at each frame and at each answer. */
@@ -305,6 +355,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   store.subscribe((state, previous) => {
     if (state.setting !== previous.setting && state.phase !== 'broken') load();
     if (state.playing && !previous.playing) start();
+    if (shownHeat(state) !== shownHeat(previous)) refill();
   });
   client.send({ type: 'open', fabricsText });
 
@@ -329,7 +380,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
       request += 1;
       isWaiting = true;
       pending = loaded;
-      client.send({ type: 'reset', request });
+      client.send({ type: 'reset', request, scalar: scalar() });
     },
     grab(vertex) {
       client.send({ type: 'grab', vertex });

@@ -25,6 +25,18 @@ export interface SceneSummary {
   notes?: string[];
 }
 
+/** How the present state compares with a reference of its scene. */
+export interface ReferenceNumbers {
+  /** RMS by area; null beyond the reference's end, and when `disturbed`. */
+  distance_m: number | null;
+  /** How well the reference is known then; null when nobody knows. */
+  uncertainty_m: number | null;
+  end_s: number;
+  description: string;
+  /** A hand or another scene moved the cloth since its start. */
+  disturbed: boolean;
+}
+
 export interface RunNumbers {
   time_s: number;
   step: number;
@@ -39,6 +51,8 @@ export interface RunNumbers {
   /** And of the steps as a whole [ms], of which there were `steps_timed`. */
   steps_ms: number;
   steps_timed: number;
+  /** Null where there is none of this scene. */
+  reference: ReferenceNumbers | null;
 }
 
 export interface RunStatus {
@@ -141,7 +155,11 @@ export interface SimulationHandle {
   masses(): Float64Array;
   /** Signed mean strain of the springs at each vertex, as a ratio. */
   stretch(): Float32Array;
+  /** To the reference at each vertex [m]; empty without one for the scene at its time. */
+  distances(): Float32Array;
   triangles(): Uint32Array;
+  /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
+  setReference(bytes: Uint8Array): string;
   colliders(): string;
   grab(vertex: number): string;
   /** Target of the held patch [m]. */
@@ -191,6 +209,8 @@ export const BOUND_METHODS: Record<keyof (PleatModule & SweepModule), string[]> 
     exactPositions: true,
     masses: true,
     stretch: true,
+    distances: true,
+    setReference: true,
     triangles: true,
     colliders: true,
     grab: true,

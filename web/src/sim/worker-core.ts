@@ -6,6 +6,8 @@ import {
   frameViews,
   type Post,
   type RunReport,
+  type Scalar,
+  type StepMessage,
   type SweepMessage,
   type ToWorker,
 } from './protocol';
@@ -43,11 +45,13 @@ function describe(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }
 
-/** Copies the present frame; the one copy on its way to the screen. */
-function fill(simulation: SimulationHandle, buffer: ArrayBuffer): void {
+/** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
+function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
   const views = frameViews(buffer);
   views.positions.set(simulation.positions());
-  views.stretch.set(simulation.stretch());
+  const values = scalar === 'distance' ? simulation.distances() : simulation.stretch();
+  if (values.length === views.scalar.length) views.scalar.set(values);
+  else views.scalar.fill(Number.NaN);
 }
 
 function readNumbers(simulation: SimulationHandle): RunNumbers | null {
@@ -82,15 +86,19 @@ export function createWorkerCore(
   }
 
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
-  function postLoaded(request: number, run: SimulationHandle, summary: SceneSummary): void {
+  function postLoaded(
+    { request, scalar = 'stretch' }: { request: number; scalar?: Scalar },
+    run: SimulationHandle,
+    summary: SceneSummary,
+  ): void {
     const numbers = readNumbers(run);
     if (!numbers) return refuse(request, internalFailure('no numbers after a load'));
     const nBytes = 4 * FLOATS_PER_VERTEX * summary.n_vertices;
     const buffers: [ArrayBuffer, ArrayBuffer] = [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)];
-    fill(run, buffers[0]);
+    fill(run, buffers[0], scalar);
     const triangles = run.triangles().slice();
     const colliders = readColliders(run);
-    post({ type: 'loaded', request, summary, triangles, buffers, numbers, colliders }, [
+    post({ type: 'loaded', request, summary, triangles, buffers, scalar, numbers, colliders }, [
       triangles.buffer,
       ...buffers,
     ]);
@@ -102,26 +110,33 @@ export function createWorkerCore(
     const answer = read<{ summary: SceneSummary }>(text);
     if (!answer.ok) return refuse(request, answer);
     loaded = answer.summary;
-    postLoaded(request, run, loaded);
+    postLoaded(message, run, loaded);
   }
 
-  function reset(run: SimulationHandle, request: number): void {
-    if (!loaded) return refuse(request, internalFailure('reset before load'));
+  function reset(run: SimulationHandle, message: Extract<ToWorker, { type: 'reset' }>): void {
+    if (!loaded) return refuse(message.request, internalFailure('reset before load'));
     const answer = read<object>(run.reset());
-    if (!answer.ok) return refuse(request, answer);
-    postLoaded(request, run, loaded);
+    if (!answer.ok) return refuse(message.request, answer);
+    postLoaded(message, run, loaded);
   }
 
-  function step(run: SimulationHandle, message: Extract<ToWorker, { type: 'step' }>): void {
-    const { buffer, count, request } = message;
+  /** One that cannot be read is none: the page goes without. */
+  function setReference(run: SimulationHandle, bytes: ArrayBuffer): void {
+    const answer = read<object>(run.setReference(new Uint8Array(bytes)));
+    const numbers = answer.ok && loaded ? readNumbers(run) : null;
+    if (numbers) post({ type: 'referenceSet', numbers }, []);
+  }
+
+  function step(run: SimulationHandle, message: StepMessage): void {
+    const { buffer, count, request, scalar = 'stretch' } = message;
     // A buffer of another size belongs to the mesh before the last load: nothing to fill.
     if (!loaded || buffer.byteLength !== 4 * FLOATS_PER_VERTEX * loaded.n_vertices) return;
     const code = run.step(count);
-    fill(run, buffer);
+    fill(run, buffer, scalar);
     const hasEnded = code !== 0;
     const report = hasEnded || message.wantsNumbers ? readReport(run) : null;
     const colliders = readColliders(run);
-    post({ type: 'frame', request, count, buffer, hasEnded, report, colliders }, [buffer]);
+    post({ type: 'frame', request, count, buffer, scalar, hasEnded, report, colliders }, [buffer]);
   }
 
   function readObj(text: string, message: Extract<ToWorker, { type: 'readObj' }>): void {
@@ -163,7 +178,9 @@ export function createWorkerCore(
         return load(simulation, message);
       case 'reset':
         isHeld = false;
-        return reset(simulation, message.request);
+        return reset(simulation, message);
+      case 'setReference':
+        return setReference(simulation, message.bytes);
       case 'step':
         return step(simulation, message);
       case 'grab':

@@ -13,13 +13,13 @@ import {
   MeshBasicMaterial,
   MeshPhysicalMaterial,
 } from 'three';
-import { frameViews } from '../sim/protocol';
+import { frameViews, type Scalar } from '../sim/protocol';
 import type { HeatScale } from '../state/app-state';
 import type { HeatMap } from '../state/url-codec';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
 import { type FabricLook, SHEEN_ROUGHNESS } from './fabric-look';
 
-/** A still cloth has no stretch: the scale then ends at 0.01 %, not at nothing. */
+/** A still cloth has no stretch: the scale then ends at 0.01 %, or at 0.1 mm, not at nothing. */
 const LEAST_REACH = 1e-4;
 
 /** Each edge once, as pairs of vertices. */
@@ -80,11 +80,12 @@ export interface ClothMesh {
   positions(): Float32Array;
   triangles(): Uint32Array;
   setTopology(triangles: Uint32Array, nVertices: number): void;
-  setFrame(buffer: ArrayBuffer): void;
+  setFrame(buffer: ArrayBuffer, scalar: Scalar): void;
   /** Takes the last frame to the screen; call before drawing. */
   update(): void;
   setLook(look: FabricLook): void;
-  setHeat(map: HeatMap, range: 'auto' | number): void;
+  /** `range` is of stretch [%]. True when that is another map or range. */
+  setHeat(map: HeatMap, range: 'auto' | number): boolean;
   setEdges(isShown: boolean): void;
   heatScale(): HeatScale;
 }
@@ -115,8 +116,9 @@ export function createClothMesh(): ClothMesh {
 
   let triangles = new Uint32Array(0);
   let positions: Float32Array = new Float32Array(0);
-  let stretch: Float32Array = new Float32Array(0);
-  let magnitudes = new Float32Array(0);
+  let values: Float32Array = new Float32Array(0);
+  let scalar: Scalar = 'stretch';
+  let painted = new Float32Array(0);
   let isStale = false; // the frame or the heat map changed since the last update
   let heatMap: HeatMap = 'off';
   let heatRange: 'auto' | number = 'auto';
@@ -131,21 +133,25 @@ export function createClothMesh(): ClothMesh {
       scale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
       return;
     }
-    for (let v = 0; v < stretch.length; ++v) magnitudes[v] = Math.abs(stretch[v] as number);
-    const values = heatMap === 'signed' ? stretch : magnitudes;
+    const isWanted = (heatMap === 'distance') === (scalar === 'distance');
+    for (let v = 0; v < values.length; ++v) {
+      const value = isWanted ? (values[v] as number) : Number.NaN;
+      painted[v] = heatMap === 'signed' ? value : Math.abs(value);
+    }
     let least = Number.POSITIVE_INFINITY;
     let most = Number.NEGATIVE_INFINITY;
-    for (const value of values) {
+    for (const value of painted) {
       least = Math.min(least, value);
       most = Math.max(most, value);
     }
     const reach = Math.max(Math.abs(least), Math.abs(most), LEAST_REACH);
-    const high = heatRange === 'auto' ? roundedUp(reach) : heatRange / 100;
+    const range = heatMap === 'distance' ? 'auto' : heatRange;
+    const high = range === 'auto' ? roundedUp(reach) : range / 100;
     const low = heatMap === 'signed' ? -high : 0;
     scale = { map: heatMap, low, high, least, most };
     const colours = attribute('color');
     const map = heatMap === 'signed' ? SIGNED_MAP : MAGNITUDE_MAP;
-    paint(map, values, low, high, colours.array as Float32Array);
+    paint(map, painted, low, high, colours.array as Float32Array);
     colours.needsUpdate = true;
   }
 
@@ -156,7 +162,7 @@ export function createClothMesh(): ClothMesh {
     heatScale: () => scale,
     setTopology(newTriangles, nVertices) {
       triangles = new Uint32Array(newTriangles);
-      magnitudes = new Float32Array(nVertices);
+      painted = new Float32Array(nVertices);
       geometry.dispose();
       edgeGeometry.dispose();
       const dynamic = (values: Float32Array) =>
@@ -168,10 +174,11 @@ export function createClothMesh(): ClothMesh {
       edgeGeometry.setAttribute('position', geometry.getAttribute('position'));
       edgeGeometry.setIndex(new BufferAttribute(edgesOf(triangles), 1));
     },
-    setFrame(buffer) {
+    setFrame(buffer, newScalar) {
       const views = frameViews(buffer);
       positions = views.positions;
-      stretch = views.stretch;
+      values = views.scalar;
+      scalar = newScalar;
       isStale = true;
     },
     update() {
@@ -201,12 +208,14 @@ export function createClothMesh(): ClothMesh {
       }
     },
     setHeat(map, range) {
+      if (map === heatMap && range === heatRange) return false;
       heatMap = map;
       heatRange = range;
       front.visible = map === 'off';
       back.visible = map === 'off';
       heat.visible = map !== 'off';
       isStale = true;
+      return true;
     },
     setEdges(isShown) {
       edges.visible = isShown;

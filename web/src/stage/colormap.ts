@@ -50,7 +50,13 @@ export function roundedUp(value: number): number {
   return nice * power;
 }
 
-/** Writes the colour of each value into `colours`, three numbers a value; ends are clamped. */
+/** Where there is no number: a grey that neither scale has. */
+const NO_NUMBER = 0.2;
+
+/**
+ * Writes the colour of each value into `colours`, three numbers a value; ends are clamped, and NaN
+ * is grey.
+ */
 export function paint(
   map: Colormap,
   values: Float32Array,
@@ -60,7 +66,12 @@ export function paint(
 ): void {
   const scale = high > low ? (TABLE_SIZE - 1) / (high - low) : 0;
   for (let v = 0; v < values.length; ++v) {
-    const place = Math.round(((values[v] ?? 0) - low) * scale);
+    const value = values[v] ?? Number.NaN;
+    if (Number.isNaN(value)) {
+      colours.fill(NO_NUMBER, 3 * v, 3 * v + 3);
+      continue;
+    }
+    const place = Math.round((value - low) * scale);
     const entry = 3 * Math.min(TABLE_SIZE - 1, Math.max(0, place));
     colours[3 * v] = map.table[entry] ?? 0;
     colours[3 * v + 1] = map.table[entry + 1] ?? 0;

@@ -18,6 +18,7 @@ import {
   Vector3,
   WebGLRenderer,
 } from 'three';
+import type { Scalar } from '../sim/protocol';
 import type { Collider, Triple } from '../sim/wasm-module';
 import type { HeatScale } from '../state/app-state';
 import type { HeatMap } from '../state/url-codec';
@@ -41,7 +42,7 @@ export interface StageEvents {
 export interface Stage {
   /** A new mesh; the view is set anew when it belongs to a new scene. */
   showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
-  showFrame(buffer: ArrayBuffer): void;
+  showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
   setColliders(colliders: Collider[]): void;
   setFabric(id: number): void;
   setHeat(map: HeatMap, range: 'auto' | number): void;
@@ -266,8 +267,8 @@ export function createStage(
       hand.drop();
       control.setResting(false);
     },
-    showFrame(buffer) {
-      cloth.setFrame(buffer);
+    showFrame(buffer, scalar) {
+      cloth.setFrame(buffer, scalar);
       if (isFreshMesh) chooseInviting();
       isFreshMesh = false;
       redraw();
@@ -286,8 +287,7 @@ export function createStage(
       redraw();
     },
     setHeat(map, range) {
-      cloth.setHeat(map, range);
-      redraw();
+      if (cloth.setHeat(map, range)) redraw();
     },
     setEdges(isShown) {
       cloth.setEdges(isShown);

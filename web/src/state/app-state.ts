@@ -21,7 +21,7 @@ export interface StepTiming {
   parts: { name: string; ms: number }[];
 }
 
-/** The heat map's scale and what the frame holds, as ratios. */
+/** The heat map's scale and what the frame holds: ratios or metres; NaN where there is no number. */
 export interface HeatScale {
   map: HeatMap;
   low: number;
@@ -105,4 +105,9 @@ export function initialState(link: LinkState, problems: string[]): AppState {
     sweep: NO_SWEEP,
     sweepOpen: false,
   };
+}
+
+/** The heat map that can be shown: distance only where there is a reference. */
+export function shownHeat({ heat, numbers }: Pick<AppState, 'heat' | 'numbers'>): HeatMap {
+  return heat === 'distance' && !numbers?.reference ? 'off' : heat;
 }

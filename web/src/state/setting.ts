@@ -78,6 +78,8 @@ export interface StepperTraits {
   meaning: string;
   /** It moves springs one by one and knows nothing else. */
   needsSprings?: boolean;
+  /** Each substep has equations, which may be left unsolved in part. */
+  solves: boolean;
   /** The counts the stepper listens to, each with what it starts from. */
   counts: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
 }
@@ -85,6 +87,7 @@ export interface StepperTraits {
 export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
   implicit: {
     title: 'Implicit',
+    solves: true,
     meaning:
       'Backward Euler: one large sparse system a substep. Stable at large steps, but it damps the motion.',
     counts: {
@@ -93,6 +96,7 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
   },
   projective: {
     title: 'Projective',
+    solves: true,
     needsSprings: true,
     meaning: 'Gives each spring its length alone, then solves one constant system; and repeats.',
     counts: {
@@ -102,6 +106,7 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
   },
   xpbd: {
     title: 'XPBD',
+    solves: true,
     needsSprings: true,
     meaning: 'Moves the two ends of each spring in turn, in many small substeps.',
     counts: {
@@ -111,6 +116,7 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
   },
   explicit: {
     title: 'Explicit',
+    solves: false,
     meaning: 'Forces give velocities, velocities give positions. Only stable in tiny substeps.',
     counts: {
       substeps: { start: 0, least: 0, meaning: '0: as many as its stability bound asks for.' },
@@ -118,6 +124,7 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
   },
   rk4: {
     title: 'Runge-Kutta 4',
+    solves: false,
     meaning: 'Explicit, with four looks at the forces a substep. Very exact, and slow.',
     counts: {
       substeps: { start: 0, least: 0, meaning: '0: as many as its stability bound asks for.' },
@@ -125,6 +132,7 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
   },
   newton: {
     title: 'Newton (exact, slow)',
+    solves: true,
     meaning:
       'Solves each substep to the last digit and damps nothing: what references are made of.',
     counts: {

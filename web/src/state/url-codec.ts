@@ -20,19 +20,20 @@ import {
   withStepper,
 } from './setting';
 
-export type HeatMap = 'off' | 'magnitude' | 'signed';
+/** Nothing, stretch, stretch with its sign, or distance to the reference. */
+export type HeatMap = 'off' | 'magnitude' | 'signed' | 'distance';
 
 export interface LinkState {
   setting: Setting;
   heat: HeatMap;
-  /** Upper end of the heat map's scale [%], or chosen from the frame. */
+  /** Upper end of the scale of stretch [%], or chosen from the frame. */
   heatRange: 'auto' | number;
   edges: boolean;
   /** Simulated time that is run through before the cloth is shown [s]. */
   startS: number;
 }
 
-export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed'];
+export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed', 'distance'];
 export const HEAT_RANGES: readonly number[] = [0.5, 1, 2, 5, 10];
 const DEFAULT_PRESET: PresetId = 'curtain';
 const LATEST_START_S = 10;

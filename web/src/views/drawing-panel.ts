@@ -1,5 +1,5 @@
-// What is painted on the cloth: its material, or its stretch; and the edges of the mesh.
-import type { AppState } from '../state/app-state';
+// What is painted on the cloth: its material, stretch or distance; and the edges of the mesh.
+import { type AppState, shownHeat } from '../state/app-state';
 import { type Store, watch } from '../state/store';
 import { HEAT_RANGES, type HeatMap } from '../state/url-codec';
 import { choice, element, field } from './element';
@@ -8,6 +8,7 @@ const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
   { value: 'off', title: 'Fabric' },
   { value: 'magnitude', title: 'Stretch' },
   { value: 'signed', title: 'Stretch with sign' },
+  { value: 'distance', title: 'Distance to reference' },
 ];
 
 export function createDrawingPanel(parent: HTMLElement, store: Store<AppState>): () => void {
@@ -32,10 +33,13 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<AppState>):
       element('label', { class: 'check' }, edges, 'Edges of the mesh'),
     ),
   );
-  return watch(store, ['heat', 'heatRange', 'edges'], (state) => {
-    heat.select(state.heat);
+  return watch(store, ['heat', 'heatRange', 'edges', 'numbers'], (state) => {
+    heat.limit((value) =>
+      value === 'distance' && !state.numbers?.reference ? 'none of this scene' : null,
+    );
+    heat.select(shownHeat(state));
     range.select(String(state.heatRange));
-    rangeField.hidden = state.heat === 'off';
+    rangeField.hidden = !['magnitude', 'signed'].includes(shownHeat(state));
     edges.checked = state.edges;
   });
 }

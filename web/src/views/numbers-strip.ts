@@ -2,9 +2,9 @@
 import type { AppState } from '../state/app-state';
 import { fabricNamed } from '../state/fabric-data';
 import { type Store, watch } from '../state/store';
-import { rowOfSetting } from '../state/sweep-plan';
 import { element, setText } from './element';
-import { digits, milliseconds, percent, smallLength } from './quantity';
+import { errorWords } from './error-words';
+import { digits, milliseconds, percent } from './quantity';
 
 const STATUS_WORDS: Record<AppState['phase'], string> = {
   loading: 'loading',
@@ -59,16 +59,10 @@ const ITEMS: readonly Item[] = [
   {
     title: 'Error',
     width: 'middle',
-    meaning: 'Distance from the reference of the last sweep for the very same setting.',
-    text(state) {
-      const row = rowOfSetting(state);
-      return row ? smallLength(row.position_error_m) : 'unknown';
-    },
-    detail(state) {
-      const row = rowOfSetting(state);
-      if (!row) return 'run a sweep';
-      return row.reference.converged ? 'converged reference' : 'not converged';
-    },
+    meaning:
+      'How far the cloth is from a reference now, RMS over its points; or else what the last sweep found for the very same setting.',
+    text: (state) => errorWords(state).value,
+    detail: (state) => errorWords(state).detail,
   },
   {
     title: 'Stretch',
@@ -117,7 +111,8 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>):
     );
     return { item, value, detail, cell };
   });
-  parent.append(element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)));
+  const verdict = element('p', { class: 'verdict' });
+  parent.append(element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)), verdict);
   return watch(
     store,
     [
@@ -137,6 +132,7 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>):
         setText(value, item.text(state));
         setText(detail, item.detail?.(state) ?? '');
       }
+      setText(verdict, errorWords(state).sentence);
     },
   );
 }

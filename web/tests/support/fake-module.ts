@@ -48,6 +48,7 @@ class FakeSimulation implements SimulationHandle {
   private steps = 0;
   private held: number | null = null;
   private ended = false;
+  private pulled = false;
 
   constructor(
     private readonly build: FakeBuild,
@@ -96,6 +97,7 @@ class FakeSimulation implements SimulationHandle {
 
   reset(): string {
     this.steps = 0;
+    this.pulled = false;
     this.ended = false;
     for (let v = 0; v < this.side * this.side; ++v) {
       const [row, column] = [Math.floor(v / this.side), v % this.side];
@@ -134,12 +136,40 @@ class FakeSimulation implements SimulationHandle {
       parts_ms: { forces: 0.5 * this.steps, solve: 1.5 * this.steps },
       steps_ms: 2.5 * this.steps,
       steps_timed: this.steps,
+      reference: this.compare(),
     });
   }
 
   positions = () => this.x;
   exactPositions = () => Float64Array.from(this.x);
   masses = () => new Float64Array(this.x.length / 3).fill(0.001);
+  /** The stand-in's reference: the name of the scene it is of, and its end. */
+  private reference: { name: string; end_s: number; uncertainty_m: number } | null = null;
+  private matches = () => this.reference !== null && this.reference.name === this.scene?.name;
+
+  private compare() {
+    if (!this.reference || !this.matches()) return null;
+    const { end_s, uncertainty_m } = this.reference;
+    const isKnown = this.steps / 60 <= end_s && !this.pulled;
+    return {
+      distance_m: isKnown ? 0.012 : null,
+      uncertainty_m: isKnown ? uncertainty_m : null,
+      end_s,
+      description: 'newton',
+      disturbed: this.pulled,
+    };
+  }
+
+  setReference(bytes: Uint8Array): string {
+    const text = new TextDecoder().decode(bytes);
+    if (!text.startsWith('{')) return refuse('', 'expected a reference');
+    this.reference = JSON.parse(text);
+    return ok({ matches: this.matches(), description: 'newton', end_s: this.reference?.end_s });
+  }
+
+  distances = () =>
+    new Float32Array(this.compare()?.distance_m ? this.x.length / 3 : 0).fill(0.012);
+
   stretch = () => new Float32Array(this.x.length / 3).fill(this.steps === 0 ? 0 : 0.002);
 
   triangles(): Uint32Array {
@@ -158,6 +188,7 @@ class FakeSimulation implements SimulationHandle {
   grab(vertex: number): string {
     if (vertex < 0 || vertex >= this.x.length / 3) return refuse('', `no vertex ${vertex}`);
     this.held = vertex;
+    this.pulled = true;
     return ok();
   }
 
