@@ -9,6 +9,7 @@
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/measure/chain_reference.h"
+#include "core/measure/closed_form_reference.h"
 #include "core/measure/core_version.h"
 #include "core/measure/platform.h"
 #include "core/measure/sampled_run.h"
@@ -52,7 +53,8 @@ std::int64_t steps_of_frame(const MethodOptions& method) {
 /// frames.
 struct FrameSeries {
   int n_frames = 0;        // whole ones
-  std::vector<double> ms;  // the first frame is not among them
+  double first_ms = 0;     // with what is built once
+  std::vector<double> ms;  // of the others
   std::vector<double> rms_stretch;
   std::vector<double> largest_stretch;
   Json samples = Json::array();
@@ -78,7 +80,10 @@ FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<d
     const double seconds = watch.elapsed();
     if (series.report.ends_run()) break;
     series.n_frames = frame + 1;
-    if (frame > 0) series.ms.push_back(1e3 * seconds);
+    if (frame > 0)
+      series.ms.push_back(1e3 * seconds);
+    else
+      series.first_ms = 1e3 * seconds;
     const Positions& positions = simulation.state().positions;
     const Stretch now = stretch(simulation.gauge(), positions);
     series.rms_stretch.push_back(now.rms);
@@ -118,6 +123,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
                {"level", scene.level},
                {"n_vertices", simulation.model().n_vertices()},
                {"n_substeps", simulation.substeps()},
+               {"first_ms", series.first_ms},
                {"ms", series.ms},
                {"rms_stretch", series.rms_stretch},
                {"largest_stretch", series.largest_stretch},
@@ -184,17 +190,18 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
 
 Outcome bench_reference(Arguments arguments) {
   const std::string kind = arguments.text("--kind").value_or("run");
-  if (kind != "run" && kind != "rigid_chain")
-    throw InputError("--kind", "expected run or rigid_chain, got " + abbreviated(Json(kind)));
+  if (kind != "run" && kind != "rigid_chain" && kind != "closed_form")
+    throw InputError("--kind",
+                     "expected run, rigid_chain or closed_form, got " + abbreviated(Json(kind)));
   const auto cache = arguments.text("--cache");
   std::vector<double> times = take_times(arguments);
   if (!times.empty())
     for (const char* option : {"--steps", "--duration"})
       arguments.refuse(option, "expected either this or --times, got both");
-  if (kind == "rigid_chain")
+  if (kind != "run")
     for (const char* option :
          {"--stepper", "--step", "--substeps", "--iterations", "--solver", "--tolerance"})
-      arguments.refuse(option, "the rigid chain has no method; only --kind run takes this option");
+      arguments.refuse(option, kind + " has no method; only --kind run takes this option");
   const SceneInput input = take_scene(arguments);
   const Scene& scene = input.scene;
   arguments.finish();
@@ -205,7 +212,9 @@ Outcome bench_reference(Arguments arguments) {
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
   const std::optional<Reference> reference = with_source_named(input, [&] {
-    return kind == "run" ? run_reference(scene, times, *store) : chain_reference(scene, times);
+    if (kind == "run") return run_reference(scene, times, *store);
+    return std::optional(kind == "rigid_chain" ? chain_reference(scene, times)
+                                               : closed_form_reference(scene, times));
   });
   if (!reference) return Outcome::check_failed;
   Json samples = Json::array();

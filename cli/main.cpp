@@ -50,7 +50,8 @@ pleat bench run SCENE.json        what one run costs, with positions to compare
   --parts                what the parts of a step cost
 pleat bench reference SCENE.json  positions that are taken for right
   --times T1,T2 (default: the scene's end, or that of --steps N | --duration S)
-  --kind run (default), or rigid_chain, which takes no option of a method;  --cache DIR
+  --kind run (default), or rigid_chain or closed_form, which take no option of a method
+  --cache DIR            keep runs here
 pleat help | --version
 
 Changes to the scene, for every command:

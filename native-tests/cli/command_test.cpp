@@ -692,10 +692,31 @@ TEST_CASE("command: a bench that the numbers end says so, with the frames that r
   CHECK(json.at("status") == "not_finite");
   CHECK(json.at("rms_stretch").size() < 59);
   CHECK(json.at("ms").size() + 1 == json.at("rms_stretch").size());
+  CHECK(json.at("first_ms").get<double>() > 0);
   const Ending reference = pleat_command(folder, {"bench", "reference", file, "--times", "1"});
   CHECK(reference.status == 1);
   CHECK(reference.out.empty());
   CHECK(reference.error.find("ended early") != std::string::npos);
+}
+
+TEST_CASE("command: a spring hangs as far down as its closed form says", "[cli]") {
+  const ScratchFolder folder;
+  write(folder / "hanging.json", R"({
+    "cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 0.5],
+              "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 20}]}},
+    "pins": [{"vertices": [0]}],
+    "world": {"gravity_m_per_s2": [0, -8, 0]}
+  })");
+  const std::string file = (folder / "hanging.json").string();
+  const Ending ending =
+      pleat_command(folder, {"bench", "reference", file, "--kind", "closed_form", "--times", "1"});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  const Json json = parse_json(ending.out);
+  CHECK(json.at("reference").at("converged") == true);
+  const Json& x = json.at("samples").at(0).at("positions_m");
+  CHECK(x.at(3).get<double>() == Approx(0).margin(1e-12));
+  CHECK(x.at(4).get<double>() == Approx(-1.2).epsilon(1e-12));  // 1 m and 0.5 kg x 8 m/s^2 / 20 N/m
 }
 
 // A spring so stiff that the masses at its ends are lost in rounding: no direct solver takes it.
@@ -748,7 +769,13 @@ TEST_CASE("command: a bench refuses what it would not use", "[cli]") {
       {"run", {"--times", "0.5,0.25"}, "--times: expected ascending times, got 0.25 after 0.5"},
       {"reference", {"--times", "1", "--steps", "5"}, "--steps: expected either this or --times"},
       {"reference", {"--times", "1e9"}, "--times: expected at most 1e9 steps of the scene, got 5"},
-      {"reference", {"--kind", "rigid_chain", "--step", "0.1"}, "--step: the rigid chain has no"},
+      {"reference",
+       {"--kind", "rigid_chain", "--step", "0.1"},
+       "--step: rigid_chain has no method"},
+      {"reference",
+       {"--kind", "closed_form", "--step", "0.1"},
+       "--step: closed_form has no method"},
+      {"reference", {"--kind", "best"}, "--kind: expected run, rigid_chain or closed_form"},
   };
   for (const Bad& bad : cases) {
     std::vector<std::string> words{"bench", bad.kind, scene.file};
