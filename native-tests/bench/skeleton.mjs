@@ -2,37 +2,16 @@
 // Speed and error of every stepper against each other, the same core as WebAssembly, and a plain
 // JavaScript loop. Bounds in milliseconds hold where that loop (sheet 65x65, 100 substeps, row
 // order) takes 20 ms, and are scaled by what it takes here.
-import { execFileSync } from 'node:child_process';
-
-import { oneOf, readOptions, rowsFile, runBench, wholeNumber } from './bench-options.mjs';
-import { goal, measure, median, table } from './bench-rows.mjs';
-import { nativeRun, reference, root, wasmRun, yardstickRun } from './contestants.mjs';
+import { commit, runParts, tell } from './bench-parts.mjs';
+import { goal, measure } from './bench-rows.mjs';
+import { nativeRun, reference, wasmRun, yardstickRun } from './contestants.mjs';
 
 const kFrames = 60; // one second, the stretch of motion that positions are compared over
 const kStep = 1 / 60; // [s]
 const kTimes = [0.5, 1]; // [s]
-const kYardstickMs = 20; // that the bounds in ms are made for
-
-const kUsage = `./pleat bench skeleton   speed and error, and the goals they have to meet
-  --only PART,...   of PARTS (default: all)
-  --repeat N        runs of each contestant, in turn (default 5)
-  --json FILE       write the rows as JSON lines
-  --check           exit status 1 when a goal is short
-Exit status: 0 done, 1 a goal is short (with --check), 2 bad input.`;
 
 // Cloth without bending is what the chain of rigid links is the limit of.
 const kLimp = { model: { bending: 'none' } };
-
-const commit = (() => {
-  try {
-    return execFileSync('git', ['-C', root, 'describe', '--always', '--dirty'], {
-      encoding: 'utf8',
-    }).trim();
-  } catch {
-    return 'unknown';
-  }
-})();
-const tell = (text) => process.stderr.write(process.stderr.isTTY ? `\r\x1b[K${text}` : `${text}\n`);
 
 /** How the rows of a part are measured: `repeat` rounds, positions at `times` [s]. */
 const settings = (repeat, times) => ({ repeat, times, commit, tell });
@@ -116,22 +95,6 @@ function yardstick(n, substeps, order, masses) {
     vertices: n * n,
     run: async (times) => yardstickRun(n, substeps, order, kFrames, times, masses),
   };
-}
-
-/** What the yardstick takes here, over what the bounds were made for. */
-function machineScale(repeat) {
-  const times = [];
-  for (let round = 0; round < repeat; ++round) {
-    tell(`yardstick, round ${round + 1} of ${repeat}`);
-    times.push(yardstickRun(65, 100, 'rows', 30, []));
-  }
-  const ms = median(times.map((run) => median(run.ms)));
-  const nsPerConstraint = (1e6 * ms) / (100 * times[0].constraints);
-  console.log(
-    `yardstick 65x65, 100 substeps, rows: ${ms.toFixed(2)} ms, ${nsPerConstraint.toFixed(2)} ns per constraint;`,
-  );
-  console.log(`bounds in ms are scaled by ${(ms / kYardstickMs).toFixed(3)}\n`);
-  return ms / kYardstickMs;
 }
 
 /** xpbd in both builds and the loop in both orders, on n x n vertices. */
@@ -324,34 +287,10 @@ async function absent({ repeat }) {
   };
 }
 
-const parts = { yardstick: againstYardstick, projective, implicit, targets, absent };
-
-await runBench('skeleton', async (words) => {
-  const names = Object.keys(parts);
-  const options = readOptions(words, kUsage.replace('PARTS', names.join(', ')), {
-    only: { type: 'string', default: names.join() },
-    repeat: { type: 'string', default: '5' },
-    json: { type: 'string' },
-    check: { type: 'boolean', default: false },
-  });
-  if (options === null) return;
-  const repeat = wholeNumber('--repeat', options.repeat, 1);
-  const wanted = options.only.split(',').map((name) => oneOf('--only', name, names));
-  const file = rowsFile(options.json);
-  const scale = machineScale(repeat);
-  const rows = [];
-  const goals = [];
-  for (const name of wanted) {
-    const part = await parts[name]({ repeat, scale });
-    if (process.stderr.isTTY) tell('');
-    console.log(
-      `${name}: errors against ${[...new Set(part.rows.map((row) => row.reference.description))].join('; ')}\n`,
-    );
-    console.log(`${table(part.rows)}\n`);
-    rows.push(...part.rows);
-    goals.push(...part.goals);
-    file.write(rows);
-  }
-  for (const { line } of goals) console.log(line);
-  if (options.check && goals.some(({ ok }) => !ok)) process.exitCode = 1;
+await runParts('skeleton', 'speed and error, and the goals they have to meet', {
+  yardstick: againstYardstick,
+  projective,
+  implicit,
+  targets,
+  absent,
 });
