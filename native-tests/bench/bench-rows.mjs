@@ -22,6 +22,19 @@ export function positionError(positions, right, masses) {
   return Math.sqrt(sum / weight);
 }
 
+/**
+ * Where runs on three meshes lead, each with edges half as long as the one before: by the rate at
+ * which the distances [m] between successive ones fall, log2(d1/d2), at the vertices of the first,
+ * whose masses are given. Without a limit where they do not fall.
+ */
+export function observedLimit([coarse, middle, fine], masses) {
+  const distances = [positionError(coarse, middle, masses), positionError(middle, fine, masses)];
+  const rate = Math.log2(distances[0] / distances[1]);
+  const share = rate > 0 ? 1 / (2 ** rate - 1) : Number.NaN;
+  const limit = coarse.map((_, q) => fine[q] + share * (fine[q] - middle[q]));
+  return { limit, rate, distances };
+}
+
 /** True for a run that came to its end: only then its numbers are of what was asked for. */
 export function hasFinished({ status }) {
   return status === 'ok' || status === 'not_converged';
@@ -89,6 +102,17 @@ export function short(value) {
   return Number(value.toPrecision(3)).toString();
 }
 
+/** Lines of cells under a head, as Markdown. */
+export function markdown(head, lines) {
+  const widths = head.map((title, c) =>
+    Math.max(title.length, ...lines.map((line) => String(line[c]).length)),
+  );
+  const print = (cells) =>
+    `| ${cells.map((cell, c) => String(cell).padEnd(widths[c])).join(' | ')} |`;
+  const rule = widths.map((width) => '-'.repeat(width));
+  return [head, rule, ...lines].map(print).join('\n');
+}
+
 export function table(rows) {
   const head = [
     'contestant',
@@ -118,14 +142,7 @@ export function table(rows) {
     short(row.process_peak_memory_bytes && row.process_peak_memory_bytes / 1e6),
     row.status,
   ]);
-  const widths = head.map((title, c) =>
-    Math.max(title.length, ...lines.map((line) => String(line[c]).length)),
-  );
-  const print = (cells) =>
-    `| ${cells.map((cell, c) => String(cell).padEnd(widths[c])).join(' | ')} |`;
-  return [print(head), print(widths.map((width) => '-'.repeat(width))), ...lines.map(print)].join(
-    '\n',
-  );
+  return markdown(head, lines);
 }
 
 /**

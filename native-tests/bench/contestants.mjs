@@ -16,7 +16,7 @@ const kFrame = 1 / 60; // [s]
 const kMaxOutput = 2 ** 30; // [bytes]; positions are printed as text
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
-const command = join(root, 'build', 'release', 'cli', 'pleat');
+export const command = join(root, 'build', 'release', 'cli', 'pleat');
 const wasmFolder = join(root, 'build', 'wasm', 'wasm');
 const cacheFolder = join(root, 'build', 'references');
 
@@ -43,8 +43,8 @@ function ask(words) {
 }
 
 /**
- * Positions that are taken for right: `kind` is "rigid_chain", or "run" for the scene's own
- * method. Kept in build/references.
+ * Positions that are taken for right: `kind` is "rigid_chain", "closed_form", or "run" for the
+ * scene's own method; runs are kept in build/references.
  */
 export function reference(scene, kind, times) {
   return withSceneFile(scene, (file) =>
@@ -78,12 +78,14 @@ export function nativeRun(scene, frames, times, options = []) {
   );
   return {
     target: 'native',
+    firstMs: run.first_ms,
     ms: run.ms,
     rms: run.rms_stretch,
     largest: run.largest_stretch,
     samples: run.samples.map((sample) => sample.positions_m),
     masses: run.masses_kg,
     residual: run.residual,
+    iterations: run.iterations_per_frame,
     parts: run.parts_ms,
     status: run.status,
     message: run.message,

@@ -1,0 +1,173 @@
+// ./pleat bench references (--help tells the options)
+// What every other error is measured against, held against something of its own: a closed form,
+// half its step, finer meshes; what the exact method costs; and a sweep that is killed.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { commit, runParts, tell } from './bench-parts.mjs';
+import { goal, measure, observedLimit, positionError, short, table } from './bench-rows.mjs';
+import { cantilever } from './cantilever.mjs';
+import { nativeRun, reference, root, wasmRun } from './contestants.mjs';
+import { killedSweep } from './killed-sweep.mjs';
+
+const kFrame = 1 / 60; // [s]
+const kModels = ['springs', 'membrane']; // each with the bending that goes with it
+const swinging = JSON.parse(readFileSync(join(root, 'assets', 'scenes', 'swinging_sheet.json')));
+
+const sheet = (level, elasticity, method) => ({
+  ...swinging,
+  refinement: { level },
+  model: { elasticity },
+  method: { step_s: kFrame, ...method },
+});
+const cells = (level) => swinging.cloth.sheet.columns << level;
+const size = (level) => `${cells(level) + 1}x${cells(level) + 1}`;
+const newton = (stepsPerSecond) => ({ stepper: 'newton', step_s: 1 / stepsPerSecond });
+const millimetres = (lengths) => `${lengths.map((length) => short(1e3 * length)).join(' / ')} mm`;
+
+function contestant(level, elasticity, label, method, frames) {
+  const scene = sheet(level, elasticity, method);
+  return {
+    label: `${scene.name} ${size(level)}, ${elasticity}, ${label}`,
+    scene: scene.name,
+    method: scene.method,
+    vertices: (cells(level) + 1) ** 2,
+    run: async (times) => nativeRun(scene, frames, times),
+  };
+}
+
+/**
+ * `newton` with the midpoint rule on the same mesh, and its `changes` [m]: how far halving its step
+ * moved it, at each of the times.
+ */
+function halvedReference(level, elasticity, stepsPerSecond, times) {
+  const { masses } = nativeRun(sheet(level, elasticity, newton(stepsPerSecond)), 2, []);
+  const [coarse, fine] = [stepsPerSecond / 2, stepsPerSecond].map((perSecond) => {
+    tell(`reference ${size(level)}, ${elasticity}, step 1/${perSecond} s`);
+    return reference(sheet(level, elasticity, newton(perSecond)), 'run', times);
+  });
+  const changes = fine.samples.map(({ positions_m }, t) =>
+    positionError(coarse.samples[t].positions_m, positions_m, masses),
+  );
+  const description = `${fine.reference.description}; halving its step changed it by ${millimetres(changes)}`;
+  const label = { ...fine.reference, description, uncertainty_m: changes.at(-1) };
+  return { ...fine, reference: label, changes };
+}
+
+/** Errors of time steps alone on 33x33 vertices. */
+async function time({ repeat }) {
+  const kTimes = [0.5, 1]; // [s]
+  const kStepsPerSecond = { springs: 3840, membrane: 7680 };
+  const kLevel = 2;
+  const exact = (stepper, substeps) => ({ stepper, substeps, solver: 'cholmod' });
+  const methods = {
+    'implicit x1': exact('implicit', 1),
+    'implicit x4': exact('implicit', 4),
+    'implicit x16': exact('implicit', 16),
+    'newton x4': exact('newton', 4),
+    'newton x8': exact('newton', 8),
+  };
+  const forSprings = {
+    'projective 4x5': { ...exact('projective', 4), iterations: 5 },
+    'xpbd x30': { stepper: 'xpbd', substeps: 30 },
+    'xpbd x100': { stepper: 'xpbd', substeps: 100 },
+  };
+  const rows = [];
+  const goals = [];
+  for (const model of kModels) {
+    const against = halvedReference(kLevel, model, kStepsPerSecond[model], kTimes);
+    const shown = model === 'springs' ? { ...methods, ...forSprings } : methods;
+    const contestants = Object.entries(shown).map(([label, method]) =>
+      contestant(kLevel, model, label, method, 60),
+    );
+    const found = await measure(contestants, { repeat, times: kTimes, against, commit, tell });
+    const ratios = kTimes.map((at, t) => {
+      const errors = found.map((row) => row.position_errors_m[`${at} s`]);
+      return against.changes[t] / Math.min(...errors);
+    });
+    const name = `time_reference_change_over_smallest_error_${model}`;
+    goals.push(goal(name, Math.max(...ratios), 'at-most', 0.25, found));
+    rows.push(...found);
+  }
+  return { rows, goals };
+}
+
+/** Errors of meshes alone, at a step whose error is far below: against where three meshes lead. */
+async function mesh() {
+  const kTime = 0.5; // [s]
+  const kLevels = [1, 2, 3];
+  const kStepsPerSecond = 480;
+  const rows = [];
+  const lines = [];
+  for (const model of kModels) {
+    const runs = kLevels.map((level) => {
+      tell(`mesh ${size(level)}, ${model}`);
+      return nativeRun(sheet(level, model, newton(kStepsPerSecond)), kTime / kFrame, [kTime]);
+    });
+    const { masses } = runs[0]; // of the vertices that all three have
+    const { limit, rate, distances } = observedLimit(
+      runs.map((run) => run.samples[0] ?? []),
+      masses,
+    );
+    const { changes } = halvedReference(2, model, 2 * kStepsPerSecond, [kTime]);
+    const against = {
+      reference: {
+        id: `limit-of-meshes-${model}`,
+        description: `where ${model} on ${kLevels.map(size).join(', ')} lead at their observed rate`,
+        converged: false,
+        uncertainty_m: distances[1],
+      },
+      samples: [{ positions_m: limit }],
+      rest_diagonal_m: Math.hypot(swinging.cloth.sheet.width_m, swinging.cloth.sheet.height_m),
+    };
+    const label = `newton, step 1/${kStepsPerSecond} s`;
+    const contestants = kLevels.map((level, i) => ({
+      ...contestant(level, model, label, newton(kStepsPerSecond), 0),
+      run: async () => runs[i],
+    }));
+    const options = { repeat: 1, times: [kTime], against, masses, commit, tell: () => undefined };
+    rows.push(...(await measure(contestants, options)));
+    lines.push(
+      `shown mesh_error_rate_${model} ${short(rate)}: successive meshes ${millimetres(distances)} apart at ${kTime} s; halving the step moves ${size(2)} by ${millimetres(changes)}`,
+    );
+  }
+  return { rows, goals: [], text: `errors at 0.5 s\n\n${table(rows)}\n\n${lines.join('\n')}` };
+}
+
+/** What a step of the exact method costs at the step that references take. */
+async function step({ repeat, scale }) {
+  const kLevel = 3;
+  const kStepsPerSecond = 960;
+  const kFrames = 6;
+  const kTimes = [kFrames * kFrame]; // [s]
+  const method = newton(kStepsPerSecond);
+  tell(`reference ${size(kLevel)}, step 1/${2 * kStepsPerSecond} s`);
+  const against = reference(sheet(kLevel, 'membrane', newton(2 * kStepsPerSecond)), 'run', kTimes);
+  const label = `newton, step 1/${kStepsPerSecond} s`;
+  const native = contestant(kLevel, 'membrane', label, method, kFrames);
+  const inWasm = {
+    ...native,
+    run: async (times) => wasmRun(sheet(kLevel, 'membrane', method), kFrames, times),
+  };
+  const options = { times: kTimes, against, commit, tell };
+  const rows = [
+    ...(await measure([native], { ...options, repeat })),
+    ...(await measure([inWasm], { ...options, repeat: 1 })),
+  ].map((row) => ({ ...row, ms_per_step: row.ms_per_frame / (kFrame * kStepsPerSecond) }));
+  const steps = rows.map((row) => `${short(row.ms_per_step)} ms (${row.target})`).join(', ');
+  return {
+    rows,
+    goals: [
+      goal('newton_65x65_ms_per_step', rows[0].ms_per_step, 'at-most', 600 * scale, [rows[0]]),
+    ],
+    text: `errors against ${against.reference.description}\n\n${table(rows)}\n\na step takes ${steps}`,
+  };
+}
+
+await runParts('references', 'what references are held against, and the goals they have to meet', {
+  cantilever,
+  time,
+  mesh,
+  step,
+  sweep: () => killedSweep({ ...swinging, refinement: { level: 0 } }),
+});
