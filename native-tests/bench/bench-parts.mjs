@@ -40,7 +40,7 @@ function machineScale(repeat) {
 }
 
 /** What the errors of rows are measured against, and their table. */
-function described(rows) {
+export function described(rows) {
   const references = [...new Set(rows.map((row) => row.reference.description))];
   return `errors against ${references.join('; ')}\n\n${table(rows)}`;
 }

@@ -85,7 +85,6 @@ export function nativeRun(scene, frames, times, options = []) {
     samples: run.samples.map((sample) => sample.positions_m),
     masses: run.masses_kg,
     residual: run.residual,
-    iterations: run.iterations_per_frame,
     parts: run.parts_ms,
     status: run.status,
     message: run.message,
