@@ -12,7 +12,10 @@ export function offlineCopy(): Plugin {
     generateBundle: {
       order: 'post',
       handler(_options, bundle) {
-        const files = Object.keys(bundle).sort();
+        // References are large, and the page goes without them.
+        const files = Object.keys(bundle)
+          .filter((name) => !name.endsWith('.reference'))
+          .sort();
         const hash = createHash('sha256');
         for (const name of files) {
           const output = bundle[name];

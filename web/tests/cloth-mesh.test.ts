@@ -75,6 +75,7 @@ describe('cloth-mesh', () => {
     cloth.update();
     expect(cloth.heatScale().most).toBeNaN();
     expect(new Set(colours()).size).toBe(1);
+    expect(colours()[0]).toBeGreaterThan(0.1);
     cloth.setFrame(frame(0), 'distance');
     cloth.update();
     expect(cloth.heatScale()).toMatchObject({ map: 'distance', low: 0 });

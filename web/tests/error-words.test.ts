@@ -57,6 +57,11 @@ describe('error words', () => {
     expect(pulled.sentence).toContain('reset to compare');
   });
 
+  it('say nothing of the start, where every method is right', () => {
+    const state = { step: 0, reference: { ...reference, distance_m: 0 } };
+    expect(wordsOf(state)).toMatchObject({ value: '–', detail: 'play to see' });
+  });
+
   it('say that another mesh has its share', () => {
     expect(against({}, { ...own, level: own.level + 1 }).sentence).toContain('the other mesh');
   });

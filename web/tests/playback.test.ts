@@ -4,7 +4,7 @@ import { createPlayback } from '../src/sim/playback';
 import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
 import type { PleatModule } from '../src/sim/wasm-module';
 import { createWorkerCore } from '../src/sim/worker-core';
-import { initialState } from '../src/state/app-state';
+import { initialState, shownHeat } from '../src/state/app-state';
 import { presetSetting, withModel } from '../src/state/setting';
 import { createStore } from '../src/state/store';
 import { decodeLink } from '../src/state/url-codec';
@@ -40,11 +40,12 @@ async function realModule(): Promise<PleatModule> {
 function open(hash: string) {
   const { link, problems } = decodeLink(hash);
   const store = createStore(initialState(link, problems));
-  let shown = new Float32Array(0);
+  let shown = { positions: new Float32Array(0), values: new Float32Array(0), scalar: '' };
   const playback = createPlayback(store, {
     showMesh: () => undefined,
-    showFrame(buffer) {
-      shown = frameViews(buffer).positions.slice();
+    showFrame(buffer, scalar) {
+      const views = frameViews(buffer);
+      shown = { positions: views.positions.slice(), values: views.scalar.slice(), scalar };
     },
   });
   return { store, playback, shown: () => shown };
@@ -63,7 +64,7 @@ describe('playback of a run that diverges', () => {
     changeScene = (scene) => ({ ...scene, name: 'fragile' });
     const page = open('#scene=swinging-sheet&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    const start = page.shown();
+    const start = page.shown().positions;
     page.playback.play();
     await vi.waitUntil(() => phaseOf(page) === 'stopped');
     const { problem, playing, numbers } = page.store.get();
@@ -72,14 +73,14 @@ describe('playback of a run that diverges', () => {
     expect(problem?.source).toBe('run');
     expect(problem?.sentence).toContain(`in step ${FRAGILE_STEPS + 1}`);
     expect(problem?.sentence).toContain('vertex 3');
-    const place = Array.from(page.shown().subarray(9, 12), (metres) => metres.toFixed(2));
+    const place = Array.from(page.shown().positions.subarray(9, 12), (metres) => metres.toFixed(2));
     expect(problem?.sentence).toContain(`(${place.join(', ')}) m`);
-    expect(page.shown()).not.toEqual(start);
+    expect(page.shown().positions).not.toEqual(start);
 
     page.playback.reset();
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get()).toMatchObject({ problem: null, numbers: { step: 0 } });
-    expect(page.shown()).toEqual(start);
+    expect(page.shown().positions).toEqual(start);
     page.playback.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
   });
@@ -89,17 +90,17 @@ describe('playback of a run that diverges', () => {
     changeScene = (scene) => ({ ...scene, ...diverging });
     const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    const start = page.shown();
+    const start = page.shown().positions;
     page.playback.play();
     await vi.waitUntil(() => phaseOf(page) === 'stopped', 20000);
     const { problem, numbers } = page.store.get();
     expect(numbers?.time_s).toBeCloseTo(0.2, 9);
     expect(problem?.sentence).toMatch(/in step 13, .*vertex \d+ .*0\.2.* It was last at \(/);
-    expect(page.shown().every((metres) => Math.abs(metres) < 3)).toBe(true);
+    expect(page.shown().positions.every((metres) => Math.abs(metres) < 3)).toBe(true);
     page.playback.reset();
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
-    expect(page.shown()).toEqual(start);
+    expect(page.shown().positions).toEqual(start);
   });
 });
 
@@ -150,19 +151,20 @@ describe('playback of a mesh', () => {
   const triangle = (top: number) => `v 0 ${top} 0\nv 1 0 0\nv 0 0 1\ng waist\nf 1 2 3\n`;
   const file = (name: string, text: string) => new File([text], name);
   const fetched = vi.fn();
+  const aMesh = expect.stringContaining('.obj');
 
   beforeEach(() => {
     module = createFakeModule().module;
     changeScene = (scene) => scene;
     fetched.mockReset();
-    fetched.mockResolvedValue(new Response(triangle(1)));
+    fetched.mockImplementation(async () => new Response(triangle(1)));
     vi.stubGlobal('fetch', fetched);
   });
 
   it('fetches the example only when it is wanted', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    expect(fetched).not.toHaveBeenCalled();
+    expect(fetched).not.toHaveBeenCalledWith(aMesh);
     page.store.set({ setting: presetSetting('obj') });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().mesh).toMatchObject({ name: 'skirt.obj', isOwn: false });
@@ -183,7 +185,7 @@ describe('playback of a mesh', () => {
     page.store.set({ setting });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().mesh?.name).toBe('hat.OBJ');
-    expect(fetched).not.toHaveBeenCalled();
+    expect(fetched).not.toHaveBeenCalledWith(aMesh);
   });
 
   it('says what is wrong with a file and goes on with the cloth', async () => {
@@ -211,6 +213,23 @@ describe('playback of a mesh', () => {
     expect(page.store.get().problem).toBeNull();
   });
 
+  it('keeps a file that came before the example did', async () => {
+    let bring: (answer: Response) => void = () => undefined;
+    const late = new Promise<Response>((resolve) => {
+      bring = resolve;
+    });
+    fetched.mockReturnValue(late);
+    const page = open('#scene=obj');
+    await vi.waitUntil(() => fetched.mock.calls.length > 0);
+    await page.playback.openObj(file('hat.obj', triangle(1)));
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    bring(new Response(triangle(2)));
+    page.playback.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    await new Promise((resume) => setTimeout(resume, 20));
+    expect(page.store.get().mesh?.name).toBe('hat.obj');
+  });
+
   it('starts anew when the fabric changes, as there are no mesh lines', async () => {
     const page = open('#scene=obj');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
@@ -219,5 +238,66 @@ describe('playback of a mesh', () => {
     page.store.set({ setting: { ...page.store.get().setting, fabric: 'silk' } });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().numbers?.step).toBe(0);
+  });
+});
+
+describe('playback with a reference', () => {
+  const reference = { name: 'swinging sheet', end_s: 0.1, uncertainty_m: 0.001 };
+  const fetched = vi.fn();
+  const answer = (content: object) => async () => new Response(JSON.stringify(content));
+
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+    fetched.mockReset();
+    fetched.mockImplementation(answer(reference));
+    vi.stubGlobal('fetch', fetched);
+  });
+
+  const referenceOf = ({ store }: ReturnType<typeof open>) => store.get().numbers?.reference;
+
+  it('fetches it after the cloth is there, and compares', async () => {
+    fetched.mockImplementation(() => {
+      expect(page.store.get().phase).toBe('ready');
+      return answer(reference)();
+    });
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => referenceOf(page));
+    expect(referenceOf(page)).toMatchObject({ distance_m: 0.012, end_s: 0.1 });
+    expect(fetched).toHaveBeenCalledOnce();
+  });
+
+  it('fetches none for another fabric or model than it is of', async () => {
+    const page = open('#scene=swinging-sheet&level=0&fabric=silk');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.store.set({ setting: withModel(presetSetting('swinging-sheet'), 'membrane') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(fetched).not.toHaveBeenCalled();
+  });
+
+  it('goes without when it cannot be fetched, and tries again at the next load', async () => {
+    fetched.mockRejectedValueOnce(new TypeError('offline'));
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+    page.store.set({ setting: { ...page.store.get().setting, level: 1 } });
+    await vi.waitUntil(() => referenceOf(page));
+  });
+
+  it('fills the frame that stands with distances once they are to be shown', async () => {
+    const page = open('#scene=swinging-sheet&level=0&heat=distance');
+    await vi.waitUntil(() => page.shown().scalar === 'distance');
+    expect(page.shown().values.every((metres) => Math.abs(metres - 0.012) < 1e-6)).toBe(true);
+    expect(page.store.get().numbers?.step).toBe(0);
+    page.store.set({ heat: 'magnitude' });
+    await vi.waitUntil(() => page.shown().scalar === 'stretch');
+  });
+
+  it('shows the fabric for a heat map that has no reference', async () => {
+    fetched.mockRejectedValue(new TypeError('offline'));
+    const page = open('#scene=swinging-sheet&level=0&heat=distance');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(shownHeat(page.store.get())).toBe('off');
+    expect(page.shown().scalar).toBe('stretch');
   });
 });

@@ -202,7 +202,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   /** Fetches what the shown cloth is compared with; without it there is no error, and no harm. */
   async function bringReference(): Promise<void> {
     const url = loaded && referenceUrl(loaded.setting);
-    if (!url || url === referenceAt) return;
+    if (!url || url === referenceAt || navigator.onLine === false) return;
     referenceAt = url;
     try {
       const answer = await fetch(url);

@@ -134,9 +134,9 @@ export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
     title: 'Newton (exact, slow)',
     solves: true,
     meaning:
-      'Solves each substep to the last digit and damps nothing: what references are made of.',
+      'Backward Euler, solved to the last digit: all that is wrong is the length of its steps.',
     counts: {
-      substeps: { start: 1, least: 1, meaning: 'More substeps follow fast motion closer.' },
+      substeps: { start: 1, least: 1, meaning: 'More substeps damp less and cost more.' },
     },
   },
 };

@@ -26,8 +26,9 @@ function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWo
     return { value: '–', detail: 'reset to compare', sentence };
   }
   if (distance === null) {
-    const end = `the reference ends at ${digits(end_s, 2)} s`;
-    return { value: '–', detail: end, sentence: `No error any more: ${end}.` };
+    const end = `${digits(end_s, 2)} s`;
+    const sentence = `No error from here on: the reference ends at ${end}.`;
+    return { value: '–', detail: `known up to ${end}`, sentence };
   }
   if (uncertainty === null) {
     const sentence = 'The reference of this scene did not converge: no error can be told from it.';
@@ -64,6 +65,10 @@ export function errorWords(
 ): ErrorWords {
   const { numbers, setting } = state;
   if (!numbers) return { value: '–', detail: '', sentence: '' };
+  if (numbers.reference && numbers.step === 0) {
+    const sentence = 'This scene has a reference: play to see how far from it the cloth gets.';
+    return { value: '–', detail: 'play to see', sentence };
+  }
   const isOwnMesh = setting.level === presetSetting(setting.preset).level;
   if (numbers.reference) return fromReference(numbers.reference, isOwnMesh);
   const sentence = fromItself(numbers, STEPPER_TRAITS[setting.stepper].solves);

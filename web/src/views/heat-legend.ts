@@ -32,7 +32,7 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
   const low = element('span');
   const high = element('span');
   const present = element('p', { class: 'legend-present' });
-  const means = element('p', { class: 'legend-present' });
+  const means = element('p', { class: 'legend-present' }, 'mean of the threads at a point');
   const legend = element(
     'div',
     { class: 'legend', role: 'group', 'aria-label': 'Colour scale' },
@@ -48,16 +48,13 @@ export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): (
     if (!scale) return;
     const isDistance = scale.map === 'distance';
     const text = isDistance ? smallLength : percent;
-    const range = heatRange === 'auto' || isDistance ? 'automatic' : 'fixed';
+    const range = heatRange === 'auto' ? 'automatic' : 'fixed';
     legend.title = isDistance ? DISTANCE_MEANING : STRETCH_MEANING;
-    setText(title, `${TITLES[scale.map]}, ${range} scale`);
+    setText(title, isDistance ? TITLES.distance : `${TITLES[scale.map]}, ${range} scale`);
     bar.style.background = (scale.map === 'signed' ? SIGNED_MAP : MAGNITUDE_MAP).gradient;
     setText(low, text(scale.low));
     setText(high, text(scale.high));
     setText(present, presentText(scale, text));
-    setText(
-      means,
-      isDistance ? 'at the same points of the cloth' : 'mean of the threads at a point',
-    );
+    means.hidden = isDistance;
   });
 }

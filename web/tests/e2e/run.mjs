@@ -365,6 +365,32 @@ await check('heat map: legend with unit and ends, pixels change', () =>
   }),
 );
 
+await check('a reference tells how far off the cloth is, in words and as a heat map', () =>
+  visit('#scene=swinging-sheet&heat=distance', async (page) => {
+    await until(page, (state) => state.numbers.reference !== null);
+    const verdict = page.locator('.verdict');
+    expectThat(/has a reference/.test(await verdict.textContent()), 'it is not announced');
+    const legend = page.locator('.legend');
+    await eventually(async () => /mm/.test(await legend.textContent()), 'the legend in mm');
+    await button(page, 'Play').click();
+    await until(page, (state) => state.numbers.time_s > 0.3);
+    await button(page, 'Pause').click();
+    const sentence = await verdict.textContent();
+    expectThat(/mm from the reference \(known to/.test(sentence), `it says: ${sentence}`);
+    await until(page, ({ heatScale, numbers }) => heatScale.most > numbers.reference.distance_m);
+    await page.locator('canvas').focus();
+    await page.keyboard.press('g');
+    await page.keyboard.press('Escape');
+    await eventually(async () => /pulled or changed/.test(await verdict.textContent()), 'a hand');
+    await button(page, 'Pause').click();
+    await choice(page, 'Fabric').selectOption({ index: 5 });
+    await isReady(page);
+    expectThat(/No reference/.test(await verdict.textContent()), 'silk has a reference');
+    const option = choice(page, 'Colour shows').locator('option', { hasText: 'Distance' });
+    expectThat(await option.isDisabled(), 'distance can be chosen');
+  }),
+);
+
 await check('fabric, level and stepper change while it moves, and the motion goes on', () =>
   visit('#scene=tablecloth&level=1', async (page) => {
     await button(page, 'Play').click();
