@@ -191,6 +191,9 @@ await check('two fingers beside the cloth zoom, and leave the cloth alone', () =
 
 await check('a drag off the cloth turns the view and leaves the cloth alone', () =>
   visit('#scene=curtain', async (page) => {
+    // Its reference has come, and with it the words under the stage, which share its room.
+    await page.waitForLoadState('networkidle');
+    await until(page, (state) => state.phase === 'ready');
     const [positions, still] = [await positionsOf(page), await picture(page)];
     const box = await page.locator('canvas').boundingBox();
     await page.mouse.move(box.x + 20, box.y + 20);
