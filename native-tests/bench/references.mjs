@@ -22,7 +22,11 @@ const sheet = (level, elasticity, method) => ({
 });
 const cells = (level) => swinging.cloth.sheet.columns << level;
 const size = (level) => `${cells(level) + 1}x${cells(level) + 1}`;
-const newton = (stepsPerSecond) => ({ stepper: 'newton', step_s: 1 / stepsPerSecond });
+const newton = (stepsPerSecond) => ({
+  stepper: 'newton',
+  rule: 'midpoint',
+  step_s: 1 / stepsPerSecond,
+});
 const millimetres = (lengths) => `${lengths.map((length) => short(1e3 * length)).join(' / ')} mm`;
 
 function contestant(level, elasticity, label, method, frames) {
@@ -66,8 +70,8 @@ async function time({ repeat }) {
     'implicit x1': exact('implicit', 1),
     'implicit x4': exact('implicit', 4),
     'implicit x16': exact('implicit', 16),
-    'newton x4': exact('newton', 4),
-    'newton x8': exact('newton', 8),
+    'newton x4': { ...exact('newton', 4), rule: 'midpoint' },
+    'newton x8': { ...exact('newton', 8), rule: 'midpoint' },
   };
   const forSprings = {
     'projective 4x5': { ...exact('projective', 4), iterations: 5 },
