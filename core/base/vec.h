@@ -15,4 +15,17 @@ using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 /// Rest coordinates, one column per vertex: along warp, along weft [m].
 using RestCoordinates = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
+/// The same numbers as one long column, as linear solvers take them.
+inline Eigen::Map<Eigen::VectorXd> flat(Positions& columns) {
+  return {columns.data(), columns.size()};
+}
+inline Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
+  return {columns.data(), columns.size()};
+}
+
+/// Diagonal of the box around the columns [m]; there must be one.
+inline double box_diagonal(const Positions& x) {
+  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+}
+
 }  // namespace pleat

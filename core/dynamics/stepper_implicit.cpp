@@ -8,11 +8,6 @@ namespace {
 
 constexpr int kMaxIterations = 2000;  // of CG; reaching it is reported as not converged
 
-Eigen::Map<Eigen::VectorXd> flat(Positions& columns) { return {columns.data(), columns.size()}; }
-Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
-  return {columns.data(), columns.size()};
-}
-
 }  // namespace
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)

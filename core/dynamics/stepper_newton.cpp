@@ -22,15 +22,6 @@ constexpr double kLinearTolerance = 1e-3;     // relative residual of the first 
 constexpr int kMaxLinearIterations = 15;      // with a kept factor; more cost as much as a new one
 constexpr double kSmallestShift = 1e-6;       // of the first one; below, the true Hessian stands
 
-Eigen::Map<Eigen::VectorXd> flat(Positions& columns) { return {columns.data(), columns.size()}; }
-Eigen::Map<const Eigen::VectorXd> flat(const Positions& columns) {
-  return {columns.data(), columns.size()};
-}
-
-double box_diagonal(const Positions& x) {
-  return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
-}
-
 double largest_norm(const Positions& columns) {
   return std::sqrt(columns.colwise().squaredNorm().maxCoeff());
 }

@@ -15,6 +15,12 @@ double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& position
 
 }  // namespace
 
+double root_mean_square(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
 double position_error(const Eigen::Ref<const Positions>& positions,
                       const Eigen::Ref<const Positions>& reference,
                       const Eigen::Ref<const Eigen::VectorXd>& areas) {

@@ -8,6 +8,9 @@
 
 namespace pleat {
 
+/// Of one value or more.
+double root_mean_square(std::span<const double> values);
+
 /// RMS distance of the same material points of one cloth in two states at the same time [m].
 ///
 /// positions, reference  [m]; column i is the same material point in both. One may be the finer

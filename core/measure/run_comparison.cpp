@@ -32,26 +32,20 @@ std::vector<std::array<VertexId, 2>> middles_between(const RestCloth& coarse, in
   return middles;
 }
 
-double root_of_mean(double sum_of_squares, std::size_t count) {
-  return std::sqrt(sum_of_squares / static_cast<double>(count));
-}
-
 void check_times(std::span<const Sample> run, std::span<const Sample> reference) {
   PLEAT_CHECK(!run.empty() && run.size() == reference.size(), "two runs have samples to compare");
   for (std::size_t s = 0; s < run.size(); ++s)
     PLEAT_CHECK(run[s].time == reference[s].time, "two runs are compared at the same times");
 }
 
-/// Over vertices that both have and times [m].
-double position_distance(std::span<const Sample> run, std::span<const Sample> reference,
-                         const Eigen::VectorXd& areas) {
+/// Over vertices that both have, for each time [m].
+std::vector<double> position_errors(std::span<const Sample> run, std::span<const Sample> reference,
+                                    const Eigen::VectorXd& areas) {
   check_times(run, reference);
-  double sum = 0;
-  for (std::size_t s = 0; s < run.size(); ++s) {
-    const double error = position_error(run[s].positions, reference[s].positions, areas);
-    sum += error * error;
-  }
-  return root_of_mean(sum, run.size());
+  std::vector<double> errors;
+  for (std::size_t s = 0; s < run.size(); ++s)
+    errors.push_back(position_error(run[s].positions, reference[s].positions, areas));
+  return errors;
 }
 
 }  // namespace
@@ -79,33 +73,33 @@ Positions RunComparison::on_finer_mesh(const Positions& positions, bool is_finer
 RunErrors RunComparison::errors(std::span<const Sample> run,
                                 std::span<const Sample> reference) const {
   RunErrors errors;
-  errors.position = position_distance(run, reference, areas_);
+  errors.position = root_mean_square(position_errors(run, reference, areas_));
   if (!bend_) return errors;
   const auto n = static_cast<double>(run.size());
-  double surface_squares = 0;
+  std::vector<double> surface_errors;
   errors.surface_95 = errors.bend_distribution = errors.bend_regions = 0;
   for (std::size_t s = 0; s < run.size(); ++s) {
     const SurfaceError surface = surface_error(own_.mesh.triangles, run[s].positions,
                                                reference_.mesh.triangles, reference[s].positions);
     const BendError bend = bend_->error(on_finer_mesh(run[s].positions, own_is_finer_),
                                         on_finer_mesh(reference[s].positions, !own_is_finer_));
-    surface_squares += surface.rms * surface.rms;
+    surface_errors.push_back(surface.rms);
     errors.surface_95 += surface.percentile_95 / n;
     errors.bend_distribution += bend.distribution / n;
     errors.bend_regions += bend.regions / n;
   }
-  errors.surface_rms = root_of_mean(surface_squares, run.size());
+  errors.surface_rms = root_mean_square(surface_errors);
   return errors;
 }
 
-double run_distance(const Scene& scene, std::span<const Sample> run,
-                    std::span<const Sample> reference) {
+std::vector<double> sample_distances(const Scene& scene, std::span<const Sample> run,
+                                     std::span<const Sample> reference) {
   PLEAT_CHECK(!run.empty() && !reference.empty(), "two runs have samples to compare");
   int level = 0;
   Eigen::VectorXd areas = rest_areas(scene, rest_cloth(scene, level));
   const Eigen::Index n = std::min(run[0].positions.cols(), reference[0].positions.cols());
   while (areas.size() < n) areas = rest_areas(scene, rest_cloth(scene, ++level));
-  return position_distance(run, reference, areas);
+  return position_errors(run, reference, areas);
 }
 
 }  // namespace pleat

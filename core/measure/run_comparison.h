@@ -47,8 +47,8 @@ class RunComparison {
   std::optional<BendMeasure> bend_;
 };
 
-/// RMS distance between two runs [m]: RunErrors::position, of runs at any two levels.
-double run_distance(const Scene& scene, std::span<const Sample> run,
-                    std::span<const Sample> reference);
+/// RMS distance between two runs of a cloth at any two levels, for each of their samples [m].
+std::vector<double> sample_distances(const Scene& scene, std::span<const Sample> run,
+                                     std::span<const Sample> reference);
 
 }  // namespace pleat

@@ -36,12 +36,6 @@ std::string unconverged_sentence(double distance, double uncertainty) {
   return sentence;
 }
 
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
-
 /// Over the sample times: RMS of the RMS, largest of the largest.
 Stretch overall_stretch(const std::vector<Sample>& samples) {
   Stretch overall;

@@ -196,13 +196,11 @@ class NewtonMaker : public ReferenceMaker {
     reference.label.uncertainty = 0;
     for (Sample& sample : reference.samples) sample.uncertainty = 0;
     for (std::size_t r = 0; r + 1 < runs_.size(); ++r) {
-      const double change = run_distance(scene, runs_[r], runs_.back());
+      const std::vector<double> changes = sample_distances(scene, runs_[r], runs_.back());
+      const double change = root_mean_square(changes);
       reference.label.uncertainty = std::max(reference.label.uncertainty, change);
-      for (std::size_t s = 0; s < runs_[r].size(); ++s) {
-        double& uncertainty = reference.samples[s].uncertainty;
-        uncertainty =
-            std::max(uncertainty, run_distance(scene, {&runs_[r][s], 1}, {&runs_.back()[s], 1}));
-      }
+      for (std::size_t s = 0; s < changes.size(); ++s)
+        reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
       char phrase[80];
       std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm",
                     r == 0 ? "step" : "mesh", 1e3 * change);

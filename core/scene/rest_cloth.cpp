@@ -90,8 +90,7 @@ double rest_diagonal(const Scene& scene) {
   const auto* mesh = std::get_if<MeshCloth>(&scene.cloth);
   const Positions& positions =
       mesh != nullptr ? mesh->mesh.rest_positions : std::get<InlineCloth>(scene.cloth).positions;
-  if (positions.cols() == 0) return 0;
-  return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+  return positions.cols() == 0 ? 0 : box_diagonal(positions);
 }
 
 std::vector<VertexId> pinned_vertices(const PinRule& rule, const Scene& scene,
