@@ -25,10 +25,6 @@ Positions inflated(const QuadMesh& mesh, Random& random) {
   return shaken(1.3 * mesh.rest_positions(), 0.02 * kEdge, random);
 }
 
-Eigen::VectorXd flat(const Positions& x) {
-  return Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
-}
-
 Positions columns(const Eigen::VectorXd& x) {
   return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3);
 }
@@ -159,7 +155,7 @@ TEST_CASE("elasticity: damping is minus the derivative of the damping forces by 
   const Positions x = crumpled(mesh, random);
   const Eigen::VectorXd v = flat(shaken(Positions::Zero(3, x.cols()), 1, random));
   const Eigen::MatrixXd jacobian = difference_jacobian(
-      [&](const Eigen::VectorXd& w) {
+      [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
         Positions forces = Positions::Zero(3, x.cols());
         add_damping_forces(model, x, columns(w), forces);
         return flat(forces);
