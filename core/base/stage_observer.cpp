@@ -1,4 +1,4 @@
-#include "core/dynamics/stage_observer.h"
+#include "core/base/stage_observer.h"
 
 namespace pleat {
 

@@ -2,7 +2,7 @@
 
 namespace pleat {
 
-/// The parts of a time step that can be timed from outside.
+/// The parts of a computation that can be timed from outside.
 enum class Stage {
   convert,   ///< between the shared state and a stepper's own layout
   forces,    ///< forces and right-hand side
@@ -15,7 +15,7 @@ constexpr int kStageCount = 6;
 
 const char* name(Stage stage);
 
-/// Told where a step is. Nothing below `measure` reads a clock.
+/// Told where a computation is. Nothing below `measure` reads a clock.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/dynamics/cloth_model.h"
-#include "core/dynamics/stage_observer.h"
+#include "core/base/stage_observer.h"
 #include "core/dynamics/state.h"
 #include "core/linalg/linear_solver.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <chrono>
 
-#include "core/dynamics/stage_observer.h"
+#include "core/base/stage_observer.h"
 
 namespace pleat {
 
