@@ -109,17 +109,26 @@ struct Fold {
   }
 };
 
-Fold fold(const Hinge& hinge, const Eigen::Ref<const Positions>& positions) {
-  const Vec3 x0 = positions.col(hinge.vertices[0]);
-  const Vec3 x1 = positions.col(hinge.vertices[1]);
-  Fold at{{flap(x0, x1, positions.col(hinge.vertices[2])),
-           flap(x0, x1, positions.col(hinge.vertices[3]))},
+Fold fold(const std::array<VertexId, 4>& vertices, const Eigen::Ref<const Positions>& positions) {
+  const Vec3 x0 = positions.col(vertices[0]);
+  const Vec3 x1 = positions.col(vertices[1]);
+  Fold at{{flap(x0, x1, positions.col(vertices[2])), flap(x0, x1, positions.col(vertices[3]))},
           false};
   at.has_area = at.flaps[0].has_area() && at.flaps[1].has_area();
   return at;
 }
 
 }  // namespace
+
+HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
+                     const Eigen::Ref<const Positions>& positions) {
+  HingeTurn turn;
+  const Fold at = fold(vertices, positions);
+  if (!at.has_area) return turn;
+  turn.angle = at.angle();
+  turn.gradient.reshaped() = at.gradient();
+  return turn;
+}
 
 std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity) {
   PLEAT_CHECK(rigidity >= 0, "a rigidity is not negative");
@@ -128,7 +137,7 @@ std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity) {
   for (const MeshEdge& edge : mesh_edges(mesh.triangles)) {
     if (edge.is_border()) continue;
     const Hinge at{{edge.a, edge.b, edge.across[0], edge.across[1]}, 0};
-    const Fold rest = fold(at, x);
+    const Fold rest = fold(at.vertices, x);
     PLEAT_CHECK(rest.has_area, "each triangle has area at rest");
     const double doubled_areas = rest.flaps[0].normal.norm() + rest.flaps[1].normal.norm();
     result.push_back(
@@ -140,7 +149,7 @@ std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity) {
 double hinge_energy(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions) {
   double energy = 0;
   for (const Hinge& hinge : hinges) {
-    const Fold at = fold(hinge, positions);
+    const Fold at = fold(hinge.vertices, positions);
     if (at.has_area) energy += 0.5 * hinge.stiffness * at.angle() * at.angle();
   }
   return energy;
@@ -149,7 +158,7 @@ double hinge_energy(std::span<const Hinge> hinges, const Eigen::Ref<const Positi
 void add_hinge_forces(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions,
                       Eigen::Ref<Positions> forces) {
   for (const Hinge& hinge : hinges) {
-    const Fold at = fold(hinge, positions);
+    const Fold at = fold(hinge.vertices, positions);
     if (!at.has_area) continue;
     const Vec12 pull = hinge.stiffness * at.angle() * at.gradient();
     for (int k = 0; k < 4; ++k) forces.col(hinge.vertices[k]) -= pull.segment<3>(3 * k);
@@ -158,7 +167,7 @@ void add_hinge_forces(std::span<const Hinge> hinges, const Eigen::Ref<const Posi
 
 Mat12 hinge_stiffness(const Hinge& hinge, const Eigen::Ref<const Positions>& positions,
                       ElementHessian hessian) {
-  const Fold at = fold(hinge, positions);
+  const Fold at = fold(hinge.vertices, positions);
   if (!at.has_area) return Mat12::Zero();
   const Vec12 gradient = at.gradient();
   Mat12 exact =

@@ -15,6 +15,17 @@ struct Hinge {
   double stiffness = 0;              ///< c [J]
 };
 
+/// The turn theta at an edge and its derivative by the four vertices, a column for each [1/m].
+struct HingeTurn {
+  double angle = 0;
+  Eigen::Matrix<double, 3, 4> gradient = Eigen::Matrix<double, 3, 4>::Zero();
+};
+
+/// vertices  as in Hinge
+/// Zero with a flap of no area, which turns nowhere.
+HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
+                     const Eigen::Ref<const Positions>& positions);
+
 /// One hinge per inner edge, at rest when flat, with c = B l^2 / (A1 + A2): edge length l, areas A1
 /// and A2 beside it.
 ///

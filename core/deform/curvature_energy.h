@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/linalg/vertex_matrix.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace pleat {
+
+/// What a triangle's second derivatives k_ww, k_ff, k_wf differ from those at rest:
+///
+///     r = sum_i w_i x_i - b n,
+///
+/// zero at rest wherever that is moved to, as the part of k_M in the plane is among the weights.
+struct CurvatureElement {
+  std::vector<VertexId> vertices;                    ///< the corners first; each once
+  Eigen::Matrix<double, 3, Eigen::Dynamic> weights;  ///< w, a column per vertex [1/m^2]
+  Vec3 normal_part = Vec3::Zero();                   ///< b = n.k_M [1/m]
+  double area = 0;                                   ///< at rest [m^2]
+};
+
+/// One element per triangle, from balanced_stencils. Throws ContractError unless each triangle has
+/// area and a warp direction.
+std::vector<CurvatureElement> curvature_elements(const TriangleMesh& mesh);
+
+/// Sum of A (|r_ww|^2 + |r_ff|^2 + 2 |r_wf|^2). A triangle without area has no normal: there b n is
+/// left out.
+double curvature_energy(std::span<const CurvatureElement> elements,
+                        const Eigen::Ref<const Positions>& positions);
+
+/// Adds factor times the derivative of the energy [1/m].
+void add_curvature_gradient(std::span<const CurvatureElement> elements, double factor,
+                            const Eigen::Ref<const Positions>& positions,
+                            Eigen::Ref<Positions> gradient);
+
+/// Adds factor times 2 J^T W J, J = dr/dx [1/m^2]. The matrix has all pairs of each element.
+void add_curvature_gauss_newton(std::span<const CurvatureElement> elements, double factor,
+                                const Eigen::Ref<const Positions>& positions, VertexMatrix& matrix);
+
+}  // namespace pleat

@@ -1,0 +1,307 @@
+#include "core/deform/deform_solver.h"
+
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+constexpr std::size_t kMaxCorrections = 10;   // each costs four products of two columns
+constexpr int kMaxHalvings = 12;              // then the direction is at fault, not its length
+constexpr double kSufficientDecrease = 1e-4;  // Armijo's: share of what the slope promises
+constexpr double kFirstDamping = 1e-4;
+constexpr double kDampingFactor = 10;
+constexpr double kLargestDamping = 1e8;  // the step is then far below rounding
+constexpr double kRounding = 1e-14;      // of the energy
+/// A factor serves badly when the last of so many steps is not this much shorter than the first.
+/// Ten steps cost about as much as a new factor.
+constexpr int kPatience = 8;
+constexpr double kContraction = 0.01;
+
+constexpr double kBulge = 1e-3;  // of the extent
+
+/// Unit normal of each vertex; zero where the triangles around it cancel.
+Positions vertex_normals(const TriangleMesh& mesh) {
+  const Positions& x = mesh.rest_positions;
+  Positions normals = Positions::Zero(3, x.cols());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 doubled_area =
+        Vec3(x.col(t[1]) - x.col(t[0])).cross(Vec3(x.col(t[2]) - x.col(t[0])));
+    for (const VertexId v : t) normals.col(v) += doubled_area;
+  }
+  normals.colwise().normalize();
+  return normals;
+}
+
+/// Up and down along the normals in waves of a fifth to a third of the extent, that depend on the
+/// place alone and not on the mesh.
+Positions bulges(const TriangleMesh& mesh, double extent) {
+  const std::array<Vec3, 3> waves = {Vec3(19, 11, 7), Vec3(-13, 17, 29), Vec3(5, -31, 3)};
+  Positions result = vertex_normals(mesh);
+  const Vec3 corner = mesh.rest_positions.rowwise().minCoeff();
+  for (Eigen::Index v = 0; v < result.cols(); ++v) {
+    double height = 0;
+    for (const Vec3& wave : waves)
+      height += std::sin(wave.dot(mesh.rest_positions.col(v) - corner) / extent + 1);
+    result.col(v) *= kBulge * extent * height / 3;
+  }
+  return result;
+}
+
+}  // namespace
+
+DeformSolver::DeformSolver(const TriangleMesh& mesh, EnergyForm form, const DeformWeights& weights)
+    : energy_(mesh, form),
+      weights_(weights),
+      extent_(box_diagonal(mesh.rest_positions)),
+      bulges_(bulges(mesh, extent_)),
+      positions_(mesh.rest_positions) {
+  analyze();
+}
+
+DeformSolver::~DeformSolver() = default;
+
+void DeformSolver::analyze() {
+  PLEAT_CHECK(weights_.recovery >= 0 && weights_.stretch >= 0 && weights_.bending >= 0 &&
+                  weights_.recovery + weights_.stretch + weights_.bending > 0,
+              "weights are not negative and not all zero");
+  const StageScope stage(observer_, Stage::factor);
+  matrix_ = std::make_unique<VertexMatrix>(static_cast<int>(positions_.cols()),
+                                           energy_.joined_pairs(weights_));
+  matrix_->choose_prescribed(held_);
+  solver_ = make_linear_solver(best_direct_solver(), 3);
+  solver_->analyze(matrix_->lower());
+}
+
+void DeformSolver::begin_anew() {
+  steps_.clear();
+  corrections_.clear();
+  last_change_.resize(0);
+  converged_ = false;
+}
+
+void DeformSolver::set_weights(const DeformWeights& weights) {
+  const bool joins_others = (weights.stretch > 0) != (weights_.stretch > 0) ||
+                            (weights.bending > 0) != (weights_.bending > 0);
+  weights_ = weights;
+  if (joins_others) analyze();
+  has_factor_ = false;
+  begin_anew();
+}
+
+void DeformSolver::hold(std::vector<VertexId> vertices) {
+  held_ = std::move(vertices);
+  energy_.hold(held_);
+  matrix_->choose_prescribed(held_);
+  has_factor_ = false;
+  begin_anew();
+}
+
+bool DeformSolver::dampen() {
+  damping_ = std::max(kFirstDamping, kDampingFactor * damping_);
+  has_factor_ = false;
+  return damping_ <= kLargestDamping;
+}
+
+SolveReport DeformSolver::linearise() {
+  {
+    const StageScope stage(observer_, Stage::assembly);
+    matrix_->set_zero();
+    energy_.add_gauss_newton(weights_, positions_, *matrix_);
+    const double shift = damping_ * matrix_->lower().diagonal().mean();
+    for (Eigen::Index v = 0; v < positions_.cols(); ++v)
+      matrix_->add_to_diagonal(VertexId(v), shift);
+    unheld_ = matrix_->lower();
+    Eigen::VectorXd no_load = Eigen::VectorXd::Zero(positions_.size());
+    matrix_->prescribe(Positions::Zero(3, static_cast<Eigen::Index>(held_.size())), no_load);
+  }
+  const StageScope stage(observer_, Stage::factor);
+  corrections_.clear();
+  last_change_.resize(0);
+  n_with_factor_ = 0;
+  is_stale_ = false;
+  SolveReport report = solver_->factorize(matrix_->lower());
+  has_factor_ = report.ok();
+  return report;
+}
+
+Positions DeformSolver::free_gradient() const {
+  const StageScope stage(observer_, Stage::forces);
+  Positions gradient = energy_.gradient(weights_, positions_);
+  for (const VertexId v : held_) gradient.col(v).setZero();
+  return gradient;
+}
+
+/// Where the linearised problem is at rest once what is held has moved.
+Positions DeformSolver::foreseen(const Positions& moves) {
+  const StageScope stage(observer_, Stage::solve);
+  matrix_->set_values(unheld_);
+  Positions load = -free_gradient();
+  matrix_->prescribe(moves, flat(load));
+  Positions change(3, positions_.cols());
+  solver_->solve(flat(load), flat(change));
+  return positions_ + change;
+}
+
+void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
+  PLEAT_CHECK(places.cols() == static_cast<Eigen::Index>(held_.size()), "a place per held vertex");
+  Positions moves(3, places.cols());
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    moves.col(static_cast<Eigen::Index>(k)) =
+        places.col(static_cast<Eigen::Index>(k)) - positions_.col(held_[k]);
+  if (moves.isZero(0)) return;
+  begin_anew();
+  const bool foresees = has_factor_ || linearise().ok();
+  Positions followed = foresees ? foreseen(moves) : positions_;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    positions_.col(held_[k]) = places.col(static_cast<Eigen::Index>(k));
+    followed.col(held_[k]) = positions_.col(held_[k]);
+  }
+  if (energy_.terms(followed).weighted(weights_) < energy()) positions_ = followed;
+}
+
+void DeformSolver::restart() {
+  Positions places(3, static_cast<Eigen::Index>(held_.size()));
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    places.col(static_cast<Eigen::Index>(k)) = positions_.col(held_[k]);
+  positions_ = energy_.rest_positions() + bulges_;
+  for (const VertexId v : held_) positions_.col(v) = energy_.rest_positions().col(v);
+  has_factor_ = false;
+  damping_ = 0;
+  begin_anew();
+  move_held(places);
+}
+
+void DeformSolver::remember(const Positions& gradient) {
+  if (last_change_.size() == 0) return;
+  Correction c{last_change_, flat(gradient) - flat(last_gradient_), 0};
+  c.product = c.change.dot(c.gradient_change);
+  // A metric stays positive only by what curves upward.
+  constexpr double kLeastCosine = 1e-10;
+  if (c.product <= kLeastCosine * c.change.norm() * c.gradient_change.norm()) return;
+  corrections_.push_back(std::move(c));
+  if (corrections_.size() > kMaxCorrections) corrections_.pop_front();
+}
+
+/// -H g by the two-loop recursion.
+Eigen::VectorXd DeformSolver::descent(const Positions& gradient) {
+  const StageScope stage(observer_, Stage::solve);
+  Eigen::VectorXd q = -flat(gradient);
+  std::vector<double> shares(corrections_.size());
+  for (std::size_t k = corrections_.size(); k-- > 0;) {
+    shares[k] = corrections_[k].change.dot(q) / corrections_[k].product;
+    q -= shares[k] * corrections_[k].gradient_change;
+  }
+  Eigen::VectorXd direction(q.size());
+  solver_->solve(q, direction);
+  for (std::size_t k = 0; k < corrections_.size(); ++k) {
+    const Correction& c = corrections_[k];
+    direction += (shares[k] - c.gradient_change.dot(direction) / c.product) * c.change;
+  }
+  return direction;
+}
+
+/// Moves along the direction until the energy has fallen enough; false, and nothing moved, if it
+/// does not.
+bool DeformSolver::descend(const Positions& gradient, const Eigen::VectorXd& direction,
+                           DeformStep& step) {
+  const StageScope stage(observer_, Stage::forces);
+  const double slope = flat(gradient).dot(direction);
+  if (!(slope < 0)) return false;
+  const double before = energy();
+  const Positions begin = positions_;
+  double share = 1;
+  for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {
+    flat(positions_) = flat(begin) + share * direction;
+    step.terms = terms();
+    step.energy = step.terms.weighted(weights_);
+    if (!(step.energy <= before + kSufficientDecrease * share * slope)) continue;
+    last_change_ = share * direction;
+    const double n_free =
+        static_cast<double>(positions_.cols()) - static_cast<double>(held_.size());
+    step.relative_step = last_change_.norm() / std::sqrt(n_free) / extent_;
+    return true;
+  }
+  positions_ = begin;
+  return false;
+}
+
+/// What a step says about the factor and the end.
+void DeformSolver::judge(const DeformStep& step) {
+  if (n_with_factor_++ == 0) first_with_factor_ = step.relative_step;
+  is_stale_ = step.halvings > 0 || (n_with_factor_ >= kPatience &&
+                                    step.relative_step > kContraction * first_with_factor_);
+  if (step.halvings > 0) return;
+  converged_ = step.relative_step <= kTolerance;
+  damping_ = damping_ > kFirstDamping ? damping_ / kDampingFactor : 0;
+}
+
+SolveReport DeformSolver::step(Linearise allowed) {
+  if (converged_) return {};
+  const bool may_linearise = allowed == Linearise::when_needed;
+  const Positions gradient = free_gradient();
+  remember(gradient);
+  DeformStep step;
+  for (;;) {
+    if (!has_factor_ || (is_stale_ && may_linearise)) {
+      const SolveReport report = linearise();
+      step.linearised = true;
+      if (!report.ok() && !dampen()) return report;
+      if (!report.ok()) continue;
+    }
+    const Eigen::VectorXd direction = descent(gradient);
+    step.damping = damping_;
+    if (descend(gradient, direction, step)) break;
+    converged_ = -flat(gradient).dot(direction) <= kRounding * energy();
+    if (converged_) return {};
+    if (!corrections_.empty()) {
+      corrections_.clear();  // the factor alone leads down, as the corrections need not
+    } else if (!may_linearise) {
+      is_stale_ = true;
+      return {SolveStatus::not_converged, 0, 0, "the factor at hand leads no further down"};
+    } else if (step.linearised && !dampen()) {
+      return {SolveStatus::not_converged, 0, 0, "no step makes the energy smaller"};
+    }
+    is_stale_ = true;
+  }
+  judge(step);
+  last_gradient_ = gradient;
+  steps_.push_back(step);
+  return {};
+}
+
+SolveReport DeformSolver::solve(int max_linearisations) {
+  int n = 0;
+  while (!converged_) {
+    const bool is_last = n >= max_linearisations;
+    SolveReport report = step(is_last ? Linearise::never : Linearise::when_needed);
+    if (report.ok() && !converged_ && steps_.back().linearised) ++n;
+    if (report.ok() && is_last && is_stale_)
+      report = {SolveStatus::not_converged, 0, 0, "the cap of linearisations is reached"};
+    report.iterations = n;
+    if (!report.ok()) return report;
+  }
+  return {SolveStatus::ok, n, 0, ""};
+}
+
+SolveReport DeformSolver::settle(int max_linearisations) {
+  const SolveReport here = solve(max_linearisations);
+  const Positions kept = positions_;
+  const std::vector<DeformStep> kept_steps = steps_;
+  const bool was_converged = converged_;
+  const double kept_energy = energy();
+  restart();
+  SolveReport report = solve(max_linearisations);
+  report.iterations += here.iterations;
+  if (energy() < kept_energy) return report;
+  positions_ = kept;
+  begin_anew();
+  has_factor_ = false;
+  steps_ = kept_steps;
+  converged_ = was_converged;
+  report = {here.status, report.iterations, 0, here.message};
+  return report;
+}
+
+}  // namespace pleat

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "core/base/stage_observer.h"
+#include "core/deform/deform_energy.h"
+#include "core/linalg/linear_solver.h"
+
+namespace pleat {
+
+/// One step towards the least energy.
+struct DeformStep {
+  double energy = 0;         ///< after it, weighted
+  DeformTerms terms;         ///< after it, unweighted
+  double relative_step = 0;  ///< RMS change of the free vertices over the rest box's diagonal
+  int halvings = 0;          ///< of the step, until the energy fell
+  bool linearised = false;   ///< a matrix and its factor were made for it
+  double damping = 0;        ///< Levenberg's, over the mean of the matrix's diagonal
+};
+
+/// What a step may cost.
+enum class Linearise {
+  when_needed,  ///< a new matrix and factor as soon as those at hand serve badly
+  never,        ///< only where there is none at all
+};
+
+/// The shape of least deformation energy of a mesh, some of whose vertices are held.
+///
+/// Gauss-Newton steps with a sparse Cholesky factor. A factor is kept while it serves: with it as
+/// the first metric, L-BFGS learns what has changed since. A step is halved until the energy falls;
+/// if that does not help, a new factor is made, and then a damped one. So the energy never rises
+/// while nothing is moved.
+///
+/// The same calls give the same bits. Source: Nocedal & Wright, Numerical optimization, 2nd ed.,
+/// Springer 2006, sections 7.2 and 10.3; docs/methods/deformation.md.
+class DeformSolver {
+ public:
+  static constexpr double kTolerance = 1e-6;  ///< of DeformStep::relative_step
+  static constexpr int kMaxLinearisations = 15;
+
+  /// Starts at rest with nothing held. Throws ContractError as DeformEnergy does, and for weights
+  /// that are negative or all zero.
+  DeformSolver(const TriangleMesh& mesh, EnergyForm form, const DeformWeights& weights);
+  DeformSolver(DeformSolver&&) = default;
+  ~DeformSolver();
+
+  /// Keeps the shape.
+  void set_weights(const DeformWeights& weights);
+
+  /// Holds these vertices, each once, and no others. They stay where they are until moved.
+  void hold(std::vector<VertexId> vertices);
+
+  /// Moves what is held, one column per held vertex in their order [m]. The rest follows as far as
+  /// the factor at hand foresees.
+  void move_held(const Eigen::Ref<const Positions>& places);
+
+  /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape
+  /// can be a saddle; from there what is held moves to where it is.
+  void restart();
+
+  /// One step; nothing once converged. Not ok when the energy could not be made smaller.
+  SolveReport step(Linearise allowed = Linearise::when_needed);
+
+  /// Steps until converged. Having linearised so many times, it goes on while the last factor
+  /// serves and then reports not_converged. The report's iterations are linearisations.
+  SolveReport solve(int max_linearisations = kMaxLinearisations);
+
+  /// Solves from here and from `restart`, and keeps the shape of lower energy with its steps: where
+  /// recovery hardly counts, the way that a hand took can end in another minimum. The report's
+  /// iterations are those of both.
+  SolveReport settle(int max_linearisations = kMaxLinearisations);
+
+  /// The last step was not longer than the tolerance, or rounding hides what is left to gain.
+  bool converged() const { return converged_; }
+  /// Since something was last moved, held or weighted otherwise.
+  const std::vector<DeformStep>& steps() const { return steps_; }
+  const Positions& positions() const { return positions_; }
+  const std::vector<VertexId>& held() const { return held_; }
+  const DeformWeights& weights() const { return weights_; }
+  const DeformEnergy& model() const { return energy_; }
+  DeformTerms terms() const { return energy_.terms(positions_); }
+  double energy() const { return terms().weighted(weights_); }
+
+  void observe(StageObserver* observer) { observer_ = observer; }
+
+ private:
+  /// How the gradient changed along with the positions.
+  struct Correction {
+    Eigen::VectorXd change, gradient_change;
+    double product = 0;  // of the two
+  };
+
+  void analyze();
+  void begin_anew();
+  bool dampen();
+  SolveReport linearise();
+  Positions free_gradient() const;
+  Positions foreseen(const Positions& moves);
+  void remember(const Positions& gradient);
+  Eigen::VectorXd descent(const Positions& gradient);
+  bool descend(const Positions& gradient, const Eigen::VectorXd& direction, DeformStep& step);
+  void judge(const DeformStep& step);
+
+  DeformEnergy energy_;
+  DeformWeights weights_;
+  double extent_;     // diagonal of the rest box [m]
+  Positions bulges_;  // what `restart` adds to rest [m]
+  Positions positions_;
+  std::vector<VertexId> held_;
+
+  std::unique_ptr<VertexMatrix> matrix_;  // rows of held vertices are those of the identity
+  SparseMatrix unheld_;                   // the same before they were
+  std::unique_ptr<LinearSolver> solver_;
+  bool has_factor_ = false;
+  bool is_stale_ = false;         // the factor serves badly
+  int n_with_factor_ = 0;         // steps
+  double first_with_factor_ = 0;  // DeformStep::relative_step of the first
+  double damping_ = 0;
+  std::deque<Correction> corrections_;  // to the factor
+  Eigen::VectorXd last_change_;         // empty before the first step
+  Positions last_gradient_;
+
+  std::vector<DeformStep> steps_;
+  bool converged_ = false;
+  StageObserver* observer_ = nullptr;
+};
+
+}  // namespace pleat

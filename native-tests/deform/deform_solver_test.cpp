@@ -1,0 +1,251 @@
+#include "core/deform/deform_solver.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/base/check.h"
+#include "native-tests/support/analytic.h"
+#include "native-tests/support/finite_difference.h"
+#include "native-tests/support/meshes.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kSide = 0.4;    // [m]
+constexpr int kFarAhead = 1000;  // linearisations: as many as it takes
+constexpr DeformWeights kCanvas = {0.23, 0.03, 0.74};
+constexpr DeformWeights kCotton = {0.69, 0.31, 8e-5};  // hardly resists bending
+constexpr DeformWeights kSilk = {0.98, 1e-4, 0.02};
+constexpr DeformWeights kLinen = {1e-4, 0.13, 0.87};
+constexpr DeformWeights kEven = {0.4, 0.3, 0.3};
+constexpr std::array<DeformWeights, 5> kFabrics = {kCanvas, kCotton, kSilk, kLinen, kEven};
+
+TriangleMesh sheet(int cells) {
+  return triangulated_sheet(Triangulation::alternating, cells, cells, kSide / cells);
+}
+
+/// Corners and middle of a sheet, each with what is within `radius` of it [m].
+struct Hold {
+  std::vector<VertexId> vertices;
+  std::vector<char> is_middle;
+
+  Hold(const TriangleMesh& mesh, double radius) {
+    const Positions& x = mesh.rest_positions;
+    const Vec3 low = x.rowwise().minCoeff();
+    const Vec3 size = x.rowwise().maxCoeff() - low;
+    for (const auto& [s, t] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}, {0.5, 0.5}})
+      for (Eigen::Index v = 0; v < x.cols(); ++v)
+        if ((x.col(v) - low - size.cwiseProduct(Vec3(s, t, 0))).norm() <= radius) {
+          vertices.push_back(VertexId(v));
+          is_middle.push_back(s == 0.5);
+        }
+  }
+
+  /// With the middle moved [m].
+  Positions places(const TriangleMesh& mesh, const Vec3& move) const {
+    Positions result(3, static_cast<Eigen::Index>(vertices.size()));
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      result.col(static_cast<Eigen::Index>(k)) =
+          mesh.rest_positions.col(vertices[k]) + (is_middle[k] != 0 ? move : Vec3(0, 0, 0));
+    return result;
+  }
+};
+
+DeformSolver pulled(const TriangleMesh& mesh, EnergyForm form, const DeformWeights& weights,
+                    const Vec3& move) {
+  const Hold hold(mesh, 0.05 * kSide);
+  DeformSolver solver(mesh, form, weights);
+  solver.hold(hold.vertices);
+  solver.move_held(hold.places(mesh, move));
+  return solver;
+}
+
+/// Least energy by Barzilai & Borwein's gradient steps with the best value kept, nothing in common
+/// with the solver but energy and gradient.
+double independent_minimum(const DeformSolver& start) {
+  const DeformEnergy& energy = start.model();
+  const auto free_gradient = [&](const Positions& x) {
+    Positions gradient = energy.gradient(start.weights(), x);
+    for (const VertexId v : start.held()) gradient.col(v).setZero();
+    return gradient;
+  };
+  Positions x = start.positions();
+  Positions gradient = free_gradient(x);
+  double length = 1e-6;
+  double best = start.energy();
+  double reference = best;  // no step may lead higher than the worst of some before it
+  std::deque<double> recent = {best};
+  for (int step = 0; step < 200'000 && gradient.norm() > 1e-9 * best / kSide; ++step) {
+    Positions next = x - length * gradient;
+    double value = energy.terms(next).weighted(start.weights());
+    while (value > reference) {
+      length /= 4;
+      next = x - length * gradient;
+      value = energy.terms(next).weighted(start.weights());
+    }
+    const Positions next_gradient = free_gradient(next);
+    const Positions s = next - x;
+    const double product = s.cwiseProduct(next_gradient - gradient).sum();
+    length = product > 0 ? s.squaredNorm() / product : 2 * length;
+    x = next;
+    gradient = next_gradient;
+    best = std::min(best, value);
+    recent.push_back(value);
+    if (recent.size() > 10) recent.pop_front();
+    reference = *std::max_element(recent.begin(), recent.end());
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("deform_solver: the least energy is that of an independent optimiser", "[deform][long]") {
+  const EnergyForm form = GENERATE(EnergyForm::consistent, EnergyForm::published);
+  const DeformWeights weights = GENERATE(from_range(kFabrics));
+  CAPTURE(form, weights.recovery);
+  const TriangleMesh mesh = sheet(8);
+  DeformSolver solver = pulled(mesh, form, weights, Vec3(0.02, 0.01, 0.1));
+  const double expected = independent_minimum(solver);
+  CHECK(solver.solve(kFarAhead).ok());
+  CHECK(solver.energy() == Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("deform_solver: the energy falls in every step", "[deform]") {
+  const EnergyForm form = GENERATE(EnergyForm::consistent, EnergyForm::published);
+  const DeformWeights weights = GENERATE(from_range(kFabrics));
+  const Vec3 move = GENERATE(Vec3(0, 0, 0.1), Vec3(0.1, 0, 0), Vec3(-0.3, 0.2, 0.6));
+  DeformSolver solver = pulled(sheet(12), form, weights, move);
+  double before = solver.energy();
+  solver.solve();
+  REQUIRE(!solver.steps().empty());
+  for (const DeformStep& step : solver.steps()) {
+    CHECK(step.energy < before);
+    CHECK(step.energy == Approx(step.terms.weighted(weights)));
+    before = step.energy;
+  }
+  CHECK(solver.energy() == before);
+}
+
+TEST_CASE("deform_solver: what is held is where it was moved, to the bit", "[deform]") {
+  const TriangleMesh mesh = sheet(10);
+  const Hold hold(mesh, 0.05 * kSide);
+  const Positions places = hold.places(mesh, Vec3(0.03, 0, 0.08));
+  DeformSolver solver(mesh, EnergyForm::consistent, kCotton);
+  solver.hold(hold.vertices);
+  solver.move_held(places);
+  solver.solve();
+  for (std::size_t k = 0; k < hold.vertices.size(); ++k)
+    CHECK(solver.positions().col(hold.vertices[k]) == places.col(static_cast<Eigen::Index>(k)));
+}
+
+TEST_CASE("deform_solver: nothing moved stays at rest", "[deform]") {
+  const TriangleMesh mesh = sheet(6);
+  DeformSolver solver = pulled(mesh, EnergyForm::consistent, kCanvas, Vec3(0, 0, 0));
+  CHECK(solver.solve().ok());
+  CHECK(solver.converged());
+  CHECK((solver.positions() - mesh.rest_positions).norm() < 1e-12);
+}
+
+TEST_CASE("deform_solver: with recovery alone only what is held moves", "[deform]") {
+  const TriangleMesh mesh = sheet(6);
+  DeformSolver solver = pulled(mesh, EnergyForm::consistent, {1, 0, 0}, Vec3(0, 0, 0.1));
+  CHECK(solver.solve().ok());
+  CHECK(solver.energy() == Approx(0).margin(1e-20));
+}
+
+TEST_CASE("deform_solver: a kept factor serves while the hand moves on", "[deform]") {
+  const TriangleMesh mesh = sheet(16);
+  const Hold hold(mesh, 0.05 * kSide);
+  DeformSolver solver = pulled(mesh, EnergyForm::consistent, kCanvas, Vec3(0, 0, 0.08));
+  solver.solve();
+  solver.move_held(hold.places(mesh, Vec3(0, 0, 0.085)));
+  const double moved = solver.energy();
+  CHECK(solver.step(Linearise::never).ok());
+  CHECK(!solver.steps().front().linearised);
+  DeformSolver anew = pulled(mesh, EnergyForm::consistent, kCanvas, Vec3(0, 0, 0.085));
+  anew.solve();
+  CHECK(moved < 1.05 * anew.energy());
+  CHECK(solver.energy() <= moved);
+}
+
+TEST_CASE("deform_solver: pulled far out and back it ends no higher than from rest", "[deform]") {
+  const DeformWeights weights = GENERATE(from_range(kFabrics));
+  CAPTURE(weights.recovery);
+  const TriangleMesh mesh = sheet(12);
+  const Hold hold(mesh, 0.05 * kSide);
+  const Positions end = hold.places(mesh, Vec3(0, 0, 0.05));
+  DeformSolver solver(mesh, EnergyForm::consistent, weights);
+  solver.hold(hold.vertices);
+  for (const double reach : {0.1, 1.0, 10.0, 100.0, 10.0, 1.0}) {
+    solver.move_held(hold.places(mesh, reach * kSide * Vec3(0.6, 0, 0.8)));
+    solver.step();
+  }
+  solver.move_held(end);
+  solver.settle();
+  CHECK(solver.positions().allFinite());
+  DeformSolver anew(mesh, EnergyForm::consistent, weights);
+  anew.hold(hold.vertices);
+  anew.move_held(end);
+  anew.restart();
+  anew.solve(kFarAhead);
+  CHECK(solver.energy() <= anew.energy() * (1 + 1e-6));
+}
+
+TEST_CASE("deform_solver: pushed together in its plane cloth buckles", "[deform]") {
+  const TriangleMesh mesh = sheet(20);
+  std::vector<VertexId> ends;
+  Positions places(3, 42);
+  for (Eigen::Index v = 0; v < mesh.rest_positions.cols(); ++v) {
+    const Vec3 x = mesh.rest_positions.col(v);
+    const bool is_left = x.x() < 1e-9;
+    if (!is_left && x.x() < kSide - 1e-9) continue;
+    places.col(static_cast<Eigen::Index>(ends.size())) =
+        x + Vec3(is_left ? 0.05 * kSide : -0.05 * kSide, 0, 0);
+    ends.push_back(VertexId(v));
+  }
+  DeformSolver solver(mesh, EnergyForm::consistent, {0.001, 0.9, 0.01});
+  solver.hold(ends);
+  solver.move_held(places);
+  solver.solve(kFarAhead);
+  const double flat_energy = solver.energy();
+  solver.settle();
+  CHECK(solver.energy() < 0.5 * flat_energy);
+  CHECK(solver.positions().row(2).cwiseAbs().maxCoeff() > 0.05 * kSide);
+}
+
+TEST_CASE("deform_solver: without anything to hold on to it says that there is no factor",
+          "[deform]") {
+  DeformSolver solver(sheet(4), EnergyForm::consistent, {0, 0.5, 0.5});
+  solver.hold({VertexId(0)});
+  Positions place(3, 1);
+  place << 0, 0, 0.1;
+  solver.move_held(place);
+  solver.solve();
+  CHECK(solver.positions().allFinite());
+}
+
+TEST_CASE("deform_solver: one fabric has one shape on any mesh", "[deform]") {
+  const DeformWeights weights = GENERATE(from_range(kFabrics));
+  CAPTURE(weights.recovery);
+  std::vector<double> heights;  // at the middle of one side's quarter, off all that is held
+  for (const Triangulation pattern : {Triangulation::one_way, Triangulation::alternating}) {
+    const TriangleMesh mesh = triangulated_sheet(pattern, 20, 20, kSide / 20);
+    DeformSolver solver = pulled(mesh, EnergyForm::consistent, weights, Vec3(0, 0, 0.25 * kSide));
+    solver.solve(kFarAhead);
+    for (Eigen::Index v = 0; v < mesh.rest_positions.cols(); ++v)
+      if ((mesh.rest_positions.col(v) - Vec3(0.25, 0.5, 0) * kSide).norm() < 1e-9)
+        heights.push_back(solver.positions()(2, v));
+  }
+  REQUIRE(heights.size() == 2);
+  CHECK(std::abs(heights[0] - heights[1]) < 0.01 * kSide);
+}
+
+TEST_CASE("deform_solver: the same calls give the same bits", "[deform]") {
+  const auto run = [] {
+    DeformSolver solver = pulled(sheet(10), EnergyForm::consistent, kCotton, Vec3(0, 0, 0.1));
+    solver.settle();
+    return solver.positions();
+  };
+  CHECK(run() == run());
+}
+
+}  // namespace pleat
