@@ -1,40 +1,120 @@
 #include "core/dynamics/system_matrix.h"
 
+#include <algorithm>
+
+#include "core/base/check.h"
+
 namespace pleat {
+
 namespace {
 
-/// Every pair of vertices that an element joins, in the order of assembly.
-std::vector<VertexMatrix::Pair> joined_pairs(const ClothModel& model) {
-  std::vector<VertexMatrix::Pair> pairs;
-  const auto join_all = [&pairs](const auto& vertices) {
+/// Calls join(a, b) for every pair of vertices that an element joins, in the order of assembly.
+template <class Join>
+void for_each_pair(const ClothModel& model, Join&& join) {
+  const auto join_all = [&join](const auto& vertices) {
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      for (std::size_t j = i + 1; j < vertices.size(); ++j)
-        pairs.push_back({vertices[i], vertices[j]});
+      for (std::size_t j = i + 1; j < vertices.size(); ++j) join(vertices[i], vertices[j]);
   };
-  for (const Spring& spring : model.springs) pairs.push_back({spring.a, spring.b});
-  for (const Spring& spring : model.taut_springs) pairs.push_back({spring.a, spring.b});
+  for (const Spring& spring : model.springs) join(spring.a, spring.b);
+  for (const Spring& spring : model.taut_springs) join(spring.a, spring.b);
   for (const BendElement& bend : model.bends) join_all(bend.vertices);
-  for (const ChordBend& bend : model.chord_bends) pairs.push_back({bend.a, bend.b});
+  for (const ChordBend& bend : model.chord_bends) join(bend.a, bend.b);
   for (const MembraneElement& element : model.membrane.elements) join_all(element.vertices);
   for (const Hinge& hinge : model.hinges) join_all(hinge.vertices);
   const SparseMatrix& bending = model.fitted_bending;
   for (int column = 0; column < bending.outerSize(); ++column)
     for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry)
-      if (entry.row() > column) pairs.push_back({VertexId(entry.row()), VertexId(column)});
-  return pairs;
+      if (entry.row() > column) join(VertexId(entry.row()), VertexId(column));
 }
 
 }  // namespace
 
-SystemMatrix::SystemMatrix(const ClothModel& model) : SystemMatrix(model, joined_pairs(model)) {}
+SystemMatrix::SystemMatrix(const ClothModel& model)
+    : model_(model), below_(static_cast<std::size_t>(model.n_vertices())) {
+  for_each_pair(model, [this](VertexId a, VertexId b) {
+    below_[std::min(a.value, b.value)].push_back(a > b ? a : b);
+  });
+  const int n = model.n_vertices();
+  std::vector<int> column_sizes;
+  column_sizes.reserve(3 * static_cast<std::size_t>(n));
+  for (std::vector<VertexId>& rows : below_) {
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    for (int c = 0; c < 3; ++c) column_sizes.push_back(3 - c + 3 * static_cast<int>(rows.size()));
+  }
+  matrix_.resize(3 * n, 3 * n);
+  matrix_.reserve(column_sizes);
+  for (int j = 0; j < n; ++j) {
+    for (int c = 0; c < 3; ++c) {
+      for (int r = c; r < 3; ++r) matrix_.insert(3 * j + r, 3 * j + c) = 0;
+      for (const VertexId i : below_[j])
+        for (int r = 0; r < 3; ++r) matrix_.insert(3 * i + r, 3 * j + c) = 0;
+    }
+  }
+  matrix_.makeCompressed();
+  for_each_pair(model, [this](VertexId a, VertexId b) { slots_.push_back(slot(a, b)); });
+}
 
-SystemMatrix::SystemMatrix(const ClothModel& model, const std::vector<Pair>& pairs)
-    : VertexMatrix(model.n_vertices(), pairs), model_(model), slots_(slots(pairs)) {}
+SystemMatrix::Slot SystemMatrix::slot(VertexId a, VertexId b) const {
+  const VertexId row = a > b ? a : b;
+  const VertexId column = a > b ? b : a;
+  const std::vector<VertexId>& rows = below_[column];
+  const auto place = std::lower_bound(rows.begin(), rows.end(), row);
+  return {row, column, static_cast<int>(place - rows.begin())};
+}
+
+/// The three values of one column of a block lie side by side, behind the column's share of the
+/// diagonal block.
+double* SystemMatrix::block_column(const Slot& slot, int component) {
+  const int column = 3 * slot.column + component;
+  return matrix_.valuePtr() + matrix_.outerIndexPtr()[column] + (3 - component) + 3 * slot.rank;
+}
+
+void SystemMatrix::add_block(const Slot& slot, const Mat3& block) {
+  for (int c = 0; c < 3; ++c) {
+    double* values = block_column(slot, c);
+    for (int r = 0; r < 3; ++r) values[r] += block(r, c);
+  }
+}
+
+void SystemMatrix::add_diagonal(VertexId vertex, const Mat3& block) {
+  for (int c = 0; c < 3; ++c) {
+    double* values = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * vertex + c];
+    for (int r = c; r < 3; ++r) values[r - c] += block(r, c);
+  }
+}
+
+void SystemMatrix::add_multiple_of_identity(const Slot& slot, double factor) {
+  for (int c = 0; c < 3; ++c) block_column(slot, c)[c] += factor;
+}
+
+void SystemMatrix::add_to_diagonal(VertexId vertex, double factor) {
+  for (int c = 0; c < 3; ++c) matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * vertex + c]] += factor;
+}
 
 void SystemMatrix::add_spring(const Spring& spring, const Slot& slot, const Mat3& block) {
   add_diagonal(spring.a, block);
   add_diagonal(spring.b, block);
   add_block(slot, -block);
+}
+
+template <std::size_t n>
+void SystemMatrix::add_element(const std::array<VertexId, n>& vertices, const Slot*& slots,
+                               const Eigen::Matrix<double, 3 * n, 3 * n>& block) {
+  for (std::size_t i = 0; i < n; ++i) {
+    add_diagonal(vertices[i], block.template block<3, 3>(3 * i, 3 * i));
+    for (std::size_t j = i + 1; j < n; ++j, ++slots) {
+      const Mat3 pair = block.template block<3, 3>(3 * i, 3 * j);
+      add_block(*slots, vertices[i] > vertices[j] ? pair : Mat3(pair.transpose()));
+    }
+  }
+}
+
+void SystemMatrix::set_zero() { matrix_.coeffs().setZero(); }
+
+void SystemMatrix::set_values(const SparseMatrix& lower) {
+  PLEAT_CHECK(lower.nonZeros() == matrix_.nonZeros(), "values come with the same pattern");
+  matrix_.coeffs() = lower.coeffs();
 }
 
 void SystemMatrix::add_masses(double factor) {
@@ -91,6 +171,47 @@ void SystemMatrix::add_elasticity(const Eigen::Ref<const Positions>& positions,
         add_multiple_of_identity(*slots++, q);
       else
         add_to_diagonal(VertexId(column), q);
+    }
+  }
+}
+
+void SystemMatrix::choose_prescribed(const std::vector<VertexId>& vertices) {
+  prescribed_ = vertices;
+  std::vector<int> index(below_.size(), -1);
+  for (std::size_t k = 0; k < vertices.size(); ++k) index[vertices[k]] = static_cast<int>(k);
+  prescribed_blocks_.clear();
+  for (std::size_t j = 0; j < below_.size(); ++j) {
+    for (std::size_t rank = 0; rank < below_[j].size(); ++rank) {
+      const VertexId row = below_[j][rank];
+      if (index[row] < 0 && index[j] < 0) continue;
+      const Slot place{row, VertexId(static_cast<std::int64_t>(j)), static_cast<int>(rank)};
+      prescribed_blocks_.push_back({place, index[row], index[j]});
+    }
+  }
+}
+
+void SystemMatrix::prescribe(const Eigen::Ref<const Positions>& values,
+                             Eigen::Ref<Eigen::VectorXd> rhs) {
+  PLEAT_CHECK(values.cols() == static_cast<Eigen::Index>(prescribed_.size()),
+              "one value per prescribed vertex");
+  for (const PrescribedBlock& entry : prescribed_blocks_) {
+    for (int c = 0; c < 3; ++c) {
+      double* column = block_column(entry.slot, c);
+      for (int r = 0; r < 3; ++r) {
+        if (entry.row_index < 0)
+          rhs[3 * entry.slot.row + r] -= column[r] * values(c, entry.column_index);
+        if (entry.column_index < 0)
+          rhs[3 * entry.slot.column + c] -= column[r] * values(r, entry.row_index);
+        column[r] = 0;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < prescribed_.size(); ++k) {
+    const VertexId v = prescribed_[k];
+    for (int c = 0; c < 3; ++c) {
+      double* diagonal = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * v + c];
+      for (int r = c; r < 3; ++r) diagonal[r - c] = r == c ? 1 : 0;
+      rhs[3 * v + c] = values(c, static_cast<Eigen::Index>(k));
     }
   }
 }

@@ -3,30 +3,66 @@
 #include <vector>
 
 #include "core/dynamics/elasticity.h"
-#include "core/linalg/vertex_matrix.h"
+#include "core/linalg/sparse.h"
 
 namespace pleat {
 
-/// What the implicit steppers solve with: a block for every pair of vertices that an element of a
-/// model joins. Values are added element by element.
-class SystemMatrix : public VertexMatrix {
+/// A symmetric 3n x 3n matrix with a 3x3 block for every pair of vertices that an element of a
+/// model joins. The pattern is built once; values are added element by element straight into place.
+class SystemMatrix {
  public:
   /// model  outlives the matrix and keeps its elements.
   explicit SystemMatrix(const ClothModel& model);
 
+  void set_zero();
+  /// Takes the values of a matrix with the same pattern.
+  void set_values(const SparseMatrix& lower);
   /// Adds factor * m to the diagonal of each vertex.
   void add_masses(double factor);
   /// Adds stiffness_factor * K + damping_factor * C at these positions: K = -d(elastic force)/dx
   /// [N/m], C = -d(damping force)/dv [N s/m].
   void add_elasticity(const Eigen::Ref<const Positions>& positions, double stiffness_factor,
                       double damping_factor, ElementHessian hessian);
+  /// Adds a block to the diagonal.
+  void add_diagonal(VertexId vertex, const Mat3& block);
+
+  const SparseMatrix& lower() const { return matrix_; }
+
+  /// Moves prescribed values of some vertices to the right-hand side: rows and columns of these
+  /// vertices become those of the identity. Call `choose_prescribed` when the set changes,
+  /// `prescribe` after each assembly.
+  void choose_prescribed(const std::vector<VertexId>& vertices);
+  /// values  one column per chosen vertex, in order; rhs  3n.
+  void prescribe(const Eigen::Ref<const Positions>& values, Eigen::Ref<Eigen::VectorXd> rhs);
 
  private:
-  SystemMatrix(const ClothModel& model, const std::vector<Pair>& pairs);
+  /// Where the block (row, column), row > column, lies: as the `rank`th block below the diagonal of
+  /// its column.
+  struct Slot {
+    VertexId row, column;
+    int rank = 0;
+  };
+  struct PrescribedBlock {
+    Slot slot;
+    int row_index, column_index;  // into the prescribed values, or -1 when that vertex is free
+  };
+
+  Slot slot(VertexId a, VertexId b) const;
+  double* block_column(const Slot& slot, int component);
+  void add_block(const Slot& slot, const Mat3& block);
+  void add_multiple_of_identity(const Slot& slot, double factor);
+  void add_to_diagonal(VertexId vertex, double factor);
   void add_spring(const Spring& spring, const Slot& slot, const Mat3& block);
+  template <std::size_t n>
+  void add_element(const std::array<VertexId, n>& vertices, const Slot*& slots,
+                   const Eigen::Matrix<double, 3 * n, 3 * n>& block);
 
   const ClothModel& model_;
+  std::vector<std::vector<VertexId>> below_;  // by column: rows of its blocks, ascending
+  SparseMatrix matrix_;
   std::vector<Slot> slots_;  // of the pairs that elements join, in the order of assembly
+  std::vector<VertexId> prescribed_;
+  std::vector<PrescribedBlock> prescribed_blocks_;
 };
 
 /// K = -d(elastic force)/dx at these positions, lower triangle, 3n x 3n [N/m].
