@@ -98,49 +98,6 @@ void subtract_rest(CurvatureElement& element, const MembraneElement& face, const
     element.weights.col(i) -= face.gradients(i, 0) * along_warp + face.gradients(i, 1) * along_weft;
 }
 
-/// The share of sum_i w_i x_i, which does not depend on the positions.
-void add_linear_part(const CurvatureElement& element, double factor, VertexMatrix& matrix) {
-  const auto n = static_cast<Eigen::Index>(element.vertices.size());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Vec3 moment = factor * kTensorWeights.cwiseProduct(element.weights.col(i));
-    const VertexId vertex = element.vertices[static_cast<std::size_t>(i)];
-    matrix.add_to_diagonal(vertex, moment.dot(element.weights.col(i)));
-    for (Eigen::Index j = 0; j < i; ++j)
-      matrix.add_multiple_of_identity(
-          matrix.slot(vertex, element.vertices[static_cast<std::size_t>(j)]),
-          moment.dot(element.weights.col(j)));
-  }
-}
-
-/// The shares of b n: with s_i = sum of w_i b over the tensor and N_j = dn/dx_j,
-///
-///     -(s_i N_j + s_j N_i^T) + b.b N_i^T N_j,
-///
-/// where N is zero but at corners.
-void add_normal_part(const CurvatureElement& element, const Normal& normal, double factor,
-                     VertexMatrix& matrix) {
-  const Vec3 moment = factor * kTensorWeights.cwiseProduct(element.normal_part);
-  const double square = moment.dot(element.normal_part);
-  for (std::size_t i = 0; i < element.vertices.size(); ++i) {
-    const double s_i = moment.dot(element.weights.col(static_cast<Eigen::Index>(i)));
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (i < 3 && j > i) continue;
-      Mat3 block = -s_i * normal.by_corner[j];
-      if (i < 3) {
-        const double s_j = moment.dot(element.weights.col(static_cast<Eigen::Index>(j)));
-        const Mat3 N_i = normal.by_corner[i].transpose();
-        block += square * N_i * normal.by_corner[j] - s_j * N_i;
-      }
-      const VertexId a = element.vertices[i];
-      const VertexId b = element.vertices[j];
-      if (i == j)
-        matrix.add_diagonal(a, block);
-      else
-        matrix.add_block(matrix.slot(a, b), a > b ? block : Mat3(block.transpose()));
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<CurvatureElement> curvature_elements(const TriangleMesh& mesh) {
@@ -181,15 +138,22 @@ void add_curvature_gradient(std::span<const CurvatureElement> elements, double f
   }
 }
 
-void add_curvature_gauss_newton(std::span<const CurvatureElement> elements, double factor,
-                                const Eigen::Ref<const Positions>& positions,
-                                VertexMatrix& matrix) {
+SparseMatrix curvature_metric(std::span<const CurvatureElement> elements, int n_vertices) {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const CurvatureElement& element : elements) {
-    const double weight = 2 * factor * element.area;
-    add_linear_part(element, weight, matrix);
-    if (is_flat(element)) continue;
-    add_normal_part(element, normal_at(corners(element), positions), weight, matrix);
+    for (std::size_t i = 0; i < element.vertices.size(); ++i) {
+      const Vec3 moment =
+          2 * element.area *
+          kTensorWeights.cwiseProduct(element.weights.col(static_cast<Eigen::Index>(i)));
+      for (std::size_t j = 0; j < element.vertices.size(); ++j)
+        if (element.vertices[i] >= element.vertices[j])
+          entries.emplace_back(element.vertices[i], element.vertices[j],
+                               moment.dot(element.weights.col(static_cast<Eigen::Index>(j))));
+    }
   }
+  SparseMatrix lower(n_vertices, n_vertices);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
 }
 
 }  // namespace pleat

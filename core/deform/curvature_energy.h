@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/linalg/vertex_matrix.h"
+#include "core/linalg/sparse.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace pleat {
@@ -34,8 +34,8 @@ void add_curvature_gradient(std::span<const CurvatureElement> elements, double f
                             const Eigen::Ref<const Positions>& positions,
                             Eigen::Ref<Positions> gradient);
 
-/// Adds factor times 2 J^T W J, J = dr/dx [1/m^2]. The matrix has all pairs of each element.
-void add_curvature_gauss_newton(std::span<const CurvatureElement> elements, double factor,
-                                const Eigen::Ref<const Positions>& positions, VertexMatrix& matrix);
+/// The share of sum_i w_i x_i in 2 J^T W J, J = dr/dx: the lower triangle of a matrix n x n for
+/// each coordinate alike [1/m^2]. It does not depend on the positions.
+SparseMatrix curvature_metric(std::span<const CurvatureElement> elements, int n_vertices);
 
 }  // namespace pleat

@@ -12,34 +12,22 @@ constexpr double kUnitsInDiagonal = 20;  // of the consistent form's length
 /// lambda = mu = 1 in lambda/2 tr(E)^2 + mu E:E, as the membrane's law writes it.
 constexpr MembraneLaw kIsotropic = {3, 3, 1, 0};
 
-template <std::size_t n>
-void join_all(const std::array<VertexId, n>& vertices, std::vector<VertexMatrix::Pair>& pairs) {
+/// Adds a value for each pair of an element's vertices.
+template <std::size_t n, class Value>
+void add_pairs(const std::array<VertexId, n>& vertices, Value&& value, SparseMatrix& lower) {
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j) pairs.push_back({vertices[i], vertices[j]});
+    for (std::size_t j = 0; j <= i; ++j)
+      lower.coeffRef(std::max(vertices[i], vertices[j]), std::min(vertices[i], vertices[j])) +=
+          value(i, j);
 }
 
-void join_all(const std::vector<VertexId>& vertices, std::vector<VertexMatrix::Pair>& pairs) {
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    for (std::size_t j = i + 1; j < vertices.size(); ++j)
-      pairs.push_back({vertices[i], vertices[j]});
-}
-
+/// Entries on the diagonal and for the pairs, all zero.
 template <std::size_t n>
-std::array<VertexMatrix::Slot, n*(n - 1) / 2> slots_of(const VertexMatrix& matrix,
-                                                       const std::array<VertexId, n>& vertices) {
-  std::array<VertexMatrix::Slot, n*(n - 1) / 2> slots;
-  std::size_t next = 0;
+void join(const std::array<VertexId, n>& vertices, std::vector<Eigen::Triplet<double>>& entries) {
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j) slots[next++] = matrix.slot(vertices[i], vertices[j]);
-  return slots;
-}
-
-template <std::size_t n>
-void add_element(VertexMatrix& matrix, const std::array<VertexId, n>& vertices,
-                 const Eigen::Matrix<double, 3 * n, 3 * n>& block) {
-  const auto slots = slots_of(matrix, vertices);
-  const VertexMatrix::Slot* next = slots.data();
-  matrix.add_element(vertices, next, block);
+    for (std::size_t j = 0; j < i; ++j)
+      entries.emplace_back(std::max(vertices[i], vertices[j]), std::min(vertices[i], vertices[j]),
+                           0.0);
 }
 
 }  // namespace
@@ -47,6 +35,7 @@ void add_element(VertexMatrix& matrix, const std::array<VertexId, n>& vertices,
 DeformEnergy::DeformEnergy(const TriangleMesh& mesh, EnergyForm form) : rest_(mesh.rest_positions) {
   PLEAT_CHECK(!mesh.triangles.empty(), "a shape has triangles");
   is_free_ = Eigen::VectorXd::Ones(rest_.cols());
+  bending_metric_.resize(mesh.n_vertices(), mesh.n_vertices());
   if (form == EnergyForm::published)
     build_sums(mesh);
   else
@@ -74,6 +63,7 @@ void DeformEnergy::build_integrals(const TriangleMesh& mesh) {
                    per_area * kIsotropic.shear, 0};
   membrane_.elements = membrane_elements(mesh);
   curvatures_ = curvature_elements(mesh);
+  bending_metric_ = curvature_metric(curvatures_, mesh.n_vertices());
 }
 
 void DeformEnergy::hold(const std::vector<VertexId>& vertices) {
@@ -130,50 +120,59 @@ Positions DeformEnergy::gradient(const DeformWeights& weights,
   return gradient;
 }
 
-std::vector<VertexMatrix::Pair> DeformEnergy::joined_pairs(const DeformWeights& weights) const {
-  std::vector<VertexMatrix::Pair> pairs;
+SparseMatrix DeformEnergy::empty_metric(const DeformWeights& weights) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index v = 0; v < rest_.cols(); ++v)
+    entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 0.0);
   if (weights.stretch > 0) {
-    for (const EdgeLength& edge : edges_) pairs.push_back({edge.a, edge.b});
-    for (const MembraneElement& element : membrane_.elements) join_all(element.vertices, pairs);
+    for (const EdgeLength& edge : edges_) join(std::array{edge.a, edge.b}, entries);
+    for (const MembraneElement& element : membrane_.elements) join(element.vertices, entries);
   }
-  if (weights.bending > 0) {
-    for (const Dihedral& dihedral : dihedrals_) join_all(dihedral.vertices, pairs);
-    for (const CurvatureElement& element : curvatures_) join_all(element.vertices, pairs);
-  }
-  return pairs;
+  if (weights.bending > 0)
+    for (const Dihedral& dihedral : dihedrals_) join(dihedral.vertices, entries);
+  SparseMatrix lower(static_cast<int>(rest_.cols()), static_cast<int>(rest_.cols()));
+  lower.setFromTriplets(entries.begin(), entries.end());
+  if (weights.bending > 0) lower += weights.bending * bending_metric_;
+  return lower;
 }
 
-void DeformEnergy::add_gauss_newton(const DeformWeights& weights,
-                                    const Eigen::Ref<const Positions>& positions,
-                                    VertexMatrix& matrix) const {
-  const Eigen::VectorXd recovery = 2 * weights.recovery * recovery_factors_;
-  for (Eigen::Index v = 0; v < recovery.size(); ++v)
-    matrix.add_to_diagonal(VertexId(v), is_free_[v] * recovery[v]);
+SparseMatrix DeformEnergy::metric(const DeformWeights& weights,
+                                  const Eigen::Ref<const Positions>& positions) const {
+  SparseMatrix lower = empty_metric(weights);
+  lower.diagonal() += 2 * weights.recovery * recovery_factors_.cwiseProduct(is_free_);
   if (weights.stretch > 0) {
-    for (const MembraneElement& element : membrane_.elements)
-      add_element(matrix, element.vertices,
-                  weights.stretch * membrane_stiffness(membrane_.law, element, positions,
-                                                       ElementHessian::projected));
+    for (const MembraneElement& element : membrane_.elements) {
+      const auto block =
+          membrane_stiffness(membrane_.law, element, positions, ElementHessian::projected);
+      add_pairs(
+          element.vertices,
+          [&](std::size_t i, std::size_t j) {
+            return weights.stretch / 3 * block.block<3, 3>(3 * i, 3 * j).trace();
+          },
+          lower);
+    }
     for (const EdgeLength& edge : edges_) {
-      const Vec3 along = positions.col(edge.a) - positions.col(edge.b);
-      if (along.isZero(0)) continue;
-      const Vec3 u = along.normalized();
-      const double tension = std::max(0.0, 1 - edge.rest / along.norm());
-      const Mat3 block = 2 * weights.stretch / (unit_ * unit_) *
-                         (tension * Mat3::Identity() + (1 - tension) * u * u.transpose());
-      matrix.add_diagonal(edge.a, block);
-      matrix.add_diagonal(edge.b, block);
-      matrix.add_block(matrix.slot(edge.a, edge.b), -block);
+      const double length = (positions.col(edge.a) - positions.col(edge.b)).norm();
+      const double tension = length > edge.rest ? 1 - edge.rest / length : 0;
+      const double stiffness = 2 * weights.stretch / (unit_ * unit_) * (1 + 2 * tension) / 3;
+      add_pairs(
+          std::array{edge.a, edge.b},
+          [&](std::size_t i, std::size_t j) { return i == j ? stiffness : -stiffness; }, lower);
     }
   }
-  if (weights.bending > 0) {
-    add_curvature_gauss_newton(curvatures_, weights.bending, positions, matrix);
+  if (weights.bending > 0)
     for (const Dihedral& dihedral : dihedrals_) {
       const HingeTurn turn = hinge_turn(dihedral.vertices, positions);
-      const Eigen::Matrix<double, 12, 1> row = turn.gradient.reshaped();
-      add_element<4>(matrix, dihedral.vertices, 2 * weights.bending * row * row.transpose());
+      add_pairs(
+          dihedral.vertices,
+          [&](std::size_t i, std::size_t j) {
+            return 2 * weights.bending / 3 *
+                   turn.gradient.col(static_cast<Eigen::Index>(i))
+                       .dot(turn.gradient.col(static_cast<Eigen::Index>(j)));
+          },
+          lower);
     }
-  }
+  return lower;
 }
 
 }  // namespace pleat

@@ -6,7 +6,7 @@
 #include "core/deform/curvature_energy.h"
 #include "core/fabric/deform_weights.h"
 #include "core/fabric/membrane.h"
-#include "core/linalg/vertex_matrix.h"
+#include "core/linalg/sparse.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace pleat {
@@ -57,14 +57,13 @@ class DeformEnergy {
   Positions gradient(const DeformWeights& weights,
                      const Eigen::Ref<const Positions>& positions) const;
 
-  /// Pairs of vertices that terms with a weight join.
-  std::vector<VertexMatrix::Pair> joined_pairs(const DeformWeights& weights) const;
-
-  /// Adds 2 J^T W J with the residuals' derivatives J [1/m^2] and, of the residuals' own curvature,
-  /// what tension adds: cloth under tension resists moving sideways. Positive semidefinite. The
-  /// matrix has the joined pairs.
-  void add_gauss_newton(const DeformWeights& weights, const Eigen::Ref<const Positions>& positions,
-                        VertexMatrix& matrix) const;
+  /// The lower triangle of a matrix H, n x n [1/m^2], with which a step of least energy is about
+  /// -H^-1 dE/dx, one coordinate like the other: the mean over directions of 2 J^T W J, with the
+  /// residuals' derivatives J, and of what tension adds, as cloth under tension resists moving
+  /// sideways. Of the bending of a shape that is not flat at rest, the share that turns with the
+  /// normal is left out. Positive semidefinite; entries of terms without weight are missing.
+  SparseMatrix metric(const DeformWeights& weights,
+                      const Eigen::Ref<const Positions>& positions) const;
 
  private:
   struct EdgeLength {
@@ -78,6 +77,7 @@ class DeformEnergy {
 
   void build_sums(const TriangleMesh& mesh);
   void build_integrals(const TriangleMesh& mesh);
+  SparseMatrix empty_metric(const DeformWeights& weights) const;
 
   Positions rest_;
   double unit_ = 1;
@@ -87,6 +87,7 @@ class DeformEnergy {
   Membrane membrane_;
   std::vector<Dihedral> dihedrals_;
   std::vector<CurvatureElement> curvatures_;
+  SparseMatrix bending_metric_;  // of curvatures_, the same at all positions
 };
 
 }  // namespace pleat

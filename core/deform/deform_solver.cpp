@@ -7,19 +7,25 @@
 namespace pleat {
 namespace {
 
-constexpr std::size_t kMaxCorrections = 10;   // each costs four products of two columns
+constexpr std::size_t kMaxCorrections = 20;   // each costs four products of two columns
 constexpr int kMaxHalvings = 12;              // then the direction is at fault, not its length
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's: share of what the slope promises
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 constexpr double kLargestDamping = 1e8;  // the step is then far below rounding
-constexpr double kRounding = 1e-14;      // of the energy
-/// A factor serves badly when the last of so many steps is not this much shorter than the first.
-/// Ten steps cost about as much as a new factor.
-constexpr int kPatience = 8;
+constexpr double kRounding = 1e-13;      // of the energy, which is a sum over all triangles
+/// A factor serves badly when the last of so many steps is not this much shorter than the first. A
+/// new one costs about as much as five steps, and what was learnt is lost.
+constexpr int kPatience = 25;
 constexpr double kContraction = 0.01;
 
+/// Of a hand's move; a gain of energy below this share is not seen.
+constexpr int kStepsOfMove = 4;
+constexpr double kWorthAStep = 1e-3;
+
 constexpr double kBulge = 1e-3;  // of the extent
+
+double dot(const Positions& a, const Positions& b) { return flat(a).dot(flat(b)); }
 
 /// Unit normal of each vertex; zero where the triangles around it cancel.
 Positions vertex_normals(const TriangleMesh& mesh) {
@@ -56,36 +62,28 @@ DeformSolver::DeformSolver(const TriangleMesh& mesh, EnergyForm form, const Defo
       weights_(weights),
       extent_(box_diagonal(mesh.rest_positions)),
       bulges_(bulges(mesh, extent_)),
-      positions_(mesh.rest_positions) {
-  analyze();
+      positions_(mesh.rest_positions),
+      is_held_(static_cast<std::size_t>(positions_.cols()), 0),
+      solver_(make_linear_solver(best_direct_solver(), 1)) {
+  set_weights(weights);
 }
 
 DeformSolver::~DeformSolver() = default;
 
-void DeformSolver::analyze() {
-  PLEAT_CHECK(weights_.recovery >= 0 && weights_.stretch >= 0 && weights_.bending >= 0 &&
-                  weights_.recovery + weights_.stretch + weights_.bending > 0,
-              "weights are not negative and not all zero");
-  const StageScope stage(observer_, Stage::factor);
-  matrix_ = std::make_unique<VertexMatrix>(static_cast<int>(positions_.cols()),
-                                           energy_.joined_pairs(weights_));
-  matrix_->choose_prescribed(held_);
-  solver_ = make_linear_solver(best_direct_solver(), 3);
-  solver_->analyze(matrix_->lower());
-}
-
 void DeformSolver::begin_anew() {
   steps_.clear();
-  corrections_.clear();
-  last_change_.resize(0);
+  last_change_.resize(3, 0);
   converged_ = false;
 }
 
 void DeformSolver::set_weights(const DeformWeights& weights) {
-  const bool joins_others = (weights.stretch > 0) != (weights_.stretch > 0) ||
-                            (weights.bending > 0) != (weights_.bending > 0);
+  PLEAT_CHECK(weights.recovery >= 0 && weights.stretch >= 0 && weights.bending >= 0 &&
+                  weights.recovery + weights.stretch + weights.bending > 0,
+              "weights are not negative and not all zero");
+  const bool has_other_terms = (weights.stretch > 0) != (weights_.stretch > 0) ||
+                               (weights.bending > 0) != (weights_.bending > 0);
+  if (has_other_terms) has_pattern_ = false;
   weights_ = weights;
-  if (joins_others) analyze();
   has_factor_ = false;
   begin_anew();
 }
@@ -93,7 +91,8 @@ void DeformSolver::set_weights(const DeformWeights& weights) {
 void DeformSolver::hold(std::vector<VertexId> vertices) {
   held_ = std::move(vertices);
   energy_.hold(held_);
-  matrix_->choose_prescribed(held_);
+  std::fill(is_held_.begin(), is_held_.end(), 0);
+  for (const VertexId v : held_) is_held_[v] = 1;
   has_factor_ = false;
   begin_anew();
 }
@@ -105,23 +104,26 @@ bool DeformSolver::dampen() {
 }
 
 SolveReport DeformSolver::linearise() {
+  ++n_linearisations_;
+  SparseMatrix constrained;
   {
     const StageScope stage(observer_, Stage::assembly);
-    matrix_->set_zero();
-    energy_.add_gauss_newton(weights_, positions_, *matrix_);
-    const double shift = damping_ * matrix_->lower().diagonal().mean();
-    for (Eigen::Index v = 0; v < positions_.cols(); ++v)
-      matrix_->add_to_diagonal(VertexId(v), shift);
-    unheld_ = matrix_->lower();
-    Eigen::VectorXd no_load = Eigen::VectorXd::Zero(positions_.size());
-    matrix_->prescribe(Positions::Zero(3, static_cast<Eigen::Index>(held_.size())), no_load);
+    metric_ = energy_.metric(weights_, positions_);
+    metric_.diagonal().array() += damping_ * metric_.diagonal().mean();
+    constrained = metric_;
+    for (int column = 0; column < constrained.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator entry(constrained, column); entry; ++entry)
+        if (is_held_[entry.row()] != 0 || is_held_[column] != 0)
+          entry.valueRef() = entry.row() == column ? 1 : 0;
   }
   const StageScope stage(observer_, Stage::factor);
   corrections_.clear();
-  last_change_.resize(0);
+  last_change_.resize(3, 0);
   n_with_factor_ = 0;
   is_stale_ = false;
-  SolveReport report = solver_->factorize(matrix_->lower());
+  if (!has_pattern_) solver_->analyze(constrained);
+  has_pattern_ = true;
+  SolveReport report = solver_->factorize(constrained);
   has_factor_ = report.ok();
   return report;
 }
@@ -136,20 +138,18 @@ Positions DeformSolver::free_gradient() const {
 /// Where the linearised problem is at rest once what is held has moved.
 Positions DeformSolver::foreseen(const Positions& moves) {
   const StageScope stage(observer_, Stage::solve);
-  matrix_->set_values(unheld_);
-  Positions load = -free_gradient();
-  matrix_->prescribe(moves, flat(load));
-  Positions change(3, positions_.cols());
-  solver_->solve(flat(load), flat(change));
-  return positions_ + change;
+  Positions change = Positions::Zero(3, positions_.cols());
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    change.col(held_[k]) = moves.col(static_cast<Eigen::Index>(k));
+  const Eigen::MatrixXd pull = metric_.selfadjointView<Eigen::Lower>() * change.transpose();
+  Positions load = free_gradient() + pull.transpose();
+  for (const VertexId v : held_) load.col(v).setZero();
+  return positions_ + change + descent(load);
 }
 
 void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
   PLEAT_CHECK(places.cols() == static_cast<Eigen::Index>(held_.size()), "a place per held vertex");
-  Positions moves(3, places.cols());
-  for (std::size_t k = 0; k < held_.size(); ++k)
-    moves.col(static_cast<Eigen::Index>(k)) =
-        places.col(static_cast<Eigen::Index>(k)) - positions_.col(held_[k]);
+  const Positions moves = places - held_places();
   if (moves.isZero(0)) return;
   begin_anew();
   const bool foresees = has_factor_ || linearise().ok();
@@ -161,10 +161,25 @@ void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
   if (energy_.terms(followed).weighted(weights_) < energy()) positions_ = followed;
 }
 
-void DeformSolver::restart() {
+SolveReport DeformSolver::follow(const Eigen::Ref<const Positions>& places) {
+  move_held(places);
+  SolveReport report = step(Linearise::when_needed);
+  for (int k = 1; k < kStepsOfMove && report.ok() && !converged_; ++k) {
+    const double before = steps_.back().energy;
+    report = step(Linearise::never);
+    if (steps_.back().energy > (1 - kWorthAStep) * before) break;
+  }
+  return report;
+}
+
+Positions DeformSolver::held_places() const {
   Positions places(3, static_cast<Eigen::Index>(held_.size()));
   for (std::size_t k = 0; k < held_.size(); ++k)
     places.col(static_cast<Eigen::Index>(k)) = positions_.col(held_[k]);
+  return places;
+}
+
+void DeformSolver::restart(const Eigen::Ref<const Positions>& places) {
   positions_ = energy_.rest_positions() + bulges_;
   for (const VertexId v : held_) positions_.col(v) = energy_.rest_positions().col(v);
   has_factor_ = false;
@@ -174,9 +189,9 @@ void DeformSolver::restart() {
 }
 
 void DeformSolver::remember(const Positions& gradient) {
-  if (last_change_.size() == 0) return;
-  Correction c{last_change_, flat(gradient) - flat(last_gradient_), 0};
-  c.product = c.change.dot(c.gradient_change);
+  if (last_change_.cols() == 0) return;
+  Correction c{last_change_, gradient - last_gradient_, 0};
+  c.product = dot(c.change, c.gradient_change);
   // A metric stays positive only by what curves upward.
   constexpr double kLeastCosine = 1e-10;
   if (c.product <= kLeastCosine * c.change.norm() * c.gradient_change.norm()) return;
@@ -185,35 +200,36 @@ void DeformSolver::remember(const Positions& gradient) {
 }
 
 /// -H g by the two-loop recursion.
-Eigen::VectorXd DeformSolver::descent(const Positions& gradient) {
+Positions DeformSolver::descent(const Positions& gradient) {
   const StageScope stage(observer_, Stage::solve);
-  Eigen::VectorXd q = -flat(gradient);
+  Positions q = -gradient;
   std::vector<double> shares(corrections_.size());
   for (std::size_t k = corrections_.size(); k-- > 0;) {
-    shares[k] = corrections_[k].change.dot(q) / corrections_[k].product;
+    shares[k] = dot(corrections_[k].change, q) / corrections_[k].product;
     q -= shares[k] * corrections_[k].gradient_change;
   }
-  Eigen::VectorXd direction(q.size());
-  solver_->solve(q, direction);
+  Eigen::MatrixXd solution(q.cols(), 3);
+  solver_->solve(q.transpose(), solution);
+  Positions direction = solution.transpose();
   for (std::size_t k = 0; k < corrections_.size(); ++k) {
     const Correction& c = corrections_[k];
-    direction += (shares[k] - c.gradient_change.dot(direction) / c.product) * c.change;
+    direction += (shares[k] - dot(c.gradient_change, direction) / c.product) * c.change;
   }
   return direction;
 }
 
 /// Moves along the direction until the energy has fallen enough; false, and nothing moved, if it
 /// does not.
-bool DeformSolver::descend(const Positions& gradient, const Eigen::VectorXd& direction,
+bool DeformSolver::descend(const Positions& gradient, const Positions& direction,
                            DeformStep& step) {
   const StageScope stage(observer_, Stage::forces);
-  const double slope = flat(gradient).dot(direction);
+  const double slope = dot(gradient, direction);
   if (!(slope < 0)) return false;
   const double before = energy();
   const Positions begin = positions_;
   double share = 1;
   for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {
-    flat(positions_) = flat(begin) + share * direction;
+    positions_ = begin + share * direction;
     step.terms = terms();
     step.energy = step.terms.weighted(weights_);
     if (!(step.energy <= before + kSufficientDecrease * share * slope)) continue;
@@ -250,11 +266,11 @@ SolveReport DeformSolver::step(Linearise allowed) {
       if (!report.ok() && !dampen()) return report;
       if (!report.ok()) continue;
     }
-    const Eigen::VectorXd direction = descent(gradient);
+    const Positions direction = descent(gradient);
+    converged_ = -dot(gradient, direction) <= kRounding * energy();
+    if (converged_) return {};
     step.damping = damping_;
     if (descend(gradient, direction, step)) break;
-    converged_ = -flat(gradient).dot(direction) <= kRounding * energy();
-    if (converged_) return {};
     if (!corrections_.empty()) {
       corrections_.clear();  // the factor alone leads down, as the corrections need not
     } else if (!may_linearise) {
@@ -291,7 +307,7 @@ SolveReport DeformSolver::settle(int max_linearisations) {
   const std::vector<DeformStep> kept_steps = steps_;
   const bool was_converged = converged_;
   const double kept_energy = energy();
-  restart();
+  restart(held_places());
   SolveReport report = solve(max_linearisations);
   report.iterations += here.iterations;
   if (energy() < kept_energy) return report;

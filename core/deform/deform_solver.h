@@ -16,25 +16,24 @@ struct DeformStep {
   DeformTerms terms;         ///< after it, unweighted
   double relative_step = 0;  ///< RMS change of the free vertices over the rest box's diagonal
   int halvings = 0;          ///< of the step, until the energy fell
-  bool linearised = false;   ///< a matrix and its factor were made for it
-  double damping = 0;        ///< Levenberg's, over the mean of the matrix's diagonal
+  bool linearised = false;   ///< a metric and its factor were made for it
+  double damping = 0;        ///< Levenberg's, over the mean of the metric's diagonal
 };
 
 /// What a step may cost.
 enum class Linearise {
-  when_needed,  ///< a new matrix and factor as soon as those at hand serve badly
+  when_needed,  ///< a new metric and factor as soon as those at hand serve badly
   never,        ///< only where there is none at all
 };
 
 /// The shape of least deformation energy of a mesh, some of whose vertices are held.
 ///
-/// Gauss-Newton steps with a sparse Cholesky factor. A factor is kept while it serves: with it as
-/// the first metric, L-BFGS learns what has changed since. A step is halved until the energy falls;
-/// if that does not help, a new factor is made, and then a damped one. So the energy never rises
-/// while nothing is moved.
+/// Steps of L-BFGS whose first metric is a sparse Cholesky factor of DeformEnergy::metric, kept
+/// while it serves. A step is halved until the energy falls; if that does not help, a new factor is
+/// made, and then a damped one. So the energy never rises while nothing is moved.
 ///
 /// The same calls give the same bits. Source: Nocedal & Wright, Numerical optimization, 2nd ed.,
-/// Springer 2006, sections 7.2 and 10.3; docs/methods/deformation.md.
+/// Springer 2006, section 7.2; docs/methods/deformation.md.
 class DeformSolver {
  public:
   static constexpr double kTolerance = 1e-6;  ///< of DeformStep::relative_step
@@ -56,9 +55,12 @@ class DeformSolver {
   /// the factor at hand foresees.
   void move_held(const Eigen::Ref<const Positions>& places);
 
+  /// A hand's move, bounded in time: move_held and a few steps, the first of which may linearise.
+  SolveReport follow(const Eigen::Ref<const Positions>& places);
+
   /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape
-  /// can be a saddle; from there what is held moves to where it is.
-  void restart();
+  /// can be a saddle; from there what is held moves to these places.
+  void restart(const Eigen::Ref<const Positions>& places);
 
   /// One step; nothing once converged. Not ok when the energy could not be made smaller.
   SolveReport step(Linearise allowed = Linearise::when_needed);
@@ -74,6 +76,8 @@ class DeformSolver {
 
   /// The last step was not longer than the tolerance, or rounding hides what is left to gain.
   bool converged() const { return converged_; }
+  /// Made so far, for steps and for moves.
+  int n_linearisations() const { return n_linearisations_; }
   /// Since something was last moved, held or weighted otherwise.
   const std::vector<DeformStep>& steps() const { return steps_; }
   const Positions& positions() const { return positions_; }
@@ -88,19 +92,19 @@ class DeformSolver {
  private:
   /// How the gradient changed along with the positions.
   struct Correction {
-    Eigen::VectorXd change, gradient_change;
+    Positions change, gradient_change;
     double product = 0;  // of the two
   };
 
-  void analyze();
   void begin_anew();
   bool dampen();
   SolveReport linearise();
+  Positions held_places() const;
   Positions free_gradient() const;
   Positions foreseen(const Positions& moves);
   void remember(const Positions& gradient);
-  Eigen::VectorXd descent(const Positions& gradient);
-  bool descend(const Positions& gradient, const Eigen::VectorXd& direction, DeformStep& step);
+  Positions descent(const Positions& gradient);
+  bool descend(const Positions& gradient, const Positions& direction, DeformStep& step);
   void judge(const DeformStep& step);
 
   DeformEnergy energy_;
@@ -109,17 +113,19 @@ class DeformSolver {
   Positions bulges_;  // what `restart` adds to rest [m]
   Positions positions_;
   std::vector<VertexId> held_;
+  std::vector<char> is_held_;  // of each vertex
 
-  std::unique_ptr<VertexMatrix> matrix_;  // rows of held vertices are those of the identity
-  SparseMatrix unheld_;                   // the same before they were
-  std::unique_ptr<LinearSolver> solver_;
+  SparseMatrix metric_;                   // lower triangle, n x n
+  std::unique_ptr<LinearSolver> solver_;  // of the metric, with identity rows for what is held
+  bool has_pattern_ = false;
   bool has_factor_ = false;
   bool is_stale_ = false;         // the factor serves badly
   int n_with_factor_ = 0;         // steps
   double first_with_factor_ = 0;  // DeformStep::relative_step of the first
+  int n_linearisations_ = 0;
   double damping_ = 0;
   std::deque<Correction> corrections_;  // to the factor
-  Eigen::VectorXd last_change_;         // empty before the first step
+  Positions last_change_;               // empty where there is no step to learn from
   Positions last_gradient_;
 
   std::vector<DeformStep> steps_;

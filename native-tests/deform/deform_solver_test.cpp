@@ -157,14 +157,12 @@ TEST_CASE("deform_solver: a kept factor serves while the hand moves on", "[defor
   const Hold hold(mesh, 0.05 * kSide);
   DeformSolver solver = pulled(mesh, EnergyForm::consistent, kCanvas, Vec3(0, 0, 0.08));
   solver.solve();
-  solver.move_held(hold.places(mesh, Vec3(0, 0, 0.085)));
-  const double moved = solver.energy();
-  CHECK(solver.step(Linearise::never).ok());
-  CHECK(!solver.steps().front().linearised);
+  const int n_before = solver.n_linearisations();
+  solver.follow(hold.places(mesh, Vec3(0, 0, 0.085)));
+  CHECK(solver.n_linearisations() == n_before);
   DeformSolver anew = pulled(mesh, EnergyForm::consistent, kCanvas, Vec3(0, 0, 0.085));
   anew.solve();
-  CHECK(moved < 1.05 * anew.energy());
-  CHECK(solver.energy() <= moved);
+  CHECK(solver.energy() < 1.001 * anew.energy());
 }
 
 TEST_CASE("deform_solver: pulled far out and back it ends no higher than from rest", "[deform]") {
@@ -184,8 +182,7 @@ TEST_CASE("deform_solver: pulled far out and back it ends no higher than from re
   CHECK(solver.positions().allFinite());
   DeformSolver anew(mesh, EnergyForm::consistent, weights);
   anew.hold(hold.vertices);
-  anew.move_held(end);
-  anew.restart();
+  anew.restart(end);
   anew.solve(kFarAhead);
   CHECK(solver.energy() <= anew.energy() * (1 + 1e-6));
 }
@@ -212,8 +209,7 @@ TEST_CASE("deform_solver: pushed together in its plane cloth buckles", "[deform]
   CHECK(solver.positions().row(2).cwiseAbs().maxCoeff() > 0.05 * kSide);
 }
 
-TEST_CASE("deform_solver: without anything to hold on to it says that there is no factor",
-          "[deform]") {
+TEST_CASE("deform_solver: held at one point alone it stays finite", "[deform]") {
   DeformSolver solver(sheet(4), EnergyForm::consistent, {0, 0.5, 0.5});
   solver.hold({VertexId(0)});
   Positions place(3, 1);
