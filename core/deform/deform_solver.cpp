@@ -301,23 +301,25 @@ SolveReport DeformSolver::solve(int max_linearisations) {
   return {SolveStatus::ok, n, 0, ""};
 }
 
+void DeformSolver::take_back(DeformShape shape) {
+  PLEAT_CHECK(shape.positions.cols() == positions_.cols(), "a shape of the same mesh");
+  begin_anew();
+  has_factor_ = false;
+  positions_ = std::move(shape.positions);
+  steps_ = std::move(shape.steps);
+  converged_ = shape.converged;
+}
+
 SolveReport DeformSolver::settle(int max_linearisations) {
   const SolveReport here = solve(max_linearisations);
-  const Positions kept = positions_;
-  const std::vector<DeformStep> kept_steps = steps_;
-  const bool was_converged = converged_;
+  DeformShape kept = shape();
   const double kept_energy = energy();
-  restart(held_places());
+  restart();
   SolveReport report = solve(max_linearisations);
   report.iterations += here.iterations;
   if (energy() < kept_energy) return report;
-  positions_ = kept;
-  begin_anew();
-  has_factor_ = false;
-  steps_ = kept_steps;
-  converged_ = was_converged;
-  report = {here.status, report.iterations, 0, here.message};
-  return report;
+  take_back(std::move(kept));
+  return {here.status, report.iterations, 0, here.message};
 }
 
 }  // namespace pleat

@@ -26,6 +26,13 @@ enum class Linearise {
   never,        ///< only where there is none at all
 };
 
+/// A shape, and the steps that led to it.
+struct DeformShape {
+  Positions positions;  ///< [m]
+  std::vector<DeformStep> steps;
+  bool converged = false;
+};
+
 /// The shape of least deformation energy of a mesh, some of whose vertices are held.
 ///
 /// Steps of L-BFGS whose first metric is a sparse Cholesky factor of DeformEnergy::metric, kept
@@ -61,6 +68,8 @@ class DeformSolver {
   /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape
   /// can be a saddle; from there what is held moves to these places.
   void restart(const Eigen::Ref<const Positions>& places);
+  /// The same, to where it is.
+  void restart() { restart(held_places()); }
 
   /// One step; nothing once converged. Not ok when the energy could not be made smaller.
   SolveReport step(Linearise allowed = Linearise::when_needed);
@@ -73,6 +82,10 @@ class DeformSolver {
   /// recovery hardly counts, the way that a hand took can end in another minimum. The report's
   /// iterations are those of both.
   SolveReport settle(int max_linearisations = kMaxLinearisations);
+
+  DeformShape shape() const { return {positions_, steps_, converged_}; }
+  /// Goes back to a shape that it had while the same was held at the same places.
+  void take_back(DeformShape shape);
 
   /// The last step was not longer than the tolerance, or rounding hides what is left to gain.
   bool converged() const { return converged_; }
