@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/fabric/deform_weights.h"
+
 namespace pleat {
 
 enum class Confidence {
@@ -20,12 +22,21 @@ struct SourcedValue {
   std::vector<std::string> sources;  ///< keys into FabricLibrary::sources
 };
 
+/// One number for each way in which a fabric is measured by its shape: a ratio of lengths or areas,
+/// or what such ratios are normalised to.
+struct GeometricMeasures {
+  double recovery = 0;  ///< by the projected area after crumpling
+  double stretch = 0;   ///< by the length of the diagonal when pulled
+  double bending = 0;   ///< by the height of wrinkles
+};
+
 /// One measured fabric. Definitions and conversions: assets/SOURCES.md.
 struct Fabric {
   int id = 0;
   std::string name;
   std::string construction;        ///< the cloth that the numbers assume
   std::string colour;              ///< as the source names it
+  std::string use;                 ///< what is made of it, as the source has it
   SourcedValue areal_density;      ///< [kg/m^2]
   SourcedValue thickness;          ///< [m]
   SourcedValue stretch_warp;       ///< secant membrane stiffness near 100 N/m [N/m]
@@ -38,6 +49,10 @@ struct Fabric {
   SourcedValue friction_fabric;    ///< Coulomb, fabric on fabric
   SourcedValue friction_solid;     ///< Coulomb, fabric on a smooth dry solid
   SourcedValue drape_coefficient;  ///< Cusick, 30 / 18 cm [%]
+
+  GeometricMeasures measured;       ///< v, each positive
+  GeometricMeasures normalised;     ///< v', each within [0, 1], not all zero
+  DeformWeights published_weights;  ///< as printed, slips and all (docs/methods/fabric_weights.md)
 };
 
 /// Which bending rigidity an elastic model gets.

@@ -14,6 +14,8 @@ constexpr std::array<Word<Confidence>, 3> kConfidences{{{"measured", Confidence:
                                                         {"typical", Confidence::typical},
                                                         {"estimated", Confidence::estimated}}};
 constexpr NumberRange kPercent{0, 100, NumberRange::Ends::included};
+constexpr NumberRange kMeasure{0, 10, NumberRange::Ends::low_excluded};
+constexpr NumberRange kShare{0, 1, NumberRange::Ends::included};
 
 using Sources = std::map<std::string, std::string>;
 
@@ -65,6 +67,31 @@ SourcedValue read_value(const JsonReader& reader, const NumberRange& range,
   return value;
 }
 
+/// For recovery, stretch and bending; refused when all are zero.
+template <class Three>
+Three read_three(const JsonReader& table, const std::array<const char*, 3>& keys,
+                 const NumberRange& range) {
+  const Three three{table.at(keys[0]).number(range), table.at(keys[1]).number(range),
+                    table.at(keys[2]).number(range)};
+  if (three.recovery + three.stretch + three.bending == 0)
+    table.at(keys[0]).fail(std::string("this, ") + keys[1] + " or " + keys[2] + " above 0");
+  return three;
+}
+
+void read_table(const JsonReader& table, Fabric& fabric) {
+  table.allow_keys({"source", "confidence", "v_recovery", "v_stretch", "v_bend", "vn_recovery",
+                    "vn_stretch", "vn_bend", "weight_recovery_percent", "weight_stretch_percent",
+                    "weight_bend_percent"});
+  fabric.measured =
+      read_three<GeometricMeasures>(table, {"v_recovery", "v_stretch", "v_bend"}, kMeasure);
+  fabric.normalised =
+      read_three<GeometricMeasures>(table, {"vn_recovery", "vn_stretch", "vn_bend"}, kShare);
+  const auto percent = read_three<DeformWeights>(
+      table, {"weight_recovery_percent", "weight_stretch_percent", "weight_bend_percent"},
+      kPercent);
+  fabric.published_weights = {percent.recovery / 100, percent.stretch / 100, percent.bending / 100};
+}
+
 Fabric read_fabric(const JsonReader& reader, const Sources& sources) {
   std::vector<const char*> keys{
       "id",      "name_en",   "name_zh", "use_en", "use_zh", "colour_en", "assumed_construction",
@@ -75,6 +102,7 @@ Fabric read_fabric(const JsonReader& reader, const Sources& sources) {
   fabric.id = static_cast<int>(reader.at("id").integer(0, 1000000));
   fabric.name = reader.at("name_en").text();
   fabric.colour = reader.at("colour_en").text();
+  fabric.use = reader.at("use_en").text();
   fabric.construction = reader.at("assumed_construction").text();
   for (const NumberField& number : kNumberFields)
     fabric.*number.field = read_value(reader.at(number.key), number.range, sources);
@@ -83,6 +111,7 @@ Fabric read_fabric(const JsonReader& reader, const Sources& sources) {
     reader.at("shear_n_per_m")
         .at("value")
         .fail("less than the geometric mean of the stretch stiffnesses, " + Json(bound).dump());
+  read_table(reader.at("seed_table"), fabric);
   return fabric;
 }
 
