@@ -158,7 +158,9 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
       parts.push(svg('circle', { cx: only[0], cy: only[1], r: 2.5, class: `curve-dot ${kind}` }));
     }
   }
-  for (const term of TERMS) curve(`term-${term}`, ({ terms }) => terms[term]);
+  for (const term of TERMS.filter((one) => steps.some(({ terms }) => terms[one] > 0))) {
+    curve(`term-${term}`, ({ terms }) => terms[term]);
+  }
   curve('whole', ({ energy }) => energy);
   steps.forEach(({ energy, linearised }, index) => {
     const at = y(energy);

@@ -82,14 +82,26 @@ function details(summary: string, ...content: Node[]): HTMLElement {
   return element('details', {}, element('summary', {}, summary), ...content);
 }
 
-function table(caption: string, head: HTMLElement, rows: HTMLElement[]): HTMLElement {
+function table(kind: string, caption: string, ...content: HTMLElement[]): HTMLElement {
   return element(
     'table',
-    { class: 'quantities' },
+    { class: kind },
     element('caption', { class: 'unseen' }, caption),
-    head,
+    ...content,
+  );
+}
+
+function termTable(caption: string, titles: string[], rows: HTMLElement[]): HTMLElement {
+  return table(
+    'quantities term-table',
+    caption,
+    headings(...titles),
     element('tbody', {}, ...rows),
   );
+}
+
+function weightTable(shown: Shown): HTMLElement {
+  return termTable('Weights', ['Term', 'Weight', 'As printed'], weightRows(shown));
 }
 
 const WEIGHTS_NOTE =
@@ -98,7 +110,7 @@ const WEIGHTS_NOTE =
 function measurementBox(shown: Shown): HTMLElement {
   return details(
     'What was measured',
-    table('Geometric measurements', headings('Test', 'Ratio', 'Normalised'), measureRows(shown)),
+    termTable('Geometric measurements', ['Test', 'Ratio', 'Normalised'], measureRows(shown)),
     element(
       'p',
       { class: 'note' },
@@ -116,7 +128,11 @@ function physicalBox(fabric: FabricRecord): HTMLElement {
       { class: 'note' },
       `For the fabric in motion; the shape here does not use them. Taken as: ${fabric.assumed_construction}.`,
     ),
-    table('Physical numbers of the fabric', element('thead'), quantityRows(fabric)),
+    table(
+      'quantities',
+      'Physical numbers of the fabric',
+      element('tbody', {}, ...quantityRows(fabric)),
+    ),
     details('Where the numbers come from', sourceList(fabric)),
     details('What the words mean', quantityMeanings()),
   );
@@ -172,7 +188,7 @@ export function createFabricCard(
     show(geometryOf(fabric)[from]);
     const shown = shownOf(fabric);
     const parts = [
-      table('Weights', headings('Term', 'Weight', 'As printed'), weightRows(shown)),
+      weightTable(shown),
       element('p', { class: 'note' }, WEIGHTS_NOTE),
       measurementBox(shown),
       physicalBox(fabric),
@@ -181,7 +197,6 @@ export function createFabricCard(
   }
 
   function showOwn(own: OwnFabric, measures: Triple): void {
-    swatch.style.background = '';
     setText(use, 'measured by you');
     setText(
       expectation,
@@ -190,7 +205,7 @@ export function createFabricCard(
     show(own.weights);
     const shown = ownShown(own, measures);
     body.replaceChildren(
-      table('Weights', headings('Term', 'Weight', 'As printed'), weightRows(shown)),
+      weightTable(shown),
       element('p', { class: 'note' }, WEIGHTS_NOTE),
       measurementBox(shown),
     );
@@ -209,6 +224,7 @@ export function createFabricCard(
     setText(name, titleOf(fabric));
     printed.checked = weightsFrom === 'published';
     printedLine.hidden = isOwn;
+    swatch.hidden = isOwn;
     if (fabric.kind === 'named') showNamed(fabricNamed(fabric.name), weightsFrom);
     else if (ownFabric) showOwn(ownFabric, fabric.measures);
     else body.replaceChildren();

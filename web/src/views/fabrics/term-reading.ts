@@ -19,8 +19,9 @@ type Counts = Record<Term, boolean>;
 const LITTLE = 0.1;
 const MUCH = 0.6;
 
-/** Below this share of the weights a fabric does next to nothing against stretch. */
-const SPIKY_WEIGHT = 0.01;
+/** Below both of these weights a pull is met by recovery alone: bending would round it. */
+const SPIKY_STRETCH = 0.01;
+const SPIKY_BENDING = 0.05;
 
 /** Beside this, two fabrics differ in words too. */
 const CLEARLY_LESS = 0.8;
@@ -42,7 +43,7 @@ const NOUNS: Record<Term, string> = {
 };
 
 export const SPIKE =
-  'With almost no stretch weight a pulled handle makes a spike: those are the measured weights, not a fault.';
+  'With almost no weight on stretch, and little on bending, a pulled handle makes a spike: those are the measured weights, not a fault.';
 
 function sum(values: Triple): number {
   return TERMS.reduce((total, term) => total + values[term], 0);
@@ -71,12 +72,16 @@ function energySentence(pane: PaneState, counts: Counts): string {
   return `Energy ${digits(pane.energy)}, ${percent(paid[most] / total)} of it ${TERM_TITLES[most].toLowerCase()}.`;
 }
 
+function isSpiky({ stretch, bending }: Triple): boolean {
+  return stretch < SPIKY_STRETCH && bending < SPIKY_BENDING;
+}
+
 /** The chosen pane's own numbers; one sentence if it lies at rest. */
 export function paneReading(pane: PaneState, counts: Counts): string[] {
   if (sum(pane.terms) <= 0) return ['At rest: no term costs anything. Pull a handle.'];
   const sentences = TERMS.map((term) => termSentence(term, pane, counts));
   sentences.push(energySentence(pane, counts));
-  if (counts.stretch && pane.weights.stretch < SPIKY_WEIGHT) sentences.push(SPIKE);
+  if (counts.stretch && isSpiky(pane.weights)) sentences.push(SPIKE);
   return sentences.filter((sentence) => sentence !== '');
 }
 
