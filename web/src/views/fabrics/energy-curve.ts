@@ -14,7 +14,6 @@ import { type Store, watch } from '../../state/store';
 import { element, setText } from '../element';
 import { digits } from '../quantity';
 import { TERM_TITLES } from './term-words';
-import { termKey } from './weight-bar';
 
 const SVG = 'http://www.w3.org/2000/svg';
 const WIDTH = 360;
@@ -181,8 +180,11 @@ function tableRow(step: WeightedStep, index: number): HTMLElement {
   );
 }
 
-function key(kind: Node, title: string): HTMLElement {
-  return element('li', {}, kind, title);
+/** A piece of the line as it is drawn, with its title. */
+function key(kind: string, title: string): HTMLElement {
+  const line = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
+  line.append(svg('path', { d: 'M0 5H24', class: `curve ${kind}` }));
+  return element('li', {}, line, title);
 }
 
 /** The curve of the chosen pane. */
@@ -195,9 +197,9 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
   const words = element('figcaption');
   const legend = element(
     'ul',
-    { class: 'marks' },
-    key(element('span', { class: 'term-key term-whole', 'aria-hidden': 'true' }), 'whole'),
-    ...TERMS.map((term) => key(termKey(term), TERM_TITLES[term])),
+    { class: 'marks curve-keys' },
+    key('whole', 'Whole'),
+    ...TERMS.map((term) => key(`term-${term}`, TERM_TITLES[term])),
   );
   const rows = element('tbody');
   const heads = ['Step', 'Energy', ...TERMS.map((term) => TERM_TITLES[term]), 'Move', 'Matrix'];
@@ -215,7 +217,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
       { class: 'table-box', tabindex: 0, role: 'region', 'aria-label': 'Steps' },
       element(
         'table',
-        { class: 'rows' },
+        { class: 'rows step-rows' },
         element('caption', { class: 'unseen' }, 'Energy after each step'),
         element(
           'thead',

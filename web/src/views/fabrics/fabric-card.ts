@@ -72,7 +72,7 @@ function measureRows({ measures, normalised }: Shown): HTMLElement[] {
         TERM_TITLES[term],
         element('small', {}, TERM_MEASUREMENTS[term]),
       ),
-      element('td', { class: 'number' }, digits(measures[term], 4)),
+      element('td', { class: 'number' }, measures[term].toFixed(4)),
       element('td', { class: 'number' }, digits(normalised[term], 2)),
     ),
   );

@@ -69,9 +69,9 @@ export function trustWords({ leaveOneOutError }: Pick<OwnFabric, 'leaveOneOutErr
     const error = digits(leaveOneOutError[term], 2);
     const ofMean = errorOfMean(term);
     if (leaveOneOutError[term] > ofMean - SAME_ERROR) {
-      return `${title}: misses by ${error} of 1, no better than the mean of all, so what you measure does not change it.`;
+      return `${title}: by ${error}, no better than the mean of all, so what you measure does not change it.`;
     }
-    return `${title}: misses by ${error} of 1; taking the mean of all would miss by ${digits(ofMean, 2)}.`;
+    return `${title}: by ${error}; the mean of all misses it by ${digits(ofMean, 2)}.`;
   });
 }
 
@@ -133,7 +133,7 @@ export function createOwnFabricForm(
   );
   const result = element(
     'div',
-    {},
+    { class: 'own-result' },
     summary,
     bar,
     element(
@@ -161,7 +161,7 @@ export function createOwnFabricForm(
       element(
         'p',
         { class: 'note' },
-        `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others`,
+        `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others misses its normalised value (0 to 1):`,
       ),
       trust,
     ),
