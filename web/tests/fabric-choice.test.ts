@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import type { FabricChoice } from '../src/state/deform-state';
-import { MOST_COMPARED, withShown, withToggled } from '../src/state/fabric-choice';
+import { MOST_COMPARED, weightsOf, withShown, withToggled } from '../src/state/fabric-choice';
+import { fabricNamed, fabrics, geometryOf } from '../src/state/fabric-data';
 import { cellAfter } from '../src/views/fabrics/fabric-gallery';
+import { isSpiky } from '../src/views/fabrics/term-reading';
 
 const named = (name: string): FabricChoice => ({ kind: 'named', name });
 const own = (recovery: number): FabricChoice => ({
@@ -53,6 +55,21 @@ describe('fabric-choice', () => {
 
   it('keeps the last fabric', () => {
     expect(withToggled({ fabrics: [silk], chosen: 0 }, silk)).toMatch(/^One fabric stays/);
+  });
+});
+
+describe('weightsOf', () => {
+  it('keeps recomputed, printed and fitted weights apart', () => {
+    const { recomputed, published } = geometryOf(fabricNamed('silk'));
+    expect(weightsOf(silk, 'recomputed', null)).toEqual(recomputed);
+    expect(weightsOf(silk, 'published', null)).toEqual(published);
+    expect(published.stretch).toBeLessThan(0.2 * recomputed.stretch);
+    expect(weightsOf(own(0.9), 'published', null)).toBeNull();
+  });
+
+  it('tells that silk makes a spike, and no other fabric', () => {
+    const spiky = fabrics.filter((fabric) => isSpiky(geometryOf(fabric).recomputed));
+    expect(spiky.map(({ name_en }) => name_en)).toEqual(['silk']);
   });
 });
 

@@ -72,7 +72,8 @@ function energySentence(pane: PaneState, counts: Counts): string {
   return `Energy ${digits(pane.energy)}, ${percent(paid[most] / total)} of it ${TERM_TITLES[most].toLowerCase()}.`;
 }
 
-function isSpiky({ stretch, bending }: Triple): boolean {
+/** True of silk alone: spandex and nylon hardly resist stretch either, but bend round. */
+export function isSpiky({ stretch, bending }: Triple): boolean {
   return stretch < SPIKY_STRETCH && bending < SPIKY_BENDING;
 }
 
