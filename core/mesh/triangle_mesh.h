@@ -10,6 +10,9 @@ namespace pleat {
 
 using Triangle = std::array<VertexId, 3>;
 
+/// Texture coordinates of a triangle's corners, one column each.
+using CornerTexture = Eigen::Matrix<double, 2, 3>;
+
 /// Any triangle mesh at rest. The lengths of its edges are those of unstrained cloth. Cloth is
 /// woven flat, so bending is measured from the flat state however the mesh stands in space.
 struct TriangleMesh {

@@ -89,17 +89,18 @@ std::vector<std::optional<CornerTexture>> corner_textures(const RestCoordinates&
   return textures;
 }
 
-std::optional<Vec3> read_warp_vector(const JsonReader& reader) {
+std::optional<Vec3> read_warp_vector(const JsonReader& reader, const std::optional<Vec3>& usual) {
   const auto at = reader.find("warp_direction");
-  return at ? std::optional<Vec3>(at->direction()) : std::nullopt;
+  return at ? at->direction() : usual;
 }
 
-MeshCloth read_obj_mesh(const JsonReader& reader, const FileSource& files) {
+MeshCloth read_obj_mesh(const JsonReader& reader, const FileSource& files,
+                        const std::optional<Vec3>& usual_warp) {
   reader.allow_keys({"obj", "warp_direction", "initial_velocity_m_per_s"});
   const JsonReader at = reader.at("obj");
   const std::string& name = at.text();
   if (!files) at.fail("a mesh written out in the scene, as no files can be read here");
-  const std::optional<Vec3> vector = read_warp_vector(reader);
+  const std::optional<Vec3> vector = read_warp_vector(reader, usual_warp);
   const std::string text = files(name);
   try {
     ObjMesh obj = read_obj(text);
@@ -110,6 +111,7 @@ MeshCloth read_obj_mesh(const JsonReader& reader, const FileSource& files) {
     cloth.groups = std::move(obj.groups);
     fill_warp_directions(cloth.mesh, obj.textures, vector,
                          [&](std::size_t f) { return "line " + std::to_string(obj.lines[f]); });
+    cloth.textures = std::move(obj.textures);
     return cloth;
   } catch (const InputError& error) {
     throw InputError(error.where().empty() ? name : name + ": " + error.where(), error.what());
@@ -154,7 +156,7 @@ void read_warp_directions(const JsonReader& reader, TriangleMesh& mesh) {
         read_warp_direction(element, corners_of(mesh, mesh.triangles[f++])));
 }
 
-MeshCloth read_inline_mesh(const JsonReader& reader) {
+MeshCloth read_inline_mesh(const JsonReader& reader, const std::optional<Vec3>& usual_warp) {
   reader.allow_keys({"positions_m", "triangles", "warp_direction", "warp_directions",
                      "texture_coordinates", "groups", "initial_velocity_m_per_s"});
   MeshCloth cloth;
@@ -173,22 +175,26 @@ MeshCloth read_inline_mesh(const JsonReader& reader) {
   if (const auto at = reader.find("texture_coordinates"))
     cloth.texture_coordinates = read_texture_coordinates(*at, static_cast<std::size_t>(n));
   if (const auto at = reader.find("groups")) cloth.groups = read_groups(*at, n);
-  const std::optional<Vec3> vector = read_warp_vector(reader);
+  cloth.textures = corner_textures(cloth.texture_coordinates, mesh.triangles);
   if (const auto at = reader.find("warp_directions")) {
-    if (vector) at->fail("either this or warp_direction");
+    if (reader.find("warp_direction")) at->fail("either this or warp_direction");
     read_warp_directions(*at, mesh);
   } else {
-    fill_warp_directions(mesh, corner_textures(cloth.texture_coordinates, mesh.triangles), vector,
-                         place);
+    fill_warp_directions(mesh, cloth.textures, read_warp_vector(reader, usual_warp), place);
   }
   return cloth;
 }
 
 }  // namespace
 
-void read_mesh(const JsonReader& reader, const FileSource& files, Scene& scene) {
+MeshCloth read_mesh_cloth(const JsonReader& reader, const FileSource& files,
+                          const std::optional<Vec3>& usual_warp) {
   const bool is_file = reader.only_one_of({"obj", "positions_m"}) == 0;
-  scene.cloth = is_file ? read_obj_mesh(reader, files) : read_inline_mesh(reader);
+  return is_file ? read_obj_mesh(reader, files, usual_warp) : read_inline_mesh(reader, usual_warp);
+}
+
+void read_mesh(const JsonReader& reader, const FileSource& files, Scene& scene) {
+  scene.cloth = read_mesh_cloth(reader, files, std::nullopt);
   if (const auto at = reader.find("initial_velocity_m_per_s")) scene.initial_velocity = at->vec3();
 }
 

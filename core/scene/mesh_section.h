@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/scene/file_source.h"
 #include "core/scene/json_reader.h"
 #include "core/scene/scene.h"
@@ -15,6 +17,10 @@ namespace pleat {
 ///
 /// Faults of an OBJ file are InputErrors at "name: line N".
 void read_mesh(const JsonReader& reader, const FileSource& files, Scene& scene);
+
+/// The mesh alone; `usual_warp` takes the place of a "warp_direction" that is not there.
+MeshCloth read_mesh_cloth(const JsonReader& reader, const FileSource& files,
+                          const std::optional<Vec3>& usual_warp);
 
 /// Always written out, so that the text is the whole scene.
 Json json_mesh(const MeshCloth& cloth, const Vec3& initial_velocity);

@@ -299,7 +299,57 @@ ObjMesh ObjParser::finish() {
   return std::move(mesh_);
 }
 
+std::string numbers_line(const char* keyword, const double* numbers, int n) {
+  std::string line = keyword;
+  for (int k = 0; k < n; ++k) line += ' ' + Json(numbers[k]).dump();
+  return line + '\n';
+}
+
+/// Numbers every pair of texture coordinates where it first comes up.
+class TextureLines {
+ public:
+  int number(const Eigen::Vector2d& pair) {
+    const auto [place, is_new] =
+        numbers_.try_emplace({pair.x(), pair.y()}, static_cast<int>(numbers_.size()) + 1);
+    if (is_new) text_ += numbers_line("vt", pair.data(), 2);
+    return place->second;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::map<std::pair<double, double>, int> numbers_;
+  std::string text_;
+};
+
+/// A name with blanks can only be an object's, which ends where the next one begins.
+std::string group_lines(const VertexGroup& group) {
+  const bool is_object = group.name.find(' ') != std::string::npos;
+  std::string text = (is_object ? "g\no " : "g ") + group.name + "\np";
+  for (const VertexId v : group.vertices) text += ' ' + std::to_string(v.value + 1);
+  return text + (is_object ? "\no\n" : "\n");
+}
+
 }  // namespace
+
+std::string write_obj(const ObjMesh& mesh) {
+  TextureLines textures;
+  std::string faces;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    faces += 'f';
+    for (std::size_t k = 0; k < 3; ++k) {
+      faces += ' ' + std::to_string(mesh.triangles[f][k].value + 1);
+      if (const auto& texture = mesh.textures[f])
+        faces += '/' + std::to_string(textures.number(texture->col(static_cast<Eigen::Index>(k))));
+    }
+    faces += '\n';
+  }
+  std::string text;
+  for (Eigen::Index v = 0; v < mesh.positions.cols(); ++v)
+    text += numbers_line("v", mesh.positions.col(v).data(), 3);
+  text += textures.text() + faces;
+  for (const VertexGroup& group : mesh.groups) text += group_lines(group);
+  return text;
+}
 
 ObjMesh read_obj(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";

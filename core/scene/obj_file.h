@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,9 +9,6 @@
 #include "core/mesh/vertex_group.h"
 
 namespace pleat {
-
-/// Texture coordinates of a triangle's corners, one column each.
-using CornerTexture = Eigen::Matrix<double, 2, 3>;
 
 /// A mesh as its OBJ file gives it.
 struct ObjMesh {
@@ -32,5 +30,9 @@ struct ObjMesh {
 /// a whole, with no line. Source: Wavefront Technologies, Advanced Visualizer manual, appendix B1:
 /// object files.
 ObjMesh read_obj(std::string_view text);
+
+/// The text from which read_obj reads the same mesh, but for the lines. Numbers have the fewest
+/// digits that read back to the same bits; a group's vertices are points.
+std::string write_obj(const ObjMesh& mesh);
 
 }  // namespace pleat

@@ -34,6 +34,7 @@ struct MeshCloth {
   TriangleMesh mesh;                    ///< sound (mesh_fault), with all warp directions
   std::vector<VertexGroup> groups;      ///< with different names, none empty
   RestCoordinates texture_coordinates;  ///< 2 x n; empty unless each vertex has exactly one pair
+  std::vector<std::optional<CornerTexture>> textures;  ///< of each triangle
 };
 
 /// Named parts of a sheet. Upper is u = 0 (where warp begins), left is v = 0 (where weft begins).

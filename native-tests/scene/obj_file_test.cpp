@@ -228,4 +228,23 @@ TEST_CASE("obj: a mesh that was written reads back to the bit", "[scene]") {
   }
 }
 
+TEST_CASE("obj: a seam's two textures, no texture and groups of any name read back", "[scene]") {
+  const ObjMesh mesh = read_obj(
+      "v 0 0 0\nv 0.1 0 0\nv 0 0.3 0\nv 1 1 1e-7\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 0.7\nvt 6 0\n"
+      "o the shirt\nf 1/1 2/2 3/3\ng front sleeve\nf 2/4 4/5 3/1\no\ng hem\nl 1 2\n");
+  ObjMesh plain = mesh;
+  plain.textures[0].reset();
+  for (const ObjMesh& given : {mesh, plain}) {
+    const ObjMesh again = read_obj(write_obj(given));
+    CHECK(again.positions == given.positions);
+    CHECK(again.triangles == given.triangles);
+    CHECK(again.textures == given.textures);
+    REQUIRE(again.groups.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK(again.groups[k].name == given.groups[k].name);
+      CHECK(again.groups[k].vertices == given.groups[k].vertices);
+    }
+  }
+}
+
 }  // namespace pleat
