@@ -4,9 +4,9 @@
 
 #include "core/base/check.h"
 #include "core/scene/cloth_section.h"
-#include "core/scene/nearest_word.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
+#include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
@@ -94,40 +94,13 @@ std::vector<VertexId> base_vertices(const Scene& scene, const PinRule& pin) {
   return pinned_vertices(pin, scene, rest_cloth(scene, 0));
 }
 
-std::string listed(const std::vector<VertexGroup>& groups) {
-  std::string text;
-  for (const VertexGroup& group : groups) text += (text.empty() ? "\"" : ", \"") + group.name + '"';
-  return cut(text);
-}
-
-std::string read_group_name(const JsonReader& reader, const std::vector<VertexGroup>& groups) {
-  const std::string& wanted = reader.text();
-  std::vector<const char*> names;
-  for (const VertexGroup& group : groups) {
-    if (group.name == wanted) return wanted;
-    names.push_back(group.name.c_str());
-  }
-  if (groups.empty()) reader.fail("listed vertices or a box, as the mesh has no named group");
-  const std::string near(nearest_word(wanted, names));
-  reader.fail(near.empty() ? "one of the groups " + listed(groups)
-                           : "the group \"" + cut(near) + '"');
-}
-
-PinBox read_box(const JsonReader& reader) {
-  reader.allow_keys({"low_m", "high_m"});
-  PinBox box{reader.at("low_m").vec3(), reader.at("high_m").vec3()};
-  if ((box.low.array() > box.high.array()).any())
-    reader.at("low_m").fail("a corner that is nowhere above high_m");
-  return box;
-}
-
 PinRule read_pin(const JsonReader& reader, const Scene& scene) {
   reader.allow_keys({"part", "vertices", "box", "motion"});
   PinRule pin;
   switch (reader.only_one_of({"part", "vertices", "box"})) {
     case 0:
       if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) {
-        pin.where = read_group_name(reader.at("part"), mesh->groups);
+        pin.where = read_group(reader.at("part"), mesh->groups).name;
       } else {
         pin.where = reader.at("part").word(kSheetParts);
         if (!std::holds_alternative<SheetShape>(scene.cloth))

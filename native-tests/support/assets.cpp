@@ -5,8 +5,12 @@
 
 namespace pleat {
 
+std::string repository_path(const std::string& path) {
+  return std::string(PLEAT_SOURCE_DIR) + "/" + path;
+}
+
 std::string repository_file(const std::string& path) {
-  std::ifstream file(std::string(PLEAT_SOURCE_DIR) + "/" + path, std::ios::binary);
+  std::ifstream file(repository_path(path), std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

@@ -6,6 +6,8 @@
 
 namespace pleat {
 
+std::string repository_path(const std::string& path);
+
 /// The text of a file of the repository; empty when it is missing.
 std::string repository_file(const std::string& path);
 

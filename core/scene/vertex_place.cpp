@@ -1,0 +1,92 @@
+#include "core/scene/vertex_place.h"
+
+#include <algorithm>
+
+#include "core/scene/nearest_word.h"
+#include "core/scene/vertex_arrays.h"
+
+namespace pleat {
+namespace {
+
+std::string listed(const std::vector<VertexGroup>& groups) {
+  std::string text;
+  for (const VertexGroup& group : groups) text += (text.empty() ? "\"" : ", \"") + group.name + '"';
+  return cut(text);
+}
+
+std::vector<VertexId> vertices_in(const PinBox& box, const Positions& positions) {
+  std::vector<VertexId> vertices;
+  for (Eigen::Index v = 0; v < positions.cols(); ++v)
+    if (box.holds(positions.col(v))) vertices.emplace_back(v);
+  return vertices;
+}
+
+std::vector<VertexId> read_near(const JsonReader& reader, const Positions& positions) {
+  reader.allow_keys({"point_m", "radius_m"});
+  double radius = usual_grasp(positions);
+  if (const auto at = reader.find("radius_m")) radius = at->number(kNotNegative);
+  return vertices_near(positions, reader.at("point_m").vec3(), radius);
+}
+
+}  // namespace
+
+const VertexGroup& read_group(const JsonReader& reader, const std::vector<VertexGroup>& groups) {
+  const std::string& wanted = reader.text();
+  std::vector<const char*> names;
+  for (const VertexGroup& group : groups) {
+    if (group.name == wanted) return group;
+    names.push_back(group.name.c_str());
+  }
+  if (groups.empty()) reader.fail("listed vertices or a box, as the mesh has no named group");
+  const std::string near(nearest_word(wanted, names));
+  reader.fail(near.empty() ? "one of the groups " + listed(groups)
+                           : "the group \"" + cut(near) + '"');
+}
+
+PinBox read_box(const JsonReader& reader) {
+  reader.allow_keys({"low_m", "high_m"});
+  PinBox box{reader.at("low_m").vec3(), reader.at("high_m").vec3()};
+  if ((box.low.array() > box.high.array()).any())
+    reader.at("low_m").fail("a corner that is nowhere above high_m");
+  return box;
+}
+
+double usual_grasp(const Positions& positions) {
+  return kUsualGrasp * (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).maxCoeff();
+}
+
+std::vector<VertexId> vertices_near(const Positions& positions, const Vec3& point, double radius) {
+  constexpr double kRounding = 1e-9;  // so that a circle through grid points takes all of them
+  const Eigen::VectorXd distances = (positions.colwise() - point).colwise().norm();
+  std::vector<VertexId> vertices;
+  for (Eigen::Index v = 0; v < distances.size(); ++v)
+    if (distances[v] <= (1 + kRounding) * radius) vertices.emplace_back(v);
+  if (!vertices.empty()) return vertices;
+  Eigen::Index nearest = 0;
+  distances.minCoeff(&nearest);
+  return {VertexId(nearest)};
+}
+
+std::vector<VertexId> read_place(const JsonReader& reader, const Positions& positions,
+                                 const std::vector<VertexGroup>& groups) {
+  switch (reader.only_one_of({kPlaceKeys[0], kPlaceKeys[1], kPlaceKeys[2], kPlaceKeys[3]})) {
+    case 0: {
+      std::vector<VertexId> vertices = read_vertex_list(reader.at("vertices"), positions.cols());
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+      return vertices;
+    }
+    case 1:
+      return read_group(reader.at("group"), groups).vertices;
+    case 2: {
+      const JsonReader at = reader.at("box");
+      std::vector<VertexId> vertices = vertices_in(read_box(at), positions);
+      if (vertices.empty()) at.fail("a box with a vertex in it");
+      return vertices;
+    }
+    default:
+      return read_near(reader.at("near"), positions);
+  }
+}
+
+}  // namespace pleat
