@@ -14,5 +14,6 @@ Outcome run_command(Arguments arguments);
 Outcome sweep_command(Arguments arguments);
 Outcome reference_command(Arguments arguments);
 Outcome bench_command(Arguments arguments);
+Outcome deform_command(Arguments arguments);
 
 }  // namespace pleat

@@ -45,6 +45,18 @@ pleat reference SCENE.json    make one by newton and tell how well it is known
   --step S               of it (default 1/960 s);  --every S  of its samples (default 1/60 s)
   --steps N | --duration S
   --out FILE             keep it, with 32-bit positions
+pleat deform SCENE.json  the shape of least energy of a cloth that is pinned and pulled
+pleat deform MESH.obj    the same of any mesh
+  --pin PLACE            hold what is there; --handle PLACE:X,Y,Z  move it so far [m]. Each may come
+                         several times, beside the scene's own. A place is vertex numbers from 0
+                         (3 or 3,4), a group's name, box:X,Y,Z,X,Y,Z (two corners) or near:X,Y,Z
+                         (a twentieth of the cloth's longest side around it) or near:X,Y,Z,R;
+                         a handle's place may be the name of the scene's, which then goes there
+  --fabric NAME          of the library; --measure R,S,B  own measurements of recovery, stretch and
+                         bending; --weights R,S,B  the three terms' weights themselves
+  --form published       sums over vertices and edges; consistent (default): integrals over cloth
+  --terms A,B            leave out those of recovery, stretch and bending that are not named
+  --out FILE.obj         write the shape with the mesh's texture coordinates and groups
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
@@ -54,7 +66,7 @@ pleat bench reference SCENE.json  positions that are taken for right
   --cache DIR            keep runs here
 pleat help | --version
 
-Changes to the scene, for every command:
+Changes to the scene, for every command but deform, which takes --fabrics and --json too:
   --fabric NAME  --step S  --solver NAME  --tolerance X
   --fabrics FILE         read the fabrics from here
 and for every command but sweep, which has --levels and --steppers:
@@ -71,6 +83,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "sweep") return sweep_command(std::move(arguments));
   if (command == "reference") return reference_command(std::move(arguments));
   if (command == "bench") return bench_command(std::move(arguments));
+  if (command == "deform") return deform_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
     std::fputs(kHelp, stdout);
@@ -81,8 +94,9 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
     std::printf("pleat %s\n", core_version());
     return Outcome::ok;
   }
-  throw InputError(cut(command),
-                   "unknown command; the commands are run, sweep, reference, bench and help");
+  throw InputError(
+      cut(command),
+      "unknown command; the commands are run, sweep, reference, deform, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {

@@ -26,13 +26,6 @@ constexpr SceneOption kSceneOptions[] = {
     {"--duration", "/duration_s"},
 };
 
-/// Names of files in a scene are relative to its own folder.
-FileSource files_beside(const std::string& scene_file) {
-  return [folder = std::filesystem::path(scene_file).parent_path()](const std::string& name) {
-    return read_file(folder / name);
-  };
-}
-
 /// The duration of so many steps of the scene [s], not rounded to more: the most steps are allowed.
 double duration_of(int n_steps, const Json& scene) {
   const Json::json_pointer pointer("/method/step_s");
@@ -79,6 +72,12 @@ FabricLibrary take_fabrics(Arguments& arguments) {
   } catch (const InputError& error) {
     throw InputError(error.where().empty() ? *file : *file + ": " + error.where(), error.what());
   }
+}
+
+FileSource files_beside(const std::string& scene_file) {
+  return [folder = std::filesystem::path(scene_file).parent_path()](const std::string& name) {
+    return read_file(folder / name);
+  };
 }
 
 Json option_value(const std::string& text) {

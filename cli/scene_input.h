@@ -42,6 +42,9 @@ struct SceneInput {
   [[noreturn]] void throw_out_of_memory() const;
 };
 
+/// Names of files in a scene are relative to its own folder.
+FileSource files_beside(const std::string& scene_file);
+
 /// A number where the text is one, else the text itself.
 Json option_value(const std::string& text);
 

@@ -1,12 +1,7 @@
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -17,17 +12,12 @@
 #include "core/scene/frame_file.h"
 #include "core/scene/json_text.h"
 #include "core/scene/matrix_file.h"
-#include "native-tests/support/scratch_folder.h"
+#include "native-tests/support/pleat_command.h"
 
 using namespace pleat;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// Every file below a folder and what is in it.
 std::map<std::string, std::string> contents(const fs::path& folder) {
@@ -35,27 +25,6 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) texts[entry.path().string()] = text_of(entry.path());
   return texts;
-}
-
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-struct Ending {
-  int status;
-  std::string out;
-  std::string error;
-};
-
-/// Runs the command with these words, `before` it and `after` it in the same shell.
-Ending pleat_command(const ScratchFolder& folder, const std::vector<std::string>& words,
-                     const std::string& before = "", const std::string& after = "") {
-  std::string line = before + "'" PLEAT_COMMAND "'";
-  for (const std::string& word : words) line += " '" + word + "'";
-  line +=
-      " >'" + (folder / "stdout").string() + "' 2>'" + (folder / "stderr").string() + "'" + after;
-  const int status = std::system(line.c_str());
-  return {WEXITSTATUS(status), text_of(folder / "stdout"), text_of(folder / "stderr")};
 }
 
 constexpr const char* kScene = R"({

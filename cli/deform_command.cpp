@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/deform_input.h"
+#include "cli/scene_input.h"
+#include "core/deform/deform_solver.h"
+#include "core/measure/core_version.h"
+#include "core/scene/obj_file.h"
+
+namespace pleat {
+namespace {
+
+/// A solved scene.
+struct Deformation {
+  DeformTerms begin;  ///< once what is held was moved, before the first step
+  SolveReport report;
+  std::vector<DeformStep> steps;
+  Positions positions;  // [m]
+  double farthest = 0;  // of a vertex from its place at rest [m]
+  std::size_t n_held = 0;
+};
+
+Deformation deformed(const DeformScene& scene) {
+  DeformSolver solver(scene.mesh, scene.form, scene.weights());
+  const HeldVertices held = held_vertices(scene);
+  solver.hold(held.vertices);
+  solver.move_held(held.targets);
+  solver.restart();
+  Deformation result;
+  result.begin = solver.terms();
+  result.report = solver.solve();
+  result.steps = solver.steps();
+  result.positions = solver.positions();
+  result.n_held = held.vertices.size();
+  result.farthest = (result.positions - scene.mesh.rest_positions).colwise().norm().maxCoeff();
+  return result;
+}
+
+const char* form_name(EnergyForm form) {
+  return form == EnergyForm::consistent ? "consistent" : "published";
+}
+
+std::string fabric_name(const DeformScene& scene) {
+  if (!scene.fabric.empty()) return scene.fabric;
+  return scene.fit ? "own measurements" : "own weights";
+}
+
+Json json_three(double recovery, double stretch, double bending) {
+  return {{"recovery", recovery}, {"stretch", stretch}, {"bending", bending}};
+}
+
+Json json_terms(const DeformTerms& t) { return json_three(t.recovery, t.stretch, t.bending); }
+
+Json json_fit(const FittedWeights& fit, const FabricLibrary& fabrics) {
+  const GeometricMeasures& v = fit.normalised;
+  const GeometricMeasures& error = fit.leave_one_out_error;
+  return {{"normalised", json_three(v.recovery, v.stretch, v.bending)},
+          {"leave_one_out_error", json_three(error.recovery, error.stretch, error.bending)},
+          {"clamped", fit.clamped},
+          {"nearest_fabric", fabrics.fabrics[fit.nearest].name},
+          {"distance", fit.distance}};
+}
+
+Json json_steps(const std::vector<DeformStep>& steps) {
+  Json json = Json::array();
+  for (const DeformStep& step : steps)
+    json.push_back({{"energy", step.energy},
+                    {"terms", json_terms(step.terms)},
+                    {"relative_step", step.relative_step},
+                    {"halvings", step.halvings},
+                    {"linearised", step.linearised},
+                    {"damping", step.damping}});
+  return json;
+}
+
+Json json_deformation(const DeformScene& scene, const Deformation& result,
+                      const FabricLibrary& fabrics) {
+  const DeformWeights weights = scene.weights();
+  Json json = {
+      {"scene", scene.name},
+      {"fabric", fabric_name(scene)},
+      {"weights", json_three(weights.recovery, weights.stretch, weights.bending)},
+      {"form", form_name(scene.form)},
+      {"n_vertices", scene.mesh.n_vertices()},
+      {"n_triangles", scene.mesh.triangles.size()},
+      {"n_edges", mesh_edges(scene.mesh.triangles).size()},
+      {"n_held", result.n_held},
+      {"status", name(result.report.status)},
+      {"message", result.report.message},
+      {"linearisations", result.report.iterations},
+      {"begin", {{"energy", result.begin.weighted(weights)}, {"terms", json_terms(result.begin)}}},
+      {"steps", json_steps(result.steps)},
+      {"farthest_m", result.farthest}};
+  if (scene.fit) json["fit"] = json_fit(*scene.fit, fabrics);
+  json["core"] = core_version();
+  return json;
+}
+
+void print_fit(const FittedWeights& fit, const FabricLibrary& fabrics) {
+  const GeometricMeasures& error = fit.leave_one_out_error;
+  std::printf("from measurements: leave-one-out error %.2f, %.2f, %.2f; nearest fabric %s\n",
+              error.recovery, error.stretch, error.bending,
+              printable(fabrics.fabrics[fit.nearest].name).c_str());
+  for (const MeasureField& measure : kMeasures)
+    if (std::count(fit.clamped.begin(), fit.clamped.end(), measure.name) > 0)
+      std::printf("%s lies outside of what was measured, %.4g to %.4g, and was taken at its end\n",
+                  std::string(measure.name).c_str(), fit.measured_low.*measure.value,
+                  fit.measured_high.*measure.value);
+}
+
+void print_deformation(const DeformScene& scene, const Deformation& result,
+                       const FabricLibrary& fabrics) {
+  const DeformWeights weights = scene.weights();
+  std::printf("%s: %s, %s, %d vertices, %zu triangles, %zu edges, %zu held\n",
+              printable(scene.name).c_str(), printable(fabric_name(scene)).c_str(),
+              form_name(scene.form), scene.mesh.n_vertices(), scene.mesh.triangles.size(),
+              mesh_edges(scene.mesh.triangles).size(), result.n_held);
+  std::printf("weights: recovery %.4g, stretch %.4g, bending %.4g\n", weights.recovery,
+              weights.stretch, weights.bending);
+  if (scene.fit) print_fit(*scene.fit, fabrics);
+  std::printf("step  energy       recovery     stretch      bending      relative step\n");
+  std::printf("%4d  %-11.5g  %-11.5g  %-11.5g  %-11.5g\n", 0, result.begin.weighted(weights),
+              result.begin.recovery, result.begin.stretch, result.begin.bending);
+  int n = 0;
+  for (const DeformStep& step : result.steps)
+    std::printf("%4d  %-11.5g  %-11.5g  %-11.5g  %-11.5g  %.2g%s\n", ++n, step.energy,
+                step.terms.recovery, step.terms.stretch, step.terms.bending, step.relative_step,
+                step.linearised ? " linearised" : "");
+  std::printf("status %s, %zu steps, %d linearisations, farthest from rest %.4g m\n",
+              name(result.report.status), result.steps.size(), result.report.iterations,
+              result.farthest);
+  if (!result.report.message.empty()) std::printf("%s\n", result.report.message.c_str());
+}
+
+}  // namespace
+
+Outcome deform_command(Arguments arguments) {
+  const bool for_machines = arguments.flag("--json");
+  const auto out = arguments.text("--out");
+  const DeformInput input = take_deform_scene(arguments);
+  arguments.finish();
+  const DeformScene& scene = input.scene;
+  if (out) check_writable(*out);
+  const Deformation result = with_source_named(input, [&] { return deformed(scene); });
+  if (for_machines)
+    std::printf("%s\n", json_deformation(scene, result, input.fabrics).dump().c_str());
+  else
+    print_deformation(scene, result, input.fabrics);
+  if (result.report.ends_run()) {
+    std::fprintf(stderr, "pleat: %s\n", result.report.message.c_str());
+    return Outcome::check_failed;
+  }
+  if (out)
+    write_file(
+        *out,
+        write_obj({result.positions, scene.mesh.triangles, scene.textures, scene.groups, {}}));
+  return Outcome::ok;
+}
+
+}  // namespace pleat

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "core/base/check.h"
+#include "core/scene/deform_scene.h"
+
+namespace pleat {
+
+/// A deformation and where its values came from.
+struct DeformInput {
+  DeformScene scene;
+  FabricLibrary fabrics;
+  std::string file;
+  /// Pointers to what options have set, with the options.
+  std::vector<std::pair<std::string, const char*>> sources;
+
+  /// Throws InputError naming the option that set the value at fault, else the file with the JSON
+  /// pointer.
+  [[noreturn]] void throw_with_source(const InputError& error) const;
+  [[noreturn]] void throw_out_of_memory() const;
+};
+
+/// The scene or mesh that the next word names, with the options --fabrics, --fabric, --measure,
+/// --weights, --form, --terms, --pin and --handle.
+DeformInput take_deform_scene(Arguments& arguments);
+
+}  // namespace pleat
