@@ -229,11 +229,13 @@ Outcome bench_reference(Arguments arguments) {
 }  // namespace
 
 Outcome bench_command(Arguments arguments) {
-  const std::string kind = arguments.first_word("what to measure: run or reference");
+  const std::string kind = arguments.first_word("what to measure: run, reference or deform");
   arguments.flag("--json");  // its only form
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
-  throw InputError("bench", "expected run or reference after it, got " + abbreviated(Json(kind)));
+  if (kind == "deform") return bench_deform(std::move(arguments));
+  throw InputError("bench",
+                   "expected run, reference or deform after it, got " + abbreviated(Json(kind)));
 }
 
 }  // namespace pleat

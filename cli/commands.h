@@ -15,5 +15,6 @@ Outcome sweep_command(Arguments arguments);
 Outcome reference_command(Arguments arguments);
 Outcome bench_command(Arguments arguments);
 Outcome deform_command(Arguments arguments);
+Outcome bench_deform(Arguments arguments);  ///< bench deform
 
 }  // namespace pleat

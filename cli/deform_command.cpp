@@ -26,8 +26,7 @@ Deformation deformed(const DeformScene& scene) {
   DeformSolver solver(scene.mesh, scene.form, scene.weights());
   const HeldVertices held = held_vertices(scene);
   solver.hold(held.vertices);
-  solver.move_held(held.targets);
-  solver.restart();
+  solver.restart(held.targets);
   Deformation result;
   result.begin = solver.terms();
   result.report = solver.solve();

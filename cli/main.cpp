@@ -64,6 +64,10 @@ pleat bench reference SCENE.json  positions that are taken for right
   --times T1,T2 (default: the scene's end, or that of --steps N | --duration S)
   --kind run (default), or rigid_chain or closed_form, which take no option of a method
   --cache DIR            keep runs here
+pleat bench deform SCENE.json     what the shape of least energy costs
+  --drag N               then of a hand that takes the handles there in N moves
+  --against OTHER.json   the distance to that shape, with the same fabric and form
+  --vertices             how much each vertex has of the bending
 pleat help | --version
 
 Changes to the scene, for every command but deform, which takes --fabrics and --json too:

@@ -66,6 +66,11 @@ Normal normal_if_needed(const CurvatureElement& element, const Eigen::Ref<const 
   return is_flat(element) ? Normal{} : normal_at(corners(element), x);
 }
 
+double energy_of(const CurvatureElement& element, const Eigen::Ref<const Positions>& x) {
+  const Mat3 r = residuals(element, normal_if_needed(element, x), x);
+  return element.area * kTensorWeights.dot(r.colwise().squaredNorm().transpose());
+}
+
 /// The stencil with the triangle's corners first.
 CurvatureElement reordered(const CurvatureStencil& stencil, const Corners& corners) {
   CurvatureElement element;
@@ -115,11 +120,17 @@ std::vector<CurvatureElement> curvature_elements(const TriangleMesh& mesh) {
 double curvature_energy(std::span<const CurvatureElement> elements,
                         const Eigen::Ref<const Positions>& positions) {
   double energy = 0;
-  for (const CurvatureElement& element : elements) {
-    const Mat3 r = residuals(element, normal_if_needed(element, positions), positions);
-    energy += element.area * kTensorWeights.dot(r.colwise().squaredNorm().transpose());
-  }
+  for (const CurvatureElement& element : elements) energy += energy_of(element, positions);
   return energy;
+}
+
+void add_curvature_shares(std::span<const CurvatureElement> elements,
+                          const Eigen::Ref<const Positions>& positions,
+                          Eigen::Ref<Eigen::VectorXd> shares) {
+  for (const CurvatureElement& element : elements) {
+    const double third = energy_of(element, positions) / 3;
+    for (const VertexId v : corners(element)) shares[v] += third;
+  }
 }
 
 void add_curvature_gradient(std::span<const CurvatureElement> elements, double factor,

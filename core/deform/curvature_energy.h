@@ -29,6 +29,11 @@ std::vector<CurvatureElement> curvature_elements(const TriangleMesh& mesh);
 double curvature_energy(std::span<const CurvatureElement> elements,
                         const Eigen::Ref<const Positions>& positions);
 
+/// Adds each triangle's share in thirds to its corners, one number per vertex.
+void add_curvature_shares(std::span<const CurvatureElement> elements,
+                          const Eigen::Ref<const Positions>& positions,
+                          Eigen::Ref<Eigen::VectorXd> shares);
+
 /// Adds factor times the derivative of the energy [1/m].
 void add_curvature_gradient(std::span<const CurvatureElement> elements, double factor,
                             const Eigen::Ref<const Positions>& positions,

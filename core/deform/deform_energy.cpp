@@ -89,6 +89,17 @@ DeformTerms DeformEnergy::terms(const Eigen::Ref<const Positions>& positions) co
   return terms;
 }
 
+Eigen::VectorXd DeformEnergy::bending_shares(const Eigen::Ref<const Positions>& positions) const {
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(positions.cols());
+  add_curvature_shares(curvatures_, positions, shares);
+  for (const Dihedral& dihedral : dihedrals_) {
+    const double change = hinge_turn(dihedral.vertices, positions).angle - dihedral.rest;
+    for (int end = 0; end < 2; ++end)
+      shares[dihedral.vertices[static_cast<std::size_t>(end)]] += change * change / 2;
+  }
+  return shares;
+}
+
 Positions DeformEnergy::gradient(const DeformWeights& weights,
                                  const Eigen::Ref<const Positions>& positions) const {
   Positions gradient = Positions::Zero(3, positions.cols());

@@ -53,6 +53,9 @@ class DeformEnergy {
 
   DeformTerms terms(const Eigen::Ref<const Positions>& positions) const;
 
+  /// E_A split among the vertices: where a shape is wrinkled.
+  Eigen::VectorXd bending_shares(const Eigen::Ref<const Positions>& positions) const;
+
   /// dE/dx [1/m].
   Positions gradient(const DeformWeights& weights,
                      const Eigen::Ref<const Positions>& positions) const;

@@ -181,7 +181,7 @@ SurfaceError summary(std::vector<WeightedDistance> distances) {
   const auto at = std::find_if(distances.begin(), distances.end(), [&](const auto& d) {
     return (nearer += d.weight) >= kPercentile * weight;
   });
-  return {std::sqrt(sum / weight), std::sqrt(at->squared)};
+  return {std::sqrt(sum / weight), std::sqrt(at->squared), std::sqrt(distances.back().squared)};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace pleat {
 struct SurfaceError {
   double rms = 0;
   double percentile_95 = 0;  ///< of both surfaces together, this share is nearer to the other
+  double largest = 0;        ///< of all points
 };
 
 /// Distances from points of each surface to the nearest point of the other, exact to rounding.

@@ -225,3 +225,93 @@ export function yardstickRun(n, substeps, order, frames, times, masses) {
   run.constraints = sheet.rest.length;
   return run;
 }
+
+/** Least deformation energy of a scene's file, as `pleat bench deform` tells it. */
+export function deformNative(file, options = []) {
+  return ask(['bench', 'deform', file, ...options]);
+}
+
+/** The text of the mesh that a scene names; empty without one. */
+function meshText(file, scene) {
+  const name = scene.cloth.mesh?.obj;
+  return name ? readFileSync(join(dirname(file), name), 'utf8') : '';
+}
+
+/** omega = v'/(v'_R + v'_S + v'_B) of a fabric. */
+function fabricWeights(name) {
+  const { seed_table: table } = JSON.parse(fabricsText()).fabrics.find(
+    (fabric) => fabric.name_en === name,
+  );
+  const sum = table.vn_recovery + table.vn_stretch + table.vn_bend;
+  return {
+    recovery: table.vn_recovery / sum,
+    stretch: table.vn_stretch / sum,
+    bending: table.vn_bend / sum,
+  };
+}
+
+const kConverged = 2; // what Deformation.step returns at the end, or more
+
+function stepToTheEnd(shape, pane) {
+  let steps = 0;
+  for (let progress = 0; progress < kConverged; ++steps) progress = shape.step(pane, true);
+  return steps;
+}
+
+/**
+ * The same in WebAssembly: from rest to the scene's targets, then a hand that takes the handles
+ * there in equal moves. A second pane has the least energy of each move.
+ */
+export async function deformWasm(file, moves) {
+  const kStepsOfMove = 4;
+  const text = readFileSync(file, 'utf8');
+  const scene = JSON.parse(text);
+  const module = await wasmModule('deform');
+  const shape = new module.Deformation(fabricsText());
+  const opened = answer(shape.open(text, meshText(file, scene)));
+  const weights = fabricWeights(scene.fabric);
+  const held = new Map();
+  for (const v of opened.pins) held.set(v, opened.rest_m.slice(3 * v, 3 * v + 3));
+  for (const { vertices, places_m } of opened.handles)
+    vertices.forEach((v, k) => held.set(v, places_m.slice(3 * k, 3 * k + 3)));
+  const vertices = [...held.keys()].sort((a, b) => a - b);
+  const begin = vertices.flatMap((v) => opened.rest_m.slice(3 * v, 3 * v + 3));
+  const end = vertices.flatMap((v) => held.get(v));
+  const clock = performance.now();
+  answer(shape.show(JSON.stringify({ form: 'consistent', weights: [weights] })));
+  answer(shape.hold(vertices, end));
+  answer(shape.restart(0));
+  const steps = stepToTheEnd(shape, 0);
+  const total_ms = performance.now() - clock;
+  const { energy, converged } = answer(shape.report(0));
+  answer(shape.show(JSON.stringify({ form: 'consistent', weights: [weights, weights] })));
+  answer(shape.hold(vertices, begin));
+  for (const pane of [0, 1]) {
+    answer(shape.restart(pane));
+    stepToTheEnd(shape, pane);
+  }
+  const drag = { update_ms: [], excess: [] };
+  for (let move = 1; move <= moves; ++move) {
+    shape.moveHeld(begin.map((from, q) => from + ((end[q] - from) * move) / moves));
+    const start = performance.now();
+    answer(shape.follow(0));
+    for (let k = 0; k < kStepsOfMove; ++k) if (shape.step(0, k === 0) >= kConverged) break;
+    drag.update_ms.push(performance.now() - start);
+    answer(shape.follow(1));
+    stepToTheEnd(shape, 1);
+    drag.excess.push(answer(shape.report(0)).energy / answer(shape.report(1)).energy - 1);
+  }
+  shape.delete();
+  const cost = {
+    total_ms,
+    steps,
+    energy,
+    build_ms: Number.NaN,
+    assembly_ms: Number.NaN,
+    factor_ms: Number.NaN,
+    solve_ms: Number.NaN,
+    linearisations: '',
+    status: converged ? 'ok' : 'not_converged',
+  };
+  return { scene: scene.name, n_vertices: opened.n_vertices, target: 'wasm', cost, drag };
+}

@@ -190,6 +190,20 @@ TEST_CASE("deform_energy: integrals are those of their closed forms on any mesh"
         Approx(area / (radius * radius)).epsilon(0.005));
 }
 
+TEST_CASE("deform_energy: the vertices' shares of bending add up, and lie where it is bent",
+          "[deform]") {
+  const EnergyForm form = GENERATE(from_range(kForms));
+  const TriangleMesh mesh = triangulated_sheet(Triangulation::equilateral, 8, 8, kEdge);
+  const DeformEnergy energy(mesh, form);
+  Positions x = mesh.rest_positions;
+  const double middle = x.row(0).mean();
+  for (Eigen::Index v = 0; v < x.cols(); ++v) x(2, v) = std::max(0.0, x(0, v) - middle);
+  const Eigen::VectorXd shares = energy.bending_shares(x);
+  CHECK(shares.sum() == Approx(energy.terms(x).bending));
+  for (Eigen::Index v = 0; v < x.cols(); ++v)
+    if (std::abs(x(0, v) - middle) > 2.5 * kEdge) CHECK(shares[v] < 1e-20);
+}
+
 TEST_CASE("deform_energy: faces and hinges without area have finite gradients", "[deform]") {
   const EnergyForm form = GENERATE(from_range(kForms));
   const TriangleMesh mesh = bent_mesh();

@@ -1,0 +1,100 @@
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/deform_input.h"
+#include "cli/scene_input.h"
+#include "core/measure/core_version.h"
+#include "core/measure/deform_cost.h"
+#include "core/measure/platform.h"
+#include "core/measure/surface_distance.h"
+#include "core/scene/json_text.h"
+
+namespace pleat {
+namespace {
+
+Json cost_json(const DeformCost& cost) {
+  return {{"total_ms", cost.total_ms},
+          {"build_ms", cost.build_ms},
+          {"assembly_ms", cost.assembly_ms},
+          {"factor_ms", cost.factor_ms},
+          {"solve_ms", cost.solve_ms},
+          {"linearisations", cost.n_linearisations},
+          {"steps", cost.n_steps},
+          {"energy", cost.energy},
+          {"terms",
+           {{"recovery", cost.terms.recovery},
+            {"stretch", cost.terms.stretch},
+            {"bending", cost.terms.bending}}},
+          {"status", name(cost.report.status)},
+          {"message", cost.report.message}};
+}
+
+DeformSolver solved(const DeformScene& scene) {
+  const HeldVertices held = held_vertices(scene);
+  DeformSolver solver(scene.mesh, scene.form, scene.weights());
+  solver.hold(held.vertices);
+  solver.restart(held.targets);
+  solver.solve();
+  return solver;
+}
+
+/// Where it is bent.
+Json vertices_json(const DeformScene& scene) {
+  const DeformSolver solver = solved(scene);
+  const Eigen::VectorXd shares = solver.model().bending_shares(solver.positions());
+  const Positions& rest = scene.mesh.rest_positions;
+  return {{"rest_m", std::vector<double>(rest.data(), rest.data() + rest.size())},
+          {"bending", std::vector<double>(shares.data(), shares.data() + shares.size())}};
+}
+
+/// Another scene with the same fabric and form.
+DeformInput other_scene(const std::string& file, const DeformScene& like) {
+  std::vector<std::string> words = {
+      file, "--form", like.form == EnergyForm::published ? "published" : "consistent"};
+  if (!like.fabric.empty()) words.insert(words.end(), {"--fabric", like.fabric});
+  Arguments arguments(words);
+  return take_deform_scene(arguments);
+}
+
+Json distance_json(const DeformScene& scene, const DeformScene& other) {
+  const SurfaceError distance = surface_error(scene.mesh.triangles, solved(scene).positions(),
+                                              other.mesh.triangles, solved(other).positions());
+  return {{"n_vertices", other.mesh.n_vertices()},
+          {"rms_m", distance.rms},
+          {"largest_m", distance.largest}};
+}
+
+}  // namespace
+
+Outcome bench_deform(Arguments arguments) {
+  const auto n_moves = arguments.whole_number("--drag", 1, 10'000);
+  const auto against = arguments.text("--against");
+  const bool wants_vertices = arguments.flag("--vertices");
+  const DeformInput input = take_deform_scene(arguments);
+  arguments.finish();
+  const DeformScene& scene = input.scene;
+  const DeformWeights weights = scene.weights();
+  const DeformCost cost = with_source_named(input, [&] { return deform_cost(scene); });
+  Json json = {{"scene", scene.name},
+               {"fabric", scene.fabric},
+               {"weights",
+                {{"recovery", weights.recovery},
+                 {"stretch", weights.stretch},
+                 {"bending", weights.bending}}},
+               {"n_vertices", scene.mesh.n_vertices()},
+               {"n_triangles", scene.mesh.triangles.size()},
+               {"n_edges", mesh_edges(scene.mesh.triangles).size()},
+               {"cost", cost_json(cost)},
+               {"target", build_target()},
+               {"core", core_version()}};
+  if (n_moves) {
+    const DragCost drag = with_source_named(input, [&] { return drag_cost(scene, *n_moves); });
+    json["drag"] = {{"update_ms", drag.update_ms}, {"excess", drag.excess}};
+  }
+  if (against) json["against"] = distance_json(scene, other_scene(*against, scene).scene);
+  if (wants_vertices) json["vertices"] = vertices_json(scene);
+  std::printf("%s\n", json.dump().c_str());
+  return Outcome::ok;
+}
+
+}  // namespace pleat
