@@ -72,6 +72,7 @@ DeformSolver::~DeformSolver() = default;
 
 void DeformSolver::begin_anew() {
   steps_.clear();
+  n_before_ = n_linearisations_;
   last_change_.resize(3, 0);
   converged_ = false;
 }
@@ -288,17 +289,15 @@ SolveReport DeformSolver::step(Linearise allowed) {
 }
 
 SolveReport DeformSolver::solve(int max_linearisations) {
-  int n = 0;
-  while (!converged_) {
-    const bool is_last = n >= max_linearisations;
-    SolveReport report = step(is_last ? Linearise::never : Linearise::when_needed);
-    if (report.ok() && !converged_ && steps_.back().linearised) ++n;
+  SolveReport report;
+  while (!converged_ && report.ok()) {
+    const bool is_last = n_linearisations_ - n_before_ >= max_linearisations;
+    report = step(is_last ? Linearise::never : Linearise::when_needed);
     if (report.ok() && is_last && is_stale_)
       report = {SolveStatus::not_converged, 0, 0, "the cap of linearisations is reached"};
-    report.iterations = n;
-    if (!report.ok()) return report;
   }
-  return {SolveStatus::ok, n, 0, ""};
+  report.iterations = n_linearisations_ - n_before_;
+  return report;
 }
 
 void DeformSolver::take_back(DeformShape shape) {

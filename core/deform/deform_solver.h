@@ -75,7 +75,8 @@ class DeformSolver {
   SolveReport step(Linearise allowed = Linearise::when_needed);
 
   /// Steps until converged. Having linearised so many times, it goes on while the last factor
-  /// serves and then reports not_converged. The report's iterations are linearisations.
+  /// serves and then reports not_converged. The report's iterations are linearisations, with the
+  /// one that a move may have needed.
   SolveReport solve(int max_linearisations = kMaxLinearisations);
 
   /// Solves from here and from `restart`, and keeps the shape of lower energy with its steps: where
@@ -136,6 +137,7 @@ class DeformSolver {
   int n_with_factor_ = 0;         // steps
   double first_with_factor_ = 0;  // DeformStep::relative_step of the first
   int n_linearisations_ = 0;
+  int n_before_ = 0;  // of them, before something was last moved, held or weighted
   double damping_ = 0;
   std::deque<Correction> corrections_;  // to the factor
   Positions last_change_;               // empty where there is no step to learn from

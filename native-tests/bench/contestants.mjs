@@ -273,7 +273,7 @@ export async function deformWasm(file, moves) {
   const held = new Map();
   for (const v of opened.pins) held.set(v, opened.rest_m.slice(3 * v, 3 * v + 3));
   for (const { vertices, places_m } of opened.handles)
-    vertices.forEach((v, k) => held.set(v, places_m.slice(3 * k, 3 * k + 3)));
+    for (const [k, v] of vertices.entries()) held.set(v, places_m.slice(3 * k, 3 * k + 3));
   const vertices = [...held.keys()].sort((a, b) => a - b);
   const begin = vertices.flatMap((v) => opened.rest_m.slice(3 * v, 3 * v + 3));
   const end = vertices.flatMap((v) => held.get(v));

@@ -67,6 +67,7 @@ TEST_CASE("surface_distance: a plane shifted along its normal is wrong by the sh
   const SurfaceError error = error_between(plane, shifted);
   CHECK(error.rms == Approx(std::abs(shift)).epsilon(1e-14));
   CHECK(error.percentile_95 == Approx(std::abs(shift)).epsilon(1e-14));
+  CHECK(error.largest == Approx(std::abs(shift)).epsilon(1e-14));
 }
 
 // Slid in its own plane by d, a strip d wide of each square sticks out: the points there are
