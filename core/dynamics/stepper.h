@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/cloth_model.h"
 #include "core/base/stage_observer.h"
+#include "core/dynamics/cloth_model.h"
 #include "core/dynamics/state.h"
 #include "core/linalg/linear_solver.h"
 
