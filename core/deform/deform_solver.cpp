@@ -262,7 +262,7 @@ SolveReport DeformSolver::step(Linearise allowed) {
   DeformStep step;
   for (;;) {
     if (!has_factor_ || (is_stale_ && may_linearise)) {
-      const SolveReport report = linearise();
+      SolveReport report = linearise();
       step.linearised = true;
       if (!report.ok() && !dampen()) return report;
       if (!report.ok()) continue;
