@@ -18,6 +18,7 @@ constexpr double kRounding = 1e-13;      // of the energy, which is a sum over a
 /// new one costs about as much as five steps, and what was learnt is lost.
 constexpr int kPatience = 25;
 constexpr double kContraction = 0.01;
+constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then and goes on well
 
 /// Of a hand's move; a gain of energy below this share is not seen.
 constexpr int kStepsOfMove = 4;
@@ -247,8 +248,9 @@ bool DeformSolver::descend(const Positions& gradient, const Positions& direction
 /// What a step says about the factor and the end.
 void DeformSolver::judge(const DeformStep& step) {
   if (n_with_factor_++ == 0) first_with_factor_ = step.relative_step;
-  is_stale_ = step.halvings > 0 || (n_with_factor_ >= kPatience &&
-                                    step.relative_step > kContraction * first_with_factor_);
+  is_stale_ =
+      step.halvings > kPatienceWithHalving ||
+      (n_with_factor_ >= kPatience && step.relative_step > kContraction * first_with_factor_);
   if (step.halvings > 0) return;
   converged_ = step.relative_step <= kTolerance;
   damping_ = damping_ > kFirstDamping ? damping_ / kDampingFactor : 0;

@@ -400,7 +400,7 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--set", "/name=a", "--set", "/name=b"}, "--set: expected each pointer once, "},
       {{"sweep", "--levels", "0", "--set", "/refinement/level=1"}, "pleat: --set: expected each "},
       {{"sweep", "--reference", "rigid_chain", "--set", "/pins=[]"}, "scene.json: /pins: expected"},
-      {{"bench"}, "pleat: bench: expected run or reference after it, got "},
+      {{"bench"}, "pleat: bench: expected run, reference or deform after it, got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
       {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},
       {{"run", "-x"}, "pleat: -x: unknown option"},

@@ -218,4 +218,28 @@ TEST_CASE("deform command: the shipped T-shirt takes its pose and keeps its seam
   CHECK((posed.positions - rest.positions).colwise().norm().maxCoeff() > 0.1);
 }
 
+TEST_CASE("deform command: its bench tells cost, a hand's moves, distance and where it bends",
+          "[cli]") {
+  const Workplace place;
+  const std::vector<std::string> words = {"bench", "deform",    place.scene, "--drag",
+                                          "4",     "--against", place.scene, "--vertices"};
+  const Ending ending = pleat_command(place.folder, words);
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  const Json json = parse_json(ending.out);
+  CHECK(json.at("cost").at("status") == "ok");
+  CHECK(json.at("cost").at("total_ms") > json.at("cost").at("build_ms"));
+  const Json deformed = place.json(place.scene, {});
+  CHECK(json.at("cost").at("energy") == deformed.at("steps").back().at("energy"));
+  REQUIRE(json.at("drag").at("excess").size() == 4);
+  for (const Json& excess : json.at("drag").at("excess")) {
+    CHECK(excess.get<double>() > -1e-6);
+    CHECK(excess.get<double>() < 0.05);
+  }
+  CHECK(json.at("against").at("largest_m").get<double>() < 1e-12);
+  double bending = 0;
+  for (const Json& share : json.at("vertices").at("bending")) bending += share.get<double>();
+  CHECK(bending == Approx(json.at("cost").at("terms").at("bending").get<double>()));
+}
+
 }  // namespace pleat
