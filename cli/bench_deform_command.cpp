@@ -47,13 +47,15 @@ Json vertices_json(const DeformScene& scene) {
           {"bending", std::vector<double>(shares.data(), shares.data() + shares.size())}};
 }
 
-/// Another scene with the same fabric and form.
-DeformInput other_scene(const std::string& file, const DeformScene& like) {
-  std::vector<std::string> words = {
-      file, "--form", like.form == EnergyForm::published ? "published" : "consistent"};
-  if (!like.fabric.empty()) words.insert(words.end(), {"--fabric", like.fabric});
-  Arguments arguments(words);
-  return take_deform_scene(arguments);
+/// The scene of another file under the same weights and form.
+DeformScene other_scene(const std::string& file, const DeformScene& like) {
+  Arguments arguments({file});
+  DeformScene other = take_deform_scene(arguments).scene;
+  other.fabric_weights = like.fabric_weights;
+  other.terms = like.terms;
+  other.form = like.form;
+  check_deform_scene(other);
+  return other;
 }
 
 Json distance_json(const DeformScene& scene, const DeformScene& other) {
@@ -91,10 +93,10 @@ Outcome bench_deform(Arguments arguments) {
     const DragCost drag = with_source_named(input, [&] { return drag_cost(scene, *n_moves); });
     json["drag"] = {{"update_ms", drag.update_ms}, {"excess", drag.excess}};
   }
-  if (against) json["against"] = distance_json(scene, other_scene(*against, scene).scene);
+  if (against) json["against"] = distance_json(scene, other_scene(*against, scene));
   if (wants_vertices) json["vertices"] = vertices_json(scene);
   std::printf("%s\n", json.dump().c_str());
-  return Outcome::ok;
+  return cost.report.ok() ? Outcome::ok : Outcome::check_failed;
 }
 
 }  // namespace pleat

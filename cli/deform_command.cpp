@@ -37,10 +37,6 @@ Deformation deformed(const DeformScene& scene) {
   return result;
 }
 
-const char* form_name(EnergyForm form) {
-  return form == EnergyForm::consistent ? "consistent" : "published";
-}
-
 std::string fabric_name(const DeformScene& scene) {
   if (!scene.fabric.empty()) return scene.fabric;
   return scene.fit ? "own measurements" : "own weights";
@@ -81,7 +77,7 @@ Json json_deformation(const DeformScene& scene, const Deformation& result,
       {"scene", scene.name},
       {"fabric", fabric_name(scene)},
       {"weights", json_three(weights.recovery, weights.stretch, weights.bending)},
-      {"form", form_name(scene.form)},
+      {"form", name(scene.form)},
       {"n_vertices", scene.mesh.n_vertices()},
       {"n_triangles", scene.mesh.triangles.size()},
       {"n_edges", mesh_edges(scene.mesh.triangles).size()},
@@ -114,7 +110,7 @@ void print_deformation(const DeformScene& scene, const Deformation& result,
   const DeformWeights weights = scene.weights();
   std::printf("%s: %s, %s, %d vertices, %zu triangles, %zu edges, %zu held\n",
               printable(scene.name).c_str(), printable(fabric_name(scene)).c_str(),
-              form_name(scene.form), scene.mesh.n_vertices(), scene.mesh.triangles.size(),
+              name(scene.form), scene.mesh.n_vertices(), scene.mesh.triangles.size(),
               mesh_edges(scene.mesh.triangles).size(), result.n_held);
   std::printf("weights: recovery %.4g, stretch %.4g, bending %.4g\n", weights.recovery,
               weights.stretch, weights.bending);
@@ -147,15 +143,14 @@ Outcome deform_command(Arguments arguments) {
     std::printf("%s\n", json_deformation(scene, result, input.fabrics).dump().c_str());
   else
     print_deformation(scene, result, input.fabrics);
-  if (result.report.ends_run()) {
-    std::fprintf(stderr, "pleat: %s\n", result.report.message.c_str());
-    return Outcome::check_failed;
-  }
+  if (!result.report.ok())
+    std::fprintf(stderr, "pleat: not at the least energy: %s\n", result.report.message.c_str());
+  if (result.report.ends_run()) return Outcome::check_failed;
   if (out)
     write_file(
         *out,
         write_obj({result.positions, scene.mesh.triangles, scene.textures, scene.groups, {}}));
-  return Outcome::ok;
+  return result.report.ok() ? Outcome::ok : Outcome::check_failed;
 }
 
 }  // namespace pleat

@@ -16,6 +16,10 @@ enum class EnergyForm {
   published,   ///< sums over vertices and edges, as the source has them
 };
 
+constexpr const char* name(EnergyForm form) {
+  return form == EnergyForm::consistent ? "consistent" : "published";
+}
+
 /// What a shape costs, term by term and without weights; numbers without unit.
 struct DeformTerms {
   double recovery = 0;  ///< E_P: distance from where it lay

@@ -18,6 +18,7 @@ constexpr double kRounding = 1e-13;      // of the energy, which is a sum over a
 /// new one costs about as much as five steps, and what was learnt is lost.
 constexpr int kPatience = 25;
 constexpr double kContraction = 0.01;
+constexpr int kMostSteps = 200;
 constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then and goes on well
 
 /// Of a hand's move; a gain of energy below this share is not seen.
@@ -37,7 +38,10 @@ Positions vertex_normals(const TriangleMesh& mesh) {
         Vec3(x.col(t[1]) - x.col(t[0])).cross(Vec3(x.col(t[2]) - x.col(t[0])));
     for (const VertexId v : t) normals.col(v) += doubled_area;
   }
-  normals.colwise().normalize();
+  for (auto normal : normals.colwise()) {
+    const double length = normal.norm();
+    if (length > 0) normal /= length;
+  }
   return normals;
 }
 
@@ -165,11 +169,14 @@ void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
 
 SolveReport DeformSolver::follow(const Eigen::Ref<const Positions>& places) {
   move_held(places);
-  SolveReport report = step(Linearise::when_needed);
-  for (int k = 1; k < kStepsOfMove && report.ok() && !converged_; ++k) {
-    const double before = steps_.back().energy;
-    report = step(Linearise::never);
-    if (steps_.back().energy > (1 - kWorthAStep) * before) break;
+  const int n_before = n_linearisations_;
+  double before = energy();
+  SolveReport report;
+  for (int k = 0; k < kStepsOfMove && report.ok() && !converged_; ++k) {
+    report = step(n_linearisations_ == n_before ? Linearise::when_needed : Linearise::never);
+    const double after = energy();
+    if (after > (1 - kWorthAStep) * before && !is_stale_) break;
+    before = after;
   }
   return report;
 }
@@ -249,7 +256,7 @@ bool DeformSolver::descend(const Positions& gradient, const Positions& direction
 void DeformSolver::judge(const DeformStep& step) {
   if (n_with_factor_++ == 0) first_with_factor_ = step.relative_step;
   is_stale_ =
-      step.halvings > kPatienceWithHalving ||
+      step.halvings > kPatienceWithHalving || n_with_factor_ >= kMostSteps ||
       (n_with_factor_ >= kPatience && step.relative_step > kContraction * first_with_factor_);
   if (step.halvings > 0) return;
   converged_ = step.relative_step <= kTolerance;
@@ -270,7 +277,10 @@ SolveReport DeformSolver::step(Linearise allowed) {
       if (!report.ok()) continue;
     }
     const Positions direction = descent(gradient);
-    converged_ = -dot(gradient, direction) <= kRounding * energy();
+    const double slope = dot(gradient, direction);
+    if (!std::isfinite(slope))
+      return {SolveStatus::not_finite, 0, 0, "the energy or its derivative is not finite"};
+    converged_ = -slope <= kRounding * energy();
     if (converged_) return {};
     step.damping = damping_;
     if (descend(gradient, direction, step)) break;

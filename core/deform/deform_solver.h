@@ -62,7 +62,7 @@ class DeformSolver {
   /// the factor at hand foresees.
   void move_held(const Eigen::Ref<const Positions>& places);
 
-  /// A hand's move, bounded in time: move_held and a few steps, the first of which may linearise.
+  /// A hand's move, bounded in time: move_held and a few steps, one of which may linearise.
   SolveReport follow(const Eigen::Ref<const Positions>& places);
 
   /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape

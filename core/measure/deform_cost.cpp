@@ -46,7 +46,7 @@ DragCost drag_cost(const DeformScene& scene, int n_moves) {
     hand.follow(places);
     cost.update_ms.push_back(1e3 * watch.elapsed());
     exact.move_held(places);
-    exact.solve();
+    exact.settle();
     cost.excess.push_back(hand.energy() / exact.energy() - 1);
   }
   return cost;
