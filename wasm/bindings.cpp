@@ -127,6 +127,17 @@ class Simulation {
     });
   }
 
+  /// Starts from these places, now and at each reset.
+  std::string start_from(const val& places) {
+    return guarded([&](val&) {
+      const auto numbers = emscripten::convertJSArrayToNumberVector<double>(places);
+      running().start_from(Eigen::Map<const pleat::Positions>(
+          numbers.data(), 3, static_cast<Eigen::Index>(numbers.size() / 3)));
+      is_disturbed_ = true;
+      frame();
+    });
+  }
+
   std::string reset() {
     return guarded([&](val&) {
       running().reset();
@@ -347,6 +358,7 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .constructor<std::string>()
       .function("load", &Simulation::load)
       .function("carryOver", &Simulation::carry_over)
+      .function("startFrom", &Simulation::start_from)
       .function("reset", &Simulation::reset)
       .function("step", &Simulation::step)
       .function("status", &Simulation::status)

@@ -27,6 +27,7 @@ Simulation::Simulation(const Scene& scene)
 /// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.
 void Simulation::start() {
   state_ = scene_state(scene_, cloth_);
+  if (start_positions_) state_.positions = *start_positions_;
   time_begin_ = 0;
   n_steps_ = 0;
   ended_ = {};
@@ -43,6 +44,18 @@ void Simulation::observe(StageObserver* observer) {
 void Simulation::reset() {
   release_grab();
   end_transition();
+  start();
+}
+
+void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
+  if (positions.cols() != model_.n_vertices() || !positions.allFinite())
+    throw InputError("", "expected a finite place for each of " +
+                             std::to_string(model_.n_vertices()) + " vertices, got " +
+                             std::to_string(positions.cols()) + " places");
+  release_grab();
+  end_transition();
+  start_positions_ = positions;
+  for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
   start();
 }
 

@@ -24,6 +24,10 @@ class Simulation {
   SolveReport step();
   void reset();
 
+  /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
+  /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
+  void start_from(const Eigen::Ref<const Positions>& positions);
+
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
   /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
@@ -72,6 +76,7 @@ class Simulation {
   RestCloth cloth_;
   ClothModel model_;
   const std::vector<GaugeEdge> gauge_;
+  std::optional<Positions> start_positions_;  // when not those of the scene [m]
   State state_;
   std::unique_ptr<Stepper> stepper_;
   StageObserver* observer_ = nullptr;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/base/check.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/support/assets.h"
 
@@ -177,6 +178,39 @@ TEST_CASE("simulation: a hand takes the grabbed vertex where it wants it and let
   simulation.release_grab();
   run(simulation, 10);
   CHECK((simulation.state().positions.col(corner) - target).norm() > 1e-3);
+}
+
+TEST_CASE("simulation: a cloth moved as a whole with its pins moves as one at rest does",
+          "[scene]") {
+  const Vec3 away(0.3, 0.2, -0.1);
+  Scene scene = coarse_scene("swinging_sheet");
+  Simulation rested(scene), moved(scene);
+  moved.start_from(rested.rest_positions().colwise() + away);
+  run(rested, 10);
+  run(moved, 10);
+  const Positions back = moved.state().positions.colwise() - away;
+  CHECK((back - rested.state().positions).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("simulation: a reset goes back to where the cloth was started from", "[scene]") {
+  Simulation simulation(coarse_scene("swinging_sheet"));
+  const Positions start = simulation.rest_positions() * 1.1;
+  simulation.start_from(start);
+  run(simulation, 3);
+  REQUIRE((simulation.state().positions - start).cwiseAbs().maxCoeff() > 1e-3);
+  simulation.reset();
+  CHECK(simulation.state().positions == start);
+  CHECK(simulation.time() == 0);
+}
+
+TEST_CASE("simulation: a start needs a finite place for each vertex", "[scene]") {
+  Simulation simulation(coarse_scene("swinging_sheet"));
+  const Positions rest = simulation.rest_positions();
+  CHECK_THROWS_AS(simulation.start_from(rest.leftCols(3)), InputError);
+  Positions broken = rest;
+  broken(1, 2) = NAN;
+  CHECK_THROWS_AS(simulation.start_from(broken), InputError);
+  CHECK(simulation.state().positions == rest);
 }
 
 TEST_CASE("simulation: a change of level or fabric keeps common vertices to the bit", "[scene]") {

@@ -2,8 +2,10 @@
 import { gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 
-/** Fetched only when it is asked for: the example mesh, references, and what a sweep needs. */
-const LATER = /\.(map|obj|reference)$|(^|\/)sweep[-.]/;
+/**
+ * Fetched only when it is asked for: meshes, references, what a sweep needs, and the view of fabrics.
+ */
+const LATER = /\.(map|obj|reference)$|(^|\/)(sweep|deform|fabrics-view)[-.]/;
 
 /** Bounds of a first load, gzipped [kB]. */
 const BOUNDS_KB = { page: 200, wasm: 350 };

@@ -1,27 +1,9 @@
-// Wiring only: the store, the playback, the stage and the panels, and the state in the address.
+// Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
 import './design.css';
-import { createPlayback, type Playback } from './sim/playback';
-import { createSweep } from './sim/sweep';
-import { createStage, type Stage } from './stage/stage';
-import { initialState, shownHeat } from './state/app-state';
-import { fabricNamed } from './state/fabric-data';
-import { createStore, watch } from './state/store';
-import { decodeLink, encodeLink } from './state/url-codec';
-import { createAnnouncer } from './views/announcer';
-import { createDrawingPanel } from './views/drawing-panel';
-import { createDropTarget } from './views/drop-target';
-import { element } from './views/element';
-import { createFabricPanel } from './views/fabric-panel';
-import { createHeatLegend } from './views/heat-legend';
-import { createInvitation } from './views/invitation';
-import { createKeysPanel } from './views/keys-panel';
-import { createMethodPanel } from './views/method-panel';
-import { createNumbersStrip } from './views/numbers-strip';
-import { createProblemBanner } from './views/problem-banner';
-import { createScenePanel } from './views/scene-panel';
-import { createSpeedErrorView } from './views/speed-error-view';
-import { createSweepPanel } from './views/sweep-panel';
-import { createToolbar } from './views/toolbar';
+import type { FabricsView } from './views/fabrics-view';
+import { createMotionView, type MotionView } from './views/motion-view';
+import { createTabs, type ViewId } from './views/tabs';
+import type { View } from './views/view';
 
 const place = (id: string): HTMLElement => {
   const found = document.getElementById(id);
@@ -29,111 +11,80 @@ const place = (id: string): HTMLElement => {
   return found;
 };
 
-const { link, problems } = decodeLink(window.location.hash);
-const store = createStore(initialState(link, problems));
-
-const stageBox = place('stage');
-const canvas = element('canvas', {
-  tabindex: 0,
-  role: 'application',
-  'aria-label': 'Cloth in three dimensions. Space plays, G takes the cloth, arrows turn the view.',
-});
-stageBox.append(canvas);
-
-let playback: Playback | null = null;
-let stage: Stage | null = null;
-
-function togglePlay(): void {
-  if (store.get().playing) playback?.pause();
-  else playback?.play();
+function viewIn(hash: string): ViewId {
+  const name = new URLSearchParams(hash.replace(/^#/, '')).get('view');
+  return name === 'fabrics' ? 'fabrics' : 'motion';
 }
 
-const stageKeys: Record<string, () => void> = {
-  ' ': togglePlay,
-  '.': () => playback?.step(),
-  r: () => playback?.reset(),
-};
+let motion: MotionView | null = null;
+let fabrics: FabricsView | null = null;
+let shown: ViewId | null = null;
 
-const invitation = createInvitation(stageBox, store);
-createHeatLegend(stageBox, store);
+function motionView(hash: string): MotionView {
+  motion ??= createMotionView(place, hash);
+  return motion;
+}
 
-try {
-  stage = createStage(stageBox, canvas, {
-    grab(vertex) {
-      playback?.play();
-      playback?.grab(vertex);
+/** A part of the page that only this view needs, fetched when it is first asked for. */
+async function fabricsView(hash: string): Promise<FabricsView> {
+  const { createFabricsView } = await import('./views/fabrics-view');
+  fabrics ??= createFabricsView(place('fabrics'), hash, {
+    wear(fabric) {
+      motionView('#').wear(fabric);
+      show('motion');
     },
-    moveGrab: (target) => playback?.moveGrab(target),
-    releaseGrab: () => playback?.releaseGrab(),
-    key(name) {
-      stageKeys[name]?.();
-      return name in stageKeys;
-    },
-    drawn(scale, at) {
-      const { heatScale } = store.get();
-      if (JSON.stringify(scale) !== JSON.stringify(heatScale)) store.set({ heatScale: scale });
-      invitation.place(at.x, at.y);
-    },
-    contextLost() {
-      const sentence =
-        'The browser took the graphics away for a moment. Reload if the picture stays empty.';
-      store.set({ playing: false, problem: { source: 'run', sentence } });
+    start(shape, fabric) {
+      motionView('#').start(shape, fabric);
+      show('motion');
     },
   });
-} catch {
-  canvas.remove();
-  const sentence =
-    'This browser shows no WebGL 2, so the cloth cannot be drawn. The numbers and the sweep still work.';
-  stageBox.append(element('p', { class: 'plain' }, sentence));
-  store.set({ problem: { source: 'browser', sentence } });
+  return fabrics;
 }
 
-playback = createPlayback(store, {
-  showMesh: (...mesh) => stage?.showMesh(...mesh),
-  showFrame: (...frame) => stage?.showFrame(...frame),
-});
-const { play, pause, step, reset } = playback;
-const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
+/** For the console and for tests: the shown view's state and frame. */
+function expose({ probe }: View): void {
+  Object.assign(window, { pleat: probe });
+}
 
-createProblemBanner(place('messages'), store, actions);
-createAnnouncer(place('messages'), store);
-createNumbersStrip(place('strip'), store);
-createToolbar(place('toolbar'), store, actions);
-createScenePanel(place('panel'), store, playback);
-createDropTarget(document.body, playback);
-createFabricPanel(place('panel'), store);
-createMethodPanel(place('panel'), store);
-createDrawingPanel(place('panel'), store);
-createSweepPanel(place('panel'), store, createSweep(store));
-createKeysPanel(place('panel'));
-createSpeedErrorView(place('tray'), store);
+/** `hash` is of a view that is not there yet, or empty for how it starts. */
+async function show(id: ViewId, hash = ''): Promise<void> {
+  shown = id;
+  tabs.select(id);
+  place('motion').hidden = id !== 'motion';
+  place('fabrics').hidden = id !== 'fabrics';
+  if (id === 'motion') {
+    fabrics?.setShown(false);
+    const view = motionView(hash);
+    view.setShown(true);
+    return expose(view);
+  }
+  motion?.setShown(false);
+  try {
+    const view = await fabricsView(hash);
+    if (shown !== 'fabrics') return;
+    view.setShown(true);
+    expose(view);
+  } catch {
+    place('fabrics').textContent =
+      'This view could not be fetched. Check the connection and reload.';
+  }
+}
 
-watch(store, ['setting'], ({ setting }) => stage?.setFabric(fabricNamed(setting.fabric).id));
-watch(store, ['colliders'], ({ colliders }) => stage?.setColliders(colliders));
-watch(store, ['heat', 'heatRange', 'numbers'], (state) =>
-  stage?.setHeat(shownHeat(state), state.heatRange),
-);
-watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
-watch(store, ['setting', 'heat', 'heatRange', 'edges', 'startS'], (state) => {
-  const hash = `#${encodeLink(state)}`;
-  if (hash !== window.location.hash) window.history.replaceState(null, '', hash);
+const tabs = createTabs(place('tabs'), {
+  link: (id) => (id === 'motion' ? motion?.link() : fabrics?.link()) ?? `#view=${id}`,
+  open: (id) => void show(id),
 });
+
 window.addEventListener('hashchange', () => {
-  const read = decodeLink(window.location.hash);
-  store.set({ ...read.link, problem: initialState(read.link, read.problems).problem });
+  const { hash } = window.location;
+  const id = viewIn(hash);
+  const known = id === 'motion' ? motion : fabrics;
+  known?.open(hash);
+  if (id !== shown) void show(id, hash);
 });
+void show(viewIn(window.location.hash), window.location.hash);
 
 if (import.meta.env.PROD && 'serviceWorker' in navigator) {
   // Without it (a page opened from an insecure address) the page works, but only while served.
   navigator.serviceWorker.register('./offline.js').catch(() => undefined);
 }
-
-// For the console and for tests: the state and the present frame, to look at.
-Object.assign(window, {
-  pleat: {
-    state: () => store.get(),
-    positions: () => Array.from(stage?.positions() ?? []),
-    project: (vertex: number) => stage?.project(vertex),
-    inviting: () => stage?.inviting(),
-  },
-});

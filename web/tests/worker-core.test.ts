@@ -27,15 +27,17 @@ import { createFakeModule } from './support/fake-module';
 type AllModules = PleatModule & SweepModule;
 
 const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
-const hasModule = existsSync(fileOf('pleat.wasm')) && existsSync(fileOf('sweep.wasm'));
+const MODULES = ['pleat', 'sweep', 'deform'];
+const hasModule = MODULES.every((name) => existsSync(fileOf(`${name}.wasm`)));
+
+async function createReal(name: string) {
+  const { default: make } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
+  return make({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
+}
 
 async function loadRealModule(): Promise<AllModules> {
-  const create = async (name: string) => {
-    const { default: make } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
-    return make({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
-  };
-  const pleat: PleatModule = await create('pleat');
-  const sweep: SweepModule = await create('sweep');
+  const pleat: PleatModule = await createReal('pleat');
+  const sweep: SweepModule = await createReal('sweep');
   return { ...pleat, ...sweep };
 }
 
@@ -509,7 +511,7 @@ describe.runIf(hasModule)('the cost of a step', () => {
 
 describe.runIf(hasModule)('wasm-module', () => {
   it('binds exactly the classes and methods that the types name', async () => {
-    const module: object = await loadRealModule();
+    const module: object = { ...(await loadRealModule()), ...(await createReal('deform')) };
     // What Embind itself gives to every class.
     const inherited = ['constructor', 'isAliasOf', 'clone', 'isDeleted', 'deleteLater'];
     const bound: Record<string, string[]> = {};

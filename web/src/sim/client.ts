@@ -1,4 +1,5 @@
 // The page's end of its workers: typed messages, and one sentence when a worker itself breaks.
+import type { FromDeform, ToDeform } from './deform-protocol';
 import type { FromWorker, SweepMessage, ToWorker } from './protocol';
 
 export interface WorkerClient<Message> {
@@ -8,12 +9,12 @@ export interface WorkerClient<Message> {
 }
 
 /** `onBroken` hears of a worker that cannot go on. */
-function connect<Message>(
+function connect<Message, Answer>(
   worker: Worker,
-  receive: (message: FromWorker) => void,
+  receive: (message: Answer) => void,
   onBroken: (reason: string) => void,
 ): WorkerClient<Message> {
-  worker.onmessage = (event: MessageEvent<FromWorker>) => receive(event.data);
+  worker.onmessage = (event: MessageEvent<Answer>) => receive(event.data);
   worker.onerror = (event) => {
     event.preventDefault();
     onBroken(event.message || 'its program could not be loaded');
@@ -24,16 +25,22 @@ function connect<Message>(
   };
 }
 
-type Ends = [receive: (message: FromWorker) => void, onBroken: (reason: string) => void];
+type Ends<Answer> = [receive: (message: Answer) => void, onBroken: (reason: string) => void];
 
 /** Starts a worker that runs the shown cloth. */
-export function startWorker(...ends: Ends): WorkerClient<ToWorker> {
+export function startWorker(...ends: Ends<FromWorker>): WorkerClient<ToWorker> {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
   return connect(worker, ...ends);
 }
 
 /** Starts a worker that runs one sweep. */
-export function startSweepWorker(...ends: Ends): WorkerClient<SweepMessage> {
+export function startSweepWorker(...ends: Ends<FromWorker>): WorkerClient<SweepMessage> {
   const worker = new Worker(new URL('./sweep-worker.ts', import.meta.url), { type: 'module' });
+  return connect(worker, ...ends);
+}
+
+/** Starts a worker that finds the shapes of one cloth in several fabrics. */
+export function startDeformWorker(...ends: Ends<FromDeform>): WorkerClient<ToDeform> {
+  const worker = new Worker(new URL('./deform-worker.ts', import.meta.url), { type: 'module' });
   return connect(worker, ...ends);
 }

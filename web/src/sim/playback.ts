@@ -132,7 +132,8 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     store.set({ phase: 'loading', held: false, ahead: null });
     if (setting.preset === 'obj' && !mesh) return void bringExample();
     const sceneText = JSON.stringify(sceneOf(setting, mesh));
-    client.send({ type: 'load', sceneText, keepMotion, request, scalar: scalar() });
+    const start = setting.preset === 'obj' && setting.level === 0 ? mesh?.start : undefined;
+    client.send({ type: 'load', sceneText, keepMotion, request, scalar: scalar(), start });
   }
 
   /** The mesh that stands in until there is one of the visitor's. */

@@ -12,3 +12,10 @@ declare module '*/sweep.mjs' {
   const createSweep: (options?: { wasmBinary?: Uint8Array }) => Promise<SweepModule>;
   export default createSweep;
 }
+
+declare module '*/deform.mjs' {
+  import type { DeformModule } from './wasm-module';
+
+  const createDeform: (options?: { wasmBinary?: Uint8Array }) => Promise<DeformModule>;
+  export default createDeform;
+}

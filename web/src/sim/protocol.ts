@@ -15,11 +15,21 @@ export interface StepMessage {
   buffer: ArrayBuffer;
 }
 
+export interface LoadMessage {
+  type: 'load';
+  sceneText: string;
+  keepMotion: boolean;
+  request: number;
+  scalar?: Scalar;
+  /** Where the vertices start when that is not where they rest. */
+  start?: Float64Array;
+}
+
 export type ToWorker =
   /** First message: opens the module's objects with the fabric file's text. */
   | { type: 'open'; fabricsText: string }
   /** `request` comes back in the answer, so that a late answer can be told from a current one. */
-  | { type: 'load'; sceneText: string; keepMotion: boolean; request: number; scalar?: Scalar }
+  | LoadMessage
   | { type: 'reset'; request: number; scalar?: Scalar }
   /** A reference's file, for whichever scene is loaded and is what it is of. */
   | { type: 'setReference'; bytes: ArrayBuffer }

@@ -1,9 +1,11 @@
 // What the workers do with each message, as a function of the module and of where answers go.
-// The only file that calls delete().
+// The only file that calls delete() on theirs.
 import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
+import { describe, internalFailure, read } from './answers';
 import {
   FLOATS_PER_VERTEX,
   frameViews,
+  type LoadMessage,
   type Post,
   type RunReport,
   type Scalar,
@@ -12,7 +14,6 @@ import {
   type ToWorker,
 } from './protocol';
 import type {
-  Answer,
   Collider,
   Failure,
   ObjAnswer,
@@ -27,23 +28,6 @@ import type {
 
 /** Work between two progress reports of a sweep [ms]; short enough that progress looks alive. */
 const SWEEP_SLICE_MS = 150;
-
-/** Parses an answer; one that is not JSON is a fault of the program, not of the input. */
-function read<Payload>(text: string): Answer<Payload> {
-  try {
-    return JSON.parse(text) as Answer<Payload>;
-  } catch {
-    return internalFailure(`the module answered with unreadable text: ${text.slice(0, 120)}`);
-  }
-}
-
-function internalFailure(what: string): Failure {
-  return { ok: false, kind: 'internal', where: '', what };
-}
-
-function describe(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
-}
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
 function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
@@ -104,11 +88,13 @@ export function createWorkerCore(
     ]);
   }
 
-  function load(run: SimulationHandle, message: Extract<ToWorker, { type: 'load' }>): void {
-    const { sceneText, keepMotion, request } = message;
+  function load(run: SimulationHandle, message: LoadMessage): void {
+    const { sceneText, keepMotion, request, start } = message;
     const text = keepMotion && loaded ? run.carryOver(sceneText) : run.load(sceneText);
     const answer = read<{ summary: SceneSummary }>(text);
     if (!answer.ok) return refuse(request, answer);
+    const started = read<object>(start ? run.startFrom(start) : '{"ok": true}');
+    if (!started.ok) return refuse(request, started);
     loaded = answer.summary;
     postLoaded(message, run, loaded);
   }

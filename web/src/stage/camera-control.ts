@@ -17,6 +17,8 @@ export interface View {
   /** Directions from which it is seen at first [rad]. */
   azimuth: number;
   polar: number;
+  /** How much of the radius is seen upwards and downwards at most; 1 when it is not said. */
+  upright?: number;
 }
 
 export interface CameraControl {
@@ -34,10 +36,12 @@ function clamp(value: number, low: number, high: number): number {
   return Math.min(high, Math.max(low, value));
 }
 
+/** `pictureHeight` is that of what the camera sees [CSS pixels]. */
 export function createCameraControl(
   element: HTMLElement,
   camera: PerspectiveCamera,
   onChange: () => void,
+  pictureHeight: () => number = () => element.clientHeight,
 ): CameraControl {
   const target = new Vector3();
   const pose = new Spherical(1, 1.3, 0.5);
@@ -49,7 +53,8 @@ export function createCameraControl(
   function fittingDistance(): number {
     const half = (camera.fov * Math.PI) / 360;
     const halfAcross = Math.atan(Math.tan(half) * camera.aspect);
-    return view.radius / Math.sin(Math.min(half, halfAcross));
+    const { radius, upright = 1 } = view;
+    return Math.max((upright * radius) / Math.sin(half), radius / Math.sin(halfAcross));
   }
 
   function apply(): void {
@@ -74,7 +79,7 @@ export function createCameraControl(
 
   function pan(dx: number, dy: number): void {
     const metresPerPixel =
-      (2 * pose.radius * Math.tan((camera.fov * Math.PI) / 360)) / element.clientHeight;
+      (2 * pose.radius * Math.tan((camera.fov * Math.PI) / 360)) / pictureHeight();
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
     target.addScaledVector(right, -dx * metresPerPixel).addScaledVector(up, dy * metresPerPixel);

@@ -88,6 +88,8 @@ export interface ClothMesh {
   setHeat(map: HeatMap, range: 'auto' | number): boolean;
   setEdges(isShown: boolean): void;
   heatScale(): HeatScale;
+  /** Gives back what the graphics card holds. */
+  close(): void;
 }
 
 export function createClothMesh(): ClothMesh {
@@ -219,6 +221,11 @@ export function createClothMesh(): ClothMesh {
     },
     setEdges(isShown) {
       edges.visible = isShown;
+    },
+    close() {
+      geometry.dispose();
+      edgeGeometry.dispose();
+      for (const { material } of [front, back, heat, edges]) material.dispose();
     },
   };
 }

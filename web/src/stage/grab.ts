@@ -17,12 +17,20 @@ export interface Hand {
   drop(): void;
 }
 
+/** A part of the page [CSS pixels]. */
+export type Box = Pick<DOMRect, 'left' | 'top' | 'width' | 'height'>;
+
 export interface HandEvents {
+  /** Of the picture that a point of the page lies in, or of null, that keys are for: where it is. */
+  picture(at: { x: number; y: number } | null): () => Box;
+  /** True when a press there is used up otherwise. */
+  press?(vertex: number): boolean;
   grab(vertex: number): void;
   move(target: Triple): void;
   release(): void;
   /** A vertex to take by keyboard when none lies in the middle of the picture. */
   fallbackVertex(): number;
+  /** In the picture that was last asked for. */
   cloth(): { positions: Float32Array; triangles: Uint32Array };
   /** Nothing is pulled below this height [m], whether the scene has a solid floor or not. */
   floor(): number;
@@ -40,9 +48,10 @@ export function createHand(
   const offset = new Vector3(); // from the point under the pointer to the held vertex
   let vertex: number | null = null;
   let pointerId: number | null = null;
+  let boxNow = events.picture(null);
 
   function aim(clientX: number, clientY: number): void {
-    const box = element.getBoundingClientRect();
+    const box = boxNow();
     const x = (2 * (clientX - box.left)) / box.width - 1;
     const y = 1 - (2 * (clientY - box.top)) / box.height;
     raycaster.setFromCamera(new Vector2(x, y), camera);
@@ -78,11 +87,12 @@ export function createHand(
 
   element.addEventListener('pointerdown', (event) => {
     if (vertex !== null || event.button !== 0 || event.shiftKey) return;
+    boxNow = events.picture({ x: event.clientX, y: event.clientY });
     aim(event.clientX, event.clientY);
     const { origin, direction } = raycaster.ray;
     const { positions, triangles } = events.cloth();
     const hit = pick(positions, triangles, origin.toArray(), direction.toArray());
-    if (!hit) return;
+    if (!hit || events.press?.(hit.vertex)) return;
     pointerId = event.pointerId;
     element.setPointerCapture(event.pointerId);
     take(hit.vertex, new Vector3(...hit.point));
@@ -102,7 +112,8 @@ export function createHand(
   element.addEventListener('blur', release);
 
   function takeByKey(): void {
-    const box = element.getBoundingClientRect();
+    boxNow = events.picture(null);
+    const box = boxNow();
     aim(box.left + box.width / 2, box.top + box.height / 2);
     const { origin, direction } = raycaster.ray;
     const { positions, triangles } = events.cloth();

@@ -1,31 +1,16 @@
 // The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
 // simulation, and draws only when something changed.
-import {
-  Box3,
-  BufferAttribute,
-  BufferGeometry,
-  DynamicDrawUsage,
-  Line,
-  LineBasicMaterial,
-  Mesh,
-  MeshBasicMaterial,
-  PCFShadowMap,
-  PerspectiveCamera,
-  Scene,
-  Sphere,
-  SphereGeometry,
-  SRGBColorSpace,
-  Vector3,
-  WebGLRenderer,
-} from 'three';
+import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
 import type { Scalar } from '../sim/protocol';
 import type { Collider, Triple } from '../sim/wasm-module';
 import type { HeatScale } from '../state/app-state';
 import type { HeatMap } from '../state/url-codec';
 import { createCameraControl } from './camera-control';
+import { createCanvas } from './canvas';
 import { createClothMesh } from './cloth-mesh';
 import { lookOf } from './fabric-look';
 import { createHand } from './grab';
+import { createHandMark } from './hand-mark';
 import { createSurroundings } from './surroundings';
 
 export interface StageEvents {
@@ -56,9 +41,6 @@ export interface Stage {
   inviting(): number;
 }
 
-/** Sharper than this no display at arm's length looks, and it costs the square. */
-const MOST_PIXEL_RATIO = 2;
-
 /** Direction of the first view [rad]: a little from the right and from above. */
 const AZIMUTH = 0.55;
 const POLAR = 1.32;
@@ -74,9 +56,6 @@ const FLOOR_COSINE = 0.99;
 
 /** A metre lower counts for the invitation as much as two metres nearer: free corners hang low. */
 const LOW_OVER_NEAR = 2;
-
-/** Radius of the marker of the held point, as a part of its distance: some 6 pixels on a screen. */
-const MARKER_RADIUS = 0.006;
 
 /** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
 function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
@@ -129,35 +108,36 @@ export function createStage(
   canvas: HTMLCanvasElement,
   events: StageEvents,
 ): Stage {
-  const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
-  renderer.outputColorSpace = SRGBColorSpace;
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = PCFShadowMap;
   const scene = new Scene();
   const camera = new PerspectiveCamera(32, 1, 0.01, 100);
   const cloth = createClothMesh();
   const surroundings = createSurroundings();
-  scene.add(surroundings.object, cloth.object);
-
-  const seen = { depthTest: false, transparent: true };
-  const marker = new Mesh(new SphereGeometry(1, 20, 14), new MeshBasicMaterial(seen));
-  const thread = new Line(new BufferGeometry(), new LineBasicMaterial(seen));
-  const threadEnds = new BufferAttribute(new Float32Array(6), 3).setUsage(DynamicDrawUsage);
-  thread.geometry.setAttribute('position', threadEnds);
-  for (const part of [marker, thread]) {
-    part.frustumCulled = false;
-    part.visible = false;
-    part.renderOrder = 10;
-    scene.add(part);
-  }
+  const mark = createHandMark();
+  scene.add(surroundings.object, cloth.object, mark.object);
 
   let colliders: Collider[] = [];
   let awaitsFraming = false;
   let isFreshMesh = false;
   let inviting = 0;
   let floor = 0; // height of what is drawn as the floor [m]
-  let drawHandle = 0;
 
+  const { redraw, open } = createCanvas(parent, canvas, {
+    draw,
+    resized(width, height) {
+      camera.aspect = width / height;
+      control.refit();
+    },
+    themed(colour) {
+      surroundings.setTheme({
+        floor: colour('--stage-floor'),
+        grid: colour('--stage-grid'),
+        body: colour('--stage-body'),
+      });
+      mark.setColour(colour('--stage-hand'));
+    },
+    key: (name) => hand.key(name) || control.key(name) || events.key(name),
+    contextLost: events.contextLost,
+  });
   const control = createCameraControl(canvas, camera, redraw);
   const hand = createHand(canvas, camera, {
     grab(vertex) {
@@ -170,27 +150,11 @@ export function createStage(
       events.releaseGrab();
     },
     fallbackVertex: () => inviting,
+    picture: () => () => canvas.getBoundingClientRect(),
     cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
     floor: () => floor,
     onChange: redraw,
   });
-
-  function redraw(): void {
-    if (drawHandle === 0) drawHandle = requestAnimationFrame(draw);
-  }
-
-  function placeHand(): void {
-    const vertex = hand.vertex();
-    marker.visible = vertex !== null;
-    thread.visible = vertex !== null;
-    if (vertex === null) return;
-    const place = new Vector3().fromArray(cloth.positions(), 3 * vertex);
-    marker.position.copy(place);
-    marker.scale.setScalar(MARKER_RADIUS * camera.position.distanceTo(place));
-    place.toArray(threadEnds.array, 0);
-    hand.target().toArray(threadEnds.array, 3);
-    threadEnds.needsUpdate = true;
-  }
 
   function project(vertex: number): { x: number; y: number } {
     const place = new Vector3().fromArray(cloth.positions(), 3 * vertex).project(camera);
@@ -200,11 +164,12 @@ export function createStage(
     };
   }
 
-  function draw(): void {
-    drawHandle = 0;
+  function draw(renderer: WebGLRenderer): void {
     if (cloth.positions().length === 0) return;
     cloth.update();
-    placeHand();
+    const vertex = hand.vertex();
+    const held = vertex === null ? null : new Vector3().fromArray(cloth.positions(), 3 * vertex);
+    mark.place(held, hand.target(), camera);
     renderer.render(scene, camera);
     events.drawn(cloth.heatScale(), project(inviting));
   }
@@ -222,42 +187,7 @@ export function createStage(
     inviting = invitingVertex(cloth.positions(), towards);
   }
 
-  function resize(): void {
-    const { clientWidth: width, clientHeight: height } = parent;
-    if (width === 0 || height === 0) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXEL_RATIO));
-    renderer.setSize(width, height, false);
-    camera.aspect = width / height;
-    control.refit();
-  }
-
-  function applyTheme(): void {
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
-    surroundings.setTheme({
-      floor: colour('--stage-floor'),
-      grid: colour('--stage-grid'),
-      body: colour('--stage-body'),
-    });
-    marker.material.color.set(colour('--stage-hand'));
-    thread.material.color.set(colour('--stage-hand'));
-    redraw();
-  }
-
-  new ResizeObserver(resize).observe(parent);
-  window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', applyTheme);
-  canvas.addEventListener('webglcontextlost', (event) => {
-    event.preventDefault();
-    events.contextLost();
-  });
-  canvas.addEventListener('webglcontextrestored', redraw);
-  canvas.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    if (hand.key(name) || control.key(event.key) || events.key(name)) event.preventDefault();
-  });
-  resize();
-  applyTheme();
+  open();
 
   return {
     showMesh(triangles, nVertices, isNewScene) {

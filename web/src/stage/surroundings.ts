@@ -23,6 +23,8 @@ export interface Surroundings {
   setColliders(colliders: Collider[]): void;
   /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
   frame(centre: Vector3, radius: number, height: number): void;
+  /** Shadows cost as much as the picture itself, each time. */
+  setShadows(areCast: boolean): void;
   /** CSS colours of the page's theme. */
   setTheme(colours: { floor: string; grid: string; body: string }): void;
 }
@@ -153,7 +155,7 @@ export function createSurroundings(): Surroundings {
     frame(centre, radius, height) {
       const scale = 10 ** Math.round(Math.log10(radius));
       floor.scale.setScalar(scale);
-      key.shadow.normalBias = NORMAL_BIAS * scale;
+      key.shadow.normalBias = NORMAL_BIAS * Math.max(scale, Math.min(1, radius));
       floor.position.set(centre.x, height, centre.z);
       key.position.set(centre.x + 1.2 * radius, centre.y + 3 * radius, centre.z + 1.6 * radius);
       key.target.position.copy(centre);
@@ -165,6 +167,9 @@ export function createSurroundings(): Surroundings {
       camera.near = 0.1 * radius;
       camera.far = 8 * radius;
       camera.updateProjectionMatrix();
+    },
+    setShadows(areCast) {
+      key.castShadow = areCast;
     },
     setTheme(colours) {
       discMaterial.color.set(colours.floor);

@@ -20,6 +20,8 @@ export interface ObjMesh {
   low: Triple;
   high: Triple;
   threads: Threads;
+  /** Where its vertices start when that is not where they rest, three numbers each [m]. */
+  start?: Float64Array;
 }
 
 export const DIRECTIONS: Record<Exclude<Threads, 'texture'>, Triple> = {
@@ -88,5 +90,31 @@ export function objScene(mesh: ObjMesh, hold: Hold) {
     cloth: JSON.parse(mesh.clothText) as object,
     pins: pinsOf(mesh, hold),
     colliders: [{ plane: { point_m: [0, floor, 0], normal: [0, 1, 0] } }],
+  };
+}
+
+/** A cloth that starts from the shape that it was pulled into; what held it is its group "held". */
+export function deformedMesh(section: object, start: Float64Array): ObjMesh {
+  const { mesh } = section as {
+    mesh: { positions_m: Triple[]; triangles: unknown[]; groups?: object };
+  };
+  const low: Triple = [Infinity, Infinity, Infinity];
+  const high: Triple = [-Infinity, -Infinity, -Infinity];
+  start.forEach((metres, index) => {
+    const axis = (index % 3) as 0 | 1 | 2;
+    low[axis] = Math.min(low[axis], metres);
+    high[axis] = Math.max(high[axis], metres);
+  });
+  return {
+    name: 'The pulled cloth',
+    isOwn: true,
+    clothText: JSON.stringify(section),
+    groups: Object.keys(mesh.groups ?? {}),
+    nVertices: start.length / 3,
+    nTriangles: mesh.triangles.length,
+    low,
+    high,
+    threads: 'texture',
+    start,
   };
 }

@@ -49,7 +49,7 @@ export function slug(name: string): string {
 }
 
 /** Reads one part of the link at a time and collects what was wrong with it. */
-function createReader(parameters: URLSearchParams) {
+export function createReader(parameters: URLSearchParams) {
   const problems: string[] = [];
   const known = new Set<string>();
 
@@ -78,7 +78,7 @@ function createReader(parameters: URLSearchParams) {
   return { take, finish };
 }
 
-function oneOf<Value extends string | number>(values: readonly Value[]) {
+export function oneOf<Value extends string | number>(values: readonly Value[]) {
   return (text: string): Value | undefined => values.find((value) => String(value) === text);
 }
 

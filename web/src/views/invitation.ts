@@ -1,15 +1,13 @@
-// The one thing that asks to be grabbed, until someone grabs or plays.
-import type { AppState } from '../state/app-state';
-import { type Store, watch } from '../state/store';
+// The one thing that asks to be grabbed.
 import { element } from './element';
 
 export interface Invitation {
   /** Pixels from the stage's upper left corner. */
   place(x: number, y: number): void;
-  close(): void;
+  setShown(isShown: boolean): void;
 }
 
-export function createInvitation(parent: HTMLElement, store: Store<AppState>): Invitation {
+export function createInvitation(parent: HTMLElement): Invitation {
   const word = element('span', { class: 'invitation-word' }, 'Pull me');
   const ring = element(
     'div',
@@ -17,10 +15,8 @@ export function createInvitation(parent: HTMLElement, store: Store<AppState>): I
     element('span', { class: 'invitation-ring' }),
     word,
   );
+  ring.hidden = true;
   parent.append(ring);
-  const close = watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) => {
-    ring.hidden = !invited || phase !== 'ready' || ahead !== null;
-  });
   return {
     place(x, y) {
       ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
@@ -29,6 +25,8 @@ export function createInvitation(parent: HTMLElement, store: Store<AppState>): I
       const inside = Math.min(parent.clientWidth - half, Math.max(half, x));
       word.style.left = `${(inside - x).toFixed(1)}px`;
     },
-    close,
+    setShown(isShown) {
+      ring.hidden = !isShown;
+    },
   };
 }

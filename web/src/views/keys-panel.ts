@@ -12,9 +12,12 @@ const KEYS: readonly [string, string][] = [
   ['G or Escape', 'let go'],
 ];
 
-export function createKeysPanel(parent: HTMLElement): () => void {
+export function createKeyList(
+  parent: HTMLElement,
+  keys: readonly (readonly [string, string])[],
+): () => void {
   const list = element('dl', { class: 'keys' });
-  for (const [key, meaning] of KEYS) {
+  for (const [key, meaning] of keys) {
     list.append(element('dt', {}, element('kbd', {}, key)), element('dd', {}, meaning));
   }
   const box = element(
@@ -27,4 +30,8 @@ export function createKeysPanel(parent: HTMLElement): () => void {
   const section = element('section', { 'aria-label': 'Keys' }, box);
   parent.append(section);
   return () => section.remove();
+}
+
+export function createKeysPanel(parent: HTMLElement): () => void {
+  return createKeyList(parent, KEYS);
 }

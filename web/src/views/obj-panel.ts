@@ -3,6 +3,7 @@ import type { AppState } from '../state/app-state';
 import { type Hold, holdFor, holdsOf, type ObjMesh } from '../state/obj-mesh';
 import { type Store, watch } from '../state/store';
 import { element, field, setText } from './element';
+import { createObjPicker } from './obj-picker';
 
 /** More triangles than this and a step takes a good part of a second on most machines. */
 const MANY_TRIANGLES = 20000;
@@ -14,11 +15,13 @@ function titleOf(hold: Hold): string {
 }
 
 function sentences(mesh: ObjMesh): string {
-  const { name, nVertices, nTriangles, threads, isOwn } = mesh;
+  const { name, nVertices, nTriangles, threads, isOwn, start } = mesh;
   const parts = [`${name}: ${nVertices} vertices, ${nTriangles} triangles, taken in metres.`];
   if (threads === 'down') parts.push('No texture coordinates: threads run downward.');
   if (threads === 'along_x') parts.push('No texture coordinates: threads run along x.');
   if (nTriangles > MANY_TRIANGLES) parts.push('So many triangles will be slow.');
+  if (start)
+    parts.push('At level 0 it starts from the shape it was pulled into, else from where it rests.');
   if (isOwn)
     parts.push('It stays on this machine, and no link carries it: a reload shows the skirt.');
   return parts.join(' ');
@@ -29,22 +32,6 @@ export function createObjPanel(
   store: Store<AppState>,
   actions: { openObj(file: File): void },
 ): () => void {
-  const picker = element('input', {
-    type: 'file',
-    accept: '.obj',
-    hidden: true,
-    'aria-label': 'OBJ file',
-    change() {
-      const [file] = picker.files ?? [];
-      if (file) actions.openObj(file);
-      picker.value = ''; // the same file, mended, is a change again
-    },
-  });
-  const open = element(
-    'button',
-    { type: 'button', class: 'wide', click: () => picker.click() },
-    'Choose an OBJ file',
-  );
   const holds = element('select', {
     change() {
       const { setting } = store.get();
@@ -53,10 +40,12 @@ export function createObjPanel(
   });
   const held = field('Held by', holds);
   const note = element('p', { class: 'note' });
-  const box = element('div', { class: 'mesh' }, open, picker, held, note);
+  const box = element('div', { class: 'mesh' });
+  const closePicker = createObjPicker(box, actions);
+  box.append(held, note);
   parent.append(box);
   let listed: ObjMesh | null = null;
-  return watch(store, ['setting', 'mesh'], ({ setting, mesh }) => {
+  const stop = watch(store, ['setting', 'mesh'], ({ setting, mesh }) => {
     box.hidden = setting.preset !== 'obj';
     held.hidden = mesh === null;
     if (mesh === null) return;
@@ -69,4 +58,8 @@ export function createObjPanel(
     holds.value = holdFor(mesh, setting.hold);
     setText(note, sentences(mesh));
   });
+  return () => {
+    stop();
+    closePicker();
+  };
 }

@@ -1,6 +1,6 @@
 // The page in a real browser: `npm run e2e` after `npm run build`.
 import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { checkFabrics } from './fabrics.mjs';
 import {
   createHarness,
   eventually,
@@ -11,32 +11,16 @@ import {
   stateOf,
   until,
 } from './harness.mjs';
+import { button, choice, drop, expectSilence, findingsOf, picture, squareObj } from './visitor.mjs';
 
 /** A whole sweep may take this long on a busy machine [ms]. */
 const SWEEP_MS = 300000;
 
-const axeText = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const diverging = JSON.parse(
   readFileSync(new URL('../support/diverging.json', import.meta.url), 'utf8'),
 );
-const { open, check, countColours, finish } = await createHarness();
-
-const picture = (page) => page.locator('canvas').screenshot();
-const button = (page, name) => page.getByRole('button', { name, exact: true });
-const choice = (page, name) => page.getByRole('combobox', { name, exact: true });
-
-/** Serious and critical findings of axe, as text. */
-async function findingsOf(page) {
-  await page.evaluate(axeText);
-  const { violations } = await page.evaluate(() => window.axe.run());
-  return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .map(({ id, nodes }) => `${id} at ${nodes.map((node) => node.target.join(' ')).join(', ')}`);
-}
-
-function expectSilence(complaints) {
-  expectThat(complaints.length === 0, `console: ${complaints.join(' | ')}`);
-}
+const harness = await createHarness();
+const { open, check, countColours, finish } = harness;
 
 /** Runs `work` on a page at `hash`; whatever it does, the console has to stay empty. */
 async function visit(hash, work, options) {
@@ -225,40 +209,6 @@ await check('keys play, step, reset, turn, take and let go, only with the stage 
     await until(page, (state) => state.phase === 'ready' && state.numbers.time_s === 0);
   }),
 );
-
-/** A square cloth of `size` metres that stands upright, in a text of two triangles a cell. */
-function squareObj(size, cells = 6) {
-  const at = (row, column) => row * (cells + 1) + column + 1;
-  const lines = [];
-  for (let row = 0; row <= cells; ++row)
-    for (let column = 0; column <= cells; ++column)
-      lines.push(`v ${(size * column) / cells} ${size * (2 - row / cells)} 0`);
-  for (let row = 0; row < cells; ++row)
-    for (let column = 0; column < cells; ++column) {
-      const [a, b, c, d] = [
-        at(row, column),
-        at(row + 1, column),
-        at(row + 1, column + 1),
-        at(row, column + 1),
-      ];
-      lines.push(`f ${a} ${b} ${c}`, `f ${a} ${c} ${d}`);
-    }
-  return `${lines.join('\n')}\n`;
-}
-
-/** Drops a file on the page, as a visitor's hand does. */
-async function drop(page, name, text) {
-  const transfer = await page.evaluateHandle(
-    ([fileName, content]) => {
-      const made = new DataTransfer();
-      made.items.add(new File([content], fileName));
-      return made;
-    },
-    [name, text],
-  );
-  await page.dispatchEvent('canvas', 'dragover', { dataTransfer: transfer });
-  await page.dispatchEvent('canvas', 'drop', { dataTransfer: transfer });
-}
 
 await check('an OBJ file, chosen or dropped, becomes the cloth, and stays over other scenes', () =>
   visit('#scene=obj', async (page) => {
@@ -647,5 +597,7 @@ await check('without the WebAssembly file: a sentence, and the text stays', asyn
   expectThat((await page.locator('.caption').textContent()).length > 20, 'the caption is gone');
   await close();
 });
+
+await checkFabrics(harness);
 
 process.exit((await finish()) ? 0 : 1);

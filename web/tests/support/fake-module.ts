@@ -95,6 +95,12 @@ class FakeSimulation implements SimulationHandle {
     return answer;
   }
 
+  startFrom(places: Float64Array): string {
+    if (places.length !== this.x.length) return refuse('', 'expected a place for each vertex');
+    this.x.set(places);
+    return ok();
+  }
+
   reset(): string {
     this.steps = 0;
     this.pulled = false;

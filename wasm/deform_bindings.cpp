@@ -1,0 +1,343 @@
+// What a page shows deformed cloth with. Cold calls take and return JSON text in an envelope
+// (envelope.h); hot calls return numbers and views. A view of memory dies when memory grows: take
+// it anew after each call.
+#include <emscripten/bind.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/check.h"
+#include "core/deform/deform_solver.h"
+#include "core/scene/deform_scene.h"
+#include "core/scene/scene_file.h"
+#include "core/scene/vertex_place.h"
+#include "wasm/envelope.h"
+
+namespace {
+
+using emscripten::val;
+using pleat::DeformSolver;
+using pleat::guarded;
+using pleat::json_array;
+using pleat::json_value;
+using pleat::VertexId;
+
+/// What a step came to.
+enum class Progress { moved = 0, linearised = 1, converged = 2, stuck = 3 };
+
+val json_ids(const std::vector<VertexId>& vertices) {
+  std::vector<double> ids;
+  for (const VertexId v : vertices) ids.push_back(v.value);
+  return json_array(ids);
+}
+
+val json_places(const pleat::Positions& places) {
+  return json_array(std::vector<double>(places.data(), places.data() + places.size()));
+}
+
+/// Of weights, measures and terms alike.
+template <class Numbers>
+val json_terms(const Numbers& numbers) {
+  val result = val::object();
+  result.set("recovery", numbers.recovery);
+  result.set("stretch", numbers.stretch);
+  result.set("bending", numbers.bending);
+  return result;
+}
+
+val json_step(const pleat::DeformStep& step) {
+  val result = val::object();
+  result.set("energy", step.energy);
+  result.set("terms", json_terms(step.terms));
+  result.set("relativeStep", step.relative_step);
+  result.set("linearised", step.linearised);
+  return result;
+}
+
+val json_handle(const pleat::DeformHandle& handle) {
+  val result = val::object();
+  result.set("name", handle.name);
+  result.set("vertices", json_ids(handle.vertices));
+  result.set("places_m", json_places(handle.targets));
+  return result;
+}
+
+val json_group(const pleat::VertexGroup& group) {
+  val result = val::object();
+  result.set("name", group.name);
+  result.set("vertices", json_ids(group.vertices));
+  return result;
+}
+
+val json_ranges(const pleat::FittedWeights& fit) {
+  val result = val::object();
+  for (const auto& [name, value] : pleat::kMeasures)
+    result.set(std::string(name),
+               json_array(std::vector<double>{fit.measured_low.*value, fit.measured_high.*value}));
+  return result;
+}
+
+template <class Element, class Json>
+val json_list(const std::vector<Element>& elements, Json&& json) {
+  val list = val::array();
+  for (const Element& element : elements) list.call<void>("push", json(element));
+  return list;
+}
+
+template <class Numbers>
+Numbers three_numbers(const val& numbers) {
+  return {numbers["recovery"].as<double>(), numbers["stretch"].as<double>(),
+          numbers["bending"].as<double>()};
+}
+
+pleat::Positions positions_in(const val& places) {
+  const auto numbers = emscripten::convertJSArrayToNumberVector<double>(places);
+  return Eigen::Map<const pleat::Positions>(numbers.data(), 3,
+                                            static_cast<Eigen::Index>(numbers.size() / 3));
+}
+
+/// One cloth in several panes, each with weights of its own.
+class Deformation {
+ public:
+  explicit Deformation(std::string fabrics_json)
+      : fabrics_(pleat::read_fabrics(fabrics_json)), fit_(fabrics_.fabrics) {}
+
+  /// Takes another cloth, without panes yet. A bad text leaves the present one.
+  std::string open(const std::string& scene_text, const std::string& obj_text) {
+    return guarded([&](val& envelope) {
+      const auto file = [&](const std::string&) { return obj_text; };
+      auto scene = pleat::read_deform_scene(scene_text, fabrics_, file);
+      panes_.clear();
+      scene_ = std::move(scene);
+      triangles_.clear();
+      for (const pleat::Triangle& t : scene_->mesh.triangles)
+        for (const VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
+      const pleat::Positions& rest = scene_->mesh.rest_positions;
+      envelope.set("name", scene_->name);
+      envelope.set("caption", scene_->caption);
+      envelope.set("n_vertices", scene_->mesh.n_vertices());
+      envelope.set("n_triangles", scene_->mesh.triangles.size());
+      envelope.set("rest_m", json_places(rest));
+      envelope.set("grasp_m", pleat::usual_grasp(rest));
+      envelope.set("groups", json_list(scene_->groups, json_group));
+      envelope.set("pins", json_ids(scene_->pins));
+      envelope.set("handles", json_list(scene_->handles, json_handle));
+      envelope.set("fabric", scene_->fabric);
+    });
+  }
+
+  /// One pane for each of these weights. Those that are there keep their shape while the form of
+  /// the energy stays; the others start at rest with nothing held.
+  std::string show(const std::string& panes_text) {
+    return guarded([&](val& envelope) {
+      const val wanted = json_value(panes_text);
+      const auto form = wanted["form"].as<std::string>() == "published"
+                            ? pleat::EnergyForm::published
+                            : pleat::EnergyForm::consistent;
+      std::vector<pleat::DeformWeights> weights;
+      for (const val& pane : emscripten::vecFromJSArray<val>(wanted["weights"])) {
+        weights.push_back(three_numbers<pleat::DeformWeights>(pane));
+        check(weights.back(), held_, places_);
+      }
+      if (form != scene_->form) panes_.clear();
+      scene_->form = form;
+      val fresh = val::array();
+      while (panes_.size() > weights.size()) panes_.pop_back();
+      for (std::size_t p = 0; p < weights.size(); ++p) {
+        const bool is_fresh = p >= panes_.size();
+        fresh.call<void>("push", is_fresh);
+        if (is_fresh)
+          panes_.push_back({DeformSolver(cloth().mesh, form, weights[p]), {}, {}});
+        else
+          panes_[p].solver.set_weights(weights[p]);
+      }
+      envelope.set("fresh", fresh);
+    });
+  }
+
+  /// What holds all panes from now on: these vertices, ascending, at these places [m]. Each pane
+  /// takes it up in `follow`.
+  std::string hold(const val& vertices, const val& places) {
+    return guarded([&](val&) {
+      std::vector<VertexId> held;
+      for (const int v : emscripten::convertJSArrayToNumberVector<int>(vertices))
+        held.emplace_back(v);
+      const pleat::Positions at = positions_in(places);
+      for (const Pane& pane : panes_) check(pane.solver.weights(), held, at);
+      held_ = std::move(held);
+      places_ = at;
+    });
+  }
+
+  /// Moves what is held, in the order of `hold` [m].
+  void move_held(const val& places) {
+    const pleat::Positions at = positions_in(places);
+    if (at.cols() == places_.cols() && at.allFinite()) places_ = at;
+  }
+
+  /// The pane follows what holds it, in bounded time.
+  std::string follow(int pane) {
+    return guarded([&](val&) { held_as_all(pane).follow(places_); });
+  }
+
+  int step(int pane, bool may_linearise) {
+    try {
+      DeformSolver& solver = at(pane).solver;
+      if (solver.converged()) return static_cast<int>(Progress::converged);
+      const std::size_t n_steps = solver.steps().size();
+      const pleat::SolveReport report =
+          solver.step(may_linearise ? pleat::Linearise::when_needed : pleat::Linearise::never);
+      if (!report.ok()) return static_cast<int>(Progress::stuck);
+      if (solver.converged()) return static_cast<int>(Progress::converged);
+      const bool linearised = solver.steps().size() > n_steps && solver.steps().back().linearised;
+      return static_cast<int>(linearised ? Progress::linearised : Progress::moved);
+    } catch (const std::exception&) {
+      return static_cast<int>(Progress::stuck);
+    }
+  }
+
+  /// The pane goes back to rest and comes from there to where it is held.
+  std::string restart(int pane) {
+    return guarded([&](val&) { held_as_all(pane).restart(places_); });
+  }
+
+  /// The same, with the present shape set aside for `keep_better`.
+  std::string try_from_rest(int pane) {
+    return guarded([&](val&) {
+      Pane& chosen = at(pane);
+      chosen.aside = chosen.solver.shape();
+      chosen.aside_energy = chosen.solver.energy();
+      chosen.solver.restart();
+    });
+  }
+
+  /// Of the present shape and the one set aside, the one of lower energy.
+  std::string keep_better(int pane) {
+    return guarded([&](val& envelope) {
+      Pane& chosen = at(pane);
+      const bool was_better = chosen.aside && !(chosen.solver.energy() < chosen.aside_energy);
+      if (was_better) chosen.solver.take_back(std::move(*chosen.aside));
+      chosen.aside.reset();
+      envelope.set("from_rest", !was_better);
+    });
+  }
+
+  std::string report(int pane) {
+    return guarded([&](val& envelope) {
+      const DeformSolver& solver = at(pane).solver;
+      const pleat::DeformTerms terms = solver.terms();
+      envelope.set("weights", json_terms(solver.weights()));
+      envelope.set("energy", terms.weighted(solver.weights()));
+      envelope.set("terms", json_terms(terms));
+      envelope.set("converged", solver.converged());
+      envelope.set("steps", json_list(solver.steps(), json_step));
+    });
+  }
+
+  /// Weights for measurements of a visitor's own.
+  std::string fit_measures(const std::string& measures_text) {
+    return guarded([&](val& envelope) {
+      const pleat::FittedWeights fit =
+          fit_.fit(three_numbers<pleat::GeometricMeasures>(json_value(measures_text)));
+      envelope.set("weights", json_terms(fit.weights));
+      envelope.set("normalised", json_terms(fit.normalised));
+      envelope.set("leaveOneOutError", json_terms(fit.leave_one_out_error));
+      envelope.set("measuredRange", json_ranges(fit));
+      envelope.set("clamped",
+                   json_array(std::vector<std::string>(fit.clamped.begin(), fit.clamped.end())));
+      envelope.set("nearest", fabrics_.fabrics[fit.nearest].name);
+    });
+  }
+
+  /// The section "cloth" of a scene in motion, with what is held as the group "held".
+  std::string cloth_section() const {
+    return guarded([&](val& envelope) {
+      pleat::Scene scene;
+      pleat::MeshCloth mesh{cloth().mesh, {}, {}, cloth().textures};
+      if (!held_.empty()) mesh.groups.push_back({"held", held_});
+      scene.cloth = std::move(mesh);
+      envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
+    });
+  }
+
+  val triangles() const {
+    return val(emscripten::typed_memory_view(triangles_.size(), triangles_.data()));
+  }
+  val positions(int pane) {
+    const pleat::Positions& x = at(pane).solver.positions();
+    frame_.assign(x.data(), x.data() + x.size());
+    return val(emscripten::typed_memory_view(frame_.size(), frame_.data()));
+  }
+  val exact_positions(int pane) {
+    const pleat::Positions& x = at(pane).solver.positions();
+    return val(emscripten::typed_memory_view(static_cast<std::size_t>(x.size()), x.data()));
+  }
+
+ private:
+  struct Pane {
+    DeformSolver solver;
+    std::optional<pleat::DeformShape> aside;
+    double aside_energy = 0;
+  };
+
+  const pleat::DeformScene& cloth() const {
+    if (!scene_) throw pleat::InputError("", "expected an open cloth, got none");
+    return *scene_;
+  }
+
+  Pane& at(int pane) {
+    PLEAT_CHECK(pane >= 0 && pane < static_cast<int>(panes_.size()), "a pane that is shown");
+    return panes_[static_cast<std::size_t>(pane)];
+  }
+
+  /// Throws InputError where there is no one shape of least energy.
+  void check(const pleat::DeformWeights& weights, const std::vector<VertexId>& held,
+             const pleat::Positions& places) const {
+    pleat::DeformScene scene = cloth();
+    scene.pins.clear();
+    scene.handles.clear();
+    if (!held.empty()) scene.handles.push_back({"held", held, places});
+    scene.fabric_weights = weights;
+    scene.terms = {};
+    check_deform_scene(scene);
+  }
+
+  DeformSolver& held_as_all(int pane) {
+    DeformSolver& solver = at(pane).solver;
+    if (solver.held() != held_) solver.hold(held_);
+    return solver;
+  }
+
+  pleat::FabricLibrary fabrics_;
+  pleat::MeasureFit fit_;
+  std::optional<pleat::DeformScene> scene_;
+  std::vector<Pane> panes_;
+  std::vector<VertexId> held_;
+  pleat::Positions places_;  // of what is held [m]
+  std::vector<float> frame_;
+  std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(deform) {
+  emscripten::class_<Deformation>("Deformation")
+      .constructor<std::string>()
+      .function("open", &Deformation::open)
+      .function("show", &Deformation::show)
+      .function("hold", &Deformation::hold)
+      .function("moveHeld", &Deformation::move_held)
+      .function("follow", &Deformation::follow)
+      .function("step", &Deformation::step)
+      .function("restart", &Deformation::restart)
+      .function("tryFromRest", &Deformation::try_from_rest)
+      .function("keepBetter", &Deformation::keep_better)
+      .function("report", &Deformation::report)
+      .function("fitMeasures", &Deformation::fit_measures)
+      .function("clothSection", &Deformation::cloth_section)
+      .function("triangles", &Deformation::triangles)
+      .function("positions", &Deformation::positions)
+      .function("exactPositions", &Deformation::exact_positions);
+}

@@ -1,0 +1,29 @@
+// A button that asks for an OBJ file.
+import { element } from './element';
+
+export function createObjPicker(
+  parent: HTMLElement,
+  actions: { openObj(file: File): void },
+): () => void {
+  const picker = element('input', {
+    type: 'file',
+    accept: '.obj',
+    hidden: true,
+    'aria-label': 'OBJ file',
+    change() {
+      const [file] = picker.files ?? [];
+      if (file) actions.openObj(file);
+      picker.value = ''; // the same file, mended, is a change again
+    },
+  });
+  const open = element(
+    'button',
+    { type: 'button', class: 'wide', click: () => picker.click() },
+    'Choose an OBJ file',
+  );
+  parent.append(open, picker);
+  return () => {
+    open.remove();
+    picker.remove();
+  };
+}

@@ -1,0 +1,430 @@
+// Checks of the view of fabrics in a real browser.
+import { eventually, expectThat, largestMove, positionsOf, stateOf, until } from './harness.mjs';
+import {
+  button,
+  canvasOf,
+  choice,
+  drop,
+  expectSilence,
+  findingsOf,
+  picture,
+  squareObj,
+} from './visitor.mjs';
+
+/** Every shape is found. */
+export const isFound = (page) =>
+  until(
+    page,
+    (state) =>
+      state.phase === 'ready' &&
+      state.panes?.length > 0 &&
+      !state.isDragging &&
+      state.panes.every((pane) => ['converged', 'not_converged'].includes(pane.status)),
+  );
+
+const paneOf = (page, pane) => page.evaluate((at) => window.pleat.positions(at), pane);
+
+/** Where a vertex of the first pane is seen, on the page. */
+async function placeOn(page, vertex) {
+  const at = await page.evaluate((v) => window.pleat.project(v), vertex);
+  const box = await canvasOf(page).boundingBox();
+  return { x: box.x + at.x, y: box.y + at.y };
+}
+
+/** Drags a vertex of the first pane by some pixels; `during` runs before the hand lets go. */
+async function dragVertex(page, vertex, dx, dy, during = () => undefined) {
+  const { x, y } = await placeOn(page, vertex);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + dx, y + dy, { steps: 6 });
+  await during();
+  await page.mouse.up();
+}
+
+const holdsOf = ({ pins, handles }) => [...pins, ...handles].map(({ name }) => name);
+
+export async function checkFabrics({ open, check, countColours }) {
+  async function visit(hash, work, options) {
+    const { page, complaints, close } = await open(hash, options);
+    try {
+      await isFound(page);
+      await work(page);
+      expectSilence(complaints);
+    } finally {
+      await close();
+    }
+  }
+
+  await check('fabrics: loads still, a deformed cloth with a handle that asks to be pulled', () =>
+    visit('#view=fabrics', async (page) => {
+      const { cloth, handles } = await stateOf(page);
+      const before = await positionsOf(page);
+      expectThat(largestMove(cloth.rest_m, before) > 0.05, 'the cloth is as it rests');
+      expectThat(handles.length > 0, 'there is no handle');
+      expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
+      expectThat(await page.getByText('Pull me').filter({ visible: true }).isVisible(), 'no word');
+      await page.waitForTimeout(300);
+      expectThat(largestMove(before, await positionsOf(page)) === 0, 'the cloth moves unasked');
+    }),
+  );
+
+  await check(
+    'fabrics: a handle is dragged, the cloth follows at once, and it is found at rest',
+    () =>
+      visit('#view=fabrics', async (page) => {
+        const [before, still] = [await positionsOf(page), await picture(page)];
+        const vertex = await page.evaluate(() => window.pleat.inviting());
+        await dragVertex(page, vertex, 20, -90, async () => {
+          await until(page, (state) => state.isDragging);
+          await eventually(
+            async () => largestMove(before, await positionsOf(page)) > 0.03,
+            'the cloth follows before the hand lets go',
+          );
+        });
+        await isFound(page);
+        const { panes, handles } = await stateOf(page);
+        expectThat(panes[0].status === 'converged', `it is ${panes[0].status}`);
+        expectThat(
+          handles[0].offset.some((metres) => Math.abs(metres) > 0.02),
+          'it has no offset',
+        );
+        expectThat(!still.equals(await picture(page)), 'the picture is the same');
+      }),
+  );
+
+  await check('fabrics: any vertex becomes a handle, and is let go in the list', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      const before = await positionsOf(page);
+      await dragVertex(page, 7 * 31 + 8, 0, -60);
+      await until(page, (state) => state.handles.length === 2);
+      await isFound(page);
+      const pulled = await positionsOf(page);
+      expectThat(largestMove(before, pulled) > 0.03, 'the cloth did not follow');
+      const { handles } = await stateOf(page);
+      await button(page, `Release ${handles[1].name}`).click();
+      await until(page, (state) => state.handles.length === 1);
+      await isFound(page);
+      const back = largestMove(before, await positionsOf(page));
+      expectThat(back < 1e-3, `it is ${back} m from where it was`);
+    }),
+  );
+
+  await check('fabrics: a press alone holds nothing', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      await dragVertex(page, 7 * 31 + 8, 0, 0);
+      await page.waitForTimeout(200);
+      expectThat((await stateOf(page)).handles.length === 1, 'there is another handle');
+    }),
+  );
+
+  await check('fabrics: pins go in and out by hand, and the cloth goes with them', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      const before = await positionsOf(page);
+      await page.getByRole('radio', { name: 'Pin', exact: true }).check({ force: true });
+      const { x, y } = await placeOn(page, 32); // beside the corner, in its pin
+      await page.mouse.click(x, y);
+      await until(page, (state) => state.pins.length === 3);
+      await isFound(page);
+      expectThat(largestMove(before, await positionsOf(page)) > 1e-3, 'the corner stays');
+      const loose = await placeOn(page, 31 * 15 + 3);
+      await page.mouse.click(loose.x, loose.y);
+      await until(page, (state) => state.pins.length === 4);
+      await isFound(page);
+      const { pins } = await stateOf(page);
+      await button(page, `Release ${pins[3].name}`).click();
+      await until(page, (state) => state.pins.length === 3);
+      await button(page, 'Pins and handles as at first').click();
+      await until(page, (state) => state.pins.length === 4);
+      await isFound(page);
+      expectThat(largestMove(before, await positionsOf(page)) < 1e-3, 'it is not as at first');
+    }),
+  );
+
+  await check('fabrics: keys move a handle of the list, and take the cloth in the picture', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      const before = await positionsOf(page);
+      await button(page, 'middle').focus();
+      for (let press = 0; press < 4; ++press) await page.keyboard.press('ArrowUp');
+      await page.waitForTimeout(300);
+      await isFound(page);
+      expectThat(largestMove(before, await positionsOf(page)) > 0.02, 'the handle stays');
+      await canvasOf(page).focus();
+      await page.keyboard.press('g');
+      await until(page, (state) => state.isDragging);
+      for (let press = 0; press < 3; ++press) await page.keyboard.press('ArrowRight');
+      await page.keyboard.press('Escape');
+      await isFound(page);
+      await page.keyboard.press('p');
+      expectThat((await stateOf(page)).tool === 'pin', 'P does not change the tool');
+    }),
+  );
+
+  await check('fabrics: a finger drags the cloth on a small screen', () =>
+    visit(
+      '#view=fabrics&scene=terms',
+      async (page) => {
+        const before = await positionsOf(page);
+        const { x, y } = await placeOn(page, await page.evaluate(() => window.pleat.inviting()));
+        const touch = await page.context().newCDPSession(page);
+        const send = (type, dy) =>
+          touch.send('Input.dispatchTouchEvent', {
+            type,
+            touchPoints: dy === null ? [] : [{ x, y: y + dy }],
+          });
+        await send('touchStart', 0);
+        await send('touchMove', -20);
+        await send('touchMove', -40);
+        await until(page, (state) => state.isDragging);
+        await send('touchEnd', null);
+        await isFound(page);
+        expectThat(largestMove(before, await positionsOf(page)) > 0.02, 'the cloth stays');
+      },
+      { width: 390, height: 844, hasTouch: true, isMobile: true },
+    ),
+  );
+
+  await check('fabrics: a reload of the link shows the same fabrics, holds and shapes', () =>
+    visit('#view=fabrics&scene=terms&fabrics=silk+wool&form=consistent', async (page) => {
+      await dragVertex(page, 7 * 31 + 8, 0, -60);
+      await page.getByRole('radio', { name: 'Pin', exact: true }).check({ force: true });
+      const corner = await placeOn(page, 32);
+      await page.mouse.click(corner.x, corner.y);
+      await until(page, (state) => state.pins.length === 3 && state.handles.length === 2);
+      await page.waitForTimeout(300);
+      await isFound(page);
+      const [a, b] = [await paneOf(page, 0), await paneOf(page, 1)];
+      const names = holdsOf(await stateOf(page));
+      await page.reload();
+      await isFound(page);
+      expectThat(holdsOf(await stateOf(page)).join() === names.join(), 'other holds');
+      for (const [pane, was] of [a, b].entries()) {
+        const off = largestMove(was, await paneOf(page, pane));
+        expectThat(off < 1e-3, `pane ${pane} is ${off} m off`);
+      }
+    }),
+  );
+
+  await check('fabrics: four side by side under one pull, each with a shape of its own', () =>
+    visit('#view=fabrics&fabrics=silk+linen+wool+canvas', async (page) => {
+      expectThat((await page.locator('.pane-badge').count()) === 4, 'there are not four badges');
+      const befores = await Promise.all([0, 1, 2, 3].map((pane) => paneOf(page, pane)));
+      await dragVertex(page, await page.evaluate(() => window.pleat.inviting()), 0, -30, () =>
+        eventually(async () => {
+          const afters = await Promise.all([0, 1, 2, 3].map((pane) => paneOf(page, pane)));
+          return afters.every((after, pane) => largestMove(befores[pane], after) > 0.01);
+        }, 'all four follow'),
+      );
+      await isFound(page);
+      const shapes = await Promise.all([0, 1, 2, 3].map((pane) => paneOf(page, pane)));
+      for (let a = 0; a < 4; ++a) {
+        for (let b = 0; b < a; ++b) {
+          expectThat(largestMove(shapes[a], shapes[b]) > 5e-3, `panes ${a} and ${b} are alike`);
+        }
+      }
+    }),
+  );
+
+  await check('fabrics: all fifteen at once, and back', () =>
+    visit('#view=fabrics&scene=terms&fabrics=velvet', async (page) => {
+      await button(page, 'All fifteen at once').click();
+      await until(page, (state) => state.panes.length === 15);
+      await isFound(page);
+      expectThat((await page.locator('.pane-badge').count()) === 15, 'there are not 15 badges');
+      for (let pane = 0; pane < 15; ++pane) {
+        expectThat((await paneOf(page, pane)).length === 3 * 961, `pane ${pane} is empty`);
+      }
+      await button(page, 'All fifteen at once').click();
+      await until(page, (state) => state.panes.length === 1);
+      await isFound(page);
+      expectThat((await stateOf(page)).panes[0].fabric.name === 'velvet', 'another fabric');
+    }),
+  );
+
+  await check('fabrics: forms and terms change the shape; the last term stays on', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      let before = await positionsOf(page);
+      const changed = async (what) => {
+        await isFound(page);
+        const after = await positionsOf(page);
+        expectThat(largestMove(before, after) > 1e-3, `${what} changes nothing`);
+        before = after;
+      };
+      await page.getByLabel('Published', { exact: true }).check();
+      await until(page, (state) => state.form === 'published');
+      await changed('the form');
+      const panel = page.getByRole('region', { name: 'Energy', exact: true });
+      await panel.getByLabel('Bending').uncheck();
+      await until(page, (state) => !state.terms.bending);
+      await changed('bending');
+    }),
+  );
+
+  await check('fabrics: what has no one shape is a sentence, and everything is as before it', () =>
+    visit('#view=fabrics&scene=terms&fabrics=silk', async (page) => {
+      const names = holdsOf(await stateOf(page));
+      for (const name of names) await button(page, `Release ${name}`).click();
+      await until(page, (state) => state.holds.length === 0);
+      await isFound(page);
+      const { cloth } = await stateOf(page);
+      const off = largestMove(cloth.rest_m, await positionsOf(page));
+      expectThat(off < 1e-3, `a cloth that nothing holds is ${off} m from rest`);
+      const panel = page.getByRole('region', { name: 'Energy', exact: true });
+      await panel.getByLabel('Recovery').click(); // it comes back on at once
+      await until(page, (state) => /singular/.test(state.problem?.what));
+      await isFound(page);
+      expectThat((await stateOf(page)).terms.recovery, 'recovery stays off');
+      await button(page, 'Pins and handles as at first').click();
+      await panel.getByLabel('Recovery').uncheck();
+      await isFound(page);
+      await button(page, `Release ${names[0]}`).click();
+      for (const name of names.slice(1)) await button(page, `Release ${name}`).click();
+      await until(page, (state) => /singular/.test(state.problem?.what));
+      await isFound(page);
+      expectThat((await stateOf(page)).holds.length > 0, 'nothing holds the cloth');
+    }),
+  );
+
+  for (const scene of ['ball', 'diagonal_stretch', 'wrinkles', 'half_skirt', 't_shirt']) {
+    await check(`fabrics: the experiment ${scene} is deformed and converges`, () =>
+      visit(`#view=fabrics&scene=${scene}`, async (page) => {
+        const { panes, cloth, experiment } = await stateOf(page);
+        expectThat(experiment === scene, `it is ${experiment}`);
+        expectThat(panes[0].status === 'converged', `it is ${panes[0].status}`);
+        const move = largestMove(cloth.rest_m, await positionsOf(page));
+        expectThat(move > 0.02, `it moved ${move} m`);
+        expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
+      }),
+    );
+  }
+
+  await check(
+    'fabrics: an OBJ file can be pulled; a bad one is a sentence and the cloth stays',
+    () =>
+      visit('#view=fabrics&scene=terms', async (page) => {
+        await drop(page, 'banner.obj', squareObj(1, 12));
+        await until(
+          page,
+          (state) => state.experiment === 'own' && state.cloth.name === 'banner.obj',
+        );
+        await isFound(page);
+        const before = await positionsOf(page);
+        expectThat(before.length === 3 * 169, 'it has other vertices');
+        await dragVertex(page, 84, 0, -60);
+        await isFound(page);
+        expectThat(largestMove(before, await positionsOf(page)) > 0.05, 'it was not pulled');
+        await drop(page, 'torn.obj', `${squareObj(1)}f 1 2 999\n`);
+        await until(page, (state) => state.problem !== null);
+        const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+        expectThat(/torn\.obj: line \d+: expected/.test(sentence), `it says: ${sentence}`);
+        const pulled = await positionsOf(page);
+        expectThat(pulled.length === 3 * 169, 'the cloth is another');
+        await dragVertex(page, 84, 0, 30);
+        await isFound(page);
+        expectThat(largestMove(pulled, await positionsOf(page)) > 0.03, 'it can be pulled no more');
+        await drop(page, 'shirt.stl', 'solid');
+        await until(page, (state) => /no OBJ file/.test(state.problem?.what));
+        await choice(page, 'Experiment').selectOption({ label: 'A ball under the cloth' });
+        await until(page, (state) => state.experiment === 'ball' && state.problem === null);
+        await isFound(page);
+        await choice(page, 'Experiment').selectOption({ label: 'Your OBJ' });
+        await until(
+          page,
+          (state) => state.experiment === 'own' && state.cloth.name === 'banner.obj',
+        );
+      }),
+  );
+
+  await check('fabrics: a fabric and a shape go over to motion, which starts from it', () =>
+    visit('#view=fabrics&scene=half_skirt&fabrics=velvet', async (page) => {
+      const shape = await positionsOf(page);
+      await button(page, 'Start moving from this shape').click();
+      await until(page, (state) => state.setting?.preset === 'obj' && state.phase === 'ready');
+      const start = await positionsOf(page);
+      expectThat(largestMove(shape, start) < 1e-6, 'it starts elsewhere');
+      expectThat((await stateOf(page)).setting.fabric === 'velvet', 'in another fabric');
+      await button(page, 'Step').click();
+      await until(page, (state) => state.numbers.step === 1);
+      const move = largestMove(start, await positionsOf(page));
+      expectThat(move > 0 && move < 0.1, `the first step moves it by ${move} m`);
+      await button(page, 'Reset').click();
+      await until(page, (state) => state.phase === 'ready' && state.numbers.step === 0);
+      expectThat(largestMove(shape, await positionsOf(page)) < 1e-6, 'a reset leads elsewhere');
+      await page.getByRole('link', { name: /Fabrics/ }).click();
+      await isFound(page);
+      await button(page, 'Carry this fabric over to motion').click();
+      await until(page, (state) => state.setting?.fabric === 'velvet' && state.phase === 'ready');
+    }),
+  );
+
+  await check('fabrics: the views keep what they show when one changes between them', () =>
+    visit('#view=fabrics&scene=ball&fabrics=wool', async (page) => {
+      await page.getByRole('link', { name: /Speed and error/ }).click();
+      await until(page, (state) => state.setting && state.phase === 'ready');
+      expectThat(!page.url().includes('view=fabrics'), `the address is ${page.url()}`);
+      await page.getByRole('link', { name: /Fabrics/ }).click();
+      await until(page, (state) => state.experiment === 'ball');
+      expectThat(page.url().includes('fabrics=wool'), `the address is ${page.url()}`);
+    }),
+  );
+
+  await check('fabrics: a broken link gives defaults and a message', () =>
+    visit('#view=fabrics&scene=moon&fabrics=tin&terms=', async (page) => {
+      const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+      for (const part of ['scene:', 'fabrics:', 'terms:']) {
+        expectThat(sentence.includes(part), `it says: ${sentence}`);
+      }
+      expectThat((await stateOf(page)).experiment === 'pull', 'it shows something else');
+    }),
+  );
+
+  for (const colorScheme of ['light', 'dark']) {
+    await check(`fabrics: axe finds nothing serious, ${colorScheme}`, () =>
+      visit(
+        '#view=fabrics&scene=terms&fabrics=silk+wool',
+        async (page) => {
+          for (const box of await page.locator('#fabrics details').all()) {
+            await box.evaluate((details) => details.setAttribute('open', ''));
+          }
+          const findings = await findingsOf(page);
+          expectThat(findings.length === 0, findings.join('; '));
+        },
+        { colorScheme },
+      ),
+    );
+  }
+
+  for (const [width, height] of [
+    [320, 568],
+    [390, 844],
+    [768, 1024],
+  ]) {
+    await check(`fabrics: nothing scrolls sideways at ${width} px`, () =>
+      visit(
+        '#view=fabrics&scene=terms&fabrics=silk+wool+canvas',
+        async (page) => {
+          const [content, view] = await page.evaluate(() => [
+            document.documentElement.scrollWidth,
+            window.innerWidth,
+          ]);
+          expectThat(content <= view, `${content} px of content in ${view} px`);
+        },
+        { width, height },
+      ),
+    );
+  }
+
+  await check(
+    'fabrics: without its WebAssembly file a sentence, and the other view works',
+    async () => {
+      const { page, close } = await open('#view=fabrics', {
+        prepare: (fresh) => fresh.context().route('**/deform*.wasm', (route) => route.abort()),
+      });
+      await until(page, (state) => state.phase === 'broken');
+      const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+      expectThat(/WebAssembly/.test(sentence), `it says: ${sentence}`);
+      await page.getByRole('link', { name: /Speed and error/ }).click();
+      await until(page, (state) => state.setting && state.phase === 'ready');
+      await close();
+    },
+  );
+}
