@@ -13,19 +13,11 @@ namespace pleat {
 namespace {
 
 Json cost_json(const DeformCost& cost) {
-  return {{"total_ms", cost.total_ms},
-          {"build_ms", cost.build_ms},
-          {"assembly_ms", cost.assembly_ms},
-          {"factor_ms", cost.factor_ms},
-          {"solve_ms", cost.solve_ms},
-          {"linearisations", cost.n_linearisations},
-          {"steps", cost.n_steps},
-          {"energy", cost.energy},
-          {"terms",
-           {{"recovery", cost.terms.recovery},
-            {"stretch", cost.terms.stretch},
-            {"bending", cost.terms.bending}}},
-          {"status", name(cost.report.status)},
+  return {{"total_ms", cost.total_ms},       {"build_ms", cost.build_ms},
+          {"assembly_ms", cost.assembly_ms}, {"factor_ms", cost.factor_ms},
+          {"solve_ms", cost.solve_ms},       {"linearisations", cost.n_linearisations},
+          {"steps", cost.n_steps},           {"energy", cost.energy},
+          {"terms", json_three(cost.terms)}, {"status", name(cost.report.status)},
           {"message", cost.report.message}};
 }
 
@@ -75,14 +67,10 @@ Outcome bench_deform(Arguments arguments) {
   const DeformInput input = take_deform_scene(arguments);
   arguments.finish();
   const DeformScene& scene = input.scene;
-  const DeformWeights weights = scene.weights();
   const DeformCost cost = with_source_named(input, [&] { return deform_cost(scene); });
   Json json = {{"scene", scene.name},
                {"fabric", scene.fabric},
-               {"weights",
-                {{"recovery", weights.recovery},
-                 {"stretch", weights.stretch},
-                 {"bending", weights.bending}}},
+               {"weights", json_three(scene.weights())},
                {"n_vertices", scene.mesh.n_vertices()},
                {"n_triangles", scene.mesh.triangles.size()},
                {"n_edges", mesh_edges(scene.mesh.triangles).size()},

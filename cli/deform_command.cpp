@@ -42,17 +42,9 @@ std::string fabric_name(const DeformScene& scene) {
   return scene.fit ? "own measurements" : "own weights";
 }
 
-Json json_three(double recovery, double stretch, double bending) {
-  return {{"recovery", recovery}, {"stretch", stretch}, {"bending", bending}};
-}
-
-Json json_terms(const DeformTerms& t) { return json_three(t.recovery, t.stretch, t.bending); }
-
 Json json_fit(const FittedWeights& fit, const FabricLibrary& fabrics) {
-  const GeometricMeasures& v = fit.normalised;
-  const GeometricMeasures& error = fit.leave_one_out_error;
-  return {{"normalised", json_three(v.recovery, v.stretch, v.bending)},
-          {"leave_one_out_error", json_three(error.recovery, error.stretch, error.bending)},
+  return {{"normalised", json_three(fit.normalised)},
+          {"leave_one_out_error", json_three(fit.leave_one_out_error)},
           {"clamped", fit.clamped},
           {"nearest_fabric", fabrics.fabrics[fit.nearest].name},
           {"distance", fit.distance}};
@@ -62,7 +54,7 @@ Json json_steps(const std::vector<DeformStep>& steps) {
   Json json = Json::array();
   for (const DeformStep& step : steps)
     json.push_back({{"energy", step.energy},
-                    {"terms", json_terms(step.terms)},
+                    {"terms", json_three(step.terms)},
                     {"relative_step", step.relative_step},
                     {"halvings", step.halvings},
                     {"linearised", step.linearised},
@@ -76,7 +68,7 @@ Json json_deformation(const DeformScene& scene, const Deformation& result,
   Json json = {
       {"scene", scene.name},
       {"fabric", fabric_name(scene)},
-      {"weights", json_three(weights.recovery, weights.stretch, weights.bending)},
+      {"weights", json_three(weights)},
       {"form", name(scene.form)},
       {"n_vertices", scene.mesh.n_vertices()},
       {"n_triangles", scene.mesh.triangles.size()},
@@ -85,7 +77,7 @@ Json json_deformation(const DeformScene& scene, const Deformation& result,
       {"status", name(result.report.status)},
       {"message", result.report.message},
       {"linearisations", result.report.iterations},
-      {"begin", {{"energy", result.begin.weighted(weights)}, {"terms", json_terms(result.begin)}}},
+      {"begin", {{"energy", result.begin.weighted(weights)}, {"terms", json_three(result.begin)}}},
       {"steps", json_steps(result.steps)},
       {"farthest_m", result.farthest}};
   if (scene.fit) json["fit"] = json_fit(*scene.fit, fabrics);

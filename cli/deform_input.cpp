@@ -50,7 +50,12 @@ Json place_json(const std::string& text, const char* option) {
   const std::string kind = text.substr(0, colon);
   if (colon != std::string::npos && kind == "box") {
     const std::vector<std::string> parts = split(text.substr(colon + 1), 6, 6, option);
-    return {{"box", {{"low_m", values(parts, 0, 3)}, {"high_m", values(parts, 3, 6)}}}};
+    Json low = values(parts, 0, 3);
+    Json high = values(parts, 3, 6);
+    for (std::size_t axis = 0; axis < 3; ++axis)  // any two corners that face each other
+      if (low[axis].is_number() && high[axis].is_number() && low[axis] > high[axis])
+        std::swap(low[axis], high[axis]);
+    return {{"box", {{"low_m", low}, {"high_m", high}}}};
   }
   if (colon != std::string::npos && kind == "near") {
     const std::vector<std::string> parts = split(text.substr(colon + 1), 3, 4, option);
@@ -58,7 +63,7 @@ Json place_json(const std::string& text, const char* option) {
     if (parts.size() == 4) near["radius_m"] = option_value(parts[3]);
     return {{"near", near}};
   }
-  if (text.find_first_not_of("0123456789,") != std::string::npos) return {{"group", text}};
+  if (text.find_first_not_of("+-.0123456789,") != std::string::npos) return {{"group", text}};
   const std::vector<std::string> parts = split(text);
   return {{"vertices", values(parts, 0, parts.size())}};
 }

@@ -7,6 +7,7 @@
 #include "cli/arguments.h"
 #include "core/base/check.h"
 #include "core/scene/deform_scene.h"
+#include "core/scene/json_text.h"
 
 namespace pleat {
 
@@ -23,6 +24,13 @@ struct DeformInput {
   [[noreturn]] void throw_with_source(const InputError& error) const;
   [[noreturn]] void throw_out_of_memory() const;
 };
+
+/// Weights, measures or terms.
+template <class Three>
+Json json_three(const Three& numbers) {
+  return {
+      {"recovery", numbers.recovery}, {"stretch", numbers.stretch}, {"bending", numbers.bending}};
+}
 
 /// The scene or mesh that the next word names, with the options --fabrics, --fabric, --measure,
 /// --weights, --form, --terms, --pin and --handle.

@@ -20,7 +20,8 @@ constexpr std::array<Word<SheetPattern>, 4> kPatterns{{{"one_way", SheetPattern:
                                                        {"equilateral", SheetPattern::equilateral}}};
 
 constexpr std::array<Word<EnergyForm>, 2> kForms{
-    {{"consistent", EnergyForm::consistent}, {"published", EnergyForm::published}}};
+    {{name(EnergyForm::consistent), EnergyForm::consistent},
+     {name(EnergyForm::published), EnergyForm::published}}};
 
 constexpr std::array<Word<bool DeformTermChoice::*>, 3> kTerms{
     {{"recovery", &DeformTermChoice::recovery},

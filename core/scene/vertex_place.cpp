@@ -1,6 +1,7 @@
 #include "core/scene/vertex_place.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/scene/nearest_word.h"
 #include "core/scene/vertex_arrays.h"
@@ -12,6 +13,15 @@ std::string listed(const std::vector<VertexGroup>& groups) {
   std::string text;
   for (const VertexGroup& group : groups) text += (text.empty() ? "\"" : ", \"") + group.name + '"';
   return cut(text);
+}
+
+std::string extent(const Positions& positions) {
+  const Vec3 low = positions.rowwise().minCoeff();
+  const Vec3 high = positions.rowwise().maxCoeff();
+  char text[200];
+  std::snprintf(text, sizeof text, "which lies from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m",
+                low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
+  return text;
 }
 
 std::vector<VertexId> vertices_in(const PinBox& box, const Positions& positions) {
@@ -81,7 +91,7 @@ std::vector<VertexId> read_place(const JsonReader& reader, const Positions& posi
     case 2: {
       const JsonReader at = reader.at("box");
       std::vector<VertexId> vertices = vertices_in(read_box(at), positions);
-      if (vertices.empty()) at.fail("a box with a vertex in it");
+      if (vertices.empty()) at.fail("a box with a vertex of the cloth, " + extent(positions));
       return vertices;
     }
     default:

@@ -20,7 +20,8 @@ export const command = join(root, 'build', 'release', 'cli', 'pleat');
 const wasmFolder = join(root, 'build', 'wasm', 'wasm');
 const cacheFolder = join(root, 'build', 'references');
 
-function withSceneFile(scene, work) {
+/** What `work` makes of a file that holds the scene and is gone afterwards. */
+export function withSceneFile(scene, work) {
   const folder = mkdtempSync(join(tmpdir(), 'pleat-bench-'));
   try {
     const file = join(folder, 'scene.json');

@@ -1,13 +1,12 @@
 // ./pleat bench fabrics (--help tells the options)
 // What a shape of least deformation energy costs, from its mesh and under a moving hand, natively
 // and in WebAssembly; how much it depends on the mesh; and whether fabrics' weights show in it.
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { runParts, tell } from './bench-parts.mjs';
 import { goal, markdown, median, short } from './bench-rows.mjs';
-import { deformNative, deformWasm, root } from './contestants.mjs';
+import { deformNative, deformWasm, root, withSceneFile } from './contestants.mjs';
 
 const kMoves = 20; // of a hand, from rest to the scene's targets
 const kLargest = ['ball', 'diagonal_stretch', 'wrinkles']; // 51 x 51 vertices each
@@ -270,19 +269,13 @@ function exponent(points) {
   return above / logs.reduce((sum, [x]) => sum + (x - mx) ** 2, 0);
 }
 
-function withVertices(n, work) {
+/** The pulled sheet of about so many vertices. */
+function pulledSheet(n) {
   const scene = JSON.parse(readFileSync(sceneFile('pull')));
   const { sheet } = scene.cloth;
   const across = Math.round(Math.sqrt((n * sheet.height_m) / sheet.width_m));
   sheet.vertices = [Math.round(n / across), across];
-  const folder = mkdtempSync(join(tmpdir(), 'pleat-bench-'));
-  try {
-    const file = join(folder, 'scene.json');
-    writeFileSync(file, JSON.stringify(scene));
-    return work(file);
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  return scene;
 }
 
 /** Time to the least energy of the same sheet, more and more finely cut. */
@@ -292,7 +285,7 @@ async function growth({ repeat }) {
     repeat,
     kVertices.map((n) => ({
       label: `${n} vertices`,
-      run: () => withVertices(n, (file) => deformNative(file)),
+      run: () => withSceneFile(pulledSheet(n), (file) => deformNative(file)),
     })),
   ).map((runs, i) => row(`pull, about ${kVertices[i]} vertices`, runs));
   const slope = exponent(rows.map(({ n_vertices, cost }) => [n_vertices, cost.total_ms]));

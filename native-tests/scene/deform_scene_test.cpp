@@ -192,7 +192,8 @@ TEST_CASE("deform scene: bad input is told with its place, what was expected and
       {R"("pins": [{"group": "upper_lef"}])",
        "/pins/0/group: expected the group \"upper_left\", got \"upper_lef\""},
       {R"("pins": [{"box": {"low_m": [1, 0, 0], "high_m": [2, 0, 0]}}])",
-       "/pins/0/box: expected a box with a vertex in it, got an object"},
+       "/pins/0/box: expected a box with a vertex of the cloth, which lies from (-0.2, 0, -0.1) to "
+       "(0.2, 0, 0.1) m, got an object"},
       {R"("pins": [{"near": {"point_m": [0, 0]}}])",
        "/pins/0/near/point_m: expected an array of 3 numbers, got an array of 2 values"},
       {R"("handles": [{"vertices": [1], "move_m": [0, 0, 0]}])",
