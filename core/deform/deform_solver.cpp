@@ -78,6 +78,7 @@ DeformSolver::~DeformSolver() = default;
 void DeformSolver::begin_anew() {
   steps_.clear();
   n_before_ = n_linearisations_;
+  n_with_factor_ = 0;
   last_change_.resize(3, 0);
   converged_ = false;
 }

@@ -134,7 +134,7 @@ class DeformSolver {
   bool has_pattern_ = false;
   bool has_factor_ = false;
   bool is_stale_ = false;         // the factor serves badly
-  int n_with_factor_ = 0;         // steps
+  int n_with_factor_ = 0;         // steps since the last move
   double first_with_factor_ = 0;  // DeformStep::relative_step of the first
   int n_linearisations_ = 0;
   int n_before_ = 0;  // of them, before something was last moved, held or weighted
