@@ -37,8 +37,8 @@ export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed', 'dis
 export const HEAT_RANGES: readonly number[] = [0.5, 1, 2, 5, 10];
 const DEFAULT_PRESET: PresetId = 'curtain';
 const LATEST_START_S = 10;
-/** By then the curtain is drawn and hangs in folds: a first visit sees what it is about [s]. */
-const FIRST_VISIT_START_S = 2.5;
+/** By then the curtain hangs in folds, and its error is known: a first visit sees both [s]. */
+const FIRST_VISIT_START_S = 1.5;
 
 /** A name as it stands in a link: lower case, hyphens. */
 export function slug(name: string): string {
