@@ -175,7 +175,7 @@ SolveReport DeformSolver::follow(const Eigen::Ref<const Positions>& places) {
   SolveReport report;
   for (int k = 0; k < kStepsOfMove && report.ok() && !converged_; ++k) {
     report = step(n_linearisations_ == n_before ? Linearise::when_needed : Linearise::never);
-    const double after = energy();
+    const double after = steps_.empty() ? before : steps_.back().energy;
     if (after > (1 - kWorthAStep) * before && !is_stale_) break;
     before = after;
   }
@@ -228,14 +228,11 @@ Positions DeformSolver::descent(const Positions& gradient) {
   return direction;
 }
 
-/// Moves along the direction until the energy has fallen enough; false, and nothing moved, if it
-/// does not.
-bool DeformSolver::descend(const Positions& gradient, const Positions& direction,
+/// Moves along the direction until the energy has fallen enough from what it was before; false, and
+/// nothing moved, if it does not.
+bool DeformSolver::descend(const Positions& direction, double slope, double before,
                            DeformStep& step) {
   const StageScope stage(observer_, Stage::forces);
-  const double slope = dot(gradient, direction);
-  if (!(slope < 0)) return false;
-  const double before = energy();
   const Positions begin = positions_;
   double share = 1;
   for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {
@@ -269,6 +266,7 @@ SolveReport DeformSolver::step(Linearise allowed) {
   const bool may_linearise = allowed == Linearise::when_needed;
   const Positions gradient = free_gradient();
   remember(gradient);
+  const double before = energy();
   DeformStep step;
   for (;;) {
     if (!has_factor_ || (is_stale_ && may_linearise)) {
@@ -281,19 +279,17 @@ SolveReport DeformSolver::step(Linearise allowed) {
     const double slope = dot(gradient, direction);
     if (!std::isfinite(slope))
       return {SolveStatus::not_finite, 0, 0, "the energy or its derivative is not finite"};
-    converged_ = -slope <= kRounding * energy();
+    converged_ = -slope <= kRounding * before;
     if (converged_) return {};
     step.damping = damping_;
-    if (descend(gradient, direction, step)) break;
-    if (!corrections_.empty()) {
-      corrections_.clear();  // the factor alone leads down, as the corrections need not
-    } else if (!may_linearise) {
-      is_stale_ = true;
-      return {SolveStatus::not_converged, 0, 0, "the factor at hand leads no further down"};
-    } else if (step.linearised && !dampen()) {
-      return {SolveStatus::not_converged, 0, 0, "no step makes the energy smaller"};
-    }
+    if (descend(direction, slope, before, step)) break;
     is_stale_ = true;
+    const bool is_factor_alone = corrections_.empty();
+    corrections_.clear();
+    if (is_factor_alone && !may_linearise)
+      return {SolveStatus::not_converged, 0, 0, "the factor at hand leads no further down"};
+    if (is_factor_alone && step.linearised && !dampen())
+      return {SolveStatus::not_converged, 0, 0, "no step makes the energy smaller"};
   }
   judge(step);
   last_gradient_ = gradient;

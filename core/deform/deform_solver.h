@@ -118,7 +118,7 @@ class DeformSolver {
   Positions foreseen(const Positions& moves);
   void remember(const Positions& gradient);
   Positions descent(const Positions& gradient);
-  bool descend(const Positions& gradient, const Positions& direction, DeformStep& step);
+  bool descend(const Positions& direction, double slope, double before, DeformStep& step);
   void judge(const DeformStep& step);
 
   DeformEnergy energy_;
