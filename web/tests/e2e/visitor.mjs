@@ -11,8 +11,11 @@ export const picture = (page) => canvasOf(page).screenshot();
 export const button = (page, name) => page.getByRole('button', { name, exact: true });
 export const choice = (page, name) => page.getByRole('combobox', { name, exact: true });
 
-/** Serious and critical findings of axe, as text. */
-export async function findingsOf(page) {
+/** Serious and critical findings of axe, as text, once what `details` matches is opened. */
+export async function findingsOf(page, details = null) {
+  for (const box of details ? await page.locator(details).all() : []) {
+    await box.evaluate((element) => element.setAttribute('open', ''));
+  }
   await page.evaluate(axeText);
   const { violations } = await page.evaluate(() => window.axe.run());
   return violations
