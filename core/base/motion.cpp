@@ -20,25 +20,36 @@ double progress(const Motion& motion, double time) {
   return (time - motion.time_begin) / (motion.time_end - motion.time_begin);
 }
 
-}  // namespace
+/// Half the span of the central difference [s]: of a motion at 10 rad/s it errs by 2e-9 of the
+/// speed, and rounding of metres by 1e-11 m/s.
+constexpr double kDifference = 1e-5;
 
-Vec3 Motion::displacement(double time) const {
-  switch (kind) {
-    case Kind::hold:
-      return Vec3::Zero();
-    case Kind::move:
-      return progress(*this, time) * offset;
-    case Kind::ease: {
-      const double s = progress(*this, time);
-      return s * s * (3 - 2 * s) * offset;
+Vec3 displacement(const Motion& motion, double time) {
+  switch (motion.kind) {
+    case Motion::Kind::move:
+      return progress(motion, time) * motion.offset;
+    case Motion::Kind::ease: {
+      const double s = progress(motion, time);
+      return s * s * (3 - 2 * s) * motion.offset;
     }
-    case Kind::oscillate:
-      return std::sin(kTwoPi * frequency * std::max(0.0, time - time_begin)) * offset;
+    case Motion::Kind::oscillate:
+      return std::sin(kTwoPi * motion.frequency * std::max(0.0, time - motion.time_begin)) *
+             motion.offset;
+    case Motion::Kind::hold:
+    case Motion::Kind::follow:
+      break;
   }
   return Vec3::Zero();
 }
 
-Vec3 Motion::velocity(double time) const {
+}  // namespace
+
+Pose Motion::pose(double time) const {
+  if (kind == Kind::follow) return frame->pose(time);
+  return {Mat3::Identity(), displacement(*this, time)};
+}
+
+Vec3 Motion::velocity(const Vec3& place, double time) const {
   switch (kind) {
     case Kind::hold:
       return Vec3::Zero();
@@ -55,6 +66,9 @@ Vec3 Motion::velocity(double time) const {
       const double omega = kTwoPi * frequency;
       return omega * std::cos(omega * (time - time_begin)) * offset;
     }
+    case Kind::follow:
+      return (frame->pose(time + kDifference) * place - frame->pose(time - kDifference) * place) /
+             (2 * kDifference);
   }
   return Vec3::Zero();
 }

@@ -91,7 +91,7 @@ double ContactStage::clearance(const Collider& collider) const {
 
 std::variant<Plane, Sphere> ContactStage::placed(const Collider& collider, double time) {
   std::variant<Plane, Sphere> shape = collider.shape;
-  const Vec3 offset = collider.motion.displacement(time);
+  const Vec3 offset = collider.motion.pose(time).translation;
   if (auto* plane = std::get_if<Plane>(&shape)) plane->point += offset;
   if (auto* sphere = std::get_if<Sphere>(&shape)) sphere->centre += offset;
   return shape;
@@ -101,8 +101,8 @@ void ContactStage::begin_substep(double time_begin, double time_end) {
   PLEAT_CHECK(time_end > time_begin, "a substep must end after it begins");
   for (std::size_t k = 0; k < colliders_.size(); ++k) {
     const Collider& collider = colliders_[k];
-    const Vec3 offset_begin = collider.motion.displacement(time_begin);
-    const Vec3 offset_end = collider.motion.displacement(time_end);
+    const Vec3 offset_begin = collider.motion.pose(time_begin).translation;
+    const Vec3 offset_end = collider.motion.pose(time_end).translation;
     const double distance = clearance(collider);
     Solid& solid = solids_[k];
     std::visit(

@@ -17,10 +17,11 @@ namespace pleat {
 /// A vertex whose place is prescribed: a constraint, not an infinite mass.
 struct Pin {
   VertexId vertex;
-  Vec3 place{0, 0, 0};  ///< at displacement zero [m]
+  Vec3 place{0, 0, 0};  ///< at time 0 of its motion [m]
   Motion motion;
 
-  Vec3 position(double time) const { return place + motion.displacement(time); }
+  Vec3 position(double time) const { return motion.pose(time) * place; }
+  Vec3 velocity(double time) const { return motion.velocity(place, time); }
 };
 
 /// Which part of the relative velocity of a spring's ends its damper resists.

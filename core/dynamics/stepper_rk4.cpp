@@ -13,7 +13,7 @@ StepperRk4::StepperRk4(ClothModel& model, const MethodOptions& options)
 void StepperRk4::evaluate(State& state, double time, State& rates) {
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time);
-    state.velocities.col(pin.vertex) = pin.motion.velocity(time);
+    state.velocities.col(pin.vertex) = pin.velocity(time);
   }
   rates.positions = state.velocities;
   set_external_forces(state, 0, rates.velocities);
@@ -41,7 +41,7 @@ SolveReport StepperRk4::substep(State& state, double time_end, double h) {
   }
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
-    state.velocities.col(pin.vertex) = pin.motion.velocity(time_end);
+    state.velocities.col(pin.vertex) = pin.velocity(time_end);
   }
   resolve_contacts(positions_begin_, state, time_end, h);
   return {};

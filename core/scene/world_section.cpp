@@ -47,6 +47,8 @@ Motion read_motion(const JsonReader& reader) {
       if (const auto at = reader.find("begin_s")) motion.time_begin = at->number(kNotNegative);
       motion.frequency = reader.at("frequency_hz").number(kPositive);
       break;
+    case Motion::Kind::follow:
+      break;  // has no word of its own here
   }
   return motion;
 }
@@ -66,7 +68,7 @@ Json json_motion(const Motion& motion) {
 
 bool same_motion(const Motion& a, const Motion& b) {
   return a.kind == b.kind && a.offset == b.offset && a.time_begin == b.time_begin &&
-         a.time_end == b.time_end && a.frequency == b.frequency;
+         a.time_end == b.time_end && a.frequency == b.frequency && a.frame == b.frame;
 }
 
 /// Base vertices of a part: rows r and columns c of the vertex grid.

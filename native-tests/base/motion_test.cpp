@@ -8,38 +8,38 @@ TEST_CASE("motion: every kind starts at its place", "[base]") {
   const auto kind =
       GENERATE(Motion::Kind::hold, Motion::Kind::move, Motion::Kind::ease, Motion::Kind::oscillate);
   const Motion motion{kind, {1, 2, 3}, 0.5, 1.5, 2};
-  CHECK(motion.displacement(0).isZero());
-  CHECK(motion.displacement(0.5).isZero());
+  CHECK(motion.pose(0).translation.isZero());
+  CHECK(motion.pose(0.5).translation.isZero());
 }
 
 TEST_CASE("motion: move and ease reach their offset and stay", "[base]") {
   const auto kind = GENERATE(Motion::Kind::move, Motion::Kind::ease);
   const Motion motion{kind, {1, 2, 3}, 0.5, 1.5, 0};
-  CHECK(motion.displacement(1) == Vec3(0.5, 1, 1.5));  // both are symmetric in time
-  CHECK(motion.displacement(1.5) == Vec3(1, 2, 3));
-  CHECK(motion.displacement(9) == Vec3(1, 2, 3));
+  CHECK(motion.pose(1).translation == Vec3(0.5, 1, 1.5));  // both are symmetric in time
+  CHECK(motion.pose(1.5).translation == Vec3(1, 2, 3));
+  CHECK(motion.pose(9).translation == Vec3(1, 2, 3));
 }
 
 TEST_CASE("motion: move keeps its speed, ease starts and ends at rest", "[base]") {
   constexpr double kTiny = 1e-6;  // [s]
   const Motion move{Motion::Kind::move, {1, 0, 0}, 0, 2, 0};
-  CHECK(move.displacement(kTiny).x() == Approx(kTiny / 2));
+  CHECK(move.pose(kTiny).translation.x() == Approx(kTiny / 2));
   const Motion ease{Motion::Kind::ease, {1, 0, 0}, 0, 2, 0};
-  CHECK(ease.displacement(kTiny).x() < 1e-5 * kTiny);
-  CHECK(1 - ease.displacement(2 - kTiny).x() < 1e-5 * kTiny);
+  CHECK(ease.pose(kTiny).translation.x() < 1e-5 * kTiny);
+  CHECK(1 - ease.pose(2 - kTiny).translation.x() < 1e-5 * kTiny);
 }
 
 TEST_CASE("motion: a move without duration is a jump", "[base]") {
   const Motion motion{Motion::Kind::move, {1, 0, 0}, 1, 1, 0};
-  CHECK(motion.displacement(0.999).x() == 0);
-  CHECK(motion.displacement(1).x() == 1);
+  CHECK(motion.pose(0.999).translation.x() == 0);
+  CHECK(motion.pose(1).translation.x() == 1);
 }
 
 TEST_CASE("motion: oscillate swings by its offset with its frequency", "[base]") {
   const Motion motion{Motion::Kind::oscillate, {0, 0.2, 0}, 1, 0, 4};
-  CHECK(motion.displacement(1 + 1.0 / 16).y() == Approx(0.2));
-  CHECK(motion.displacement(1 + 3.0 / 16).y() == Approx(-0.2));
-  CHECK(std::abs(motion.displacement(1.25).y()) < 1e-15);
+  CHECK(motion.pose(1 + 1.0 / 16).translation.y() == Approx(0.2));
+  CHECK(motion.pose(1 + 3.0 / 16).translation.y() == Approx(-0.2));
+  CHECK(std::abs(motion.pose(1.25).translation.y()) < 1e-15);
 }
 
 TEST_CASE("motion: the velocity is the displacement's rate", "[base]") {
@@ -54,10 +54,34 @@ TEST_CASE("motion: the velocity is the displacement's rate", "[base]") {
   for (const double time : {0.2, 0.6, 1.1, 1.4, 1.9}) {
     CAPTURE(time);
     const Vec3 expected =
-        (motion.displacement(time + kHalfStep) - motion.displacement(time - kHalfStep)) /
+        (motion.pose(time + kHalfStep).translation - motion.pose(time - kHalfStep).translation) /
         (2 * kHalfStep);
-    CHECK((motion.velocity(time) - expected).norm() < 1e-8);
+    CHECK((motion.velocity(Vec3(1, 2, 3), time) - expected).norm() < 1e-8);
   }
+}
+
+TEST_CASE("motion: what follows a turning frame moves across its arm", "[base]") {
+  struct Turntable : MovingFrame {
+    Pose pose(double time) const override {
+      return {Eigen::AngleAxisd(3 * time, Vec3::UnitY()).toRotationMatrix(), Vec3(0, time, 0)};
+    }
+  };
+  Motion motion;
+  motion.kind = Motion::Kind::follow;
+  motion.frame = std::make_shared<Turntable>();
+  const Vec3 place(2, 0, 0);
+  CHECK((motion.pose(0.5) * place - Vec3(2 * std::cos(1.5), 0.5, -2 * std::sin(1.5))).norm() <
+        1e-15);
+  CHECK((motion.velocity(place, 0.5) - Vec3(-6 * std::sin(1.5), 1, -6 * std::cos(1.5))).norm() <
+        1e-8);
+}
+
+TEST_CASE("pose: a pose and its inverse take a point there and back", "[base]") {
+  const Pose turn{Eigen::AngleAxisd(0.7, Vec3(1, 2, 2) / 3).toRotationMatrix(), Vec3(1, -2, 3)};
+  const Pose shift{Mat3::Identity(), Vec3(0, 5, 0)};
+  const Vec3 x(0.3, 0.2, -0.9);
+  CHECK((turn.inverse() * (turn * x) - x).norm() < 1e-15);
+  CHECK(((turn * shift) * x - turn * (shift * x)).norm() < 1e-15);
 }
 
 }  // namespace pleat

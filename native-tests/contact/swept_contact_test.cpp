@@ -61,8 +61,9 @@ TEST_CASE("contact: a sphere is never penetrated at 50 m/s", "[contact]") {
       REQUIRE(height(ball, particle.position, (k + 1) * h) >= -10 * kRoundingDepth);
       // Nor has the way there led through: seen from the sphere it is straight before and after the
       // correction.
-      const Vec3 start = begin - ball.motion.displacement(k * h) - centre;
-      const Vec3 way = particle.position - ball.motion.displacement((k + 1) * h) - centre - start;
+      const Vec3 start = begin - ball.motion.pose(k * h).translation - centre;
+      const Vec3 way =
+          particle.position - ball.motion.pose((k + 1) * h).translation - centre - start;
       const double nearest =
           std::clamp(-start.dot(way) / std::max(way.squaredNorm(), 1e-300), 0.0, 1.0);
       REQUIRE((start + nearest * way).norm() >= radius - 10 * kRoundingDepth);

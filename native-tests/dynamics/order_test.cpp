@@ -51,7 +51,7 @@ Rates rates(const ClothModel& model, const State& state) {
 void place_pins(const ClothModel& model, double time, State& state) {
   for (const Pin& pin : model.pins) {
     state.positions.col(pin.vertex) = pin.position(time);
-    state.velocities.col(pin.vertex) = pin.motion.velocity(time);
+    state.velocities.col(pin.vertex) = pin.velocity(time);
   }
 }
 
