@@ -24,6 +24,16 @@ void check_shape(const SheetShape& shape) {
               "warp and weft directions are orthonormal");
 }
 
+/// Of the middle between two vertices, round along weft. Where a tube closes, the coordinate falls
+/// from its end to its begin though the way is short: the middle goes on from the end.
+double middle_coordinate(const Positions& x, const RestCoordinates& uv, int a, int b) {
+  constexpr double kSeam =
+      2;  // in lengths of the edge, which is longer than its share when slanted
+  const double length = (x.col(a) - x.col(b)).norm();
+  if (std::abs(uv(1, a) - uv(1, b)) <= kSeam * length) return (uv(1, a) + uv(1, b)) / 2;
+  return std::max(uv(1, a), uv(1, b)) + length / 2;
+}
+
 void append_halves(const std::array<VertexId, 4>& c, bool diagonal_02,
                    std::vector<Triangle>& triangles) {
   if (diagonal_02) {
@@ -58,31 +68,55 @@ QuadMesh QuadMesh::sheet(const SheetShape& shape) {
   for (int r = 0; r < shape.rows; ++r) {
     for (int c = 0; c < shape.columns; ++c) {
       const int first = r * line + c;
-      QuadFace face;
-      face.corners = {VertexId(first), VertexId(first + line), VertexId(first + line + 1),
-                      VertexId(first + 1)};
-      face.diagonal_02 = (r + c) % 2 == 0;
-      mesh.faces_.push_back(face);
+      mesh.add_base_face({VertexId(first), VertexId(first + line), VertexId(first + line + 1),
+                          VertexId(first + 1)},
+                         (r + c) % 2 == 0);
     }
   }
   return mesh;
 }
 
+QuadMesh QuadMesh::from_patch(const QuadPatch& patch) {
+  check_patch(patch);
+  const std::vector<bool> white = chess_board(patch);
+  QuadMesh mesh;
+  mesh.rest_positions_ = patch.rest_positions;
+  mesh.rest_coordinates_ = patch.rest_coordinates;
+  mesh.parents_.resize(static_cast<std::size_t>(patch.rest_positions.cols()));
+  for (std::size_t f = 0; f < patch.quads.size(); ++f) mesh.add_base_face(patch.quads[f], white[f]);
+  return mesh;
+}
+
+void QuadMesh::add_base_face(const std::array<VertexId, 4>& corners, bool diagonal_02) {
+  QuadFace face;
+  face.corners = corners;
+  face.diagonal_02 = diagonal_02;
+  faces_.push_back(face);
+  base_areas_.push_back(quad_area(rest_positions_, corners));
+  ++n_base_faces_;
+}
+
 VertexId QuadMesh::append_mean(const VertexParents& parents) {
   const VertexId id(n_vertices());
+  const auto& p = parents.vertices;
   Vec3 position = Vec3::Zero();
   Eigen::Vector2d coordinates = Eigen::Vector2d::Zero();
   for (int k = 0; k < parents.count; ++k) {
-    position += rest_positions_.col(parents.vertices[k]);
-    coordinates += rest_coordinates_.col(parents.vertices[k]);
+    position += rest_positions_.col(p[k]);
+    coordinates += rest_coordinates_.col(p[k]);
   }
+  coordinates /= parents.count;
+  const auto middle = [&](int k, int j) {
+    return middle_coordinate(rest_positions_, rest_coordinates_, p[k], p[j]);
+  };
+  coordinates[1] = parents.count == 2 ? middle(0, 1) : (middle(0, 3) + middle(1, 2)) / 2;
   parents_.push_back(parents);
-  if (rest_positions_.cols() <= id) {  // grown geometrically here, trimmed by refine_uniformly
+  if (rest_positions_.cols() <= id) {  // grown geometrically here, trimmed when refining ends
     rest_positions_.conservativeResize(3, 2 * id.value + 1);
     rest_coordinates_.conservativeResize(2, 2 * id.value + 1);
   }
   rest_positions_.col(id) = position / parents.count;
-  rest_coordinates_.col(id) = coordinates / parents.count;
+  rest_coordinates_.col(id) = coordinates;
   return id;
 }
 
@@ -111,7 +145,52 @@ void QuadMesh::split(FaceId id) {
     child.diagonal_02 = k % 2 == 0;
     faces_[id].children[k] = FaceId(static_cast<std::int64_t>(faces_.size()));
     faces_.push_back(child);
+    if (edge_faces_) note_edges(faces_[id].children[k]);
   }
+}
+
+void QuadMesh::note_edges(FaceId id) {
+  const std::array<VertexId, 4>& c = faces_[id].corners;
+  for (int k = 0; k < 4; ++k) {
+    std::array<FaceId, 2>& sides = (*edge_faces_)[edge_key(c[k], c[(k + 1) % 4])];
+    (sides[0].valid() ? sides[1] : sides[0]) = id;
+  }
+}
+
+/// A child's corner k is its parent's: the edges there are halves of the parent's, and beyond those
+/// may lie a face as coarse as the parent.
+void QuadMesh::split_in_balance(FaceId id) {
+  if (const FaceId parent = faces_[id].parent; parent.valid()) {
+    const std::array<VertexId, 4> c = faces_[parent].corners;
+    for (int k = 0; k < 4; ++k) {
+      if (faces_[parent].children[k] != id) continue;
+      for (const int edge : {k, (k + 3) % 4}) {
+        const auto sides = edge_faces_->at(edge_key(c[edge], c[(edge + 1) % 4]));
+        const FaceId beyond = sides[0] == parent ? sides[1] : sides[0];
+        if (beyond.valid() && faces_[beyond].active()) split_in_balance(beyond);
+      }
+    }
+  }
+  split(id);
+}
+
+void QuadMesh::refine(std::span<const FaceId> faces) {
+  if (!edge_faces_) {
+    edge_faces_.emplace();
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      note_edges(FaceId(static_cast<std::int64_t>(f)));
+  }
+  for (const FaceId id : faces) {
+    PLEAT_CHECK(id >= 0 && id < static_cast<int>(faces_.size()) && faces_[id].level < kMaxLevel,
+                "faces below the finest level are refined");
+    if (faces_[id].active()) split_in_balance(id);
+  }
+  trim();
+}
+
+void QuadMesh::trim() {
+  rest_positions_.conservativeResize(3, n_vertices());
+  rest_coordinates_.conservativeResize(2, n_vertices());
 }
 
 void QuadMesh::refine_uniformly(int levels) {
@@ -122,8 +201,7 @@ void QuadMesh::refine_uniformly(int levels) {
       if (faces_[f].active()) split(FaceId(static_cast<std::int64_t>(f)));
     }
   }
-  rest_positions_.conservativeResize(3, n_vertices());
-  rest_coordinates_.conservativeResize(2, n_vertices());
+  trim();
 }
 
 std::vector<Triangle> QuadMesh::triangles() const {
@@ -135,7 +213,22 @@ std::vector<Triangle> QuadMesh::triangles() const {
 
 TriangleMesh QuadMesh::triangle_mesh() const {
   TriangleMesh mesh{rest_positions_, triangles(), {}};
-  mesh.warp_directions.assign(mesh.triangles.size(), warp_direction_);
+  if (warp_direction_) {
+    mesh.warp_directions.assign(mesh.triangles.size(), *warp_direction_);
+    return mesh;
+  }
+  for (const QuadFace& face : faces_) {
+    if (!face.active()) continue;
+    const auto corner = [&](int k) { return Vec3(rest_positions_.col(face.corners[k])); };
+    const Vec3 along = corner(1) - corner(0) + corner(2) - corner(3);
+    for (int half = 0; half < 2; ++half) {
+      const Triangle& t = mesh.triangles[mesh.warp_directions.size()];
+      const Vec3 normal = Vec3(rest_positions_.col(t[1]) - rest_positions_.col(t[0]))
+                              .cross(Vec3(rest_positions_.col(t[2]) - rest_positions_.col(t[0])))
+                              .normalized();
+      mesh.warp_directions.push_back((along - normal.dot(along) * normal).normalized());
+    }
+  }
   return mesh;
 }
 
@@ -149,13 +242,40 @@ std::vector<Triangle> QuadMesh::crossed_triangles() const {
   return result;
 }
 
-Eigen::VectorXd QuadMesh::vertex_areas() const {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(n_vertices());
+VertexId QuadMesh::middle(VertexId a, VertexId b) const {
+  const auto place = midpoints_.find(edge_key(a, b));
+  return place == midpoints_.end() ? VertexId() : place->second;
+}
+
+std::vector<HangingVertex> QuadMesh::hanging_vertices() const {
+  std::vector<HangingVertex> hanging;
   for (const QuadFace& face : faces_) {
     if (!face.active()) continue;
-    const auto corner = [&](int k) { return Vec3(rest_positions_.col(face.corners[k])); };
-    const double area = 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm();
-    for (const VertexId v : face.corners) areas[v] += area / 4;
+    for (int k = 0; k < 4; ++k) {
+      const VertexId a = face.corners[k];
+      const VertexId b = face.corners[(k + 1) % 4];
+      if (const VertexId m = middle(a, b); m.valid()) hanging.push_back({m, {a, b}});
+    }
+  }
+  return hanging;
+}
+
+double QuadMesh::area(FaceId face) const {
+  FaceId root = face;
+  while (faces_[root].parent.valid()) root = faces_[root].parent;
+  return std::ldexp(base_areas_[root], -2 * faces_[face].level);
+}
+
+Eigen::VectorXd QuadMesh::vertex_areas() const {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(n_vertices());
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (!faces_[f].active()) continue;
+    const double quarter = area(FaceId(static_cast<std::int64_t>(f))) / 4;
+    for (const VertexId v : faces_[f].corners) areas[v] += quarter;
+  }
+  for (const HangingVertex& hanging : hanging_vertices()) {
+    for (const VertexId parent : hanging.parents) areas[parent] += areas[hanging.vertex] / 2;
+    areas[hanging.vertex] = 0;
   }
   return areas;
 }
