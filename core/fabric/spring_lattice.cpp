@@ -2,51 +2,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <unordered_map>
 
 #include "core/base/check.h"
+#include "core/mesh/mesh_lines.h"
 
 namespace pleat {
 namespace {
-
-/// An edge of the mesh along one thread direction, gathered from the one or two faces beside it.
-struct ThreadEdge {
-  VertexId from, to;     // in the direction of growing u or v
-  double length = 0;     // at rest [m]
-  double width = 0;      // half of the adjacent cells' widths summed [m]
-  double stiffness = 0;  // [N/m]
-};
-
-/// All edges along one thread direction, and the mesh lines that they form.
-class ThreadEdges {
- public:
-  explicit ThreadEdges(int n_vertices) : edge_after_(static_cast<std::size_t>(n_vertices), kNone) {}
-
-  void add(VertexId from, VertexId to, double length, double half_width, double stiffness) {
-    int& index = edge_after_[from];
-    if (index == kNone) {
-      index = static_cast<int>(edges_.size());
-      edges_.push_back({from, to, length, 0, 0});
-    }
-    PLEAT_CHECK(edges_[index].to == to,
-                "one mesh line runs through a vertex in each thread direction");
-    edges_[index].width += half_width;
-    edges_[index].stiffness += stiffness;
-  }
-
-  const std::vector<ThreadEdge>& edges() const { return edges_; }
-
-  /// The edge that continues a line, or null at its end.
-  const ThreadEdge* next(const ThreadEdge& edge) const {
-    const int index = edge_after_[edge.to];
-    return index == kNone ? nullptr : &edges_[index];
-  }
-
- private:
-  static constexpr int kNone = -1;
-  std::vector<ThreadEdge> edges_;
-  std::vector<int> edge_after_;  // by vertex: the edge that begins there
-};
 
 void check_edge_stiffness(double stiffness, double aspect, const FabricConstants& fabric,
                           const char* thread) {
@@ -60,79 +21,81 @@ void check_edge_stiffness(double stiffness, double aspect, const FabricConstants
   throw InputError("/fabric", sentence);
 }
 
-void append_springs(const ThreadEdges& lines, SpringKind kind, double tau,
-                    std::vector<Spring>& springs) {
-  for (const ThreadEdge& edge : lines.edges())
-    springs.push_back(
-        {edge.from, edge.to, edge.stiffness, edge.length, tau * edge.stiffness, kind});
+/// kappa = 2/(L1+L2) [(x2 - x1)/L2 - (x1 - x0)/L1], E = 1/2 B w (L1+L2)/2 |kappa|^2.
+BendElement quadratic_bend(const LineChord& chord, double rigidity) {
+  const double sum = chord.arm_before + chord.arm_after;
+  const double w0 = 2 / (sum * chord.arm_before);
+  const double w2 = 2 / (sum * chord.arm_after);
+  return {{chord.before, chord.middle, chord.after},
+          {w0, -(w0 + w2), w2},
+          rigidity * chord.width * 0.5 * sum};
 }
 
-/// kappa = 2/(L1+L2) [(x2 - x1)/L2 - (x1 - x0)/L1], E = 1/2 B w (L1+L2)/2 |kappa|^2 with w the mean
-/// width of both arms.
-BendElement quadratic_bend(const ThreadEdge& before, const ThreadEdge& after, double rigidity) {
-  const double sum = before.length + after.length;
-  const double w0 = 2 / (sum * before.length);
-  const double w2 = 2 / (sum * after.length);
-  const double width = 0.5 * (before.width + after.width);
-  return {{before.from, before.to, after.to}, {w0, -(w0 + w2), w2}, rigidity * width * 0.5 * sum};
-}
-
-void append_bends(const ThreadEdges& lines, double rigidity, BendingLaw law,
-                  SpringLattice& lattice) {
-  if (rigidity == 0 || law == BendingLaw::none) return;
-  for (const ThreadEdge& before : lines.edges()) {
-    const ThreadEdge* after = lines.next(before);
-    if (after == nullptr) continue;
+void append_bends(const QuadMesh& mesh, const ThreadEdges& edges, const FabricConstants& fabric,
+                  BendingLaw law, SpringLattice& lattice) {
+  const auto rigidity = [&](Thread thread) {
+    return thread == Thread::warp ? fabric.bend_warp : fabric.bend_weft;
+  };
+  for (const LineChord& chord : line_chords(mesh, edges)) {
+    // Where a line turns from one thread into the other it bends like both.
+    const double B = (rigidity(chord.thread_before) + rigidity(chord.thread_after)) / 2;
+    if (B == 0) continue;
     if (law == BendingLaw::quadratic) {
-      lattice.bends.push_back(quadratic_bend(before, *after, rigidity));
+      lattice.bends.push_back(quadratic_bend(chord, B));
       continue;
     }
-    const double arm = 0.5 * (before.length + after->length);
-    const double width = 0.5 * (before.width + after->width);
+    const double arm = 0.5 * (chord.arm_before + chord.arm_after);
     lattice.chord_bends.push_back(
-        chord_bend(before.from, after->to, arm, rigidity * width,
+        chord_bend(chord.before, chord.after, arm, B * chord.width,
                    law == BendingLaw::arc ? ChordLaw::arc : ChordLaw::linear));
   }
 }
 
 }  // namespace
 
-SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric, BendingLaw law) {
-  const Positions& x = mesh.rest_positions();
-  const auto distance = [&](VertexId a, VertexId b) { return (x.col(a) - x.col(b)).norm(); };
+SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric, BendingLaw law,
+                             double stiffness_exponent) {
+  const ThreadEdges edges = thread_edges(mesh);
   const double tau = 2 * fabric.damping_ratio / kReferenceFrequency;  // [s]
-
-  SpringLattice lattice;
-  ThreadEdges warp(mesh.n_vertices());
-  ThreadEdges weft(mesh.n_vertices());
+  const auto distance = [&](VertexId a, VertexId b) {
+    return (mesh.rest_positions().col(a) - mesh.rest_positions().col(b)).norm();
+  };
+  const auto spring = [&](VertexId a, VertexId b, double k, double length, SpringKind kind) {
+    return Spring{a, b, k, length, tau * k, kind};
+  };
+  std::vector<double> stiffness(edges.edges.size(), 0);
   std::vector<Spring> diagonals;
+  auto face_edges = edges.of_faces.begin();
   for (const QuadFace& face : mesh.faces()) {
     if (!face.active()) continue;
-    const auto& c = face.corners;
+    const std::array<int, 4>& e = *face_edges++;
     // A cell that is not a rectangle is taken for the one with its mean edge lengths.
-    const double a = 0.5 * (distance(c[0], c[1]) + distance(c[3], c[2]));
-    const double b = 0.5 * (distance(c[0], c[3]) + distance(c[1], c[2]));
+    const double a = 0.5 * (edges.edges[e[0]].length + edges.edges[e[1]].length);
+    const double b = 0.5 * (edges.edges[e[2]].length + edges.edges[e[3]].length);
     const double warp_modulus = fabric.stretch_warp - fabric.shear * a * a / (b * b);  // [N/m]
     const double weft_modulus = fabric.stretch_weft - fabric.shear * b * b / (a * a);
     check_edge_stiffness(warp_modulus, a / b, fabric, "warp");
     check_edge_stiffness(weft_modulus, b / a, fabric, "weft");
-    const double k_warp = warp_modulus * (b / 2) / a;  // this cell's share of one edge [N/m]
-    const double k_weft = weft_modulus * (a / 2) / b;
-    warp.add(c[0], c[1], distance(c[0], c[1]), b / 2, k_warp);
-    warp.add(c[3], c[2], distance(c[3], c[2]), b / 2, k_warp);
-    weft.add(c[0], c[3], distance(c[0], c[3]), a / 2, k_weft);
-    weft.add(c[1], c[2], distance(c[1], c[2]), a / 2, k_weft);
-    const double k_shear = fabric.shear * (a * a + b * b) / (2 * a * b);
-    if (k_shear > 0) {
-      for (const auto& [p, q] : {std::pair(c[0], c[2]), std::pair(c[1], c[3])})
-        diagonals.push_back({p, q, k_shear, distance(p, q), tau * k_shear, SpringKind::shear});
-    }
+    const double scale = std::exp2(stiffness_exponent * face.level);
+    const double k_warp = scale * warp_modulus * (b / 2) / a;  // this cell's share of an edge [N/m]
+    const double k_weft = scale * weft_modulus * (a / 2) / b;
+    for (const int k : {0, 1}) stiffness[e[k]] += k_warp;
+    for (const int k : {2, 3}) stiffness[e[k]] += k_weft;
+    const double k_shear = scale * fabric.shear * (a * a + b * b) / (2 * a * b);
+    if (k_shear == 0) continue;
+    const auto& c = face.corners;
+    diagonals.push_back(spring(c[0], c[2], k_shear, distance(c[0], c[2]), SpringKind::shear));
+    diagonals.push_back(spring(c[1], c[3], k_shear, distance(c[1], c[3]), SpringKind::shear));
   }
-  append_springs(warp, SpringKind::warp, tau, lattice.springs);
-  append_springs(weft, SpringKind::weft, tau, lattice.springs);
+  SpringLattice lattice;
+  for (std::size_t i = 0; i < edges.edges.size(); ++i) {
+    const ThreadEdge& edge = edges.edges[i];
+    lattice.springs.push_back(
+        spring(edge.from, edge.to, stiffness[i], edge.length,
+               edge.thread == Thread::warp ? SpringKind::warp : SpringKind::weft));
+  }
   lattice.springs.insert(lattice.springs.end(), diagonals.begin(), diagonals.end());
-  append_bends(warp, fabric.bend_warp, law, lattice);
-  append_bends(weft, fabric.bend_weft, law, lattice);
+  if (law != BendingLaw::none) append_bends(mesh, edges, fabric, law, lattice);
   lattice.masses = fabric.areal_density * mesh.vertex_areas();
   return lattice;
 }

@@ -43,7 +43,7 @@ struct SpringLattice {
   std::vector<Spring> springs;         ///< warp, then weft, then shear
   std::vector<BendElement> bends;      ///< for the quadratic law
   std::vector<ChordBend> chord_bends;  ///< for the other laws
-  Eigen::VectorXd masses;              ///< a quarter of each face per corner [kg]
+  Eigen::VectorXd masses;  ///< a quarter of each face per corner, none where one hangs [kg]
 };
 
 /// Angular frequency at which a fabric's damping ratio holds: a visible swing of 5 Hz [rad/s].
@@ -53,11 +53,15 @@ constexpr double kReferenceFrequency = 31.41592653589793;
 /// weft lines, with constants such that the sheet's stiffness does not depend on the mesh: diagonal
 /// k = G (a^2 + b^2) / (2 a b); warp edge k = (K_u - G a^2/b^2) b'/a; weft edge k = (K_v - G
 /// b^2/a^2) a'/b with cell a (warp) x b (weft) and b', a' half of the adjacent cells' widths
-/// summed. Damping c = tau k with tau = 2 zeta / kReferenceFrequency.
+/// summed. Damping c = tau k with tau = 2 zeta / kReferenceFrequency. Each face brings its own
+/// share, so that on a graded mesh too an affine stretch is stretched everywhere alike.
+///
+/// stiffness_exponent  alpha in [0, 1]: springs of faces of level l are 2^(alpha l) times as stiff.
+///                     0 for a sheet that is the same on every mesh.
 ///
 /// Throws InputError naming the fabric when a cell's aspect would make an edge constant negative.
 /// Source: docs/methods/springs.md (derivation).
 SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric,
-                             BendingLaw law = BendingLaw::quadratic);
+                             BendingLaw law = BendingLaw::quadratic, double stiffness_exponent = 0);
 
 }  // namespace pleat

@@ -1,40 +1,20 @@
 #include "core/scene/gauge.h"
 
+#include "core/mesh/mesh_lines.h"
+
 namespace pleat {
 namespace {
 
-/// The two opposite edges of a face along one thread direction, as places among its corners.
-using OppositeEdges = std::array<std::array<int, 2>, 2>;
-
-constexpr OppositeEdges kAlongWarp{{{0, 1}, {3, 2}}};
-constexpr OppositeEdges kAlongWeft{{{0, 3}, {1, 2}}};
-
 double distance(const Positions& positions, VertexId a, VertexId b) {
   return (positions.col(a) - positions.col(b)).norm();
-}
-
-/// Each edge once: in each thread direction one at most begins at a vertex.
-void append_edges(const QuadMesh& mesh, const OppositeEdges& opposite,
-                  std::vector<GaugeEdge>& edges) {
-  std::vector<bool> begins_edge(static_cast<std::size_t>(mesh.n_vertices()), false);
-  for (const QuadFace& face : mesh.faces()) {
-    if (!face.active()) continue;
-    for (const auto& [begin, end] : opposite) {
-      const VertexId a = face.corners[begin];
-      const VertexId b = face.corners[end];
-      if (begins_edge[a]) continue;
-      begins_edge[a] = true;
-      edges.push_back({a, b, distance(mesh.rest_positions(), a, b)});
-    }
-  }
 }
 
 }  // namespace
 
 std::vector<GaugeEdge> gauge_edges(const QuadMesh& mesh) {
   std::vector<GaugeEdge> edges;
-  append_edges(mesh, kAlongWarp, edges);
-  append_edges(mesh, kAlongWeft, edges);
+  for (const ThreadEdge& edge : thread_edges(mesh).edges)
+    edges.push_back({edge.from, edge.to, edge.length});
   return edges;
 }
 
