@@ -67,6 +67,7 @@ class JsonReader {
   bool boolean() const;
   const std::string& text() const;
   bool is_text() const { return json_->is_string(); }
+  bool is_array() const { return json_->is_array(); }
   bool is_null() const { return json_->is_null(); }
   Vec3 vec3() const;
   /// Of length one, whatever length is given (not zero).

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/figure/body_motion.h"
+
+namespace pleat {
+
+/// Reads one of assets/motions. A channel is an array of keys, as long as every other one, or a
+/// number for what stays. Throws InputError with the JSON pointer for a channel that is missing,
+/// fewer than four keys, an angle beyond half a turn and anything else not as asked for.
+BodyMotion read_motion(std::string_view json_text);
+
+}  // namespace pleat
