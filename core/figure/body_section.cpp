@@ -88,6 +88,22 @@ double distance(const RoundedCone& cone, const Vec3& point) {
 
 }  // namespace
 
+std::vector<Vec3> evenly_spaced(std::span<const Vec3> line, int n_points) {
+  std::vector<double> way = {0};
+  for (std::size_t i = 1; i < line.size(); ++i)
+    way.push_back(way.back() + (line[i] - line[i - 1]).norm());
+  std::vector<Vec3> points;
+  std::size_t piece = 1;
+  for (int k = 0; k < n_points; ++k) {
+    const double at = way.back() * k / n_points;
+    while (piece + 1 < line.size() && way[piece] < at) ++piece;
+    const double length = way[piece] - way[piece - 1];
+    const double share = length > 0 ? (at - way[piece - 1]) / length : 0;
+    points.emplace_back(line[piece - 1] + share * (line[piece] - line[piece - 1]));
+  }
+  return points;
+}
+
 Outline outline(std::span<const BodyPart> parts, double height, int n_directions) {
   Outline result = Outline::Constant(n_directions, -kInfinity);
   for (int k = 0; k < n_directions; ++k) {
@@ -102,6 +118,25 @@ Outline outline(std::span<const BodyPart> parts, double height, int n_directions
 
 // A convex curve is as long as its mean reach times 2 pi (Cauchy).
 double girth(const Outline& outline) { return kTwoPi * outline.mean(); }
+
+// Tangents at neighbouring directions, an angle d apart, meet at (h' - h cos d) / sin d from where
+// the first one's direction leaves the axis; h, h' are their reaches. The polygon of these points
+// lies around the curve, by at most d^2 / 8 of its radius of curvature.
+std::vector<Vec3> ring(const Outline& outline, double offset, double height, int n_points) {
+  const auto n = outline.size();
+  const double turn = kTwoPi / static_cast<double>(n);
+  std::vector<Vec3> corners = {{outline[0] + offset, height, 0}};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double a = turn * static_cast<double>(k);
+    const double reach = outline[k] + offset;
+    const double next = outline[(k + 1) % n] + offset;
+    const double along = (next - reach * std::cos(turn)) / std::sin(turn);
+    corners.emplace_back(reach * std::cos(a) - along * std::sin(a), height,
+                         -reach * std::sin(a) - along * std::cos(a));
+  }
+  corners.push_back(corners.front());
+  return evenly_spaced(corners, n_points);
+}
 
 double clearance(std::span<const BodyPart> parts, const Vec3& point) {
   double least = kInfinity;

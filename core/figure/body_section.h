@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/figure/mannequin.h"
 
@@ -18,6 +19,13 @@ Outline outline(std::span<const BodyPart> parts, double height, int n_directions
 
 /// What a tape around it measures [m].
 double girth(const Outline& outline);
+
+/// The first point of a line and those at whole multiples of one n-th of its length.
+std::vector<Vec3> evenly_spaced(std::span<const Vec3> line, int n_points);
+
+/// Points at equal distances along the curve `offset` [m] outside of an outline, at a height [m]:
+/// the first in the middle of the front, then round by the left side.
+std::vector<Vec3> ring(const Outline& outline, double offset, double height, int n_points);
 
 /// Distance of a point from the nearest part [m], negative inside.
 double clearance(std::span<const BodyPart> parts, const Vec3& point);

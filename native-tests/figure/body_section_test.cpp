@@ -58,4 +58,18 @@ TEST_CASE("body section: clearance is the distance from a widened cone", "[figur
   CHECK(clearance(cone, {0, 0.5, 0}) == Approx(-0.2).margin(0.01));
 }
 
+TEST_CASE("body section: a ring's points lie at equal distances on the offset curve", "[figure]") {
+  const Parts ball = only({{0.1, 1, 0}, {0.1, 1, 0}, 0.5, 0.5, {0, 0, 1}, 0, 0});
+  const int n = 12;
+  const std::vector<Vec3> points = ring(outline(ball, 1, 3600), 0.02, 1.3, n);
+  REQUIRE(points.size() == n);
+  CHECK((points[0] - Vec3(0.62, 1.3, 0)).norm() < 1e-6);
+  CHECK((points[3] - Vec3(0.1, 1.3, -0.52)).norm() < 1e-3);  // the left comes next
+  for (std::size_t i = 0; i < n; ++i) {
+    CHECK((points[i] - Vec3(0.1, 1.3, 0)).norm() == Approx(0.52).epsilon(1e-6));
+    CHECK((points[i] - points[(i + 1) % n]).norm() ==
+          Approx(2 * 0.52 * std::sin(kPi / n)).epsilon(1e-5));
+  }
+}
+
 }  // namespace pleat

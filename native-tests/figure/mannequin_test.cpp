@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/figure/body_section.h"
+#include "core/scene/motion_file.h"
+#include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {
@@ -23,6 +25,22 @@ Parts parts_named(BodyBuild build, const std::string& ending) {
 }
 
 double girth_at(const Parts& parts, double height) { return girth(outline(parts, height, 720)); }
+
+/// Distance between two moving solids [m], sampled along the first one's axis and width.
+double gap(const BodyPart& a, const BodyPart& b, const MovingBody& body, double time) {
+  const Pose to_b = body.pose(b.bone, time).inverse() * body.pose(a.bone, time);
+  const RoundedCone& cone = a.shape;
+  double least = 1;
+  for (const double t : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0})
+    for (const double s : {-1.0, 0.0, 1.0}) {
+      const double half_width = cone.half_width_a + t * (cone.half_width_b - cone.half_width_a);
+      const Vec3 centre =
+          cone.centre_a + t * (cone.centre_b - cone.centre_a) + s * half_width * cone.across;
+      const double radius = cone.radius_a + t * (cone.radius_b - cone.radius_a);
+      least = std::min(least, clearance({&b, 1}, to_b * centre) - radius);
+    }
+  return least;
+}
 
 /// A tape's reading around the trunk, arms lifted, and what was measured on people.
 struct TapeReading {
@@ -123,6 +141,19 @@ TEST_CASE("mannequin: solids that share a joint overlap however it bends", "[fig
     // The joint is nearer to the one than it is deep in the other; neither changes in a turn.
     CHECK(clearance(of_bone, standing_joint(bone)) + clearance(others, standing_joint(bone)) < 0);
   }
+}
+
+TEST_CASE("mannequin: in no motion does one leg run into the other", "[figure]") {
+  const std::string name = GENERATE("walk_normal", "walk_fast", "squat", "turn");
+  CAPTURE(name);
+  const MovingBody body(read_motion(repository_file("assets/motions/" + name + ".json")), {});
+  double least = 1;
+  for (const BodyPart& right : mannequin(BodyBuild::average))
+    for (const BodyPart& left : mannequin(BodyBuild::average))
+      if ((right.bone == Bone::thigh_right || right.bone == Bone::shank_right) &&
+          (left.bone == Bone::thigh_left || left.bone == Bone::shank_left))
+        for (int i = 0; i < 100; ++i) least = std::min(least, gap(right, left, body, i / 40.0));
+  CHECK(least > 0.005);
 }
 
 }  // namespace pleat
