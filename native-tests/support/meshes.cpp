@@ -92,6 +92,14 @@ QuadMesh square_sheet(int cells) {
   return QuadMesh::sheet(shape);
 }
 
+QuadMesh lying_sheet(int cells) {
+  SheetShape shape;
+  shape.rows = shape.columns = cells;
+  shape.warp_direction = {1, 0, 0};
+  shape.weft_direction = {0, 1, 0};
+  return QuadMesh::sheet(shape);
+}
+
 QuadMesh sheet_with_aspect(int rows, int columns, double aspect) {
   SheetShape shape;
   shape.rows = rows;
