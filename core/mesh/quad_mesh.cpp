@@ -1,5 +1,6 @@
 #include "core/mesh/quad_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/check.h"
@@ -159,7 +160,8 @@ void QuadMesh::note_edges(FaceId id) {
 
 /// A child's corner k is its parent's: the edges there are halves of the parent's, and beyond those
 /// may lie a face as coarse as the parent.
-void QuadMesh::split_in_balance(FaceId id) {
+void QuadMesh::gather_splits(FaceId id, std::vector<FaceId>& splits) const {
+  if (std::find(splits.begin(), splits.end(), id) != splits.end()) return;
   if (const FaceId parent = faces_[id].parent; parent.valid()) {
     const std::array<VertexId, 4> c = faces_[parent].corners;
     for (int k = 0; k < 4; ++k) {
@@ -167,23 +169,32 @@ void QuadMesh::split_in_balance(FaceId id) {
       for (const int edge : {k, (k + 3) % 4}) {
         const auto sides = edge_faces_->at(edge_key(c[edge], c[(edge + 1) % 4]));
         const FaceId beyond = sides[0] == parent ? sides[1] : sides[0];
-        if (beyond.valid() && faces_[beyond].active()) split_in_balance(beyond);
+        if (beyond.valid() && faces_[beyond].active()) gather_splits(beyond, splits);
       }
     }
   }
-  split(id);
+  splits.push_back(id);
 }
 
-void QuadMesh::refine(std::span<const FaceId> faces) {
+std::vector<FaceId> QuadMesh::balanced_splits(FaceId face) {
+  PLEAT_CHECK(face >= 0 && face < static_cast<int>(faces_.size()) && faces_[face].active(),
+              "an active face is split");
   if (!edge_faces_) {
     edge_faces_.emplace();
     for (std::size_t f = 0; f < faces_.size(); ++f)
       note_edges(FaceId(static_cast<std::int64_t>(f)));
   }
+  std::vector<FaceId> splits;
+  gather_splits(face, splits);
+  return splits;
+}
+
+void QuadMesh::refine(std::span<const FaceId> faces) {
   for (const FaceId id : faces) {
     PLEAT_CHECK(id >= 0 && id < static_cast<int>(faces_.size()) && faces_[id].level < kMaxLevel,
                 "faces below the finest level are refined");
-    if (faces_[id].active()) split_in_balance(id);
+    if (!faces_[id].active()) continue;
+    for (const FaceId face : balanced_splits(id)) split(face);
   }
   trim();
 }

@@ -80,6 +80,9 @@ class QuadMesh {
   /// by two levels. A face that is split already stays as it is.
   void refine(std::span<const FaceId> faces);
 
+  /// The faces that refining an active one would split, in that order: it is the last.
+  std::vector<FaceId> balanced_splits(FaceId face);
+
   int n_vertices() const { return static_cast<int>(parents_.size()); }
   std::span<const QuadFace> faces() const { return faces_; }
   const Positions& rest_positions() const { return rest_positions_; }
@@ -116,8 +119,8 @@ class QuadMesh {
   using EdgeFaces = std::unordered_map<std::uint64_t, std::array<FaceId, 2>>;
 
   void add_base_face(const std::array<VertexId, 4>& corners, bool diagonal_02);
-  void note_edges(FaceId face);
-  void split_in_balance(FaceId id);
+  void note_edges(FaceId id);
+  void gather_splits(FaceId id, std::vector<FaceId>& splits) const;
   void split(FaceId id);
   VertexId midpoint(VertexId a, VertexId b);
   VertexId append_mean(const VertexParents& parents);

@@ -93,6 +93,27 @@ TEST_CASE("graded mesh: at an edge faces differ by one level at most", "[mesh]")
   }
 }
 
+TEST_CASE("graded mesh: the splits that balance asks for are known in advance", "[mesh]") {
+  const int seed = GENERATE(7, 8, 9);
+  QuadMesh mesh = randomly_refined(static_cast<std::uint64_t>(seed), 30);
+  std::size_t most = 0;
+  for (int f = 0; f < static_cast<int>(mesh.faces().size()); ++f) {
+    const FaceId face(f);
+    if (!mesh.faces()[face].active() || mesh.faces()[face].level == 5) continue;
+    const std::vector<FaceId> expected = mesh.balanced_splits(face);
+    QuadMesh refined = mesh;
+    refined.refine(std::array{face});
+    std::vector<FaceId> splits;
+    for (std::size_t child = mesh.faces().size(); child < refined.faces().size(); child += 4)
+      splits.push_back(refined.faces()[child].parent);
+    CHECK(splits == expected);
+    CHECK(splits.back() == face);
+    most = std::max(most, splits.size());
+  }
+  CHECK(most > 2);
+  CHECK_THROWS_AS(mesh.balanced_splits(FaceId(100000)), ContractError);
+}
+
 TEST_CASE("graded mesh: a hanging vertex lies in the middle of parents that do not hang",
           "[mesh]") {
   const QuadMesh mesh = randomly_refined(5, 60);

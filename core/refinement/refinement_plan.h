@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/mesh/quad_mesh.h"
+#include "core/refinement/bend_patterns.h"
+
+namespace pleat {
+
+/// A motion of the fine mesh, analysed.
+struct BendExample {
+  std::string name;
+  BendFeatures features;  ///< of the fine mesh's vertices [1/m]
+  BendPatterns patterns;
+};
+
+struct PlanOptions {
+  /// A face is split where the demands of its corners sum to more: lower, more vertices. From 0 to
+  /// below 4 (number of patterns - 1).
+  double demand = 3;
+  /// Instead of the demand: as many vertices as possible up to this number.
+  std::optional<int> max_vertices;
+  std::optional<int> level_cap;  ///< finest level; else that of the fine mesh, which is the most
+};
+
+/// What a plan keeps of an example.
+struct PlanExample {
+  std::string name;
+  BendFeatures centres;        ///< a column for each pattern [1/m]
+  Eigen::Vector2d low{0, 0};   ///< what was 0 when clustering [1/m]
+  Eigen::Vector2d high{1, 1};  ///< what was 1 [1/m]
+};
+
+/// One line of a plan's story.
+struct PlannedSplit {
+  FaceId face;
+  double demand = 0;         ///< of its corners, summed, when it was split
+  bool for_balance = false;  ///< only because a neighbour needed it
+};
+
+/// Where a base mesh is fine, built once from examples and used for every motion of their kind.
+struct RefinementPlan {
+  std::vector<PlanExample> examples;
+  int n_patterns = 3;
+  std::vector<int> patterns;         ///< of each base vertex, from 0, the calmest
+  PlanOptions options;               ///< with the level cap
+  std::vector<PlannedSplit> splits;  ///< in the order in which they make the mesh
+  int n_vertices = 0;                ///< of the mesh
+  std::uint64_t base_mesh = 0;       ///< its fingerprint
+  /// Of each pattern the mean curvature of a face's corners that the examples hardly exceeded,
+  /// ExampleEnvelope::limits [1/m]; empty while these were not measured.
+  std::vector<double> curvature_limits;
+};
+
+/// Plans where to split. A base vertex has the highest pattern that an example gives it.
+///
+/// By demand: demands begin as patterns. In each pass every face is split whose corners sum to
+/// more than options.demand; a vertex that was there then demands one less, at least 0, and a new
+/// one the mean of its parents. By number: one face after another with what balance needs, first
+/// the one with the largest sum of max(demand - level, 0), demands staying as they begin, then with
+/// the largest mean curvature of the example, then the first; faces that would exceed the number
+/// are left out.
+///
+/// base      not refined
+/// fine      base refined uniformly
+/// examples  at least one, all with as many patterns
+/// Throws InputError naming the demand, vertex budget or level cap that is out of range.
+/// Source: the multi-resolution quad cloth listed as M in docs/reproduction.md;
+/// docs/methods/multiresolution.md.
+RefinementPlan refinement_plan(const QuadMesh& base, const QuadMesh& fine,
+                               std::span<const BendExample> examples,
+                               const PlanOptions& options = {});
+
+/// The mesh of a plan. Throws InputError for a plan of another mesh, and at /splits for one whose
+/// splits do not make a mesh of its own number of vertices.
+QuadMesh planned_mesh(const QuadMesh& base, const RefinementPlan& plan);
+
+}  // namespace pleat
