@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/refinement/mesh_match.h"
+#include "core/refinement/refinement_plan.h"
+#include "core/refinement/vertex_curvature.h"
+
+namespace pleat {
+
+/// The curvature of each active face of a plan's mesh [1/m], in their order: the mean of its
+/// corners'.
+class FaceCurvature {
+ public:
+  explicit FaceCurvature(const QuadMesh& mesh);
+
+  Eigen::VectorXd of(const Eigen::Ref<const Positions>& positions) const;
+  Eigen::Index n_faces() const { return static_cast<Eigen::Index>(corners_.size()); }
+
+ private:
+  VertexCurvature vertices_;
+  std::vector<std::array<VertexId, 4>> corners_;
+};
+
+/// The pattern of each active face of a plan's mesh, in their order: the base vertices' patterns
+/// are continued to all vertices as means, and the largest of a face's corners, rounded, counts.
+std::vector<int> face_patterns(const QuadMesh& mesh, const RefinementPlan& plan);
+
+/// What the examples show at a plan's own spacing.
+class ExampleEnvelope {
+ public:
+  /// mesh  of the plan
+  /// fine  the mesh of the examples
+  ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine, const RefinementPlan& plan);
+
+  /// A frame of an example: the fine mesh's positions [m].
+  void add(const Eigen::Ref<const Positions>& fine_positions);
+
+  /// Of each pattern the curvature that 99.9 % of its faces and frames do not exceed [1/m]; 0 for a
+  /// pattern without faces. Throws ContractError when there was no frame.
+  std::vector<double> limits() const;
+
+ private:
+  MeshSample sample_;
+  FaceCurvature curvature_;
+  std::vector<int> patterns_;
+  std::vector<std::vector<double>> seen_;  // by pattern [1/m]
+};
+
+/// How a running motion fits a plan's examples.
+struct FitReport {
+  double share = 0;        ///< of the active faces that bend beyond their pattern's limit
+  double worst_share = 0;  ///< the largest so far
+  int n_in_a_row = 0;      ///< frames, up to this one, with too large a share
+  bool fires = false;      ///< that is too many frames
+  int n_frames = 0;
+  std::optional<int> first_fired;  ///< frame, counted from 0
+};
+
+/// Says when a motion is no longer of the examples' kind.
+class FitMonitor {
+ public:
+  static constexpr double kLargestShare = 0.05;  ///< of the active faces
+  static constexpr int kFrames = 10;             ///< in a row beyond that fire
+
+  /// Throws ContractError for a mesh that is not the plan's, InputError at /curvature_limits_per_m
+  /// for a plan without limits.
+  FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan);
+
+  /// The next frame: positions on the plan's mesh [m].
+  FitReport look(const Eigen::Ref<const Positions>& positions);
+
+ private:
+  FaceCurvature curvature_;
+  Eigen::VectorXd limits_;  // of each active face [1/m]
+  FitReport report_;
+};
+
+}  // namespace pleat

@@ -1,0 +1,135 @@
+#include "core/refinement/fit_monitor.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/base/check.h"
+#include "native-tests/support/bent_sheets.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kCells = 16;
+constexpr int kFrames = 60;
+
+/// A fold that travels to and fro between 0.15 m and 0.45 m.
+double place_at(int frame, double phase) {
+  return 0.3 - 0.15 * std::cos(2 * M_PI * frame / kFrames + phase);
+}
+
+struct FoldPlan {
+  QuadMesh fine;
+  RefinementPlan plan;
+  QuadMesh mesh;
+};
+
+FoldPlan fold_plan() {
+  const QuadMesh base = lying_sheet(kCells);
+  QuadMesh fine = base;
+  fine.refine_uniformly(2);
+  BendFeatureSum sum(fine);
+  for (int frame = 0; frame < kFrames; ++frame) sum.add(folded(fine, place_at(frame, 0), 1));
+  const BendExample example{"fold", sum.features(), bend_patterns(sum.features())};
+  RefinementPlan plan = refinement_plan(base, fine, {&example, 1});
+  const QuadMesh mesh = planned_mesh(base, plan);
+  ExampleEnvelope envelope(mesh, fine, plan);
+  for (int frame = 0; frame < kFrames; ++frame) envelope.add(folded(fine, place_at(frame, 0), 1));
+  plan.curvature_limits = envelope.limits();
+  return {fine, plan, mesh};
+}
+
+FitReport after_motion(const FoldPlan& fold, double amplitude, double offset) {
+  FitMonitor monitor(fold.mesh, fold.plan);
+  const MeshSample sample(fold.mesh, fold.fine);
+  FitReport report;
+  for (int frame = 0; frame < kFrames; ++frame)
+    report = monitor.look(sample.of(folded(fold.fine, offset + place_at(frame, 0.31), amplitude)));
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("fit monitor: of the example itself hardly a face is outside", "[refinement]") {
+  const FoldPlan fold = fold_plan();
+  CHECK(fold.plan.n_vertices < 0.7 * fold.fine.n_vertices());
+  const MeshSample sample(fold.mesh, fold.fine);
+  const FaceCurvature curvature(fold.mesh);
+  const std::vector<int> patterns = face_patterns(fold.mesh, fold.plan);
+  std::array<int, 3> n_faces{};
+  std::array<int, 3> n_outside{};
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const Eigen::VectorXd bends = curvature.of(sample.of(folded(fold.fine, place_at(frame, 0), 1)));
+    for (std::size_t f = 0; f < patterns.size(); ++f) {
+      const auto p = static_cast<std::size_t>(patterns[f]);
+      ++n_faces[p];
+      n_outside[p] += int{bends[static_cast<Eigen::Index>(f)] > fold.plan.curvature_limits[p]};
+    }
+  }
+  for (std::size_t p = 0; p < 3; ++p) {
+    REQUIRE(n_faces[p] > 0);
+    CHECK(n_outside[p] <= 0.001 * n_faces[p]);
+  }
+  CHECK(fold.plan.curvature_limits[0] < fold.plan.curvature_limits[2]);
+  const FitReport report = after_motion(fold, 1, 0);
+  CHECK(report.worst_share < 0.05);
+  CHECK(!report.first_fired);
+  CHECK(report.n_frames == kFrames);
+}
+
+TEST_CASE("fit monitor: a smaller fold fits, a larger one or one elsewhere fires", "[refinement]") {
+  const FoldPlan fold = fold_plan();
+  CHECK(!after_motion(fold, 0.8, 0).first_fired);
+  for (const FitReport& report : {after_motion(fold, 1.6, 0), after_motion(fold, 1, 0.4)}) {
+    CHECK(report.fires);
+    REQUIRE(report.first_fired);
+    CHECK(*report.first_fired == FitMonitor::kFrames - 1);
+    CHECK(report.worst_share > FitMonitor::kLargestShare);
+  }
+}
+
+TEST_CASE("fit monitor: nine frames outside do not fire, the tenth does", "[refinement]") {
+  const FoldPlan fold = fold_plan();
+  FitMonitor monitor(fold.mesh, fold.plan);
+  const MeshSample sample(fold.mesh, fold.fine);
+  const Positions outside = sample.of(folded(fold.fine, 0.7, 1));
+  const Positions inside = sample.of(folded(fold.fine, 0.3, 1));
+  for (int frame = 0; frame < 9; ++frame) CHECK(!monitor.look(outside).fires);
+  CHECK(monitor.look(inside).n_in_a_row == 0);
+  for (int frame = 0; frame < 9; ++frame) CHECK(!monitor.look(outside).fires);
+  const FitReport report = monitor.look(outside);
+  CHECK(report.fires);
+  CHECK(*report.first_fired == 19);
+  CHECK(!monitor.look(inside).fires);
+}
+
+TEST_CASE("fit monitor: a face has the largest pattern between its corners", "[refinement]") {
+  const QuadMesh base = lying_sheet(2);
+  QuadMesh fine = base;
+  fine.refine_uniformly(2);
+  std::vector<int> patterns(9, 0);
+  patterns[0] = 2;
+  const BendExample example = example_of_patterns(fine, patterns);
+  PlanOptions options;
+  options.demand = 1.5;
+  const RefinementPlan plan = refinement_plan(base, fine, {&example, 1}, options);
+  const QuadMesh mesh = planned_mesh(base, plan);
+  // Face 0 is split, then its child at the corner: the other children touch the middles, which have
+  // 1, and so do the grandchildren but the one at the corner.
+  CHECK(face_patterns(mesh, plan) == std::vector<int>{0, 0, 0, 1, 1, 1, 2, 2, 1, 2});
+}
+
+TEST_CASE("fit monitor: faces of a cylinder bend like their corners in the mean", "[refinement]") {
+  const QuadMesh mesh = lying_sheet(8);
+  const Eigen::VectorXd bends = FaceCurvature(mesh).of(on_cylinder(mesh.rest_positions(), 0, 2));
+  // With all neighbours (2 + 4/2) / 8 of 1/R; chords of an eighth of the radius add little.
+  CHECK(bends[3 * 8 + 3] == Approx(0.25).epsilon(1e-2));
+}
+
+TEST_CASE("fit monitor: a plan without limits is refused", "[refinement]") {
+  FoldPlan fold = fold_plan();
+  CHECK_THROWS_AS(FitMonitor(fold.fine, fold.plan), ContractError);
+  fold.plan.curvature_limits.clear();
+  CHECK_THROWS_WITH(FitMonitor(fold.mesh, fold.plan), Catch::Contains("got 0"));
+  CHECK_THROWS_AS(ExampleEnvelope(fold.mesh, fold.fine, fold.plan).limits(), ContractError);
+}
+
+}  // namespace pleat
