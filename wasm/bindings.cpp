@@ -209,10 +209,10 @@ class Simulation {
           entry.set("shape", std::string("sphere"));
           entry.set("centre", json_triple(sphere->centre));
           entry.set("radius_m", sphere->radius);
-        } else {
+        } else if (const auto* plane = std::get_if<pleat::Plane>(&shape)) {
           entry.set("shape", std::string("plane"));
-          entry.set("point", json_triple(std::get<pleat::Plane>(shape).point));
-          entry.set("normal", json_triple(std::get<pleat::Plane>(shape).normal));
+          entry.set("point", json_triple(plane->point));
+          entry.set("normal", json_triple(plane->normal));
         }
         list.call<void>("push", entry);
       }

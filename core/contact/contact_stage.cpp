@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/check.h"
 
 namespace pleat {
 namespace {
-
-/// How far a normal's length may be from one; scene files carry 15 digits, hand-written ones fewer.
-constexpr double kUnitTolerance = 1e-9;
 
 /// Depth, relative to the coordinates, that is rounding and not a contact once a solid has acted
 /// [1]. Rounding leaves about 1e-16; a larger slack would show as penetration.
@@ -21,36 +19,28 @@ constexpr double kRoundingSlack = 1e-12;
 constexpr int kMaxMeetings = 16;
 
 /// Two solids whose normals have a smaller sine than this squeeze the vertex: along the one there
-/// is no way out of the other.
-constexpr double kLeastSine = 1e-6;
+/// is no way out of the other. It would leave at their speed divided by the sine.
+constexpr double kLeastSine = 0.04;
 
 double sagitta(double radius, double circumradius) {
   return std::sqrt(radius * radius + circumradius * circumradius) - radius;
 }
 
-void validate(const Collider& collider) {
-  PLEAT_CHECK(collider.friction >= 0 && std::isfinite(collider.friction),
-              "a collider's friction must not be negative");
-  if (const auto* plane = std::get_if<Plane>(&collider.shape)) {
-    PLEAT_CHECK(plane->point.allFinite(), "a plane's point must be finite");
-    PLEAT_CHECK(std::abs(plane->normal.norm() - 1) <= kUnitTolerance,
-                "a plane's normal must be a unit vector");
-  } else if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
-    PLEAT_CHECK(sphere->centre.allFinite(), "a sphere's centre must be finite");
-    PLEAT_CHECK(sphere->radius > 0 && std::isfinite(sphere->radius),
-                "a sphere's radius must be positive");
-  }
+DistanceBudget::Hull hull(const RoundedCone& cone, double clearance) {
+  const Vec3 side_a = cone.half_width_a * cone.across;
+  const Vec3 side_b = cone.half_width_b * cone.across;
+  return {{cone.centre_a - side_a, cone.centre_a + side_a, cone.centre_b - side_b,
+           cone.centre_b + side_b},
+          std::max(cone.radius_a, cone.radius_b) + clearance};
 }
 
-SweptPlane swept(const Plane& plane, const Vec3& offset_begin, const Vec3& offset_end,
-                 double clearance) {
-  const Vec3 point = plane.point + offset_end;
-  return {plane.normal, plane.normal.dot(point) + clearance, offset_end - offset_begin};
+bool is_no_cone(const Collider& collider) {
+  return !std::holds_alternative<RoundedCone>(collider.shape);
 }
 
-SweptSphere swept(const Sphere& sphere, const Vec3& offset_begin, const Vec3& offset_end,
-                  double clearance) {
-  return {sphere.centre + offset_end, sphere.radius + clearance, offset_end - offset_begin};
+/// One whose motion only shifts it.
+bool is_plain(const Collider& collider) {
+  return is_no_cone(collider) && collider.motion.kind != Motion::Kind::follow;
 }
 
 /// Share of the tangential motion that friction leaves: the tangential velocity changes by at most
@@ -70,67 +60,146 @@ Vec3 tangential(const Vec3& vector, const Vec3& normal) {
 
 ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions& options)
     : colliders_(std::move(colliders)) {
-  set_options(options);
-  for (const Collider& collider : colliders_) validate(collider);
+  for (const Collider& collider : colliders_) collider.validate();
+  const auto first_framed = std::stable_partition(colliders_.begin(), colliders_.end(), is_plain);
+  const auto first_cone = std::stable_partition(first_framed, colliders_.end(), is_no_cone);
+  first_framed_ = static_cast<std::size_t>(first_framed - colliders_.begin());
+  first_cone_ = static_cast<std::size_t>(first_cone - colliders_.begin());
+  has_framed_ = first_framed_ < colliders_.size();
   solids_.resize(colliders_.size());
+  poses_begin_.resize(colliders_.size());
+  poses_end_.resize(colliders_.size());
+  set_options(options);
 }
 
 void ContactStage::set_options(const ContactOptions& options) {
-  PLEAT_CHECK(options.half_thickness >= 0 && std::isfinite(options.half_thickness),
-              "the cloth's half thickness must not be negative");
-  PLEAT_CHECK(options.face_circumradius >= 0 && std::isfinite(options.face_circumradius),
-              "the faces' circumradius must not be negative");
+  const auto is_size = [](double size) { return size >= 0 && std::isfinite(size); };
+  const Eigen::VectorXd& circumradii = options.face_circumradii;
+  PLEAT_CHECK(is_size(options.half_thickness), "the cloth's half thickness must not be negative");
+  PLEAT_CHECK(std::all_of(circumradii.begin(), circumradii.end(), is_size),
+              "the faces' circumradii must not be negative");
   options_ = options;
+  largest_circumradius_ = circumradii.size() > 0 ? circumradii.maxCoeff() : 0;
+  is_graded_ = circumradii.size() > 0 && circumradii.minCoeff() < largest_circumradius_;
+  make_budget();
 }
 
-double ContactStage::clearance(const Collider& collider) const {
-  const auto* sphere = std::get_if<Sphere>(&collider.shape);
+double ContactStage::clearance(double least_radius, double circumradius) const {
   return options_.half_thickness +
-         (sphere ? sagitta(sphere->radius, options_.face_circumradius) : 0);
+         (std::isfinite(least_radius) ? sagitta(least_radius, circumradius) : 0);
 }
 
-std::variant<Plane, Sphere> ContactStage::placed(const Collider& collider, double time) {
-  std::variant<Plane, Sphere> shape = collider.shape;
-  const Vec3 offset = collider.motion.pose(time).translation;
-  if (auto* plane = std::get_if<Plane>(&shape)) plane->point += offset;
-  if (auto* sphere = std::get_if<Sphere>(&shape)) sphere->centre += offset;
-  return shape;
+double ContactStage::clearance(const Collider& collider, VertexId vertex) const {
+  return clearance(least_radius(collider.shape),
+                   is_graded_ ? options_.face_circumradii[vertex] : largest_circumradius_);
+}
+
+/// How far below the solid's grown surface the vertex is held [m].
+double ContactStage::inset(const Solid& solid, VertexId vertex) const {
+  if (!is_graded_) return 0;
+  return solid.clearance - clearance(solid.least_radius, options_.face_circumradii[vertex]);
+}
+
+void ContactStage::make_budget() {
+  std::vector<DistanceBudget::Hull> hulls;
+  for (std::size_t k = first_cone_; k < colliders_.size(); ++k) {
+    const auto& cone = std::get<RoundedCone>(colliders_[k].shape);
+    hulls.push_back(hull(cone, clearance(least_radius(cone), largest_circumradius_)));
+  }
+  budget_ = DistanceBudget(std::move(hulls));
+}
+
+void ContactStage::place(const Collider& collider, const Pose& begin, const Pose& end,
+                         Solid& solid) const {
+  solid.turns = begin.rotation != end.rotation;
+  solid.least_radius = least_radius(collider.shape);
+  solid.clearance = clearance(solid.least_radius, largest_circumradius_);
+  solid.friction = collider.friction;
+  Vec3 shift = Vec3::Zero();
+  if (solid.turns) {
+    solid.carry = end * begin.inverse();
+    solid.back = solid.carry.inverse();
+  } else {
+    shift = end.translation - begin.translation;
+    solid.velocity = shift / substep_;
+  }
+  solid.swept = swept(pleat::placed(collider.shape, end), solid.clearance, shift);
 }
 
 void ContactStage::begin_substep(double time_begin, double time_end) {
   PLEAT_CHECK(time_end > time_begin, "a substep must end after it begins");
+  substep_ = time_end - time_begin;
   for (std::size_t k = 0; k < colliders_.size(); ++k) {
-    const Collider& collider = colliders_[k];
-    const Vec3 offset_begin = collider.motion.pose(time_begin).translation;
-    const Vec3 offset_end = collider.motion.pose(time_end).translation;
-    const double distance = clearance(collider);
-    Solid& solid = solids_[k];
-    std::visit(
-        [&](const auto& shape) { solid.swept = swept(shape, offset_begin, offset_end, distance); },
-        collider.shape);
-    solid.velocity = (offset_end - offset_begin) / (time_end - time_begin);
-    solid.friction = collider.friction;
+    poses_begin_[k] = colliders_[k].motion.pose(time_begin);
+    poses_end_[k] = colliders_[k].motion.pose(time_end);
+    place(colliders_[k], poses_begin_[k], poses_end_[k], solids_[k]);
+  }
+  if (first_cone_ < colliders_.size())
+    budget_.begin_substep(std::span(poses_begin_).subspan(first_cone_),
+                          std::span(poses_end_).subspan(first_cone_));
+}
+
+Vec3 ContactStage::velocity_at(const Solid& solid, const Vec3& place) const {
+  return solid.turns ? Vec3((place - solid.back * place) / substep_) : solid.velocity;
+}
+
+/// The vertex's path as the solid sees it [m].
+Vec3 ContactStage::relative_path(const Solid& solid, const Vec3& begin, const Vec3& end) {
+  if (solid.turns) return end - solid.carry * begin;
+  return end - begin - std::visit([](const auto& shape) { return shape.shift; }, solid.swept);
+}
+
+void ContactStage::Meeting::keep_earlier(const Solid& other, const std::optional<Impact>& met) {
+  if (!met || (solid && met->fraction >= impact.fraction)) return;
+  solid = &other;
+  impact = *met;
+}
+
+// Not std::visit: it goes through a table of functions, and this runs for every vertex.
+template <class Action>
+void ContactStage::with_plane_or_sphere(const Solid& solid, const Action& action) {
+  if (const auto* plane = std::get_if<SweptPlane>(&solid.swept)) {
+    action(*plane);
+  } else if (const auto* sphere = std::get_if<SweptSphere>(&solid.swept)) {
+    action(*sphere);
   }
 }
 
-ContactStage::Meeting ContactStage::earliest_meeting(const Vec3& begin, const Vec3& end,
-                                                     double slack, const Solid* skipped) const {
-  Meeting earliest;
-  const auto meet = [&](const Solid& solid, const auto& shape) {
-    if (!may_touch(shape, begin, end)) return;
-    const auto impact = first_impact(shape, begin, end, slack);
-    if (!impact || (earliest.solid && impact->fraction >= earliest.impact.fraction)) return;
-    earliest = {&solid, *impact};
-  };
-  for (const Solid& solid : solids_) {
+void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
+                               const Solid* skipped, Meeting& earliest) {
+  for (std::size_t k = first_framed_; k < first_cone_; ++k) {
+    const Solid& solid = solids_[k];
     if (&solid == skipped) continue;
-    // Not std::visit: it goes through a table of functions, and this loop runs for every vertex.
-    if (const auto* plane = std::get_if<SweptPlane>(&solid.swept)) {
-      meet(solid, *plane);
-    } else if (const auto* sphere = std::get_if<SweptSphere>(&solid.swept)) {
-      meet(solid, *sphere);
-    }
+    const Vec3 from = solid.turns ? solid.carry * begin : begin;
+    with_plane_or_sphere(solid, [&](const auto& shape) {
+      earliest.keep_earlier(solid, first_impact(shape, from, end, slack, inset(solid, vertex)));
+    });
   }
+  if (first_cone_ == solids_.size()) return;
+  budget_.look_at_near(vertex, begin, end, [&](std::size_t k) {
+    const Solid& solid = solids_[first_cone_ + k];
+    if (&solid == skipped) return -std::numeric_limits<double>::infinity();
+    const Vec3 from = solid.turns ? solid.carry * begin : begin;
+    const auto& cone = std::get<SweptCone>(solid.swept);
+    const ConeMeeting met = meeting(cone, from, end, slack, inset(solid, vertex));
+    earliest.keep_earlier(solid, met.impact);
+    return met.height_begin;
+  });
+}
+
+ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3& begin,
+                                                     const Vec3& end, double slack,
+                                                     const Solid* skipped) {
+  Meeting earliest;
+  for (std::size_t k = 0; k < first_framed_; ++k) {
+    const Solid& solid = solids_[k];
+    if (&solid == skipped) continue;
+    with_plane_or_sphere(solid, [&](const auto& shape) {
+      if (may_touch(shape, begin, end))
+        earliest.keep_earlier(solid, first_impact(shape, begin, end, slack, inset(solid, vertex)));
+    });
+  }
+  if (first_framed_ < solids_.size()) meet_framed(vertex, begin, end, slack, skipped, earliest);
   return earliest;
 }
 
@@ -143,8 +212,9 @@ ContactStage::Meeting ContactStage::earliest_meeting(const Vec3& begin, const Ve
 // of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
 // new one, in the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as
 // well; then it is clear of both.
-bool ContactStage::resolve(const Vec3& position_begin, Vec3& position, Vec3& velocity) {
-  Meeting meeting = earliest_meeting(position_begin, position, 0, nullptr);
+bool ContactStage::resolve(VertexId vertex, const Vec3& position_begin, Vec3& position,
+                           Vec3& velocity) {
+  Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
   if (!meeting.solid || !velocity.allFinite()) return false;
   const Solid* before = nullptr;
   for (int n_meetings = 0; meeting.solid; ++n_meetings) {
@@ -154,32 +224,54 @@ bool ContactStage::resolve(const Vec3& position_begin, Vec3& position, Vec3& vel
     }
     const Solid& solid = *meeting.solid;
     const Vec3& normal = meeting.impact.normal;
-    const Vec3 shift = std::visit([](const auto& shape) { return shape.shift; }, solid.swept);
-    const Vec3 path = tangential(position - position_begin - shift, normal);
-    const Vec3 relative_velocity = velocity - solid.velocity;
+    const Vec3 path = tangential(relative_path(solid, position_begin, position), normal);
+    const Vec3 solid_velocity = velocity_at(solid, meeting.impact.point);
+    const Vec3 relative_velocity = velocity - solid_velocity;
     const double normal_speed = normal.dot(relative_velocity);
     const Vec3 tangential_velocity = relative_velocity - normal_speed * normal;
     const double left =
         slip(solid.friction, std::max(-normal_speed, 0.0), tangential_velocity.norm());
     position = meeting.impact.point + (1 - meeting.impact.fraction) * left * path;
-    velocity = solid.velocity + left * tangential_velocity + std::max(normal_speed, 0.0) * normal;
+    velocity = solid_velocity + left * tangential_velocity + std::max(normal_speed, 0.0) * normal;
 
     if (before) {
-      const Gap other =
-          std::visit([&](const auto& shape) { return gap(shape, position); }, before->swept);
+      const Gap other = gap(before->swept, position, inset(*before, vertex));
       const Vec3 along = tangential(other.normal, normal);
       const double squared_sine = along.squaredNorm();
       if (squared_sine > kLeastSine * kLeastSine) {
-        const double speed = other.normal.dot(velocity - before->velocity);
+        const double speed = other.normal.dot(velocity - velocity_at(*before, position));
         if (other.distance < 0) position -= other.distance / squared_sine * along;
         if (speed < 0) velocity -= speed / squared_sine * along;
       }
     }
     before = &solid;
     const double slack = kRoundingSlack * (position.cwiseAbs().maxCoeff() + path.norm());
-    meeting = earliest_meeting(position_begin, position, slack, before);
+    meeting = earliest_meeting(vertex, position_begin, position, slack, before);
   }
   return true;
+}
+
+SolidShape ContactStage::placed(const Collider& collider, double time) {
+  return pleat::placed(collider.shape, collider.motion.pose(time));
+}
+
+Penetration ContactStage::penetration(const Eigen::Ref<const Positions>& positions,
+                                      double time) const {
+  std::vector<SweptSolid> solids;
+  for (const Collider& collider : colliders_)
+    solids.push_back(swept(placed(collider, time), 0, Vec3::Zero()));
+  Penetration found;
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    double depth = 0;
+    for (const SweptSolid& solid : solids)
+      depth = std::max(depth, -gap(solid, positions.col(i)).distance);
+    if (depth > 0) ++found.n_inside;
+    if (depth > found.depth) {
+      found.depth = depth;
+      found.deepest = VertexId(i);
+    }
+  }
+  return found;
 }
 
 }  // namespace pleat

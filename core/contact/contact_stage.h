@@ -1,25 +1,28 @@
 #pragma once
 
 #include <cstdint>
-#include <variant>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include "core/base/motion.h"
-#include "core/base/shapes.h"
-#include "core/contact/swept_contact.h"
+#include "core/base/ids.h"
+#include "core/contact/collider.h"
+#include "core/contact/distance_budget.h"
 
 namespace pleat {
 
-/// A solid that the cloth cannot enter. It may move by translation.
-struct Collider {
-  std::variant<Plane, Sphere> shape;  ///< its place at time 0
-  Motion motion;
-  double friction = 0.3;  ///< Coulomb coefficient against the cloth, not negative
+struct ContactOptions {
+  double half_thickness = 0;  ///< vertices keep at least this distance [m]
+  /// For each vertex, of the largest triangle at rest that has a corner there [m]; empty: no face
+  /// is any larger than a vertex. See clearance().
+  Eigen::VectorXd face_circumradii;
 };
 
-struct ContactOptions {
-  double half_thickness = 0;     ///< vertices keep at least this distance [m]
-  double face_circumradius = 0;  ///< of the largest cloth triangle at rest [m]; see clearance()
+/// How deep a cloth is inside of solids.
+struct Penetration {
+  double depth = 0;  ///< of the deepest vertex below a solid's own surface [m]; 0 when none is
+  VertexId deepest;  ///< invalid when none is
+  int n_inside = 0;  ///< vertices inside of any solid
 };
 
 /// Keeps the vertices of a cloth out of solids, for every stepper alike: it takes the state that a
@@ -29,23 +32,24 @@ struct ContactOptions {
 /// fast or thin is tunnelled. From the impact on, the vertex moves in the tangent plane: its normal
 /// velocity relative to the solid becomes zero (no bounce), the tangential one loses at most
 /// `friction` times the normal change (Coulomb), and the rest of its tangential path shrinks by the
-/// same factor. A vertex that begins inside is put on the surface without gaining speed. Edges and
-/// faces are covered by a sample rule: vertices are held off a sphere far enough that a flat face
-/// with its corners there does not cut it (see clearance()). Source: docs/methods/contact.md
-/// (derivation and limits).
+/// same factor. A solid's velocity is the mean over the substep of its point that is met. A vertex
+/// that begins inside is put on the surface without gaining speed. Edges and faces are covered by a
+/// sample rule: vertices are held off a round solid far enough that a flat face with its corners
+/// there does not cut it (see clearance()). Source: docs/methods/contact.md (derivation and
+/// limits).
 class ContactStage {
  public:
-  /// Throws ContractError for a radius that is not positive, a normal that is not unit, negative
-  /// friction or sizes.
+  /// Throws ContractError for a collider that is not valid, negative sizes.
   ContactStage(std::vector<Collider> colliders, const ContactOptions& options);
 
   const ContactOptions& options() const { return options_; }
   /// Throws ContractError for negative sizes.
   void set_options(const ContactOptions& options);
 
-  /// Distance from the solid's surface at which vertices are held [m]: half the thickness, and for
-  /// a sphere of radius R also the sagitta sqrt(R^2 + c^2) - R of a face of circumradius c.
-  double clearance(const Collider& collider) const;
+  /// Distance from the solid's surface at which the vertex is held [m]: half the thickness, and
+  /// from a solid made of balls of radius R or more also the sagitta sqrt(R^2 + c^2) - R of a face
+  /// of circumradius c.
+  double clearance(const Collider& collider, VertexId vertex) const;
 
   /// Places the solids at both ends of a substep [s]. Throws ContractError unless time_end >
   /// time_begin.
@@ -54,36 +58,67 @@ class ContactStage {
   /// position_begin  where the vertex was at time_begin [m]
   /// position        where the stepper puts it at time_end [m]; corrected
   /// velocity        at time_end [m/s]; corrected
-  /// Returns true when a contact acted. Never allocates. A vertex that is not finite is left as it
-  /// is.
-  bool resolve(const Vec3& position_begin, Vec3& position, Vec3& velocity);
+  /// Returns true when a contact acted. Allocates only where there are rounded cones, once for each
+  /// vertex. A vertex that is not finite is left as it is.
+  bool resolve(VertexId vertex, const Vec3& position_begin, Vec3& position, Vec3& velocity);
 
   /// How often, since construction, solids closed in on a vertex from sides so opposed, or so many,
   /// that it was left inside one of them.
   std::int64_t n_unresolved() const { return n_unresolved_; }
 
+  /// How far the vertices are inside of the solids as these are at a time [s], clearance not
+  /// counted.
+  Penetration penetration(const Eigen::Ref<const Positions>& positions, double time) const;
+
+  /// Rounded cones come last.
   const std::vector<Collider>& colliders() const { return colliders_; }
   /// The solid's shape at a time [s].
-  static std::variant<Plane, Sphere> placed(const Collider& collider, double time);
+  static SolidShape placed(const Collider& collider, double time);
 
  private:
   /// A collider over the substep that was begun.
   struct Solid {
-    std::variant<SweptPlane, SweptSphere> swept;
-    Vec3 velocity{0, 0, 0};  ///< mean over the substep [m/s]
+    SweptSolid swept;         ///< grown by the largest clearance
+    double clearance = 0;     ///< that one [m]
+    double least_radius = 0;  ///< [m]
     double friction = 0;
+    Vec3 velocity{0, 0, 0};  ///< mean over the substep [m/s], of one that does not turn
+    bool turns = false;      ///< then its shift is zero, and all is seen from where it ends:
+    Pose carry;              ///< its motion over the substep,
+    Pose back;               ///< its inverse
   };
   struct Meeting {
     const Solid* solid = nullptr;  ///< null when nothing is met
     Impact impact;
+
+    void keep_earlier(const Solid& other, const std::optional<Impact>& met);
   };
 
-  Meeting earliest_meeting(const Vec3& begin, const Vec3& end, double slack,
-                           const Solid* skipped) const;
+  double clearance(double least_radius, double circumradius) const;
+  double inset(const Solid& solid, VertexId vertex) const;
+  Vec3 velocity_at(const Solid& solid, const Vec3& place) const;
+  static Vec3 relative_path(const Solid& solid, const Vec3& begin, const Vec3& end);
+  void make_budget();
+  void place(const Collider& collider, const Pose& begin, const Pose& end, Solid& solid) const;
+  template <class Action>
+  static void with_plane_or_sphere(const Solid& solid, const Action& action);
+  void meet_framed(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
+                   const Solid* skipped, Meeting& earliest);
+  Meeting earliest_meeting(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
+                           const Solid* skipped);
 
-  std::vector<Collider> colliders_;
+  std::vector<Collider> colliders_;  // rounded cones last
+  std::size_t first_framed_ = 0;     // before it are planes and spheres that do not turn
+  std::size_t first_cone_ = 0;
+  bool has_framed_ = false;
   ContactOptions options_;
-  std::vector<Solid> solids_;  // one per collider
+  double largest_circumradius_ = 0;  // [m]
+  bool is_graded_ = false;           // vertices differ in it
+  double substep_ = 0;               // [s]
+  std::vector<Solid> solids_;        // one per collider
+  std::vector<Pose> poses_begin_;    // one per collider
+  std::vector<Pose> poses_end_;
+  DistanceBudget budget_;  // of the rounded cones
   std::int64_t n_unresolved_ = 0;
 };
 

@@ -31,18 +31,19 @@ struct Impact {
 
 /// begin, end  of the vertex's path [m]; a path that is not finite meets nothing
 /// slack       a path that stays above this depth meets nothing [m]
+/// inset       how far below the grown surface this vertex is held [m]
 std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, const Vec3& end,
-                                   double slack);
+                                   double slack, double inset = 0);
 std::optional<Impact> first_impact(const SweptSphere& sphere, const Vec3& begin, const Vec3& end,
-                                   double slack);
+                                   double slack, double inset = 0);
 
 /// The grown surface's nearest point, seen from a place at the end of the substep.
 struct Gap {
   double distance = 0;  ///< [m], negative inside
   Vec3 normal;          ///< unit, away from the solid
 };
-Gap gap(const SweptPlane& plane, const Vec3& place);
-Gap gap(const SweptSphere& sphere, const Vec3& place);
+Gap gap(const SweptPlane& plane, const Vec3& place, double inset = 0);
+Gap gap(const SweptSphere& sphere, const Vec3& place, double inset = 0);
 
 /// False when first_impact certainly finds nothing. Runs for every vertex, hence inline.
 inline bool may_touch(const SweptPlane& plane, const Vec3& /*begin*/, const Vec3& end) {

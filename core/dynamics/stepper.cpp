@@ -155,7 +155,7 @@ void Stepper::resolve_contacts(const Positions& positions_begin, State& state, d
       position -= travel_share * h * mobility * contact_forces_.col(i);
     }
     const Vec3 free_velocity = velocity;
-    model_.contact->resolve(positions_begin.col(i), position, velocity);
+    model_.contact->resolve(VertexId(i), positions_begin.col(i), position, velocity);
     state.positions.col(i) = position;
     state.velocities.col(i) = velocity;
     if (remembers) contact_forces_.col(i) = (velocity - free_velocity) / mobility;

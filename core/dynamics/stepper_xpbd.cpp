@@ -155,7 +155,7 @@ void StepperXpbd::correct_for_contact(State& state, double time_end, double h) {
     Vec3 position = position_of(slot);
     Vec3 velocity = velocity_of(slot, h);
     if (array(inverse_mass)[slot] > 0 &&
-        model_.contact->resolve(state.positions.col(i), position, velocity))
+        model_.contact->resolve(VertexId(i), state.positions.col(i), position, velocity))
       set_motion(slot, position, velocity, h);
     state.positions.col(i) = position;
   }

@@ -13,6 +13,17 @@ double share_at(double seconds) {
 
 double between(double own, double carried, double share) { return own + share * (carried - own); }
 
+/// Those on the way from the cloth's own to the least of the old one's, which puts no vertex out of
+/// a solid at the change.
+ContactOptions between(ContactOptions own, const ContactOptions& carried, double share) {
+  own.half_thickness = between(own.half_thickness, carried.half_thickness, share);
+  const double least =
+      carried.face_circumradii.size() > 0 ? carried.face_circumradii.minCoeff() : 0;
+  for (double& circumradius : own.face_circumradii)
+    circumradius = between(circumradius, least, share);
+  return own;
+}
+
 }  // namespace
 
 Transition::Transition(const MovingSheet& old, const MovingSheet& fresh)
@@ -30,10 +41,7 @@ void Transition::apply(double seconds, ClothModel& model, Stepper& stepper) cons
     model.springs[s].rest_length = between(own_springs_[s].rest_length, rest_lengths_[s], share);
   stepper.refresh_rest_lengths();
   if (model.air) model.air->set_strength(between(1, drag_strength_, share));
-  if (model.contact)
-    model.contact->set_options(
-        {between(own_contact_.half_thickness, contact_.half_thickness, share),
-         between(own_contact_.face_circumradius, contact_.face_circumradius, share)});
+  if (model.contact) model.contact->set_options(between(own_contact_, contact_, share));
 }
 
 }  // namespace pleat

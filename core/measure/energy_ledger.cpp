@@ -16,21 +16,6 @@ double kinetic_energy(const Eigen::VectorXd& masses, const Positions& velocities
   return 0.5 * masses.dot(velocities.colwise().squaredNorm().transpose());
 }
 
-/// Distance of a point from a solid's surface [m] and the surface's unit normal there.
-struct SurfacePoint {
-  double distance;
-  Vec3 normal;
-};
-
-SurfacePoint nearest(const std::variant<Plane, Sphere>& shape, const Vec3& position) {
-  if (const auto* plane = std::get_if<Plane>(&shape))
-    return {plane->normal.dot(position - plane->point), plane->normal};
-  const auto& sphere = std::get<Sphere>(shape);
-  const Vec3 arm = position - sphere.centre;
-  const double length = arm.norm();
-  return {length - sphere.radius, length > 0 ? Vec3(arm / length) : Vec3(Vec3::UnitY())};
-}
-
 /// The part of an impulse that a solid can give: it pushes, and rubs at most `friction` times as
 /// much.
 Vec3 coulomb_part(const Vec3& impulse, const Vec3& normal, double friction) {
@@ -83,11 +68,11 @@ void EnergyLedger::record_contact(const State& begin, const State& end, double t
                                   double step) {
   const ContactStage& contact = *model_.contact;
   for (const Collider& collider : contact.colliders()) {
-    const auto shape = ContactStage::placed(collider, time_end);
-    const double reach = contact.clearance(collider) + kTouchDistance;
+    const SweptSolid solid = swept(ContactStage::placed(collider, time_end), 0, Vec3::Zero());
     for (Eigen::Index i = 0; i < end.positions.cols(); ++i) {
       if (is_pinned_[static_cast<std::size_t>(i)]) continue;
-      const SurfacePoint point = nearest(shape, end.positions.col(i));
+      const double reach = contact.clearance(collider, VertexId(i)) + kTouchDistance;
+      const Gap point = gap(solid, end.positions.col(i));
       if (point.distance > reach) continue;
       const Vec3 impulse = coulomb_part(missing_impulse(VertexId(i), begin, end, step),
                                         point.normal, collider.friction);

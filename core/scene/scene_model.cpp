@@ -23,18 +23,24 @@ std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth) {
   return pins;
 }
 
-/// Of the largest triangle [m].
-double largest_circumradius(const TriangleMesh& mesh) {
+/// Of the largest triangle around each vertex [m]. Where a mesh is uniform, so is this: its
+/// triangles differ by rounding, which lies far below kSame.
+Eigen::VectorXd face_circumradii(const TriangleMesh& mesh) {
+  constexpr double kSame = 1e-9;  // relative; on a rough mesh it adds as little to the clearance
   const Positions& positions = mesh.rest_positions;
-  double largest = 0;
+  Eigen::VectorXd circumradii = Eigen::VectorXd::Zero(positions.cols());
   for (const Triangle& t : mesh.triangles) {
     const Vec3 a = positions.col(t[1]) - positions.col(t[0]);
     const Vec3 b = positions.col(t[2]) - positions.col(t[0]);
     const double doubled_area = a.cross(b).norm();
-    if (doubled_area > 0)
-      largest = std::max(largest, a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area));
+    if (doubled_area == 0) continue;
+    const double circumradius = a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
+    for (const VertexId v : t) circumradii[v] = std::max(circumradii[v], circumradius);
   }
-  return largest;
+  const double largest = circumradii.maxCoeff();
+  for (double& circumradius : circumradii)
+    if (circumradius > (1 - kSame) * largest) circumradius = largest;
+  return circumradii;
 }
 
 }  // namespace
@@ -59,7 +65,7 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
   if (!scene.colliders.empty()) {
-    const ContactOptions options{scene.fabric.thickness / 2, largest_circumradius(cloth.mesh)};
+    const ContactOptions options{scene.fabric.thickness / 2, face_circumradii(cloth.mesh)};
     model.contact.emplace(scene.colliders, options);
   }
   return model;

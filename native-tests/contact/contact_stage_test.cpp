@@ -21,24 +21,24 @@ TEST_CASE("contact: a vertex that meets nothing is left to the bit", "[contact]"
   const Vec3 begin{0.1, 1, 0.2};
   Vec3 position{0.7, 0.3, -0.4};
   Vec3 velocity = position - begin;
-  CHECK_FALSE(stage.resolve(begin, position, velocity));
+  CHECK_FALSE(stage.resolve(VertexId(0), begin, position, velocity));
   CHECK(position == Vec3(0.7, 0.3, -0.4));
   CHECK(velocity == Vec3(0.7, 0.3, -0.4) - begin);
 }
 
 TEST_CASE("contact: without friction an impact keeps the tangential motion", "[contact]") {
-  ContactStage stage({floor_collider(0)}, {0.01, 0});
+  ContactStage stage({floor_collider(0)}, {0.01, {}});
   stage.begin_substep(0, 0.1);
   const Vec3 begin{0, 0.11, 0};
   Vec3 velocity{3, -4, 1};
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(stage.resolve(begin, position, velocity));
+  CHECK(stage.resolve(VertexId(0), begin, position, velocity));
   CHECK((position - Vec3(0.3, 0.01, 0.1)).norm() < 1e-15);
   CHECK((velocity - Vec3(3, 0, 1)).norm() < 1e-15);
 }
 
 TEST_CASE("contact: a vertex dropped on a floor comes to rest at once and stays", "[contact]") {
-  ContactStage stage({floor_collider(0.3)}, {0.001, 0});
+  ContactStage stage({floor_collider(0.3)}, {0.001, {}});
   Particle particle{{0.2, 0.5, 0.3}, {0.4, 0, 0}};
   const double h = 1.0 / 60;
   Vec3 settled = Vec3::Zero();
@@ -66,8 +66,8 @@ TEST_CASE("contact: neither a far solid nor their order changes a bit", "[contac
     Vec3 position_other = position_one;
     Vec3 velocity_one = velocity_before;
     Vec3 velocity_other = velocity_before;
-    one.resolve(begin, position_one, velocity_one);
-    other.resolve(begin, position_other, velocity_other);
+    one.resolve(VertexId(0), begin, position_one, velocity_one);
+    other.resolve(VertexId(0), begin, position_other, velocity_other);
     CHECK((position_one == position_other && velocity_one == velocity_other));
   }
 }
@@ -75,7 +75,8 @@ TEST_CASE("contact: neither a far solid nor their order changes a bit", "[contac
 TEST_CASE("contact: a mirrored vertex has the mirrored answer, to the bit", "[contact]") {
   Random random(15);
   const Vec3 mirror(-1, 1, 1);
-  ContactStage stage({floor_collider(0.4), ball_collider({0, 0.3, 0.1}, 0.3, 0.2)}, {0.001, 0.01});
+  ContactStage stage({floor_collider(0.4), ball_collider({0, 0.3, 0.1}, 0.3, 0.2)},
+                     {0.001, Eigen::VectorXd::Constant(1, 0.01)});
   stage.begin_substep(0, 0.1);
   for (int trial = 0; trial < 200; ++trial) {
     const Vec3 begin{random.uniform(-1, 1), random.uniform(0.7, 1), random.uniform(-1, 1)};
@@ -83,8 +84,8 @@ TEST_CASE("contact: a mirrored vertex has the mirrored answer, to the bit", "[co
     Vec3 position = begin + 0.1 * velocity;
     Vec3 mirrored_position = position.cwiseProduct(mirror);
     Vec3 mirrored_velocity = velocity.cwiseProduct(mirror);
-    stage.resolve(begin, position, velocity);
-    stage.resolve(begin.cwiseProduct(mirror), mirrored_position, mirrored_velocity);
+    stage.resolve(VertexId(0), begin, position, velocity);
+    stage.resolve(VertexId(0), begin.cwiseProduct(mirror), mirrored_position, mirrored_velocity);
     CHECK(mirrored_position == position.cwiseProduct(mirror));
     CHECK(mirrored_velocity == velocity.cwiseProduct(mirror));
   }
@@ -105,8 +106,8 @@ TEST_CASE("contact: only the motion relative to the solid counts", "[contact]") 
     Vec3 position = begin + 0.1 * velocity;
     Vec3 moving_velocity = velocity + drift;
     Vec3 moving_position = position + 0.1 * drift;
-    REQUIRE(at_rest.resolve(begin, position, velocity) ==
-            moving.resolve(begin, moving_position, moving_velocity));
+    REQUIRE(at_rest.resolve(VertexId(0), begin, position, velocity) ==
+            moving.resolve(VertexId(0), begin, moving_position, moving_velocity));
     CHECK((moving_velocity - drift - velocity).norm() < 1e-13);
     CHECK((moving_position - 0.1 * drift - position).norm() < 1e-13);
   }
@@ -124,7 +125,7 @@ TEST_CASE("contact: a vertex that is not finite is left for the stepper to repor
   Vec3 velocity{0, -25, 0};
   (broken == 0 ? begin : broken == 1 ? position : velocity).y() = bad;
   const Vec3 position_before = position;
-  CHECK_FALSE(stage.resolve(begin, position, velocity));
+  CHECK_FALSE(stage.resolve(VertexId(0), begin, position, velocity));
   CHECK(position.x() == 0);
   CHECK((position.y() == position_before.y() || std::isnan(bad)));
 }
@@ -140,8 +141,8 @@ TEST_CASE("contact: colliders and sizes that make no sense are our bug", "[conta
   Collider slanted = floor_collider(0);
   slanted.shape = Plane{Vec3::Zero(), {0, 1.01, 0}};
   CHECK_THROWS_AS(make(slanted), ContractError);
-  CHECK_THROWS_AS(ContactStage({}, {-1, 0}), ContractError);
-  CHECK_THROWS_AS(ContactStage({}, {0, nan}), ContractError);
+  CHECK_THROWS_AS(ContactStage({}, {-1, {}}), ContractError);
+  CHECK_THROWS_AS(ContactStage({}, {0, Eigen::VectorXd::Constant(1, nan)}), ContractError);
   ContactStage stage({floor_collider(0)}, {});
   CHECK_THROWS_AS(stage.begin_substep(1, 1), ContractError);
 }
@@ -151,7 +152,8 @@ TEST_CASE("contact: a substep allocates nothing", "[contact]") {
     SUCCEED("not counted: the sanitizer has a malloc of its own");
     return;
   }
-  ContactStage stage({floor_collider(0.3), ball_collider({0, 0.3, 0}, 0.3, 0.3)}, {0.001, 0.01});
+  ContactStage stage({floor_collider(0.3), ball_collider({0, 0.3, 0}, 0.3, 0.3)},
+                     {0.001, Eigen::VectorXd::Constant(1, 0.01)});
   CHECK(allocations_in([&] {
           Particle particle{{0.5, 0.05, 0}, {-20, 0, 0}};
           for (int k = 0; k < 50; ++k)

@@ -27,7 +27,7 @@ TEST_CASE("contact: a plane is never penetrated at 50 m/s", "[contact]") {
     const Vec3 normal = random_direction(random);
     wall.shape = Plane{0.3 * random_direction(random), normal};
     wall.motion = steady_motion(speed_of_plane * random_direction(random));
-    ContactStage stage({wall}, {0.001, 0});
+    ContactStage stage({wall}, {0.001, {}});
     Particle particle{std::get<Plane>(wall.shape).point + random.uniform(0.002, 0.5) * normal,
                       50 * random_direction(random)};
     for (int k = 0; k < 8; ++k) {
@@ -110,7 +110,7 @@ TEST_CASE("contact: a vertex that begins inside is put out without gaining speed
     Vec3 velocity = 2 * random_direction(random);
     const double speed = velocity.norm();
     Vec3 position = begin + 0.01 * velocity;
-    stage.resolve(begin, position, velocity);
+    stage.resolve(VertexId(0), begin, position, velocity);
     CHECK(height(collider, position, 0.01) >= -kRoundingDepth);
     CHECK(velocity.norm() <= speed * (1 + 1e-15));
   }
@@ -122,7 +122,7 @@ TEST_CASE("contact: a vertex in the very centre of a sphere gets out", "[contact
   stage.begin_substep(0, 0.01);
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
-  CHECK(stage.resolve(Vec3::Zero(), position, velocity));
+  CHECK(stage.resolve(VertexId(0), Vec3::Zero(), position, velocity));
   CHECK(height(ball, position, 0.01) == Approx(0).margin(kRoundingDepth));
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("contact: the solid that is met first acts first", "[contact]") {
   const auto result = [&](ContactStage& stage) {
     Particle particle{begin + 0.1 * down, down};
     stage.begin_substep(0, 0.1);
-    CHECK(stage.resolve(begin, particle.position, particle.velocity));
+    CHECK(stage.resolve(VertexId(0), begin, particle.position, particle.velocity));
     return particle;
   };
   // Thrown off the ball's side before it could reach the floor.
@@ -172,7 +172,7 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
   const Collider ground = floor_collider(0.3);
   ContactStage stage(
       ball_first ? std::vector<Collider>{ball, ground} : std::vector<Collider>{ground, ball},
-      {0.002, 0.01});
+      {0.002, Eigen::VectorXd::Constant(1, 0.01)});
   Random random(10);
   for (int trial = 0; trial < 200; ++trial) {
     Particle particle{{0.5, 0.05, 0}, {0, 0, 0}};
@@ -186,9 +186,9 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
       particle.position += particle.velocity / 60;
       const double speed_before = particle.velocity.norm();
       stage.begin_substep(k / 60.0, (k + 1) / 60.0);
-      stage.resolve(begin, particle.position, particle.velocity);
-      REQUIRE(height(ball, particle.position, 0) >= stage.clearance(ball) - 1e-12);
-      REQUIRE(height(ground, particle.position, 0) >= stage.clearance(ground) - 1e-12);
+      stage.resolve(VertexId(0), begin, particle.position, particle.velocity);
+      REQUIRE(height(ball, particle.position, 0) >= stage.clearance(ball, VertexId(0)) - 1e-12);
+      REQUIRE(height(ground, particle.position, 0) >= stage.clearance(ground, VertexId(0)) - 1e-12);
       REQUIRE(particle.velocity.norm() <= speed_before * (1 + 1e-14));
     }
   }
@@ -208,7 +208,7 @@ TEST_CASE("contact: a groove leaves only the motion along it", "[contact]") {
   Vec3 velocity(sideways, -20, 3);
   const Vec3 begin(0.01, 0.5, 0);
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(stage.resolve(begin, position, velocity));
+  CHECK(stage.resolve(VertexId(0), begin, position, velocity));
   CHECK((velocity - Vec3(0, 0, 3)).norm() < 1e-13);
   CHECK((position - Vec3(0, 0, 0.3)).norm() < 1e-13);
 }
@@ -258,7 +258,7 @@ TEST_CASE("contact: a vertex crushed between two walls is counted", "[contact]")
   stage.begin_substep(0, 1);
   Vec3 position{0, 0.5, 0};
   Vec3 velocity = Vec3::Zero();
-  CHECK(stage.resolve({0, 0.5, 0}, position, velocity));
+  CHECK(stage.resolve(VertexId(0), {0, 0.5, 0}, position, velocity));
   CHECK(stage.n_unresolved() == 1);
   CHECK(position.allFinite());
   CHECK(velocity.allFinite());
@@ -272,11 +272,11 @@ TEST_CASE("contact: a face held by its corners does not cut the sphere", "[conta
   const Collider ball = ball_collider({0, 0, 0}, radius, 0);
   const double circumradius = 0.02;
   const double half_thickness = 0.0005;
-  ContactStage stage({ball}, {half_thickness, circumradius});
-  CHECK(stage.clearance(ball) ==
+  ContactStage stage({ball}, {half_thickness, Eigen::VectorXd::Constant(1, circumradius)});
+  CHECK(stage.clearance(ball, VertexId(0)) ==
         Approx(half_thickness + std::sqrt(radius * radius + circumradius * circumradius) - radius));
-  CHECK(stage.clearance(floor_collider(0)) == half_thickness);
-  const double held = radius + stage.clearance(ball);
+  CHECK(stage.clearance(floor_collider(0), VertexId(0)) == half_thickness);
+  const double held = radius + stage.clearance(ball, VertexId(0));
   for (int trial = 0; trial < 500; ++trial) {
     // Three points of a circle of that radius, whose plane is tilted until all of them are clear.
     const Vec3 normal = random_direction(random);

@@ -1,6 +1,24 @@
 #include "native-tests/support/particle.h"
 
+#include <cmath>
+
 namespace pleat {
+namespace {
+
+class TurningFrame : public MovingFrame {
+ public:
+  TurningFrame(const Vec3& spin, const Vec3& velocity) : spin_(spin), velocity_(velocity) {}
+  Pose pose(double time) const override {
+    const double rate = spin_.norm();
+    return {Eigen::AngleAxisd(rate * time, spin_ / rate).toRotationMatrix(), time * velocity_};
+  }
+
+ private:
+  Vec3 spin_;
+  Vec3 velocity_;
+};
+
+}  // namespace
 
 Collider floor_collider(double friction) {
   Collider collider;
@@ -14,6 +32,20 @@ Collider ball_collider(const Vec3& centre, double radius, double friction) {
   collider.shape = Sphere{centre, radius};
   collider.friction = friction;
   return collider;
+}
+
+Collider cone_collider(const RoundedCone& cone, double friction) {
+  Collider collider;
+  collider.shape = cone;
+  collider.friction = friction;
+  return collider;
+}
+
+Motion turning_motion(const Vec3& spin, const Vec3& velocity) {
+  Motion motion;
+  motion.kind = Motion::Kind::follow;
+  motion.frame = std::make_shared<TurningFrame>(spin, velocity);
+  return motion;
 }
 
 Motion steady_motion(const Vec3& velocity) {
@@ -33,12 +65,23 @@ Vec3 random_direction(Random& random) {
   return direction.normalized();
 }
 
+RoundedCone random_cone(Random& random) {
+  const double kLengths[] = {0, 1e-7, random.uniform(0, 0.1), random.uniform(0, 0.8)};
+  const Vec3 axis = random_direction(random);
+  RoundedCone cone;
+  cone.centre_a = random.uniform(0, 0.3) * random_direction(random);
+  cone.centre_b = cone.centre_a + kLengths[random.below(4)] * axis;
+  cone.across = axis.unitOrthogonal();
+  cone.radius_a = random.uniform(0.02, 0.4);
+  cone.radius_b = random.below(3) == 0 ? cone.radius_a : random.uniform(0.02, 0.4);
+  if (random.below(2) == 0) return cone;
+  cone.half_width_a = random.uniform(0, 0.3);
+  cone.half_width_b = random.below(3) == 0 ? cone.half_width_a : random.uniform(0, 0.3);
+  return cone;
+}
+
 double height(const Collider& collider, const Vec3& place, double time) {
-  const auto shape = ContactStage::placed(collider, time);
-  if (const auto* plane = std::get_if<Plane>(&shape))
-    return plane->normal.dot(place - plane->point);
-  const auto& sphere = std::get<Sphere>(shape);
-  return (place - sphere.centre).norm() - sphere.radius;
+  return gap(swept(ContactStage::placed(collider, time), 0, Vec3::Zero()), place).distance;
 }
 
 bool step(ContactStage& stage, const Vec3& acceleration, double time, double h,
@@ -47,7 +90,7 @@ bool step(ContactStage& stage, const Vec3& acceleration, double time, double h,
   particle.velocity += h * acceleration;
   particle.position += h * particle.velocity;
   stage.begin_substep(time, time + h);
-  return stage.resolve(begin, particle.position, particle.velocity);
+  return stage.resolve(VertexId(0), begin, particle.position, particle.velocity);
 }
 
 }  // namespace pleat

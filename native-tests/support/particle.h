@@ -18,11 +18,18 @@ struct Particle {
 /// The half space y < 0.
 Collider floor_collider(double friction);
 Collider ball_collider(const Vec3& centre, double radius, double friction);
+Collider cone_collider(const RoundedCone& cone, double friction);
 
 /// Motion at a constant velocity [m/s] from time 0 on, for 1000 s.
 Motion steady_motion(const Vec3& velocity);
 
+/// Turns about the origin by `spin` [rad/s] while that goes at `velocity` [m/s].
+Motion turning_motion(const Vec3& spin, const Vec3& velocity);
+
 Vec3 random_direction(Random& random);
+/// Within a metre of the origin, of any of its kinds: cones, capsules, with and without width, one
+/// end inside of the other, hardly any length or none.
+RoundedCone random_cone(Random& random);
 
 /// How far a place [m] is above the surface of the solid at a time [s], without clearance [m].
 double height(const Collider& collider, const Vec3& place, double time);
