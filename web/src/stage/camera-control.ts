@@ -17,7 +17,7 @@ export interface View {
   /** Directions from which it is seen at first [rad]. */
   azimuth: number;
   polar: number;
-  /** How much of the radius is seen upwards and downwards at most; 1 when it is not said. */
+  /** How much of the distance that shows the whole ball, height by height, is enough; 1 if unsaid. */
   upright?: number;
 }
 
@@ -34,6 +34,28 @@ export interface CameraControl {
 
 function clamp(value: number, low: number, high: number): number {
   return Math.min(high, Math.max(low, value));
+}
+
+/** Room above and below what has to be seen, for a name and for the marks of pins. */
+const MARGIN = 1.08;
+
+/**
+ * `View.upright` for places within the ball, three numbers each [m]. With half the angle of view a,
+ * a place u above or below the line of sight and t towards the eye is just seen from the
+ * distance u / tan a + t, the whole ball from radius / sin a. `fov` is the angle of view [degrees].
+ */
+export function uprightOf(places: readonly number[], view: View, fov: number): number {
+  const half = (fov * Math.PI) / 360;
+  const towards = new Vector3().setFromSphericalCoords(1, view.polar, view.azimuth);
+  const up = new Vector3(0, 1, 0).addScaledVector(towards, -towards.y).normalize();
+  const place = new Vector3();
+  let most = 0;
+  for (let k = 0; k + 2 < places.length; k += 3) {
+    place.fromArray(places, k).sub(view.centre);
+    const above = Math.abs(place.dot(up)) * Math.cos(half);
+    most = Math.max(most, above + place.dot(towards) * Math.sin(half));
+  }
+  return Math.min(1, (MARGIN * most) / view.radius);
 }
 
 /** `pictureHeight` is that of what the camera sees [CSS pixels]. */

@@ -2,7 +2,7 @@
 // frames and settings, never the solver, and draws only when something changed.
 import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
 import type { Collider, Triple } from '../sim/wasm-module';
-import { createCameraControl } from './camera-control';
+import { createCameraControl, uprightOf } from './camera-control';
 import { createCanvas } from './canvas';
 import { type ClothMesh, createClothMesh } from './cloth-mesh';
 import { lookOf } from './fabric-look';
@@ -49,10 +49,6 @@ export interface PaneStage {
 /** Direction of the first view [rad]: from above enough to see a level sheet's shape. */
 const AZIMUTH = 0.5;
 const POLAR = 1.08;
-
-/** A cloth lower than this part of its width is seen lower than wide by about that much. */
-const LEVEL_HEIGHT = 0.5;
-const LEVEL_UPRIGHT = 0.75;
 
 /** How far one key press moves what is held, as a part of its distance from the eye. */
 const KEY_REACH = 0.02;
@@ -269,9 +265,8 @@ export function createPaneStage(
       const { center: centre, radius } = box.getBoundingSphere(new Sphere());
       floor = box.min.y - FLOOR_BELOW * radius;
       surroundings.frame(centre, radius, floor);
-      const { x, y, z } = box.getSize(new Vector3());
-      const upright = y < LEVEL_HEIGHT * Math.max(x, z) ? LEVEL_UPRIGHT : 1;
-      control.frame({ centre, radius, azimuth: AZIMUTH, polar: POLAR, upright });
+      const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
+      control.frame({ ...view, upright: uprightOf(places, view, camera.fov) });
     },
     homeView: control.home,
     stepFrom(place, [right, up, away]) {
