@@ -31,8 +31,11 @@ const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
 async function serve() {
   const module = await loadModule();
   const posted: FromDeform[] = [];
+  const grants: string[] = [];
   let isWoken = false;
-  const core = createDeformCore(module, (message) => posted.push(message), {
+  const keep = (message: FromDeform) =>
+    message.type === 'granted' ? grants.push(message.what) : posted.push(message);
+  const core = createDeformCore(module, keep, {
     later: () => {
       isWoken = true;
     },
@@ -61,7 +64,7 @@ async function serve() {
   }
   const positions = (frame: DeformFrame | undefined) =>
     frameViews(frame?.buffer ?? new ArrayBuffer(0)).positions;
-  return { core, send, take, settle, positions, posted };
+  return { core, send, take, settle, positions, posted, grants };
 }
 
 /** Opened, held as the experiment is, with a pane for each of these fabrics. */
@@ -168,7 +171,8 @@ describe.runIf(hasModule)('deform-core', () => {
   });
 
   it('refuses in a sentence what has no one shape, and goes on as it was', async () => {
-    const { show, take, settle, hold, answer } = await opened();
+    const { show, take, settle, hold, answer, grants } = await opened();
+    expect(grants).toEqual(['hold', 'show']);
     settle();
     show([{ recovery: 0, stretch: 1, bending: 1 }]);
     settle();
@@ -178,6 +182,7 @@ describe.runIf(hasModule)('deform-core', () => {
     expect(take('refused').failure.what).toMatch(/got none: the equations are singular/);
     show([{ recovery: 0, stretch: 0, bending: 0 }]);
     expect(take('refused')).toMatchObject({ what: 'show', failure: { kind: 'input' } });
+    expect(grants).toEqual(['hold', 'show', 'show']);
   });
 
   it('refuses a bad mesh by its line and keeps the cloth', async () => {

@@ -1,8 +1,11 @@
 import { describe, expect, it } from 'vitest';
 import type { ClothAnswer } from '../src/sim/wasm-module';
+import { titleOf } from '../src/state/fabric-choice';
+import { fabrics } from '../src/state/fabric-data';
 import { decodeFabricsLink, encodeFabricsLink, linkedHolds } from '../src/state/fabrics-link';
 import { heldBy, initialFabricsState } from '../src/state/fabrics-state';
 import { holdAt, holdsOf, joined, middleOf } from '../src/state/holds';
+import { slug } from '../src/state/url-codec';
 import { columnsFor } from '../src/views/fabrics/pane-badges';
 
 /** A strip of five squares in the plane: vertices 0 to 5 below, 6 to 11 above. */
@@ -60,14 +63,14 @@ function fail(): never {
 function stateAt(hash: string) {
   const { link, problems } = decodeFabricsLink(hash);
   const own = holdsOf(cloth, triangles);
-  const holds = linkedHolds(own, cloth, link);
+  const { holds, problems: unfitting } = linkedHolds(own, cloth, link);
   const state = {
     ...initialFabricsState(link, problems),
     cloth,
     ownHolds: own,
     ...heldBy(holds),
   };
-  return { state, problems };
+  return { state, problems, unfitting };
 }
 
 describe('fabrics-link', () => {
@@ -91,13 +94,41 @@ describe('fabrics-link', () => {
       '#view=fabrics&scene=moon&fabrics=tin&terms=&chosen=9&held=h3:1,2&free=x&tail=1',
     );
     expect(problems.length).toBe(6);
-    expect(state.compared).toEqual([{ kind: 'named', name: 'linen' }]);
+    expect(state.compared.map(titleOf)).toEqual(['silk', 'linen']);
     expect(state.terms).toEqual({ recovery: true, stretch: true, bending: true });
   });
 
-  it('leaves out vertices that this cloth has not', () => {
-    const { state } = stateAt('#view=fabrics&held=h99:0,0,1');
-    expect(state.handles.map(({ name }) => name)).toEqual(['middle']);
+  it.each([
+    ['held=h99:0,0,1', /no vertex 99/],
+    ['held=p2:0,0,1', /vertex 2 is held already/],
+    ['held=nobody:0,0,1', /nothing is called "nobody"/],
+    ['held=middle:0,1e200,0', /middle is too far away/],
+    ['free=nobody', /nothing is called "nobody"/],
+  ])('leaves out of %s what does not fit this cloth, and says so', (part, sentence) => {
+    const { state, problems, unfitting } = stateAt(`#view=fabrics&${part}`);
+    expect(problems).toEqual([]);
+    expect(unfitting).toHaveLength(1);
+    expect(unfitting[0]).toMatch(sentence);
+    expect(state.holds.at(-1)).toMatchObject({ name: 'middle', offset: [0, 0, 0] });
+    expect(state.pins.length).toBe(2);
+  });
+
+  it('lists the fabrics that there are when one is unknown', () => {
+    const { state, problems } = stateAt('#view=fabrics&scene=ball&fabrics=silk+tin');
+    expect(state.compared).toEqual([{ kind: 'named', name: 'linen' }]);
+    for (const { name_en } of fabrics) expect(problems.join()).toContain(slug(name_en));
+  });
+
+  it.each(['silk+silk', 'own:1,1,1+own:0.9,1,1', 'own:-1,1,1', 'own:0.9,1.1,11'])(
+    'takes no fabrics %s',
+    (text) => {
+      expect(stateAt(`#view=fabrics&fabrics=${text}`).problems).toHaveLength(1);
+    },
+  );
+
+  it('puts opposites side by side for a first visit, and one fabric in other experiments', () => {
+    expect(stateAt('#view=fabrics').state.panes.length).toBe(2);
+    expect(stateAt('#view=fabrics&scene=ball').state.panes.length).toBe(1);
   });
 
   it('shows all fifteen in a gallery, and what was compared after it', () => {

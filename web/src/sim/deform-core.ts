@@ -220,6 +220,7 @@ export function createDeformCore(
       run.show(JSON.stringify({ form, weights })),
     );
     if (!answer) return;
+    post({ type: 'granted', what: 'show' }, []);
     const known = panes;
     panes = answer.fresh.map((isFresh, index) => {
       const pane = known[index] ?? freshPane();
@@ -231,6 +232,7 @@ export function createDeformCore(
 
   function hold(run: DeformationHandle, vertices: Int32Array, places: Float64Array): void {
     if (granted('hold', run.hold(vertices, places)) === null) return;
+    post({ type: 'granted', what: 'hold' }, []);
     held = vertices;
     begin('here', true);
   }
@@ -271,9 +273,9 @@ export function createDeformCore(
         if (message.cloth === cloth) takeBack(message);
         return;
       case 'fit': {
-        const text = deformation.fitMeasures(JSON.stringify(message.measures));
-        const answer = granted<FitAnswer>('fit', text);
-        if (answer) post({ type: 'fitted', answer }, []);
+        const { measures } = message;
+        const answer = granted<FitAnswer>('fit', deformation.fitMeasures(JSON.stringify(measures)));
+        if (answer) post({ type: 'fitted', measures, answer }, []);
         return;
       }
       case 'section':
@@ -291,7 +293,7 @@ export function createDeformCore(
         handle(message);
       } catch (error) {
         const isAnswered = ['open', 'show', 'hold', 'fit', 'section'].includes(message.type);
-        fail(isAnswered ? (message.type as Refusable) : 'hold', error);
+        fail(isAnswered ? (message.type as Refusable) : 'step', error);
       }
     },
     advance() {
@@ -306,7 +308,7 @@ export function createDeformCore(
           work(run, index, pane);
         } catch (error) {
           pane.isBusy = false;
-          fail('hold', error);
+          fail('step', error);
         }
         break;
       }

@@ -41,9 +41,16 @@ export interface DeformFrame {
 export type FromDeform =
   | { type: 'broken'; reason: string }
   | { type: 'opened'; cloth: number; answer: ClothAnswer; triangles: Uint32Array }
-  | { type: 'refused'; what: 'open' | 'show' | 'hold' | 'fit' | 'section'; failure: Failure }
+  /** Every show and every hold is granted or refused, in the order in which they came. */
+  | { type: 'granted'; what: 'show' | 'hold' }
+  /** `step`: something failed that nobody asked for by name. */
+  | {
+      type: 'refused';
+      what: 'open' | 'show' | 'hold' | 'fit' | 'section' | 'step';
+      failure: Failure;
+    }
   | DeformFrame
-  | { type: 'fitted'; answer: FitAnswer }
+  | { type: 'fitted'; measures: TermNumbers; answer: FitAnswer }
   /** The section "cloth" of a scene, and the places from which a pane's shape starts. */
   | { type: 'section'; section: object; positions: Float64Array };
 

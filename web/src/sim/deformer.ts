@@ -5,7 +5,14 @@ import { EXPERIMENTS, type Experiment, OWN, ownExperiment } from '../state/exper
 import type { Comparison } from '../state/fabric-choice';
 import { fabricsText } from '../state/fabric-data';
 import { type FabricsLink, linkedHolds } from '../state/fabrics-link';
-import { countedWeights, type FabricsState, heldBy, panesFor } from '../state/fabrics-state';
+import {
+  countedWeights,
+  type FabricsState,
+  heldBy,
+  inputFailure,
+  linkFailure,
+  panesFor,
+} from '../state/fabrics-state';
 import { baseOf, type Hold, holdAt, holdsOf, joined, placeOf } from '../state/holds';
 import type { Store } from '../state/store';
 import { startDeformWorker } from './client';
@@ -75,8 +82,18 @@ function shownOf({ compared, gallery, chosen, terms, form, weightsFrom }: Fabric
   return { compared, gallery, chosen, terms, form, weightsFrom };
 }
 
-function inputFailure(what: string): Failure {
-  return { ok: false, kind: 'input', where: '', what };
+const ALL_TERMS = { recovery: true, stretch: true, bending: true };
+
+/** Of a cloth that no link comes with. */
+const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: [] };
+
+/** A failure of what was just changed, for somebody who sees pins and not a scene's file. */
+function undone(failure: Failure): Failure {
+  if (failure.where !== '/pins') return failure;
+  const what = failure.what.charAt(0).toUpperCase() + failure.what.slice(1);
+  return inputFailure(
+    `Undone: without recovery, pins and handles have to say where all of the cloth is. ${what}.`,
+  );
 }
 
 export function createDeformer(store: Store<FabricsState>, view: DeformerView): Deformer {
@@ -89,8 +106,8 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
   let restTimer = 0;
   let lastNumbersMs = 0;
   let obj: { name: string; text: string } | null = null;
-  let held: { now: readonly Hold[]; before: readonly Hold[] } = { now: [], before: [] };
-  let granted: Shown | null = null; // what the panes were last shown with
+  let granted: { show: Shown | null; hold: readonly Hold[] } = { show: null, hold: [] };
+  let unanswered = { show: 0, hold: 0 };
   let onShape: ((shape: StartShape) => void) | null = null;
 
   function broken(reason: string): void {
@@ -126,36 +143,64 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
     client.send({ type: 'open', cloth: own, fabricsText, sceneText, objText: text });
   }
 
-  /** Goes back to what could be shown. */
+  /** Goes back to what could be shown; of a link that never could be, to all terms. */
   function undoShow(): void {
-    const last = granted;
-    if (!last || JSON.stringify(last) === JSON.stringify(shownOf(store.get()))) return;
+    const state = store.get();
+    const last = granted.show ?? { ...shownOf(state), terms: ALL_TERMS };
+    if (JSON.stringify(last) === JSON.stringify(shownOf(state))) return;
     store.set(last);
     showPanes();
   }
 
   /** Goes back to what held the cloth before. */
   function undoHold(): void {
-    held = { now: held.before, before: held.before };
-    store.set(heldBy(held.now));
-    rest();
+    if (granted.hold === store.get().holds) return;
+    setHolds(granted.hold);
+    sendHolds(granted.hold);
+  }
+
+  /** What the page shows and what the worker has are the same again once nothing is unanswered. */
+  function answered(what: 'show' | 'hold', isGranted: boolean): void {
+    unanswered = { ...unanswered, [what]: unanswered[what] - 1 };
+    if (unanswered[what] > 0) return;
+    if (!isGranted) return what === 'show' ? undoShow() : undoHold();
+    const state = store.get();
+    granted =
+      what === 'show' ? { ...granted, show: shownOf(state) } : { ...granted, hold: state.holds };
+  }
+
+  /** Numbers that are shown are of what was before, until new ones come. */
+  function settle(): void {
+    store.set({ panes: store.get().panes.map((pane) => ({ ...pane, status: 'settling' })) });
   }
 
   function sendPanes(): void {
+    settle();
     const { panes, terms, form } = store.get();
     const weights = panes.map((pane) => countedWeights(pane, terms));
+    unanswered.show += 1;
     client.send({ type: 'show', form, weights });
   }
 
   function sendHolds(holds: readonly Hold[]): void {
-    held = { now: holds, before: held.now };
-    store.set({ panes: store.get().panes.map((pane) => ({ ...pane, status: 'settling' })) });
+    unanswered.hold += 1;
+    settle();
     const { vertices, places } = joined(holds);
     client.send({ type: 'hold', vertices, places }, [vertices.buffer, places.buffer]);
   }
 
   function setHolds(holds: readonly Hold[]): void {
     store.set(heldBy(holds));
+  }
+
+  /** The same holds elsewhere: a move is never refused. */
+  function sendMove(holds: readonly Hold[]): void {
+    setHolds(holds);
+    if (unanswered.hold === 0) granted = { ...granted, hold: holds };
+    const { places } = joined(holds);
+    client.send({ type: 'move', places }, [places.buffer]);
+    window.clearTimeout(restTimer);
+    restTimer = window.setTimeout(rest, REST_AFTER_MS);
   }
 
   function receiveOpened({ answer, triangles }: Extract<FromDeform, { type: 'opened' }>): void {
@@ -167,8 +212,9 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
     shown = [];
     taken = null;
     const ownHolds = holdsOf(answer, triangles);
-    const holds = link ? linkedHolds(ownHolds, answer, link) : ownHolds;
+    const { holds, problems } = linkedHolds(ownHolds, answer, link ?? UNMOVED);
     setHolds(holds);
+    granted = { show: null, hold: ownHolds };
     store.set({
       phase: 'ready',
       experiment: experiment.id,
@@ -178,7 +224,7 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
       chosenHold: null,
       isDragging: false,
       invited: true,
-      problem: link ? store.get().problem : null,
+      problem: link ? linkFailure(problems, store.get().problem) : null,
     });
     view.showMesh(triangles, answer.n_vertices, experiment);
     sendHolds(holds);
@@ -198,10 +244,19 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
     lastNumbersMs = nowMs;
     const { energy, terms, steps } = report;
     const numbers = { energy, terms, steps, status, updateMs };
-    granted = shownOf(store.get());
     store.set({
       panes: panes.map((one, at): PaneState => (at === pane ? { ...one, ...numbers } : one)),
     });
+  }
+
+  /** The own fabric that is shown goes with the measurements in its form. */
+  function receiveFitted({ measures, answer }: Extract<FromDeform, { type: 'fitted' }>): void {
+    const { compared, panes } = store.get();
+    store.set({
+      ownFabric: answer,
+      compared: compared.map((one) => (one.kind === 'own' ? { ...one, measures } : one)),
+    });
+    if (panes.some(({ fabric }) => fabric.kind === 'own')) showPanes();
   }
 
   function receive(message: FromDeform): void {
@@ -215,9 +270,9 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
         if (message.cloth === cloth) receiveFrame(message);
         return;
       case 'fitted':
-        store.set({ ownFabric: message.answer });
-        if (store.get().panes.some(({ fabric }) => fabric.kind === 'own')) showPanes();
-        return;
+        return receiveFitted(message);
+      case 'granted':
+        return answered(message.what, true);
       case 'section':
         onShape?.(message);
         return;
@@ -226,9 +281,9 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
           opening = null;
           store.set({ phase: 'ready' });
         }
-        if (message.what === 'hold') undoHold();
-        if (message.what === 'show') undoShow();
-        return refuse(message.failure);
+        if (message.what !== 'hold' && message.what !== 'show') return refuse(message.failure);
+        answered(message.what, false);
+        return refuse(undone(message.failure));
       }
     }
   }
@@ -316,11 +371,7 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
         taken.isNew = null;
         return sendHolds(store.get().holds);
       }
-      setHolds(moved(name, offset));
-      const { places } = joined(store.get().holds);
-      client.send({ type: 'move', places }, [places.buffer]);
-      window.clearTimeout(restTimer);
-      restTimer = window.setTimeout(rest, REST_AFTER_MS);
+      sendMove(moved(name, offset));
     },
     releaseGrab() {
       const wasMoved = taken !== null && taken.isNew === null;
@@ -348,12 +399,8 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
       const hold = store.get().holds.find((one) => one.name === name);
       if (!hold) return;
       const [a, b, c] = hold.offset;
-      setHolds(moved(name, [a + x, b + y, c + z]));
       store.set({ invited: false, chosenHold: name });
-      const { places } = joined(store.get().holds);
-      client.send({ type: 'move', places }, [places.buffer]);
-      window.clearTimeout(restTimer);
-      restTimer = window.setTimeout(rest, REST_AFTER_MS);
+      sendMove(moved(name, [a + x, b + y, c + z]));
     },
     resetHolds() {
       const { ownHolds } = store.get();

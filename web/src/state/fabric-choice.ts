@@ -7,6 +7,9 @@ export const MOST_COMPARED = 4;
 
 export const OWN_TITLE = 'your fabric';
 
+/** Ratios beyond this are refused, as a measurement in another unit is likely. */
+export const LARGEST_RATIO = 10;
+
 /** The shown fabrics in the order of their panes, and the pane whose numbers are read. */
 export interface Comparison {
   fabrics: FabricChoice[];

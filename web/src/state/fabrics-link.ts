@@ -2,7 +2,7 @@
 import type { Triple as Vector } from '../sim/wasm-module';
 import { type DeformState, type FabricChoice, TERMS, type Term } from './deform-state';
 import { EXPERIMENTS, OWN } from './experiments';
-import { MOST_COMPARED } from './fabric-choice';
+import { LARGEST_RATIO, MOST_COMPARED, titleOf } from './fabric-choice';
 import { fabrics } from './fabric-data';
 import type { FabricsState } from './fabrics-state';
 import { type HeldCloth, type Hold, holdAt } from './holds';
@@ -30,6 +30,15 @@ const MOST_HOLDS = 40;
 /** Of a move, in a link. */
 const DIGITS = 5;
 
+/** A thousand times the size of the cloth: no hand goes there, and its squares are still numbers. */
+const FARTHEST_GRASPS = 20000;
+
+/** Opposites, side by side for whoever comes without a wish. */
+const FIRST_FABRICS: readonly FabricChoice[] = ['silk', 'linen'].map((name) => ({
+  kind: 'named',
+  name,
+}));
+
 /** Before the number of a vertex. */
 const LETTERS = { pin: 'p', handle: 'h' } as const;
 
@@ -51,10 +60,14 @@ function vectorIn(text: string | undefined): Vector | undefined {
   return [x, y, z].every(Number.isFinite) ? [x, y, z] : undefined;
 }
 
+const FABRICS_EXPECTED = `one to ${MOST_COMPARED} different ones of ${fabrics
+  .map((fabric) => slug(fabric.name_en))
+  .join(', ')}, or own: with three ratios above 0 and at most ${LARGEST_RATIO}`;
+
 function choiceIn(text: string): FabricChoice | undefined {
   if (text.startsWith('own:')) {
     const measures = vectorIn(text.slice('own:'.length));
-    if (!measures) return undefined;
+    if (!measures?.every((ratio) => ratio > 0 && ratio <= LARGEST_RATIO)) return undefined;
     const [recovery, stretch, bending] = measures;
     return { kind: 'own', measures: { recovery, stretch, bending } };
   }
@@ -124,15 +137,18 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
   const ids = EXPERIMENTS.map(({ id }) => id);
   const first = ids[0] ?? OWN;
   const experiment = take('scene', first, `${ids.join(', ')} (a link carries no OBJ)`, oneOf(ids));
-  const usual = EXPERIMENTS.find(({ id }) => id === experiment)?.fabric ?? 'linen';
+  const usual: FabricChoice = {
+    kind: 'named',
+    name: EXPERIMENTS.find(({ id }) => id === experiment)?.fabric ?? 'linen',
+  };
   const compared = take<FabricChoice[]>(
     'fabrics',
-    [{ kind: 'named', name: usual }],
-    `one to ${MOST_COMPARED} fabrics`,
+    experiment === first ? [...FIRST_FABRICS] : [usual],
+    FABRICS_EXPECTED,
     (list) => {
       const choices = allOf(list, '+', choiceIn);
-      const isFew = choices && choices.length > 0 && choices.length <= MOST_COMPARED;
-      return isFew ? choices : undefined;
+      const n = new Set(choices?.map(titleOf)).size;
+      return n > 0 && n <= MOST_COMPARED && n === choices?.length ? choices : undefined;
     },
   );
   const gallery = take('gallery', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
@@ -180,22 +196,42 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
   return { link, problems: finish() };
 }
 
-/** An experiment's holds as a link has them; what does not fit this cloth is left out. */
+function isWithinReach({ grasp_m }: HeldCloth, offset: Vector): boolean {
+  return Math.hypot(...offset) <= FARTHEST_GRASPS * grasp_m;
+}
+
+/** The hold that a link puts there; one phrase if it does not fit. */
+function addedHold(
+  cloth: HeldCloth,
+  { by, offset }: LinkedHold,
+  present: readonly Hold[],
+): Hold | string {
+  if (typeof by === 'string') return `held: nothing is called "${by}"`;
+  const { vertex, kind } = by;
+  if (vertex >= cloth.rest_m.length / 3) return `held: the cloth has no vertex ${vertex}`;
+  const hold = holdAt(cloth, vertex, kind, present);
+  return hold ? { ...hold, offset } : `held: vertex ${vertex} is held already`;
+}
+
+/** An experiment's holds as a link has them; `problems` says what does not fit this cloth. */
 export function linkedHolds(
   own: readonly Hold[],
   cloth: HeldCloth,
   { moved, released }: Pick<FabricsLink, 'moved' | 'released'>,
-): Hold[] {
-  const present = own
-    .filter(({ name }) => !released.includes(slug(name)))
-    .map((hold): Hold => {
-      const known = moved.find(({ by }) => by === slug(hold.name));
-      return known ? { ...hold, offset: known.offset } : hold;
-    });
-  for (const { by, offset } of moved) {
-    if (typeof by === 'string' || by.vertex >= cloth.rest_m.length / 3) continue;
-    const hold = holdAt(cloth, by.vertex, by.kind, present);
-    if (hold) present.push({ ...hold, offset });
+): { holds: Hold[]; problems: string[] } {
+  const names = own.map(({ name }) => slug(name));
+  const problems = released
+    .filter((name) => !names.includes(name))
+    .map((name) => `free: nothing is called "${name}"`);
+  const holds = own.filter(({ name }) => !released.includes(slug(name)));
+  for (const move of moved) {
+    const index = holds.findIndex(({ name }) => slug(name) === move.by);
+    const known = holds[index];
+    const hold = known ? { ...known, offset: move.offset } : addedHold(cloth, move, holds);
+    if (typeof hold === 'string') problems.push(hold);
+    else if (!isWithinReach(cloth, move.offset))
+      problems.push(`held: ${hold.name} is too far away`);
+    else holds.splice(known ? index : holds.length, 1, hold);
   }
-  return present;
+  return { holds, problems };
 }

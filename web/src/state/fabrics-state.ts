@@ -1,5 +1,5 @@
 // The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
-import type { ClothAnswer } from '../sim/wasm-module';
+import type { ClothAnswer, Failure } from '../sim/wasm-module';
 import {
   type DeformState,
   type FabricChoice,
@@ -79,6 +79,17 @@ export function panesFor(
   });
 }
 
+export function inputFailure(what: string): Failure {
+  return { ok: false, kind: 'input', where: '', what };
+}
+
+/** What a link said that could not be followed, after what was known of it already. */
+export function linkFailure(problems: readonly string[], known: Failure | null): Failure | null {
+  if (problems.length === 0) return known;
+  const before = known?.what ?? 'The link could not be read fully.';
+  return inputFailure(`${before} ${problems.join('; ')}.`);
+}
+
 export function initialFabricsState(link: FabricsLink, problems: string[]): FabricsState {
   const start = { ...link, ownFabric: null, panes: [] };
   return {
@@ -93,14 +104,6 @@ export function initialFabricsState(link: FabricsLink, problems: string[]): Fabr
     chosenHold: null,
     isDragging: false,
     invited: true,
-    problem:
-      problems.length > 0
-        ? {
-            ok: false,
-            kind: 'input',
-            where: '',
-            what: `The link could not be read fully. ${problems.join('; ')}.`,
-          }
-        : null,
+    problem: linkFailure(problems, null),
   };
 }

@@ -5,7 +5,7 @@ import './fabrics/panel.css';
 import { createDeformer, type Deformer, type StartShape } from '../sim/deformer';
 import type { HoldMark } from '../stage/hold-marks';
 import { createPaneStage, type PaneStage } from '../stage/pane-stage';
-import { withShown } from '../state/fabric-choice';
+import { withShown, withToggled } from '../state/fabric-choice';
 import { decodeFabricsLink, encodeFabricsLink } from '../state/fabrics-link';
 import { type FabricsState, initialFabricsState, recordOf } from '../state/fabrics-state';
 import { joined, middleOf } from '../state/holds';
@@ -159,8 +159,8 @@ export function createFabricsView(
   new ResizeObserver(layOut).observe(stageBox);
 
   let dressed = '';
-  watch(store, ['panes', 'ownFabric'], ({ panes }) => {
-    const fabrics = JSON.stringify(panes.map(({ fabric }) => fabric));
+  watch(store, ['panes', 'ownFabric'], ({ panes, ownFabric }) => {
+    const fabrics = JSON.stringify(panes.map(({ fabric }) => recordOf(fabric, ownFabric).id));
     if (fabrics === dressed) return; // numbers alone
     dressed = fabrics;
     layOut();
@@ -209,6 +209,12 @@ export function createFabricsView(
       const { compared: fabrics, chosen, gallery } = store.get();
       const comparison = { fabrics, chosen: gallery ? 0 : chosen };
       deformer.compare(withShown(comparison, { kind: 'own', measures }));
+    },
+    hide() {
+      const { compared: fabrics, chosen } = store.get();
+      const own = fabrics.find(({ kind }) => kind === 'own');
+      const left = own && withToggled({ fabrics, chosen }, own);
+      if (left && typeof left !== 'string') deformer.compare(left);
     },
   });
   createHoldList(panel, store, {

@@ -390,6 +390,57 @@ export async function checkFabrics({ open, check, countColours }) {
     );
   }
 
+  await check('fabrics: a link without one shape is shown with all terms, and says so', () =>
+    visit(
+      '#view=fabrics&scene=terms&terms=stretch&free=upper-left;upper-right;lower-left;lower-right;middle',
+      async (page) => {
+        const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+        expectThat(/^Undone: .*singular/.test(sentence), `it says: ${sentence}`);
+        const { terms, holds } = await stateOf(page);
+        expectThat(terms.recovery && holds.length === 0, 'it is not as the sentence says');
+        expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
+      },
+    ),
+  );
+
+  await check('fabrics: one’s own fabric is shown beside another, and taken away again', () =>
+    visit('#view=fabrics&scene=terms&fabrics=own:0.98,1.05,0.99+wool', async (page) => {
+      const kinds = ({ panes }) => panes.map(({ fabric }) => fabric.kind).join();
+      expectThat(kinds(await stateOf(page)) === 'own,named', 'it is not there');
+      await page.getByLabel('Stretch', { exact: true }).and(page.locator('.ratio')).fill('1.08');
+      await until(page, (state) => state.panes[0].fabric.measures.stretch === 1.08);
+      await eventually(() => page.url().includes('own:0.98,1.08,0.99'), 'the link has it');
+      await button(page, 'Take it away').click();
+      await until(page, (state) => state.panes.length === 1);
+      expectThat(kinds(await stateOf(page)) === 'named', 'it is still there');
+      await isFound(page);
+    }),
+  );
+
+  await check('fabrics: the list of holds keeps the focus of whoever releases by key', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      const names = holdsOf(await stateOf(page));
+      const focused = () => page.evaluate(() => document.activeElement.getAttribute('aria-label'));
+      await button(page, 'Release upper left').focus();
+      await page.keyboard.press('Enter');
+      await until(page, (state) => state.pins.length === 3);
+      expectThat((await focused()) === 'Release upper right', `it is at ${await focused()}`);
+      for (const _ of names.slice(1)) await page.keyboard.press('Enter');
+      await until(page, (state) => state.holds.length === 0);
+      const at = await page.evaluate(() => document.activeElement.textContent);
+      expectThat(at === 'Pins and handles as at first', `it is at ${at}`);
+      await isFound(page);
+    }),
+  );
+
+  await check('fabrics: beside its panel the page itself does not scroll', () =>
+    visit('#view=fabrics&scene=terms&fabrics=silk+own:0.98,1.05,0.99', async (page) => {
+      await page.evaluate(() => window.scrollTo(0, 5000));
+      const down = await page.evaluate(() => window.scrollY);
+      expectThat(down === 0, `it went ${down} px down`);
+    }),
+  );
+
   for (const [width, height] of [
     [320, 568],
     [390, 844],

@@ -6,6 +6,7 @@ import {
   type Term,
   type Triple,
 } from '../../state/deform-state';
+import { LARGEST_RATIO } from '../../state/fabric-choice';
 import {
   errorOfMean,
   fabricNamed,
@@ -24,10 +25,9 @@ export interface OwnFabricActions {
   measure(measures: Triple): void;
   /** Shows the own fabric in the chosen pane. */
   show(measures: Triple): void;
+  /** Closes the pane that shows it. */
+  hide(): void;
 }
-
-/** Ratios beyond this are refused, as a measurement in another unit is likely. */
-export const LARGEST_RATIO = 10;
 
 /** A ratio with as many digits as the measured ones have. */
 function ratio(value: number): string {
@@ -131,6 +131,11 @@ export function createOwnFabricForm(
     { type: 'button', class: 'wide', click: () => measures && actions.show(measures) },
     'Show it',
   );
+  const hideIt = element(
+    'button',
+    { type: 'button', class: 'wide', click: actions.hide },
+    'Take it away',
+  );
   const result = element(
     'div',
     { class: 'own-result' },
@@ -178,11 +183,14 @@ export function createOwnFabricForm(
     element('p', { class: 'note' }, 'Three ratios, measured on a sample of 46 × 40 cm.'),
     ...fields.map((one) => one.box),
     result,
+    hideIt,
   );
   parent.append(element('section', { 'aria-label': 'Your own fabric' }, box));
 
   function render(): void {
-    const { ownFabric: own, problem } = store.get();
+    const { ownFabric: own, problem, panes, gallery } = store.get();
+    const isBesideOthers = panes.length > 1 && panes.some(({ fabric }) => fabric.kind === 'own');
+    hideIt.hidden = gallery || !isBesideOthers;
     for (const { term, input, tell } of fields) {
       const value = readMeasure(term, input.value);
       const isRefused = problem?.where.endsWith(`/${term}`) === true;
@@ -221,5 +229,13 @@ export function createOwnFabricForm(
   }
 
   fill();
-  return watch(store, ['ownFabric', 'problem'], render);
+  let listed = '';
+  return watch(store, ['ownFabric', 'problem', 'panes', 'gallery'], (state) => {
+    const { panes, gallery, problem, ownFabric: own } = state;
+    // The numbers of a pane change with every frame, the form does not.
+    const text = JSON.stringify([panes.map(({ fabric }) => fabric.kind), gallery, problem, own]);
+    if (text === listed) return;
+    listed = text;
+    render();
+  });
 }
