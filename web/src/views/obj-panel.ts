@@ -21,7 +21,9 @@ function sentences(mesh: ObjMesh): string {
   if (threads === 'along_x') parts.push('No texture coordinates: threads run along x.');
   if (nTriangles > MANY_TRIANGLES) parts.push('So many triangles will be slow.');
   if (start)
-    parts.push('At level 0 it starts from the shape it was pulled into, else from where it rests.');
+    parts.push(
+      'It starts from the shape it was pulled into at level 0; finer levels have vertices that this shape has not, and start from rest.',
+    );
   if (isOwn)
     parts.push('It stays on this machine, and no link carries it: a reload shows the skirt.');
   return parts.join(' ');

@@ -43,7 +43,12 @@ function createRow({ name, kind }: Hold, actions: HoldActions): HTMLElement {
   );
   const release = element(
     'button',
-    { type: 'button', 'aria-label': `Release ${name}`, click: () => actions.release(name) },
+    {
+      type: 'button',
+      'aria-label': `Release ${name}`,
+      'data-release': '',
+      click: () => actions.release(name),
+    },
     'Release',
   );
   return element('li', {}, move, release);
@@ -81,6 +86,16 @@ export function createHoldList(
     reset,
   );
   parent.append(section);
+
+  /** A list that is made anew would lose the focus: it goes to the button that took its place. */
+  function remake(kind: Hold['kind'], rows: HTMLElement[]): void {
+    const releases = () => [...section.querySelectorAll<HTMLElement>('[data-release]')];
+    const index = releases().indexOf(document.activeElement as HTMLElement);
+    lists[kind].replaceChildren(...rows);
+    if (index >= 0 && !section.contains(document.activeElement))
+      (releases()[index] ?? releases().at(-1) ?? reset).focus();
+  }
+
   let listed = '';
   const stop = watch(store, ['pins', 'handles'], (state) => {
     const holds = state.holds;
@@ -89,7 +104,10 @@ export function createHoldList(
     listed = names;
     for (const kind of ['handle', 'pin'] as const) {
       const rows = holds.filter((hold) => hold.kind === kind);
-      lists[kind].replaceChildren(...rows.map((hold) => createRow(hold, actions)));
+      remake(
+        kind,
+        rows.map((hold) => createRow(hold, actions)),
+      );
       heads[kind].hidden = rows.length === 0;
     }
     none.hidden = holds.length > 0;

@@ -7,7 +7,8 @@ import { digits, milliseconds } from '../quantity';
 
 type Pane = FabricsState['panes'][number];
 
-function timeWords({ status, updateMs }: Pane): string {
+function timeWords({ status, updateMs }: Pane, isLoading: boolean): string {
+  if (isLoading) return 'opening';
   const time = Number.isFinite(updateMs) ? milliseconds(updateMs) : '';
   if (status === 'dragging') return `${time} an update`;
   if (status === 'settling') return 'settling';
@@ -22,12 +23,13 @@ function createBadge(choose: () => void) {
   button.append(energy, time);
   return {
     cell: element('div', { class: 'pane' }, button),
-    show(pane: Pane, isChosen: boolean, isBrief: boolean) {
+    show(pane: Pane, isChosen: boolean, isBrief: boolean, isLoading: boolean) {
       setText(name, titleOf(pane.fabric));
       setText(energy, `E ${digits(pane.energy)}`);
       energy.title = 'Energy of the shape: a number without unit';
-      setText(time, timeWords(pane));
-      time.hidden = isBrief;
+      setText(time, timeWords(pane, isLoading));
+      button.classList.toggle('brief', isBrief);
+      time.hidden = isBrief && !isLoading && pane.status !== 'settling';
       button.setAttribute('aria-pressed', String(isChosen));
     },
   };
@@ -49,13 +51,13 @@ export function createPaneBadges(
   const grid = element('div', { class: 'panes' });
   parent.append(grid);
   let badges: ReturnType<typeof createBadge>[] = [];
-  const close = watch(store, ['panes', 'chosen'], ({ panes, chosen }) => {
+  const close = watch(store, ['panes', 'chosen', 'phase'], ({ panes, chosen, phase }) => {
     if (badges.length !== panes.length) {
       badges = panes.map((_, index) => createBadge(() => actions.choose(index)));
       grid.replaceChildren(...badges.map(({ cell }) => cell));
     }
     panes.forEach((pane, index) => {
-      badges[index]?.show(pane, index === chosen, panes.length > 4);
+      badges[index]?.show(pane, index === chosen, panes.length > 4, phase === 'loading');
     });
   });
   return {
