@@ -377,7 +377,9 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
       const wasMoved = taken !== null && taken.isNew === null;
       taken = null;
       store.set({ isDragging: false });
-      if (wasMoved) rest();
+      if (!wasMoved) return;
+      settle();
+      rest();
     },
     togglePin(vertex, pane) {
       const holds = store.get().holds;
