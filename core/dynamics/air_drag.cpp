@@ -1,6 +1,7 @@
 #include "core/dynamics/air_drag.h"
 
 #include "core/base/check.h"
+#include "core/dynamics/hanging_vertices.h"
 
 namespace pleat {
 
@@ -57,13 +58,18 @@ Mat3 AirDrag::resistance(VertexId vertex) const {
 
 void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
                          const Eigen::Ref<const Positions>& velocities,
-                         const Eigen::VectorXd& masses, double h, Eigen::Ref<Positions> forces) {
+                         const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,
+                         double h, Eigen::Ref<Positions> forces) {
   evaluate(positions, velocities);
+  // S^T D S lumped to its diagonal gives each parent half of a hanging vertex's D.
+  pull_to_parents(hanging, drag_);
+  pull_to_parents(hanging, resistance_);
   if (h == 0) {
     forces += drag_;
     return;
   }
   for (Eigen::Index i = 0; i < drag_.cols(); ++i) {
+    if (masses[i] == 0) continue;
     const Mat3 damped = Mat3::Identity() + h / masses[i] * resistance(VertexId(i));
     forces.col(i) += damped.inverse() * drag_.col(i);
   }

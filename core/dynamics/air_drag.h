@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/mesh/quad_mesh.h"
@@ -28,7 +29,7 @@ class AirDrag {
   /// D >= -df/dv lumped to the vertex [N s/m].
   Mat3 resistance(VertexId vertex) const;
 
-  /// Evaluates, and adds drag to `forces` [N].
+  /// Evaluates, and adds drag to `forces` [N]; what acts on vertices that hang, to their parents'.
   ///
   /// h  0 gives the law above. Positive gives the force that a linearly implicit step of h [s]
   /// applies,
@@ -36,7 +37,7 @@ class AirDrag {
   ///    overshooting, so that light cloth may take large steps.
   void add_forces(const Eigen::Ref<const Positions>& positions,
                   const Eigen::Ref<const Positions>& velocities, const Eigen::VectorXd& masses,
-                  double h, Eigen::Ref<Positions> forces);
+                  std::span<const HangingVertex> hanging, double h, Eigen::Ref<Positions> forces);
 
   /// Factor on the force, 1 to begin with: lets drag keep up while motion is carried over to cloth
   /// of another weight.

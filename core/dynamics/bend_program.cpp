@@ -1,5 +1,6 @@
 #include "core/dynamics/bend_program.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pleat {
@@ -12,6 +13,9 @@ std::vector<LaneCandidate> candidates_of(const ClothModel& model, const LaneLayo
   for (std::size_t e = 0; e < model.bends.size(); ++e) {
     const BendElement& bend = model.bends[e];
     if (bend.stiffness == 0 || bend.weights[1] == 0) continue;
+    if (std::any_of(bend.vertices.begin(), bend.vertices.end(),
+                    [&model](VertexId v) { return model.hangs(v); }))
+      continue;
     const auto place = [&](std::size_t k) {
       return layout.places[static_cast<std::size_t>(bend.vertices[k])];
     };

@@ -8,8 +8,8 @@
 
 namespace pleat {
 
-/// The bending elements of a model, compiled into operations on four at a time. Each is one vector
-/// constraint, linear in the positions.
+/// The bending elements of a model that join no hanging vertex, compiled into operations on four at
+/// a time. Each is one vector constraint, linear in the positions.
 class BendProgram {
  public:
   /// h  substep [s]

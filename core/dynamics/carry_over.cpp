@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "core/base/check.h"
+#include "core/dynamics/hanging_vertices.h"
 
 namespace pleat {
 namespace {
@@ -63,10 +63,12 @@ Resultants vertex_resultants(const MovingSheet& sheet) {
     sums.col(spring.a) += share;
     sums.col(spring.b) += share;
   }
+  pull_to_parents(sheet.model.hanging, sums);
   const Eigen::VectorXd areas = sheet.mesh.vertex_areas();
   const double largest = largest_resultant(sheet, areas.sum());
   for (Eigen::Index i = 0; i < sums.cols(); ++i)
-    sums.col(i) = tensile_part(sums.col(i) / areas[i], largest);
+    if (areas[i] > 0) sums.col(i) = tensile_part(sums.col(i) / areas[i], largest);
+  place_between_parents(sheet.model.hanging, sums);
   return sums;
 }
 
@@ -221,19 +223,21 @@ Positions carried_positions(const Positions& old, const QuadMesh& mesh) {
   Positions fresh(3, mesh.n_vertices());
   const Eigen::Index n_shared = std::min(old.cols(), fresh.cols());
   fresh.leftCols(n_shared) = old.leftCols(n_shared);
-  int level = -1;
-  std::optional<MeshLines> lines;
-  for (const QuadFace& face : mesh.faces()) {  // coarser levels come first
-    if (face.active()) continue;
-    if (face.level != level) lines.emplace(mesh, level = face.level);
-    fill_face(mesh, face, *lines, n_shared, fresh);
+  int finest = 0;
+  for (const QuadFace& face : mesh.faces()) finest = std::max(finest, face.level);
+  for (int level = 0; level < finest; ++level) {
+    const MeshLines lines(mesh, level);
+    for (const QuadFace& face : mesh.faces())
+      if (face.level == level && !face.active()) fill_face(mesh, face, lines, n_shared, fresh);
   }
   return fresh;
 }
 
 State carried_state(const MovingSheet& old, const QuadMesh& mesh) {
-  return {carried_positions(old.state.positions, mesh),
-          carried_positions(old.state.velocities, mesh)};
+  State state{carried_positions(old.state.positions, mesh),
+              carried_positions(old.state.velocities, mesh)};
+  place_between_parents(mesh.hanging_vertices(), state);
+  return state;
 }
 
 std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingSheet& fresh) {
@@ -252,7 +256,10 @@ std::vector<double> carried_rest_lengths(const MovingSheet& old, const MovingShe
 Positions carried_forces(const Positions& forces, const MovingSheet& old,
                          const MovingSheet& fresh) {
   if (forces.cols() == 0) return Positions::Zero(3, fresh.mesh.n_vertices());
-  const Positions accelerations = forces * old.model.masses.cwiseInverse().asDiagonal();
+  Positions accelerations = forces;
+  for (Eigen::Index i = 0; i < forces.cols(); ++i)
+    if (!old.model.hangs(VertexId(i))) accelerations.col(i) *= 1 / old.model.masses[i];
+  place_between_parents(old.model.hanging, accelerations);
   return carried_means(accelerations, fresh.mesh) * fresh.model.masses.asDiagonal();
 }
 

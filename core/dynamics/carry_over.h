@@ -24,7 +24,8 @@ double mass_ratio(const MovingSheet& old, const MovingSheet& fresh);
 /// Source: docs/methods/carry_over.md.
 Positions carried_positions(const Positions& old, const QuadMesh& mesh);
 
-/// The state of `old` on another refinement of the same base mesh: carried_positions of both.
+/// The state of `old` on another refinement of the same base mesh: carried_positions of both,
+/// hanging vertices in the middle of their parents.
 State carried_state(const MovingSheet& old, const QuadMesh& mesh);
 
 /// Rest lengths [m], one per spring of `fresh`, with which the new cloth starts on the

@@ -18,6 +18,25 @@ void check_springs(const std::vector<Spring>& springs, int n_vertices) {
   }
 }
 
+/// Zero mass tells whether a vertex hangs.
+void check_hanging(const ClothModel& model) {
+  const auto is_free = [&model](VertexId v) {
+    return v >= 0 && v < model.n_vertices() && !model.hangs(v);
+  };
+  std::vector<bool> hangs(static_cast<std::size_t>(model.n_vertices()), false);
+  for (const HangingVertex& h : model.hanging) {
+    PLEAT_CHECK(h.vertex >= 0 && h.vertex < model.n_vertices() && !hangs[h.vertex],
+                "a vertex hangs once");
+    PLEAT_CHECK(model.hangs(h.vertex), "a hanging vertex has no mass of its own");
+    PLEAT_CHECK(h.parents[0] != h.parents[1] && is_free(h.parents[0]) && is_free(h.parents[1]),
+                "a vertex hangs between two that do not");
+    hangs[h.vertex] = true;
+  }
+  const auto n_massless = (model.masses.array() == 0).count();
+  PLEAT_CHECK(n_massless == static_cast<Eigen::Index>(model.hanging.size()),
+              "masses are positive where nothing hangs");
+}
+
 }  // namespace
 
 bool ClothModel::is_plain_spring_lattice() const {
@@ -32,7 +51,8 @@ void ClothModel::validate() const {
     return std::all_of(vertices.begin(), vertices.end(), exists);
   };
   PLEAT_CHECK(n >= 1, "a model has at least one vertex");
-  PLEAT_CHECK(masses.allFinite() && masses.minCoeff() > 0, "masses are positive");
+  PLEAT_CHECK(masses.allFinite() && masses.minCoeff() >= 0, "masses are not negative");
+  check_hanging(*this);
   PLEAT_CHECK(gravity.allFinite(), "gravity is finite");
   check_springs(springs, n);
   check_springs(taut_springs, n);
@@ -51,6 +71,7 @@ void ClothModel::validate() const {
   std::vector<bool> pinned(static_cast<std::size_t>(n), false);
   for (const Pin& pin : pins) {
     PLEAT_CHECK(exists(pin.vertex) && !pinned[pin.vertex], "a vertex has at most one pin");
+    PLEAT_CHECK(!hangs(pin.vertex), "a pin holds no hanging vertex but its parents");
     pinned[pin.vertex] = true;
   }
   PLEAT_CHECK(rest_coordinates.cols() == 0 || rest_coordinates.cols() == n,

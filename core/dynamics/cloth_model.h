@@ -32,7 +32,8 @@ enum class DampingDirection {
 
 /// Everything that the equations of motion need; nothing that the scene did not ask for.
 struct ClothModel {
-  Eigen::VectorXd masses;  ///< lumped, one per vertex [kg], positive
+  Eigen::VectorXd masses;              ///< lumped, one per vertex [kg], positive; 0 where it hangs
+  std::vector<HangingVertex> hanging;  ///< no unknowns; elements may join them like any others
   std::vector<Spring> springs;
   DampingDirection damping_direction = DampingDirection::along_spring;
   std::vector<Spring> taut_springs;  ///< pull beyond their rest length and never push; no damping
@@ -43,12 +44,14 @@ struct ClothModel {
   SparseMatrix fitted_bending;     ///< n x n, lower triangle [N/m]; 0 x 0 without it
   std::vector<Hinge> hinges;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
-  std::vector<Pin> pins;      ///< at most one per vertex
+  std::vector<Pin> pins;      ///< at most one per vertex, none where it hangs
   std::optional<AirDrag> air;
   std::optional<ContactStage> contact;
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
 
   int n_vertices() const { return static_cast<int>(masses.size()); }
+  /// In the middle of its parents, which have its mass.
+  bool hangs(VertexId vertex) const { return masses[vertex] == 0; }
   bool has_fitted_bending() const { return fitted_bending.rows() > 0; }
   /// True when springs and quadratic bending are all that holds it together: what position-based
   /// and projective steps are made for.

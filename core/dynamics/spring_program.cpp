@@ -3,13 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 namespace pleat {
 namespace {
 
-/// Where a length [m] may be zero, its square is held above this [m^2].
-constexpr float kTinySquare = 1e-30f;
 /// Share by which a line's diagonal is enlarged: a line stretches under its load by this share of
 /// what projecting its springs one by one would leave, and contradicting pins pull it at most
 /// 1/kLineSoftness times as hard.
@@ -25,21 +22,15 @@ constexpr float kLargestPull = 0.3f;
 enum LineChannel { kSolution, kUpper, kDirection, kMultiplierShare = 5, kLineChannels };
 constexpr int kLanes = Float4::kLanes;
 
-using Block = SpringProgram::Block;
+using Block = SpringBlock;
 
-/// Those that can pull at all.
-std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
-  std::vector<int> active;
-  for (std::size_t s = 0; s < model.springs.size(); ++s) {
-    const Spring& spring = model.springs[s];
-    if (spring.stiffness > 0 || (law != SpringLaw::rigid && spring.damping > 0))
-      active.push_back(static_cast<int>(s));
-  }
-  return active;
-}
-
-constexpr int multiplier_floats(SpringLaw law) {
-  return law == SpringLaw::damped_isotropic ? 4 * kLanes : kLanes;
+std::vector<int> springs_apart_from_hanging(const ClothModel& model, SpringLaw law) {
+  std::vector<int> springs = active_springs(model, law);
+  std::erase_if(springs, [&model](int s) {
+    const Spring& spring = model.springs[static_cast<std::size_t>(s)];
+    return model.hangs(spring.a) || model.hangs(spring.b);
+  });
+  return springs;
 }
 
 /// Source: Fowler, Noll & Vo, hash FNV-1a.
@@ -55,61 +46,12 @@ std::uint32_t hash_of(const Block& block) {
   return hash;
 }
 
-// With d = x_a - x_b at the end of the substep and d_begin at its begin, the pull acts along their
-// mean, of which g = d + d_begin is twice: all of it along d damps, less than half along d is not
-// stable under high tension (docs/methods/xpbd.md). Corrections x_a += w_a f g, x_b -= w_b f g
-// change the length l = |d| by f (w_a + w_b) d.g/l.
-//   rigid:   (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0
-//   elastic: l - L + alpha lambda = 0, with lambda the multiplier and dlambda = f d.g/l; times l
-// Both read aim = f slope (w_a + w_b + alpha), slope = d.g. The slope, 2 l^2 when nothing turns, is
-// held above L^2 or l^2: below, the spring turned by more than 60 degrees within a substep or is
-// squeezed to nothing, and the linearisation would throw it far over its aim.
-template <class Lanes>
-struct Linearised {
-  Vec3Lanes<Lanes> d, g;
-  Lanes aim, slope;
-  Lanes length;  // elastic laws only
-};
-
-template <class Lanes, SpringLaw law, bool first>
-Linearised<Lanes> linearise(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& change_of_d,
-                            const Block& block, int lane, const float* multiplier) {
-  Linearised<Lanes> spring;
-  spring.d = d_begin + change_of_d;
-  spring.g = spring.d + d_begin;
-  const Lanes square = dot(spring.d, spring.d);
-  const Lanes rest = Lanes::load(block.rest.data() + lane);
-  if constexpr (law == SpringLaw::rigid) {
-    spring.aim = Lanes::all(0.5f) * (rest - square);
-    spring.slope = max(dot(spring.d, spring.g), max(rest, square));
-  } else {
-    const Lanes tiny = Lanes::all(kTinySquare);
-    spring.length = sqrt(max(square, tiny));
-    Lanes error = rest - spring.length;
-    if constexpr (law != SpringLaw::elastic) {
-      const Lanes length_begin = sqrt(dot(d_begin, d_begin));
-      error = error + Lanes::load(block.damper_share.data() + lane) * (length_begin - rest);
-    }
-    if constexpr (!first)
-      error = error - Lanes::load(block.compliance.data() + lane) * Lanes::load(multiplier);
-    spring.aim = error * spring.length;
-    spring.slope = max(dot(spring.d, spring.g), max(square, tiny));
-  }
-  return spring;
-}
-
-/// The part of a relative motion that is across a spring.
-template <class Lanes>
-Vec3Lanes<Lanes> across(const Vec3Lanes<Lanes>& motion, const Vec3Lanes<Lanes>& d) {
-  return motion - (dot(d, motion) / max(dot(d, d), Lanes::all(kTinySquare))) * d;
-}
-
 }  // namespace
 
 SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
                              double h)
     : law_(law), h_(h), mean_mass_(model.masses.mean()) {
-  SpringOrder order = order_springs(model, layout, active_springs(model, law_));
+  SpringOrder order = order_springs(model, layout, springs_apart_from_hanging(model, law_));
   // The damper across a spring is not part of a line's equations.
   if (law_ != SpringLaw::damped_isotropic) lines_ = std::move(order.lines);
   int n_in_lines = 0;
@@ -132,31 +74,10 @@ SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, 
 
 Block SpringProgram::block_of(const ClothModel& model, const LaneMembers& members) const {
   Block block;
-  block.rest.fill(1);
-  block.compliance.fill(0);
-  block.denominator_share.fill(kEmptyLane);
-  block.damper_share.fill(0);
-  block.across_compliance.fill(kEmptyLane);
-  for (std::size_t lane = 0; lane < members.size(); ++lane) {
-    if (members[lane] < 0) continue;
-    const Spring& spring = model.springs[static_cast<std::size_t>(members[lane])];
-    const double rest = spring.rest_length;
-    if (law_ == SpringLaw::rigid) {
-      block.rest[lane] = std::max(static_cast<float>(rest * rest), kTinySquare);
-      block.denominator_share[lane] = kRigidCompliance;
-      continue;
-    }
-    // k/2 (l - L)^2 + c/(2h) (l - l_begin)^2 is one spring of stiffness k + c/h about a length
-    // between L and l_begin.
-    const double damper = law_ == SpringLaw::elastic ? 0 : spring.damping / h_;  // [N/m]
-    const double stiffness = spring.stiffness + damper;
-    block.rest[lane] = static_cast<float>(rest);
-    block.compliance[lane] = static_cast<float>(mean_mass_ / (stiffness * h_ * h_));
-    block.denominator_share[lane] = block.compliance[lane] + kRigidCompliance;
-    block.damper_share[lane] = static_cast<float>(damper / stiffness);
-    if (law_ == SpringLaw::damped_isotropic && damper > 0)
-      block.across_compliance[lane] = static_cast<float>(mean_mass_ / (damper * h_ * h_));
-  }
+  for (std::size_t lane = 0; lane < members.size(); ++lane)
+    if (members[lane] >= 0)
+      block.set_lane(lane, model.springs[static_cast<std::size_t>(members[lane])], law_, h_,
+                     mean_mass_);
   return block;
 }
 
@@ -303,29 +224,8 @@ void SpringProgram::project(const LaneView& view) {
     const Vec3Lanes<Lanes> d_begin = load<Lanes>(v.begins, a) - load<Lanes>(v.begins, b);
     const Lanes w_a = Lanes::load(v.inverse_masses + a);
     const Lanes w_b = Lanes::load(v.inverse_masses + b);
-    const Lanes w = w_a + w_b;
-    const auto spring = linearise<Lanes, law, first>(d_begin, change_of_d, block, lane, multiplier);
-    const Lanes f =
-        spring.aim / (spring.slope * (w + Lanes::load(block.denominator_share.data() + lane)));
-    Vec3Lanes<Lanes> pull = f * spring.g;
-    if constexpr (law != SpringLaw::rigid)
-      add_to_multiplier<first>(f * spring.slope / spring.length, multiplier);
-    if constexpr (law == SpringLaw::damped_isotropic) {
-      // Across the spring C = t, the motion across, linear, with compliance 1/(c h).
-      const Lanes gain =
-          Lanes::all(1.0f) / (w + Lanes::load(block.across_compliance.data() + lane));
-      Vec3Lanes<Lanes> change = (Lanes::all(0.0f) - gain) * across(change_of_d, spring.d);
-      if constexpr (!first) {
-        // gain * compliance = 1 - gain w, without infinity times zero in empty lanes
-        const Vec3Lanes<Lanes> last{Lanes::load(multiplier + 4), Lanes::load(multiplier + 8),
-                                    Lanes::load(multiplier + 12)};
-        change = change - (Lanes::all(1.0f) - gain * w) * last;
-      }
-      add_to_multiplier<first>(change.x, multiplier + 4);
-      add_to_multiplier<first>(change.y, multiplier + 8);
-      add_to_multiplier<first>(change.z, multiplier + 12);
-      pull = pull + change;
-    }
+    const Vec3Lanes<Lanes> pull =
+        pull_of<Lanes, law, first>(d_begin, change_of_d, w_a + w_b, block, lane, multiplier);
     store(move_a + w_a * pull, v.moves, a);
     store(move_b - w_b * pull, v.moves, b);
   });
@@ -347,16 +247,7 @@ void SpringProgram::sweep(const LaneView& view) {
 
 template <bool first>
 void SpringProgram::sweep(const LaneView& view) {
-  switch (law_) {
-    case SpringLaw::rigid:
-      return sweep<SpringLaw::rigid, first>(view);
-    case SpringLaw::elastic:
-      return sweep<SpringLaw::elastic, first>(view);
-    case SpringLaw::damped:
-      return sweep<SpringLaw::damped, first>(view);
-    case SpringLaw::damped_isotropic:
-      return sweep<SpringLaw::damped_isotropic, first>(view);
-  }
+  with_law(law_, [&](auto law) { sweep<decltype(law)::value, first>(view); });
 }
 
 void SpringProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
@@ -364,53 +255,23 @@ void SpringProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
 
 template <SpringLaw law, bool with_multipliers>
 double SpringProgram::sum_of_squares(const LaneView& v) const {
-  constexpr float kLargest = std::numeric_limits<float>::max();
   Float4 sum = Float4::all(0);
   for (std::size_t i = 0; i < operations_.size(); ++i) {
     const auto [a, b, index] = operations_[i];
-    const Block& block = blocks_[static_cast<std::size_t>(index)];
     const float* const multiplier =
         multipliers_.data() + static_cast<std::size_t>(multiplier_floats(law)) * i;
-    const Vec3Lanes<Float4> change_of_d = load<Float4>(v.moves, a) - load<Float4>(v.moves, b);
-    const auto spring = linearise<Float4, law, !with_multipliers>(
-        load<Float4>(v.begins, a) - load<Float4>(v.begins, b), change_of_d, block, 0, multiplier);
-    Float4 error;  // (l^2 - L^2)/2 = (l - L) (l + L)/2
-    if constexpr (law == SpringLaw::rigid) {
-      const Float4 rest = Float4::load(block.rest.data());
-      error = Float4::all(2.0f) * spring.aim / (sqrt(dot(spring.d, spring.d)) + sqrt(rest));
-    } else {
-      error = spring.aim / spring.length;
-    }
-    Float4 square = error * error;
-    if constexpr (law == SpringLaw::damped_isotropic) {
-      const Float4 compliance = Float4::load(block.across_compliance.data());
-      Vec3Lanes<Float4> motion = across(change_of_d, spring.d);
-      if constexpr (with_multipliers)
-        motion = motion + where_positive(Float4::all(kLargest) - compliance, compliance) *
-                              Vec3Lanes<Float4>{Float4::load(multiplier + 4),
-                                                Float4::load(multiplier + 8),
-                                                Float4::load(multiplier + 12)};
-      square = square + where_positive(Float4::all(kLargest) - compliance, dot(motion, motion));
-    }
-    const Float4 occupied = Float4::all(kLargest) - Float4::load(block.denominator_share.data());
-    sum = sum + where_positive(occupied, square);
+    sum = sum + squared_error<Float4, law, with_multipliers>(
+                    load<Float4>(v.begins, a) - load<Float4>(v.begins, b),
+                    load<Float4>(v.moves, a) - load<Float4>(v.moves, b),
+                    blocks_[static_cast<std::size_t>(index)], 0, multiplier);
   }
   return sum_of_lanes(sum);
 }
 
 template <bool with_multipliers>
 double SpringProgram::sum_of_squares(const LaneView& view) const {
-  switch (law_) {
-    case SpringLaw::rigid:
-      return sum_of_squares<SpringLaw::rigid, with_multipliers>(view);
-    case SpringLaw::elastic:
-      return sum_of_squares<SpringLaw::elastic, with_multipliers>(view);
-    case SpringLaw::damped:
-      return sum_of_squares<SpringLaw::damped, with_multipliers>(view);
-    case SpringLaw::damped_isotropic:
-      return sum_of_squares<SpringLaw::damped_isotropic, with_multipliers>(view);
-  }
-  return 0;
+  return with_law(
+      law_, [&](auto law) { return sum_of_squares<decltype(law)::value, with_multipliers>(view); });
 }
 
 double SpringProgram::squared_residual(const LaneView& view) const {

@@ -2,23 +2,15 @@
 
 #include <vector>
 
-#include "core/dynamics/cloth_model.h"
-#include "core/dynamics/lane_operations.h"
+#include "core/dynamics/spring_law.h"
 #include "core/dynamics/spring_order.h"
 
 namespace pleat {
 
-/// How a spring pulls.
-enum class SpringLaw {
-  rigid,             ///< keeps its rest length whatever the force
-  elastic,           ///< stiffness only
-  damped,            ///< stiffness, and damping along the spring
-  damped_isotropic,  ///< stiffness, and damping of every relative velocity
-};
-
-/// The springs of a model, compiled into operations on four of them at a time and into an order.
-/// Springs that follow on one another across the rows are solved together, a line at a time; then
-/// the others are projected one after the other, each seeing what those before it did.
+/// The springs of a model that join no hanging vertex, compiled into operations on four of them at
+/// a time and into an order. Springs that follow on one another across the rows are solved
+/// together, a line at a time; then the others are projected one after the other, each seeing what
+/// those before it did.
 class SpringProgram {
  public:
   /// h  substep [s]
@@ -42,17 +34,8 @@ class SpringProgram {
   std::size_t n_operations() const { return operations_.size(); }
   std::size_t n_blocks() const { return blocks_.size(); }
 
-  /// The numbers of the springs in the lanes of an operation.
-  struct Block {
-    PerLane<float> rest;               ///< L [m]; for the rigid law L^2 [m^2]
-    PerLane<float> compliance;         ///< mean mass / (stiffness h^2); 0 in empty lanes
-    PerLane<float> denominator_share;  ///< the same; infinite in empty lanes: nothing moves there
-    PerLane<float> damper_share;       ///< of the stiffness k + c/h, what is c/h
-    PerLane<float> across_compliance;  ///< of the damper across the spring; infinite without
-    bool operator==(const Block&) const = default;
-  };
-
  private:
+  using Block = SpringBlock;
   /// The first slots of the groups of both ends, and the index of the numbers.
   struct Operation {
     int a, b;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/dynamics/hanging_vertices.h"
 #include "core/fabric/taut_springs.h"
 
 namespace pleat {
@@ -94,6 +95,9 @@ double largest_stable_step(const ClothModel& model) {
   add_springs(model.taut_springs, sums);
   add_bends(model, sums);
   add_membrane(model, sums);
+  // A row of S^T K S adds up to at most what S^T makes of the sums, as rows of S add up to 1.
+  pull_to_parents(model.hanging, sums.stiffness.transpose());
+  pull_to_parents(model.hanging, sums.damping.transpose());
   // h^2 k + 2 h c = 2 m has the positive root h = 2 m / (c + sqrt(c^2 + 2 m k)).
   double bound = std::numeric_limits<double>::infinity();
   for (int i = 0; i < model.n_vertices(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/elasticity.h"
+#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/stepper_explicit.h"
 #include "core/dynamics/stepper_implicit.h"
 #include "core/dynamics/stepper_newton.h"
@@ -92,12 +93,14 @@ SolveReport Stepper::advance(State& state, double time) {
                   state.velocities.cols() == model_.n_vertices(),
               "a state has the model's vertices");
   if (const VertexId bad = first_lost(state); bad.valid()) return lost_report(bad, time);
+  place_between_parents(model_.hanging, state);
   last_finite_ = state;
   const double h = options_.step / substeps_;
   SolveReport report;
   load(state);
   for (int s = 1; s <= substeps_; ++s) {
     SolveReport part = substep(state, time + options_.step * s / substeps_, h);
+    place_between_parents(model_.hanging, state);
     part.iterations += report.iterations;
     if (!report.ok() &&
         part.ok()) {  // a cap met in an earlier substep is not hidden by a later one
@@ -133,7 +136,8 @@ void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Posit
   const StageScope scope(observer_, Stage::forces);
   set_steady_forces(forces);
   if (model_.air)
-    model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces);
+    model_.air->add_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
+                           forces);
 }
 
 // With f the remembered force, zero without memory, the proposed place and velocity without it are
@@ -147,6 +151,7 @@ void Stepper::resolve_contacts(const Positions& positions_begin, State& state, d
   const bool remembers = memory_ != ContactMemory::none;
   model_.contact->begin_substep(time_end - h, time_end);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+    if (model_.hangs(VertexId(i))) continue;
     const double mobility = h / model_.masses[i];
     Vec3 position = state.positions.col(i);
     Vec3 velocity = state.velocities.col(i);

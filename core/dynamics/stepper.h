@@ -75,10 +75,11 @@ class Stepper {
   virtual ~Stepper() = default;
 
   /// From `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at their
-  /// pins. After each substep the model's contact corrects the result. The report's residual is
-  /// that of the last substep's own equations, its iterations the sum. A state that is not finite,
-  /// or beyond kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates
-  /// nothing after the first call but messages.
+  /// pins, hanging ones in the middle of their parents, where they are put to begin with. After
+  /// each substep the model's contact corrects the result. The report's residual is that of the
+  /// last substep's own equations, its iterations the sum. A state that is not finite, or beyond
+  /// kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates nothing
+  /// after the first call but messages.
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;
@@ -109,17 +110,18 @@ class Stepper {
   /// computing once per step only.
   virtual void load(const State& state);
   virtual void store(State& state, SolveReport& report);
-  /// One substep of h [s] ending at time_end, contact included.
+  /// One substep of h [s] ending at time_end, contact included. Hanging vertices follow by
+  /// themselves.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
 
   /// The shared way a substep ends for steppers that work on `State` itself: contact on every
-  /// vertex.
+  /// vertex that does not hang.
   ///
   /// travel_share  how far a force moves a vertex within the substep, in shares of h^2 f/m
   void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h,
                         double travel_share = 1);
   /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
-  /// [s] (0: explicit), remembered contact [N].
+  /// [s] (0: explicit), remembered contact [N]. Nothing where vertices hang.
   void set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces);
   /// The same without air.
   void set_steady_forces(Eigen::Ref<Positions> forces);

@@ -1,6 +1,7 @@
 #include "core/dynamics/stepper_explicit.h"
 
 #include "core/dynamics/elasticity.h"
+#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/stability_bound.h"
 
 namespace pleat {
@@ -17,11 +18,13 @@ SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
     const StageScope scope(observer_, Stage::forces);
     add_elastic_forces(model_, state.positions, forces_);
     add_damping_forces(model_, state.positions, state.velocities, forces_);
+    pull_to_parents(model_.hanging, forces_);
   }
   {
     const StageScope scope(observer_, Stage::solve);
     for (int i = 0; i < model_.n_vertices(); ++i)
-      state.velocities.col(i) += h / model_.masses[i] * forces_.col(i);
+      if (!model_.hangs(VertexId(i)))
+        state.velocities.col(i) += h / model_.masses[i] * forces_.col(i);
     for (const Pin& pin : model_.pins)
       state.velocities.col(pin.vertex) =
           (pin.position(time_end) - state.positions.col(pin.vertex)) / h;

@@ -51,6 +51,7 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
         (pin.position(time_end) - state.positions.col(pin.vertex)) / h -
         state.velocities.col(pin.vertex);
   }
+  matrix_.reduce_to_parents(flat(forces_));
   matrix_.prescribe(pin_changes_, flat(forces_));
   SolveReport report;
   {

@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/random.h"
+#include "core/dynamics/hanging_vertices.h"
 
 namespace pleat {
 namespace {
@@ -101,6 +102,7 @@ void StepperNewton::place_first_guess(const State& state, double time_end) {
     positions_.col(pin.vertex) =
         options().rule == NewtonRule::midpoint ? Vec3((begin_.col(pin.vertex) + end) / 2) : end;
   }
+  place_between_parents(model_.hanging, positions_);
 }
 
 /// At the present iterate, where drag is expanded. `magnitude` (may be null) gets the sum of the
@@ -132,9 +134,11 @@ void StepperNewton::evaluate_gradient() {
     model_.air->evaluate(positions_, velocities_);
     gradient_ += model_.air->forces();
   }
+  pull_to_parents(model_.hanging, gradient_);
   residual_scale_ = loads_.norm() + gradient_.norm();
   change_ = flat(positions_) - flat(begin_);
   flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
+  pull_to_parents(model_.hanging, product_);
   gradient_ = product_ - loads_ - gradient_;
   for (const Pin& pin : model_.pins) gradient_.col(pin.vertex).setZero();
 }
@@ -150,6 +154,7 @@ void StepperNewton::fill_matrix(ElementHessian hessian) {
   // What rounding of places alone changes in the forces.
   rounding_ = kEpsilon * extent_ * diagonal_norm(matrix_.lower());
   right_side_ = -flat(gradient_);
+  matrix_.reduce_to_parents(right_side_);
   matrix_.prescribe(no_change_, right_side_);
 }
 
@@ -220,6 +225,7 @@ SolveReport StepperNewton::find_direction() {
     fill_matrix(ElementHessian::projected);
     report = solve_linear_system();
   }
+  place_between_parents(model_.hanging, direction_);
   return report;
 }
 
@@ -265,6 +271,7 @@ void StepperNewton::push_off(int attempt) {
   Random random(static_cast<std::uint64_t>(attempt));
   for (double& coordinate : trial_.reshaped()) coordinate = random.uniform(-1, 1);
   for (const Pin& pin : model_.pins) trial_.col(pin.vertex).setZero();
+  place_between_parents(model_.hanging, trial_);
   positions_ += kPush * extent_ * trial_;
   evaluate_gradient();
 }
@@ -324,8 +331,7 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
   }
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
-    state.velocities.col(pin.vertex) =
-        is_at_rest() ? Vec3(Vec3::Zero()) : pin.velocity(time_end);
+    state.velocities.col(pin.vertex) = is_at_rest() ? Vec3(Vec3::Zero()) : pin.velocity(time_end);
   }
   const double travel_share = options().rule == NewtonRule::midpoint ? 0.5 : 1;
   resolve_contacts(positions_begin_, state, time_end, h, travel_share);

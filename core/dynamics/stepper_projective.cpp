@@ -1,9 +1,11 @@
 #include "core/dynamics/stepper_projective.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/base/check.h"
 #include "core/dynamics/elasticity.h"
+#include "core/dynamics/hanging_vertices.h"
 
 namespace pleat {
 namespace {
@@ -28,7 +30,7 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
       solver_(make_solver(checked(options), 1)),
       targets_(model.springs.size()),
       forces_(3, model.n_vertices()),
-      predicted_(3, model.n_vertices()),
+      predicted_(Positions::Zero(3, model.n_vertices())),
       positions_(3, model.n_vertices()),
       first_change_(3, model.n_vertices()),
       right_side_(model.n_vertices(), 3),
@@ -38,7 +40,8 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
 }
 
 /// M/h^2 + sum over springs and bending elements, one number per pair of vertices because x, y and
-/// z do not couple. The damper's c/h joins k whichever way it acts.
+/// z do not couple. The damper's c/h joins k whichever way it acts. Rows of vertices that are
+/// pinned or hang are those of the identity.
 void StepperProjective::refresh() {
   const int n = model_.n_vertices();
   const double h = options().step / substeps();
@@ -57,21 +60,23 @@ void StepperProjective::refresh() {
       pinned_entries_.push_back({b, pin_of[a], value});
     }
   };
-  for (int i = 0; i < n; ++i)
-    entries.emplace_back(i, i, pin_of[i] == kNotPinned ? model_.masses[i] / (h * h) : 1);
-  for (const Spring& spring : model_.springs) {
-    const double weight = spring.stiffness + spring.damping / h;
-    if (pin_of[spring.a] == kNotPinned) add(spring.a, spring.a, weight);
-    if (pin_of[spring.b] == kNotPinned) add(spring.b, spring.b, weight);
-    add(spring.a, spring.b, -weight);
+  const FreeCombinations in_free_vertices(n, model_.hanging);
+  const auto add_square = [&](const Combination& sum, double weight) {
+    for (std::size_t i = 0; i < sum.n_terms; ++i)
+      for (std::size_t j = i; j < sum.n_terms; ++j)
+        add(sum.terms[i].vertex, sum.terms[j].vertex,
+            weight * sum.terms[i].factor * sum.terms[j].factor);
+  };
+  for (int i = 0; i < n; ++i) {
+    const bool is_unknown = pin_of[i] == kNotPinned && !model_.hangs(VertexId(i));
+    entries.emplace_back(i, i, is_unknown ? model_.masses[i] / (h * h) : 1);
   }
-  for (const BendElement& bend : model_.bends) {
-    const auto& w = bend.weights;
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j)
-        if (i != j || pin_of[bend.vertices[i]] == kNotPinned)
-          add(bend.vertices[i], bend.vertices[j], bend.stiffness * w[i] * w[j]);
-  }
+  constexpr std::array<double, 2> kDifference = {1, -1};
+  for (const Spring& spring : model_.springs)
+    add_square(in_free_vertices(std::array{spring.a, spring.b}, kDifference),
+               spring.stiffness + spring.damping / h);
+  for (const BendElement& bend : model_.bends)
+    add_square(in_free_vertices(bend.vertices, bend.weights), bend.stiffness);
   matrix_.resize(n, n);
   matrix_.setFromTriplets(entries.begin(), entries.end());
   solver_->analyze(matrix_);
@@ -111,6 +116,7 @@ void StepperProjective::set_right_side(double time_end, double h) {
     right_side_.row(spring.a) += pull.transpose();
     right_side_.row(spring.b) -= pull.transpose();
   }
+  pull_to_parents(model_.hanging, right_side_.transpose());
   for (const PinnedEntry& entry : pinned_entries_)
     right_side_.row(entry.free_vertex) -=
         entry.value * model_.pins[entry.pin].position(time_end).transpose();
@@ -124,11 +130,14 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   set_external_forces(state, h, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
-    for (int i = 0; i < model_.n_vertices(); ++i)
+    for (int i = 0; i < model_.n_vertices(); ++i) {
+      if (model_.hangs(VertexId(i))) continue;
       predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
                           h * h / model_.masses[i] * forces_.col(i);
+    }
     positions_ = predicted_;
     for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
+    place_between_parents(model_.hanging, positions_);
     set_targets(h);
   }
   SolveReport report;
@@ -142,6 +151,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     if (!report.ok()) return report;
     if (round == 0) first_change_ = solution_.transpose() - positions_;
     positions_ = solution_.transpose();
+    place_between_parents(model_.hanging, positions_);
   }
   report.iterations = options().iterations;
   time_end_ = time_end;
@@ -159,12 +169,17 @@ void StepperProjective::store(State&, SolveReport& report) {
   solution_ = first_change_.transpose();
   double first = 0;
   double last = 0;
+  const auto clear_hanging = [this] {
+    for (const HangingVertex& vertex : model_.hanging) column_[vertex.vertex] = 0;
+  };
   for (int c = 0; c < 3; ++c) {
     column_.noalias() = A * solution_.col(c);
+    clear_hanging();
     first += column_.squaredNorm();
     solution_.col(c) = positions_.row(c).transpose();
     column_ = right_side_.col(c);
     column_.noalias() -= A * solution_.col(c);
+    clear_hanging();
     last += column_.squaredNorm();
   }
   report.relative_residual = first > 0 ? std::sqrt(last / first) : 0;

@@ -48,7 +48,7 @@ class StepperProjective final : public Stepper {
   std::vector<PinnedEntry> pinned_entries_;
   std::vector<Target> targets_;
   Positions forces_;
-  Positions predicted_;  // x + h v + h^2 M^-1 f_external
+  Positions predicted_;  // x + h v + h^2 M^-1 f_external; 0 where vertices hang
   Positions positions_;
   Positions first_change_;  // what the first round of a substep moved
   VertexRows right_side_;

@@ -1,6 +1,7 @@
 #include "core/dynamics/stepper_rk4.h"
 
 #include "core/dynamics/elasticity.h"
+#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/stability_bound.h"
 
 namespace pleat {
@@ -15,12 +16,15 @@ void StepperRk4::evaluate(State& state, double time, State& rates) {
     state.positions.col(pin.vertex) = pin.position(time);
     state.velocities.col(pin.vertex) = pin.velocity(time);
   }
+  place_between_parents(model_.hanging, state);
   rates.positions = state.velocities;
   set_external_forces(state, 0, rates.velocities);
   const StageScope scope(observer_, Stage::forces);
   add_elastic_forces(model_, state.positions, rates.velocities);
   add_damping_forces(model_, state.positions, state.velocities, rates.velocities);
-  for (int i = 0; i < model_.n_vertices(); ++i) rates.velocities.col(i) /= model_.masses[i];
+  pull_to_parents(model_.hanging, rates.velocities);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (!model_.hangs(VertexId(i))) rates.velocities.col(i) /= model_.masses[i];
 }
 
 SolveReport StepperRk4::substep(State& state, double time_end, double h) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/simd4.h"
 
 namespace pleat {
@@ -35,6 +36,7 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
       layout_(lane_layout(model)),
       springs_(model, layout_, spring_law(model, options), step_of(options)),
       bends_(model, layout_, step_of(options)),
+      hanging_(model, layout_, spring_law(model, options), step_of(options)),
       mean_mass_(model.masses.mean()),
       pitch_(pitch_for(layout_.n_slots)),
       data_(pitch_ * kArrays, 0.0f) {
@@ -48,13 +50,17 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
 void StepperXpbd::refresh() {
   float* const inverse_masses = array(inverse_mass);
   for (int i = 0; i < model_.n_vertices(); ++i)
-    inverse_masses[slot_of(VertexId(i))] = static_cast<float>(mean_mass_ / model_.masses[i]);
+    inverse_masses[slot_of(VertexId(i))] =
+        model_.hangs(VertexId(i)) ? 0 : static_cast<float>(mean_mass_ / model_.masses[i]);
   for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
   pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
   refresh_rest_lengths();
 }
 
-void StepperXpbd::refresh_rest_lengths() { springs_.refresh_rest_lengths(model_); }
+void StepperXpbd::refresh_rest_lengths() {
+  springs_.refresh_rest_lengths(model_);
+  hanging_.refresh_rest_lengths(model_);
+}
 
 LaneView StepperXpbd::view() {
   return {{array(move), array(move + 1), array(move + 2)},
@@ -139,8 +145,10 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   const StageScope scope(observer_, Stage::forces);
   copy_to(state, h);
   forces_.setZero();
-  model_.air->add_forces(state.positions, state.velocities, model_.masses, h, forces_);
+  model_.air->add_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
+                         forces_);
   for (int i = 0; i < model_.n_vertices(); ++i) {
+    if (model_.hangs(VertexId(i))) continue;
     const int slot = slot_of(VertexId(i));
     for (int k = 0; k < 3; ++k)
       array(rounded_off + k)[slot] -= static_cast<float>(h * h / model_.masses[i] * forces_(k, i));
@@ -167,6 +175,19 @@ void StepperXpbd::copy_to(State& state, double h) {
     state.positions.col(i) = position_of(slot);
     state.velocities.col(i) = velocity_of(slot, h);
   }
+  place_between_parents(model_.hanging, state);
+}
+
+void StepperXpbd::sweep() {
+  const LaneView v = view();
+  bends_.first_sweep(v);
+  springs_.first_sweep(v);
+  hanging_.first_sweep(v);
+  for (int sweep = 1; sweep < options().iterations; ++sweep) {
+    bends_.next_sweep(v);
+    springs_.next_sweep(v);
+    hanging_.next_sweep(v);
+  }
 }
 
 SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
@@ -179,15 +200,12 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
     const bool is_last = substeps_left_ == 1;
     if (is_last)
       residual_begin_ = std::sqrt(springs_.squared_residual_before_sweeps(v) +
-                                  bends_.squared_residual_before_sweeps(v));
-    bends_.first_sweep(v);
-    springs_.first_sweep(v);
-    for (int sweep = 1; sweep < options().iterations; ++sweep) {
-      bends_.next_sweep(v);
-      springs_.next_sweep(v);
-    }
+                                  bends_.squared_residual_before_sweeps(v) +
+                                  hanging_.squared_residual_before_sweeps(v));
+    sweep();
     if (is_last)
-      residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v));
+      residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
+                                hanging_.squared_residual(v));
   }
   if (model_.contact) correct_for_contact(state, time_end, h);
   --substeps_left_;
@@ -205,6 +223,7 @@ void StepperXpbd::store(State& state, SolveReport& report) {
     state.velocities.col(model_.pins[p].vertex.value) =
         pin_velocities_.col(static_cast<Eigen::Index>(p));
   }
+  place_between_parents(model_.hanging, state);
   report.relative_residual = residual_begin_ > 0 ? residual_end_ / residual_begin_ : 0;
 }
 

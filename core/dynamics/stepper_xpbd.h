@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/dynamics/bend_program.h"
+#include "core/dynamics/hanging_program.h"
 #include "core/dynamics/spring_program.h"
 #include "core/dynamics/stepper.h"
 
@@ -10,7 +11,8 @@ namespace pleat {
 /// constraint in turn is projected, and what the projections moved changes the velocities. Inside,
 /// single precision about a local origin, four constraints at a time; positions carry what single
 /// precision rounds off, and velocities are summed from corrections, so that slow motion is not
-/// lost and gravity is not rounded however small the substep.
+/// lost and gravity is not rounded however small the substep. Hanging vertices have no motion of
+/// their own: what pulls at one moves its parents.
 ///
 /// Source: Macklin et al., Small steps in physics simulation, SCA 2019; docs/methods/xpbd.md.
 class StepperXpbd final : public Stepper {
@@ -44,12 +46,14 @@ class StepperXpbd final : public Stepper {
   /// lets gravity act.
   void predict();
   void place_pins(double time_end, double h);
+  void sweep();
   void add_air_drag(State& state, double h);
   void correct_for_contact(State& state, double time_end, double h);
 
   LaneLayout layout_;
   SpringProgram springs_;
   BendProgram bends_;
+  HangingProgram hanging_;
   double mean_mass_;             // [kg]
   std::size_t pitch_;            // floats from one array to the next
   std::vector<float> data_;      // see Array

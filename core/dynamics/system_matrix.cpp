@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/dynamics/hanging_vertices.h"
 
 namespace pleat {
 
@@ -34,6 +35,7 @@ SystemMatrix::SystemMatrix(const ClothModel& model)
   for_each_pair(model, [this](VertexId a, VertexId b) {
     below_[std::min(a.value, b.value)].push_back(a > b ? a : b);
   });
+  if (!model.hanging.empty()) join_parents();
   const int n = model.n_vertices();
   std::vector<int> column_sizes;
   column_sizes.reserve(3 * static_cast<std::size_t>(n));
@@ -53,6 +55,50 @@ SystemMatrix::SystemMatrix(const ClothModel& model)
   }
   matrix_.makeCompressed();
   for_each_pair(model, [this](VertexId a, VertexId b) { slots_.push_back(slot(a, b)); });
+  find_hanging_slots();
+}
+
+/// Eliminates hanging vertices as `reduce_to_parents` will, to see what it fills. Neighbours may
+/// hang too: what the first one leaves with the second goes on to the second one's parents.
+void SystemMatrix::join_parents() {
+  std::vector<std::vector<VertexId>> neighbours(below_.size());
+  const auto note = [&neighbours](VertexId a, VertexId b) {
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  };
+  for (std::size_t j = 0; j < below_.size(); ++j)
+    for (const VertexId i : below_[j]) note(i, VertexId(static_cast<std::int64_t>(j)));
+  const auto join = [&](VertexId a, VertexId b) {
+    note(a, b);
+    below_[std::min(a.value, b.value)].push_back(a > b ? a : b);
+  };
+  std::vector<bool> is_eliminated(below_.size(), false);
+  for (const HangingVertex& h : model_.hanging) {
+    std::vector<VertexId>& others = neighbours[h.vertex];
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    hanging_blocks_.push_back({h, {}, {}});
+    for (const VertexId other : others) {
+      if (is_eliminated[other]) continue;
+      hanging_blocks_.back().blocks.push_back({other, {}, {}});
+      for (const VertexId parent : h.parents)
+        if (parent != other) join(parent, other);
+    }
+    join(h.parents[0], h.parents[1]);
+    is_eliminated[h.vertex] = true;
+  }
+}
+
+void SystemMatrix::find_hanging_slots() {
+  for (HangingBlocks& h : hanging_blocks_) {
+    const auto& parents = h.hanging.parents;
+    h.between_parents = slot(parents[0], parents[1]);
+    for (HangingBlock& block : h.blocks) {
+      block.own = slot(h.hanging.vertex, block.other);
+      for (std::size_t k = 0; k < 2; ++k)
+        if (parents[k] != block.other) block.of_parents[k] = slot(parents[k], block.other);
+    }
+  }
 }
 
 SystemMatrix::Slot SystemMatrix::slot(VertexId a, VertexId b) const {
@@ -82,6 +128,30 @@ void SystemMatrix::add_diagonal(VertexId vertex, const Mat3& block) {
     double* values = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * vertex + c];
     for (int r = c; r < 3; ++r) values[r - c] += block(r, c);
   }
+}
+
+/// The block in the row of `row`, which is left zero.
+Mat3 SystemMatrix::take_block(const Slot& slot, VertexId row) {
+  Mat3 block;
+  for (int c = 0; c < 3; ++c) {
+    Eigen::Map<Vec3> values(block_column(slot, c));
+    block.col(c) = values;
+    values.setZero();
+  }
+  return slot.row == row ? block : Mat3(block.transpose());
+}
+
+/// The block on the diagonal, which is left the identity.
+Mat3 SystemMatrix::take_diagonal(VertexId vertex) {
+  Mat3 block;
+  for (int c = 0; c < 3; ++c) {
+    double* values = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * vertex + c];
+    for (int r = c; r < 3; ++r) {
+      block(r, c) = block(c, r) = values[r - c];
+      values[r - c] = r == c ? 1 : 0;
+    }
+  }
+  return block;
 }
 
 void SystemMatrix::add_multiple_of_identity(const Slot& slot, double factor) {
@@ -173,6 +243,29 @@ void SystemMatrix::add_elasticity(const Eigen::Ref<const Positions>& positions,
         add_to_diagonal(VertexId(column), q);
     }
   }
+}
+
+// With x_h = (y_p + y_q)/2 the block A_hj gives half of itself to (p, j) and (q, j), and as A_jh
+// half to (j, p) and (j, q): both at once where j is p or q. A_hh gives a quarter to each of the
+// four between p and q.
+void SystemMatrix::reduce_to_parents(Eigen::Ref<Eigen::VectorXd> rhs) {
+  for (const HangingBlocks& h : hanging_blocks_) {
+    const auto& parents = h.hanging.parents;
+    for (const HangingBlock& block : h.blocks) {
+      const Mat3 half = take_block(block.own, h.hanging.vertex) / 2;
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (parents[k] == block.other)
+          add_diagonal(parents[k], half + half.transpose());
+        else
+          add_block(block.of_parents[k],
+                    block.of_parents[k].row == parents[k] ? half : Mat3(half.transpose()));
+      }
+    }
+    const Mat3 quarter = take_diagonal(h.hanging.vertex) / 4;
+    for (const VertexId parent : parents) add_diagonal(parent, quarter);
+    add_block(h.between_parents, quarter);
+  }
+  pull_to_parents(model_.hanging, Eigen::Map<Positions>(rhs.data(), 3, model_.n_vertices()));
 }
 
 void SystemMatrix::choose_prescribed(const std::vector<VertexId>& vertices) {

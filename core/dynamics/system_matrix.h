@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/dynamics/elasticity.h"
@@ -9,6 +10,7 @@ namespace pleat {
 
 /// A symmetric 3n x 3n matrix with a 3x3 block for every pair of vertices that an element of a
 /// model joins. The pattern is built once; values are added element by element straight into place.
+/// Of a model with hanging vertices it is A_x, as if they moved freely, until it is reduced.
 class SystemMatrix {
  public:
   /// model  outlives the matrix and keeps its elements.
@@ -27,6 +29,12 @@ class SystemMatrix {
   void add_diagonal(VertexId vertex, const Mat3& block);
 
   const SparseMatrix& lower() const { return matrix_; }
+
+  /// Makes A x = rhs, over all vertices, S^T A S y = S^T rhs, over those that do not hang: blocks
+  /// of hanging vertices are shared among their parents', their own rows and columns become those
+  /// of the identity, with right-hand sides of zero. Call it after each assembly, before
+  /// `prescribe`.
+  void reduce_to_parents(Eigen::Ref<Eigen::VectorXd> rhs);
 
   /// Moves prescribed values of some vertices to the right-hand side: rows and columns of these
   /// vertices become those of the identity. Call `choose_prescribed` when the set changes,
@@ -47,6 +55,23 @@ class SystemMatrix {
     int row_index, column_index;  // into the prescribed values, or -1 when that vertex is free
   };
 
+  /// The block that a hanging vertex shares with another, and those that its parents share with
+  /// that one; unused where it is the parent itself.
+  struct HangingBlock {
+    VertexId other;
+    Slot own;
+    std::array<Slot, 2> of_parents;
+  };
+  struct HangingBlocks {
+    HangingVertex hanging;
+    std::vector<HangingBlock> blocks;
+    Slot between_parents;
+  };
+
+  void join_parents();
+  void find_hanging_slots();
+  Mat3 take_block(const Slot& slot, VertexId row);
+  Mat3 take_diagonal(VertexId vertex);
   Slot slot(VertexId a, VertexId b) const;
   double* block_column(const Slot& slot, int component);
   void add_block(const Slot& slot, const Mat3& block);
@@ -61,6 +86,7 @@ class SystemMatrix {
   std::vector<std::vector<VertexId>> below_;  // by column: rows of its blocks, ascending
   SparseMatrix matrix_;
   std::vector<Slot> slots_;  // of the pairs that elements join, in the order of assembly
+  std::vector<HangingBlocks> hanging_blocks_;  // in the order of their elimination
   std::vector<VertexId> prescribed_;
   std::vector<PrescribedBlock> prescribed_blocks_;
 };

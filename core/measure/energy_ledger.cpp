@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/elasticity.h"
+#include "core/dynamics/hanging_vertices.h"
 
 namespace pleat {
 namespace {
@@ -49,11 +50,13 @@ void EnergyLedger::evaluate(const State& state, Loads& loads) {
   loads.damping_power = part_.cwiseProduct(v).sum();
   loads.forces += part_;
   loads.air_power = 0;
-  if (!air_) return;
-  part_.setZero();
-  air_->add_forces(state.positions, v, model_.masses, 0, part_);
-  loads.air_power = part_.cwiseProduct(v).sum();
-  loads.forces += part_;
+  if (air_) {
+    part_.setZero();
+    air_->add_forces(state.positions, v, model_.masses, model_.hanging, 0, part_);
+    loads.air_power = part_.cwiseProduct(v).sum();
+    loads.forces += part_;
+  }
+  pull_to_parents(model_.hanging, loads.forces);
 }
 
 /// m (v_end - v_begin) - h f with the mean force of both ends: what a pin or a solid must have

@@ -45,6 +45,7 @@ ClothModel sheet_model(const QuadMesh& mesh, const FabricConstants& fabric) {
   SpringLattice lattice = spring_lattice(mesh, fabric);
   ClothModel model;
   model.masses = std::move(lattice.masses);
+  model.hanging = mesh.hanging_vertices();
   model.springs = std::move(lattice.springs);
   model.bends = std::move(lattice.bends);
   model.gravity.setZero();

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/dynamics/cloth_model.h"
+#include "native-tests/support/meshes.h"
+
+namespace pleat {
+
+/// 1 m x 1 m, 3 x 3 base faces, of which some are refined up to three times: hanging vertices also
+/// beside one another.
+QuadMesh graded_sheet(std::uint64_t seed);
+
+/// S: x = S y with three coordinates per vertex, y those of the vertices that do not hang.
+Eigen::MatrixXd prolongation(const ClothModel& model);
+
+}  // namespace pleat
