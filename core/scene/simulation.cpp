@@ -109,9 +109,15 @@ void Simulation::grab(VertexId vertex) {
   const bool is_one_piece = !std::holds_alternative<InlineCloth>(scene_.cloth);
   const double radius = is_one_piece ? kHandRadius * rest_diagonal(scene_) : 0;
   const Positions& rest = rest_positions();
+  std::vector<bool> in_hand(pinned.size(), false);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    in_hand[static_cast<std::size_t>(i)] = (rest.col(i) - rest.col(vertex)).norm() <= radius;
+  for (const HangingVertex& h : model_.hanging)
+    for (const VertexId parent : h.parents)
+      if (h.vertex == vertex) in_hand[parent] = true;
   for (int i = 0; i < model_.n_vertices(); ++i) {
-    const bool in_hand = (rest.col(i) - rest.col(vertex)).norm() <= radius;
-    if (in_hand && !pinned[static_cast<std::size_t>(i)])
+    const auto place = static_cast<std::size_t>(i);
+    if (in_hand[place] && !pinned[place] && !model_.hangs(VertexId(i)))
       model_.pins.push_back({VertexId(i), state_.positions.col(i), {}});
   }
   stepper_->refresh();

@@ -35,7 +35,8 @@ class Simulation {
   void carry_over(const Simulation& old);
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
-  /// particles, only the vertex itself) of `vertex` and moves them together. One hand at a time.
+  /// particles, only the vertex itself) of `vertex` and moves them together; of one that hangs,
+  /// the parents. One hand at a time.
   void grab(VertexId vertex);
   bool is_grabbed() const { return grab_.has_value(); }
   /// Where the grabbed vertex shall be at the end of the next step [m].
