@@ -100,38 +100,46 @@ Eigen::VectorXd DeformEnergy::bending_shares(const Eigen::Ref<const Positions>& 
   return shares;
 }
 
+void DeformEnergy::add_stretch_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+                                        Positions& gradient) const {
+  Positions forces = Positions::Zero(3, positions.cols());
+  add_membrane_forces(membrane_, positions, forces);
+  gradient -= weight * forces;
+  for (const EdgeLength& edge : edges_) {
+    const Vec3 along = positions.col(edge.a) - positions.col(edge.b);
+    const double length = along.norm();
+    if (length == 0) continue;  // no direction to grow in
+    const Vec3 pull = 2 * weight * (1 - edge.rest / length) / (unit_ * unit_) * along;
+    gradient.col(edge.a) += pull;
+    gradient.col(edge.b) -= pull;
+  }
+}
+
+void DeformEnergy::add_bending_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+                                        Positions& gradient) const {
+  add_curvature_gradient(curvatures_, weight, positions, gradient);
+  for (const Dihedral& dihedral : dihedrals_) {
+    const HingeTurn turn = hinge_turn(dihedral.vertices, positions);
+    const double moment = 2 * weight * (turn.angle - dihedral.rest);
+    for (int k = 0; k < 4; ++k)
+      gradient.col(dihedral.vertices[static_cast<std::size_t>(k)]) += moment * turn.gradient.col(k);
+  }
+}
+
 Positions DeformEnergy::gradient(const DeformWeights& weights,
                                  const Eigen::Ref<const Positions>& positions) const {
   Positions gradient = Positions::Zero(3, positions.cols());
-  if (weights.stretch > 0) {
-    add_membrane_forces(membrane_, positions, gradient);
-    gradient *= -weights.stretch;
-    for (const EdgeLength& edge : edges_) {
-      const Vec3 along = positions.col(edge.a) - positions.col(edge.b);
-      const double length = along.norm();
-      if (length == 0) continue;  // no direction to grow in
-      const Vec3 pull = 2 * weights.stretch * (1 - edge.rest / length) / (unit_ * unit_) * along;
-      gradient.col(edge.a) += pull;
-      gradient.col(edge.b) -= pull;
-    }
-  }
+  if (weights.stretch > 0) add_stretch_gradient(weights.stretch, positions, gradient);
   if (weights.recovery > 0)
     gradient += 2 * weights.recovery * (positions - rest_) *
                 recovery_factors_.cwiseProduct(is_free_).asDiagonal();
-  if (weights.bending > 0) {
-    add_curvature_gradient(curvatures_, weights.bending, positions, gradient);
-    for (const Dihedral& dihedral : dihedrals_) {
-      const HingeTurn turn = hinge_turn(dihedral.vertices, positions);
-      const double moment = 2 * weights.bending * (turn.angle - dihedral.rest);
-      for (int k = 0; k < 4; ++k)
-        gradient.col(dihedral.vertices[static_cast<std::size_t>(k)]) +=
-            moment * turn.gradient.col(k);
-    }
-  }
+  if (weights.bending > 0) add_bending_gradient(weights.bending, positions, gradient);
   return gradient;
 }
 
-SparseMatrix DeformEnergy::empty_metric(const DeformWeights& weights) const {
+/// An entry for each pair of vertices that terms with a weight join, zero but for the shares of
+/// recovery and curvature, which do not depend on the positions.
+SparseMatrix DeformEnergy::constant_metric(const DeformWeights& weights) const {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index v = 0; v < rest_.cols(); ++v)
     entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 0.0);
@@ -144,45 +152,52 @@ SparseMatrix DeformEnergy::empty_metric(const DeformWeights& weights) const {
   SparseMatrix lower(static_cast<int>(rest_.cols()), static_cast<int>(rest_.cols()));
   lower.setFromTriplets(entries.begin(), entries.end());
   if (weights.bending > 0) lower += weights.bending * bending_metric_;
+  lower.diagonal() += 2 * weights.recovery * recovery_factors_.cwiseProduct(is_free_);
   return lower;
+}
+
+void DeformEnergy::add_stretch_metric(double weight, const Eigen::Ref<const Positions>& positions,
+                                      SparseMatrix& lower) const {
+  for (const MembraneElement& element : membrane_.elements) {
+    const auto block =
+        membrane_stiffness(membrane_.law, element, positions, ElementHessian::projected);
+    add_pairs(
+        element.vertices,
+        [&](std::size_t i, std::size_t j) {
+          return weight / 3 * block.block<3, 3>(3 * i, 3 * j).trace();
+        },
+        lower);
+  }
+  for (const EdgeLength& edge : edges_) {
+    const double length = (positions.col(edge.a) - positions.col(edge.b)).norm();
+    const double tension = length > edge.rest ? 1 - edge.rest / length : 0;
+    const double stiffness = 2 * weight / (unit_ * unit_) * (1 + 2 * tension) / 3;
+    add_pairs(
+        std::array{edge.a, edge.b},
+        [&](std::size_t i, std::size_t j) { return i == j ? stiffness : -stiffness; }, lower);
+  }
+}
+
+void DeformEnergy::add_turn_metric(double weight, const Eigen::Ref<const Positions>& positions,
+                                   SparseMatrix& lower) const {
+  for (const Dihedral& dihedral : dihedrals_) {
+    const HingeTurn turn = hinge_turn(dihedral.vertices, positions);
+    add_pairs(
+        dihedral.vertices,
+        [&](std::size_t i, std::size_t j) {
+          return 2 * weight / 3 *
+                 turn.gradient.col(static_cast<Eigen::Index>(i))
+                     .dot(turn.gradient.col(static_cast<Eigen::Index>(j)));
+        },
+        lower);
+  }
 }
 
 SparseMatrix DeformEnergy::metric(const DeformWeights& weights,
                                   const Eigen::Ref<const Positions>& positions) const {
-  SparseMatrix lower = empty_metric(weights);
-  lower.diagonal() += 2 * weights.recovery * recovery_factors_.cwiseProduct(is_free_);
-  if (weights.stretch > 0) {
-    for (const MembraneElement& element : membrane_.elements) {
-      const auto block =
-          membrane_stiffness(membrane_.law, element, positions, ElementHessian::projected);
-      add_pairs(
-          element.vertices,
-          [&](std::size_t i, std::size_t j) {
-            return weights.stretch / 3 * block.block<3, 3>(3 * i, 3 * j).trace();
-          },
-          lower);
-    }
-    for (const EdgeLength& edge : edges_) {
-      const double length = (positions.col(edge.a) - positions.col(edge.b)).norm();
-      const double tension = length > edge.rest ? 1 - edge.rest / length : 0;
-      const double stiffness = 2 * weights.stretch / (unit_ * unit_) * (1 + 2 * tension) / 3;
-      add_pairs(
-          std::array{edge.a, edge.b},
-          [&](std::size_t i, std::size_t j) { return i == j ? stiffness : -stiffness; }, lower);
-    }
-  }
-  if (weights.bending > 0)
-    for (const Dihedral& dihedral : dihedrals_) {
-      const HingeTurn turn = hinge_turn(dihedral.vertices, positions);
-      add_pairs(
-          dihedral.vertices,
-          [&](std::size_t i, std::size_t j) {
-            return 2 * weights.bending / 3 *
-                   turn.gradient.col(static_cast<Eigen::Index>(i))
-                       .dot(turn.gradient.col(static_cast<Eigen::Index>(j)));
-          },
-          lower);
-    }
+  SparseMatrix lower = constant_metric(weights);
+  if (weights.stretch > 0) add_stretch_metric(weights.stretch, positions, lower);
+  if (weights.bending > 0) add_turn_metric(weights.bending, positions, lower);
   return lower;
 }
 

@@ -84,7 +84,15 @@ class DeformEnergy {
 
   void build_sums(const TriangleMesh& mesh);
   void build_integrals(const TriangleMesh& mesh);
-  SparseMatrix empty_metric(const DeformWeights& weights) const;
+  void add_stretch_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+                            Positions& gradient) const;
+  void add_bending_gradient(double weight, const Eigen::Ref<const Positions>& positions,
+                            Positions& gradient) const;
+  SparseMatrix constant_metric(const DeformWeights& weights) const;
+  void add_stretch_metric(double weight, const Eigen::Ref<const Positions>& positions,
+                          SparseMatrix& lower) const;
+  void add_turn_metric(double weight, const Eigen::Ref<const Positions>& positions,
+                       SparseMatrix& lower) const;
 
   Positions rest_;
   double unit_ = 1;
