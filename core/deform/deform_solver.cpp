@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/deform/rigid_motion.h"
 
 namespace pleat {
 namespace {
@@ -26,6 +27,9 @@ constexpr int kStepsOfMove = 4;
 constexpr double kWorthAStep = 1e-3;
 
 constexpr double kBulge = 1e-3;  // of the extent
+/// [rad]; where what is held turns less, the linearised problem strains by less than 1 - cos(30
+/// degrees) = 13 %, and steps find from there.
+constexpr double kLargeTurn = M_PI / 6;
 
 double dot(const Positions& a, const Positions& b) { return flat(a).dot(flat(b)); }
 
@@ -154,6 +158,12 @@ Positions DeformSolver::foreseen(const Positions& moves) {
   return positions_ + change + descent(load);
 }
 
+/// With what is held where it is; the present shape stays unless that has less energy.
+void DeformSolver::take_if_lower(Positions shape) {
+  for (const VertexId v : held_) shape.col(v) = positions_.col(v);
+  if (energy_.terms(shape).weighted(weights_) < energy()) positions_ = std::move(shape);
+}
+
 void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
   PLEAT_CHECK(places.cols() == static_cast<Eigen::Index>(held_.size()), "a place per held vertex");
   const Positions moves = places - held_places();
@@ -161,11 +171,9 @@ void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
   begin_anew();
   const bool foresees = has_factor_ || linearise().ok();
   Positions followed = foresees ? foreseen(moves) : positions_;
-  for (std::size_t k = 0; k < held_.size(); ++k) {
+  for (std::size_t k = 0; k < held_.size(); ++k)
     positions_.col(held_[k]) = places.col(static_cast<Eigen::Index>(k));
-    followed.col(held_[k]) = positions_.col(held_[k]);
-  }
-  if (energy_.terms(followed).weighted(weights_) < energy()) positions_ = followed;
+  take_if_lower(std::move(followed));
 }
 
 SolveReport DeformSolver::follow(const Eigen::Ref<const Positions>& places) {
@@ -189,13 +197,19 @@ Positions DeformSolver::held_places() const {
   return places;
 }
 
+/// The metric is the same for a shape however turned: a factor made before serves after.
 void DeformSolver::restart(const Eigen::Ref<const Positions>& places) {
-  positions_ = energy_.rest_positions() + bulges_;
+  const Positions bent = energy_.rest_positions() + bulges_;
+  positions_ = bent;
   for (const VertexId v : held_) positions_.col(v) = energy_.rest_positions().col(v);
   has_factor_ = false;
   damping_ = 0;
   begin_anew();
+  const Positions rest_places = held_places();
   move_held(places);
+  if (held_.empty()) return;
+  const RigidMotion motion = nearest_rigid_motion(rest_places, places);
+  if (motion.angle() > kLargeTurn) take_if_lower(motion.of(bent));
 }
 
 void DeformSolver::remember(const Positions& gradient) {

@@ -66,7 +66,9 @@ class DeformSolver {
   SolveReport follow(const Eigen::Ref<const Positions>& places);
 
   /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape
-  /// can be a saddle; from there what is held moves to these places.
+  /// can be a saddle; from there what is held moves to these places. Where that turns it by more
+  /// than 30 degrees on the whole, rest turned along with it is the other start, and the one of
+  /// lower energy is taken.
   void restart(const Eigen::Ref<const Positions>& places);
   /// The same, to where it is.
   void restart() { restart(held_places()); }
@@ -116,6 +118,7 @@ class DeformSolver {
   Positions held_places() const;
   Positions free_gradient() const;
   Positions foreseen(const Positions& moves);
+  void take_if_lower(Positions shape);
   void remember(const Positions& gradient);
   Positions descent(const Positions& gradient);
   bool descend(const Positions& direction, double slope, double before, DeformStep& step);
