@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/base/check.h"
 #include "core/scene/nearest_word.h"
 #include "core/scene/vertex_arrays.h"
 
@@ -31,11 +32,28 @@ std::vector<VertexId> vertices_in(const PinBox& box, const Positions& positions)
   return vertices;
 }
 
+/// A point that far off is a slip, such as millimetres for metres, and its nearest vertex chance.
+void check_is_by(const JsonReader& reader, const Vec3& point, double radius,
+                 const Positions& positions) {
+  const double distance = (positions.colwise() - point).colwise().norm().minCoeff();
+  const double size = box_diagonal(positions);
+  if (distance <= std::max(radius, size)) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "expected a point no farther from the cloth than its size, %.4g m, got (%.4g, "
+                "%.4g, %.4g) m, %.4g m from the nearest vertex",
+                size, point.x(), point.y(), point.z(), distance);
+  throw InputError(reader.pointer(), text);
+}
+
 std::vector<VertexId> read_near(const JsonReader& reader, const Positions& positions) {
   reader.allow_keys({"point_m", "radius_m"});
   double radius = usual_grasp(positions);
   if (const auto at = reader.find("radius_m")) radius = at->number(kNotNegative);
-  return vertices_near(positions, reader.at("point_m").vec3(), radius);
+  const JsonReader at = reader.at("point_m");
+  const Vec3 point = at.vec3();
+  check_is_by(at, point, radius, positions);
+  return vertices_near(positions, point, radius);
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ constexpr const char* kPlaceKeys[] = {"vertices", "group", "box", "near"};
 
 /// The vertices that one of kPlaceKeys of an object says, ascending, each once and at least one:
 /// "vertices" lists them, "group" names them, "box" holds them, "near" is {"point_m", "radius_m"},
-/// the latter by default the usual grasp.
+/// the latter by default the usual grasp. Throws InputError for a point from which the nearest
+/// vertex is farther than the diagonal of the box around the cloth.
 ///
 /// positions  of the cloth at rest [m]
 std::vector<VertexId> read_place(const JsonReader& reader, const Positions& positions,

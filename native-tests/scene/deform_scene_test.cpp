@@ -111,6 +111,7 @@ TEST_CASE("deform scene: places are lists, groups, boxes or what is near a point
   // By default a twentieth of 0.4 m; the nearest where that holds none.
   CHECK(pins(R"({"near": {"point_m": [0.015, 0, 0]}})") == std::vector<int>{7});
   CHECK(pins(R"({"near": {"point_m": [0.04, 0.3, 0]}})") == std::vector<int>{7});
+  CHECK(pins(R"({"near": {"point_m": [0, 10, 0], "radius_m": 10}})") == std::vector<int>{7});
   const DeformScene fine = read(
       R"("cloth": {"sheet": {"width_m": 0.4, "height_m": 0.2, "vertices": [41, 21],
                              "triangulation": "alternating"}})",
@@ -196,6 +197,9 @@ TEST_CASE("deform scene: bad input is told with its place, what was expected and
        "(0.2, 0, 0.1) m, got an object"},
       {R"("pins": [{"near": {"point_m": [0, 0]}}])",
        "/pins/0/near/point_m: expected an array of 3 numbers, got an array of 2 values"},
+      {R"("pins": [{"near": {"point_m": [0, 100, 0]}}])",
+       "/pins/0/near/point_m: expected a point no farther from the cloth than its size, 0.4472 m, "
+       "got (0, 100, 0) m, 100 m from the nearest vertex"},
       {R"("handles": [{"vertices": [1], "move_m": [0, 0, 0]}])",
        "/handles/0: expected the key \"name\", got an object"},
       {hand + R"("move": [0, 0, 0]}])",
