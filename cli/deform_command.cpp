@@ -37,6 +37,13 @@ Deformation deformed(const DeformScene& scene) {
   return result;
 }
 
+/// What to know about the shape that these weights have; mostly nothing.
+std::string caution(const DeformWeights& weights) {
+  if (weights.recovery > 0 || weights.bending > 0) return "";
+  return "stretch alone resists no bending: where cloth is not taut it crumples at no cost, and "
+         "this is one of many shapes";
+}
+
 std::string fabric_name(const DeformScene& scene) {
   if (!scene.fabric.empty()) return scene.fabric;
   return scene.fit ? "own measurements" : "own weights";
@@ -80,6 +87,7 @@ Json json_deformation(const DeformScene& scene, const Deformation& result,
       {"begin", {{"energy", result.begin.weighted(weights)}, {"terms", json_three(result.begin)}}},
       {"steps", json_steps(result.steps)},
       {"farthest_m", result.farthest}};
+  if (!caution(weights).empty()) json["caution"] = caution(weights);
   if (scene.fit) json["fit"] = json_fit(*scene.fit, fabrics);
   json["core"] = core_version();
   return json;
@@ -106,6 +114,7 @@ void print_deformation(const DeformScene& scene, const Deformation& result,
               mesh_edges(scene.mesh.triangles).size(), result.n_held);
   std::printf("weights: recovery %.4g, stretch %.4g, bending %.4g\n", weights.recovery,
               weights.stretch, weights.bending);
+  if (!caution(weights).empty()) std::printf("%s\n", caution(weights).c_str());
   if (scene.fit) print_fit(*scene.fit, fabrics);
   std::printf("step  energy       recovery     stretch      bending      relative step\n");
   std::printf("%4d  %-11.5g  %-11.5g  %-11.5g  %-11.5g\n", 0, result.begin.weighted(weights),

@@ -114,6 +114,18 @@ TEST_CASE("deform command: a mesh is pinned and pulled by number, name, box and 
   }
 }
 
+TEST_CASE("deform command: of stretch alone it is told that it holds no one shape", "[cli]") {
+  const Workplace place;
+  const std::string sentence = "stretch alone resists no bending";
+  const auto told = [&](std::vector<std::string> words) {
+    return place.deform(place.scene, std::move(words)).out.find(sentence) != std::string::npos;
+  };
+  CHECK(told({"--terms", "stretch"}));
+  CHECK(told({"--weights", "0,1,0", "--json"}));
+  CHECK_FALSE(told({"--terms", "stretch,bending"}));
+  CHECK_FALSE(told({"--terms", "recovery,stretch", "--json"}));
+}
+
 TEST_CASE("deform command: options take the place of the scene's fabric, form, terms and handles",
           "[cli]") {
   const Workplace place;
