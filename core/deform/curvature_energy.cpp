@@ -47,11 +47,14 @@ Normal normal_at(const Corners& t, const Eigen::Ref<const Positions>& x) {
   return normal;
 }
 
-/// Sum of w_i x_i: a column for each of ww, ff, wf.
+/// Sum of w_i x_i: a column for each of ww, ff, wf. Weights add up to nothing, so that a vertex may
+/// be the origin: cloth that lies far off keeps its digits.
 Mat3 second_derivatives(const CurvatureElement& element, const Eigen::Ref<const Positions>& x) {
+  const Vec3 origin = x.col(element.vertices[0]);
   Mat3 k = Mat3::Zero();
-  for (std::size_t i = 0; i < element.vertices.size(); ++i)
-    k += x.col(element.vertices[i]) * element.weights.col(static_cast<Eigen::Index>(i)).transpose();
+  for (std::size_t i = 1; i < element.vertices.size(); ++i)
+    k += (x.col(element.vertices[i]) - origin) *
+         element.weights.col(static_cast<Eigen::Index>(i)).transpose();
   return k;
 }
 

@@ -1,6 +1,7 @@
 #include "core/deform/held_parts.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "core/base/check.h"
@@ -29,8 +30,11 @@ std::vector<int> lowest_in_part(const TriangleMesh& mesh) {
 }
 
 /// The place farthest from the first spans the line from which the others are measured.
-Hold hold_of(const std::vector<Vec3>& places) {
-  constexpr double kRounding = 1e-6;  // files often carry six digits
+///
+/// size  of the part at rest [m]
+Hold hold_of(const std::vector<Vec3>& places, double size) {
+  constexpr double kSame = 1e-6;  // of the size; files often carry six digits
+  constexpr double kLastDigits = 4 * std::numeric_limits<double>::epsilon();
   if (places.empty()) return Hold::none;
   Vec3 arm = Vec3::Zero();
   double reach = 0;  // from the origin
@@ -38,11 +42,19 @@ Hold hold_of(const std::vector<Vec3>& places) {
     if ((place - places[0]).norm() > arm.norm()) arm = place - places[0];
     reach = std::max(reach, place.norm());
   }
-  if (arm.norm() <= kRounding * reach) return Hold::point;
+  const double rounding = kLastDigits * reach;
+  if (arm.norm() <= kSame * size + rounding) return Hold::point;
   const auto is_off = [&](const Vec3& place) {
-    return (place - places[0]).cross(arm.normalized()).norm() > kRounding * arm.norm();
+    return (place - places[0]).cross(arm.normalized()).norm() > kSame * arm.norm() + rounding;
   };
   return std::any_of(places.begin(), places.end(), is_off) ? Hold::firm : Hold::line;
+}
+
+double size_of(const std::vector<VertexId>& part, const Positions& rest) {
+  Positions places(3, static_cast<Eigen::Index>(part.size()));
+  for (std::size_t k = 0; k < part.size(); ++k)
+    places.col(static_cast<Eigen::Index>(k)) = rest.col(part[k]);
+  return box_diagonal(places);
 }
 
 }  // namespace
@@ -65,7 +77,8 @@ std::vector<HeldPart> held_parts(const TriangleMesh& mesh, const std::vector<Ver
     std::vector<Vec3> places;
     for (const VertexId v : part)
       if (place_of[v] >= 0) places.emplace_back(targets.col(place_of[v]));
-    parts.push_back({part.front(), static_cast<int>(part.size()), hold_of(places)});
+    parts.push_back({part.front(), static_cast<int>(part.size()),
+                     hold_of(places, size_of(part, mesh.rest_positions))});
   }
   std::sort(parts.begin(), parts.end(),
             [](const HeldPart& a, const HeldPart& b) { return a.first < b.first; });

@@ -26,8 +26,10 @@ struct HeldPart {
 /// The parts of a mesh by their first vertex.
 ///
 /// held     vertices of the mesh, in any order
-/// targets  where they are held [m], one column each. Places within a millionth of their distance
-///          from the origin are one, and within a millionth of their extent on a line
+/// targets  where they are held [m], one column each. Places are one within a millionth of the
+/// part's
+///          size at rest, and on a line within a millionth of their own extent, or where no digits
+///          are left to tell them apart
 std::vector<HeldPart> held_parts(const TriangleMesh& mesh, const std::vector<VertexId>& held,
                                  const Eigen::Ref<const Positions>& targets);
 

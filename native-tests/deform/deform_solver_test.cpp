@@ -16,6 +16,7 @@ constexpr DeformWeights kCanvas = {0.23, 0.03, 0.74};
 constexpr DeformWeights kCotton = {0.69, 0.31, 8e-5};  // hardly resists bending
 constexpr DeformWeights kSilk = {0.98, 1e-4, 0.02};
 constexpr DeformWeights kLinen = {1e-4, 0.13, 0.87};
+constexpr DeformWeights kPlaceless = {0, 0.5, 0.5};
 constexpr DeformWeights kEven = {0.4, 0.3, 0.3};
 constexpr std::array<DeformWeights, 5> kFabrics = {kCanvas, kCotton, kSilk, kLinen, kEven};
 
@@ -274,6 +275,24 @@ TEST_CASE("deform_solver: one fabric has one shape on any mesh", "[deform]") {
   }
   REQUIRE(heights.size() == 2);
   CHECK(std::abs(heights[0] - heights[1]) < 0.01 * kSide);
+}
+
+TEST_CASE("deform_solver: cloth far from the origin has the same shape there", "[deform]") {
+  const EnergyForm form = GENERATE(EnergyForm::consistent, EnergyForm::published);
+  const DeformWeights weights = GENERATE(kCanvas, kLinen, kPlaceless);
+  const double far = GENERATE(1e6, 1e8);  // [m]
+  CAPTURE(form, weights.recovery, far);
+  const Vec3 pull(0, 0.03, 0.1);
+  TriangleMesh mesh = sheet(12);
+  DeformSolver here = pulled(mesh, form, weights, pull);
+  CHECK(here.solve(kFarAhead).ok());
+  const Hold hold(mesh, 0.05 * kSide);
+  mesh.rest_positions.colwise() += Vec3(far, far / 3, -far);
+  DeformSolver there(mesh, form, weights);
+  there.hold(hold.vertices);
+  there.move_held(hold.places(mesh, pull));
+  CHECK(there.solve(kFarAhead).ok());
+  CHECK(there.energy() == Approx(here.energy()).epsilon(1e-5));  // 1e-8 m are the last digits
 }
 
 TEST_CASE("deform_solver: the same calls give the same bits", "[deform]") {

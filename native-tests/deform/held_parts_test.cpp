@@ -89,6 +89,15 @@ TEST_CASE("held parts: what counts is where vertices are held, at any scale", "[
   CHECK(holds(mesh, edge, bent) == std::vector<Hold>{Hold::firm});
 }
 
+TEST_CASE("held parts: cloth far from the origin is held as it would be there", "[deform]") {
+  const double far = GENERATE(1e6, 1e8, -1e10);  // [m]
+  CAPTURE(far);
+  TriangleMesh mesh = two_squares();
+  mesh.rest_positions.colwise() += Vec3(far, far / 3, 0.7 * far);
+  CHECK(holds_at_rest(mesh, {0, 4, 7, 9}) == std::vector<Hold>{Hold::firm, Hold::point});
+  CHECK(holds_at_rest(mesh, {0, 4, 8}) == std::vector<Hold>{Hold::line, Hold::none});
+}
+
 TEST_CASE("held parts: a held vertex without a place is a fault of the program", "[deform]") {
   CHECK_THROWS_AS(held_parts(two_squares(), {VertexId(0)}, Positions(3, 0)), ContractError);
 }
