@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/deform/cloth_extent.h"
 #include "core/fabric/hinge_bending.h"
 
 namespace pleat {
 namespace {
 
-constexpr double kUnitsInDiagonal = 20;  // of the consistent form's length
+constexpr double kUnitsInExtent = 20;  // of the consistent form's length
 /// lambda = mu = 1 in lambda/2 tr(E)^2 + mu E:E, as the membrane's law writes it.
 constexpr MembraneLaw kIsotropic = {3, 3, 1, 0};
 
@@ -56,7 +57,7 @@ void DeformEnergy::build_sums(const TriangleMesh& mesh) {
 }
 
 void DeformEnergy::build_integrals(const TriangleMesh& mesh) {
-  unit_ = box_diagonal(rest_) / kUnitsInDiagonal;
+  unit_ = cloth_extent(mesh) / kUnitsInExtent;
   recovery_factors_ = vertex_areas(mesh) / std::pow(unit_, 4);
   const double per_area = 1 / (unit_ * unit_);
   membrane_.law = {per_area * kIsotropic.stretch_warp, per_area * kIsotropic.stretch_weft,

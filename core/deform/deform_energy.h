@@ -36,7 +36,7 @@ struct DeformTerms {
 ///     published:   E_P = sum_free |x_i - m_i|^2/l^2,   l the mean edge at rest,
 ///                  E_L = sum_edges (|e| - |e_M|)^2/l^2,
 ///                  E_A = sum_inner edges (theta - theta_M)^2, theta the turn at an edge;
-///     consistent:  E_P = sum_free A_i |x_i - m_i|^2/l^4, l = 1/20 of the rest box's diagonal,
+///     consistent:  E_P = sum_free A_i |x_i - m_i|^2/l^4, l = cloth_extent/20,
 ///                  E_L = sum_faces A (E:E + tr(E)^2/2)/l^2, E the Green strain,
 ///                  E_A = sum_faces A |k - k_M|^2, k the fitted second derivatives
 ///                        (balanced_stencils), k_M those at rest, turned along with the face.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/deform/cloth_extent.h"
 #include "core/deform/rigid_motion.h"
 
 namespace pleat {
@@ -69,7 +70,7 @@ Positions bulges(const TriangleMesh& mesh, double extent) {
 DeformSolver::DeformSolver(const TriangleMesh& mesh, EnergyForm form, const DeformWeights& weights)
     : energy_(mesh, form),
       weights_(weights),
-      extent_(box_diagonal(mesh.rest_positions)),
+      extent_(cloth_extent(mesh)),
       bulges_(bulges(mesh, extent_)),
       positions_(mesh.rest_positions),
       is_held_(static_cast<std::size_t>(positions_.cols()), 0),

@@ -14,7 +14,7 @@ namespace pleat {
 struct DeformStep {
   double energy = 0;         ///< after it, weighted
   DeformTerms terms;         ///< after it, unweighted
-  double relative_step = 0;  ///< RMS change of the free vertices over the rest box's diagonal
+  double relative_step = 0;  ///< RMS change of the free vertices over cloth_extent
   int halvings = 0;          ///< of the step, until the energy fell
   bool linearised = false;   ///< a metric and its factor were made for it
   double damping = 0;        ///< Levenberg's, over the mean of the metric's diagonal
@@ -126,7 +126,7 @@ class DeformSolver {
 
   DeformEnergy energy_;
   DeformWeights weights_;
-  double extent_;     // diagonal of the rest box [m]
+  double extent_;     // of the cloth at rest [m]
   Positions bulges_;  // what `restart` adds to rest [m]
   Positions positions_;
   std::vector<VertexId> held_;

@@ -295,6 +295,30 @@ TEST_CASE("deform_solver: cloth far from the origin has the same shape there", "
   CHECK(there.energy() == Approx(here.energy()).epsilon(1e-5));  // 1e-8 m are the last digits
 }
 
+TEST_CASE("deform_solver: cloth that lies askew has the same shape, askew", "[deform]") {
+  const EnergyForm form = GENERATE(EnergyForm::consistent, EnergyForm::published);
+  const DeformWeights weights = GENERATE(kCanvas, kSilk, kLinen, kEven);
+  CAPTURE(form, weights.recovery);
+  const Mat3 turn = Eigen::AngleAxisd(kPi / 4, Vec3(0.2, 0.3, 1).normalized()).toRotationMatrix();
+  const Vec3 pull(0.01, 0, 0.06);
+  const TriangleMesh level = sheet(12);
+  TriangleMesh askew = level;
+  askew.rest_positions = turn * level.rest_positions;
+  for (Vec3& warp : askew.warp_directions) warp = turn * warp;
+  const Hold hold(level, 0.05 * kSide);
+  const auto shape = [&](const TriangleMesh& mesh, const Positions& places) {
+    DeformSolver solver(mesh, form, weights);
+    solver.hold(hold.vertices);
+    solver.restart(places);
+    solver.solve(kFarAhead);
+    return solver.positions();
+  };
+  const Positions places = hold.places(level, pull);
+  constexpr double kLastSteps = 1e-4;  // of the side: each may leave off a millionth early
+  CHECK((shape(askew, turn * places) - turn * shape(level, places)).colwise().norm().maxCoeff() <
+        kLastSteps * kSide);
+}
+
 TEST_CASE("deform_solver: the same calls give the same bits", "[deform]") {
   const auto run = [] {
     DeformSolver solver = pulled(sheet(10), EnergyForm::consistent, kCotton, Vec3(0, 0, 0.1));
