@@ -23,6 +23,12 @@ constexpr double kContraction = 0.01;
 constexpr int kMostSteps = 200;
 constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then and goes on well
 
+/// Many short steps can still lead far: the end is a short one that gained less than this share of
+/// the energy. Where the least energy is nothing every step gains most of it, and the end is a step
+/// of kNoStep, in which files and screens see no change.
+constexpr double kWorthMore = 1e-7;
+constexpr double kNoStep = 1e-8;  // DeformStep::relative_step
+
 /// Of a hand's move; a gain of energy below this share is not seen.
 constexpr int kStepsOfMove = 4;
 constexpr double kWorthAStep = 1e-3;
@@ -265,14 +271,15 @@ bool DeformSolver::descend(const Positions& direction, double slope, double befo
   return false;
 }
 
-/// What a step says about the factor and the end.
-void DeformSolver::judge(const DeformStep& step) {
+/// What a step from that energy says about the factor and the end.
+void DeformSolver::judge(const DeformStep& step, double before) {
   if (n_with_factor_++ == 0) first_with_factor_ = step.relative_step;
   is_stale_ =
       step.halvings > kPatienceWithHalving || n_with_factor_ >= kMostSteps ||
       (n_with_factor_ >= kPatience && step.relative_step > kContraction * first_with_factor_);
   if (step.halvings > 0) return;
-  converged_ = step.relative_step <= kTolerance;
+  const bool gains = before - step.energy > kWorthMore * before;
+  converged_ = step.relative_step <= (gains ? kNoStep : kTolerance);
   damping_ = damping_ > kFirstDamping ? damping_ / kDampingFactor : 0;
 }
 
@@ -306,7 +313,7 @@ SolveReport DeformSolver::step(Linearise allowed) {
     if (is_factor_alone && step.linearised && !dampen())
       return {SolveStatus::not_converged, 0, 0, "no step makes the energy smaller"};
   }
-  judge(step);
+  judge(step, before);
   last_gradient_ = gradient;
   steps_.push_back(step);
   return {};

@@ -90,7 +90,8 @@ class DeformSolver {
   /// Goes back to a shape that it had while the same was held at the same places.
   void take_back(DeformShape shape);
 
-  /// The last step was not longer than the tolerance, or rounding hides what is left to gain.
+  /// The last step was not longer than the tolerance and hardly gained, or rounding hides what is
+  /// left to gain.
   bool converged() const { return converged_; }
   /// Made so far, for steps and for moves.
   int n_linearisations() const { return n_linearisations_; }
@@ -122,7 +123,7 @@ class DeformSolver {
   void remember(const Positions& gradient);
   Positions descent(const Positions& gradient);
   bool descend(const Positions& direction, double slope, double before, DeformStep& step);
-  void judge(const DeformStep& step);
+  void judge(const DeformStep& step, double before);
 
   DeformEnergy energy_;
   DeformWeights weights_;

@@ -295,6 +295,40 @@ TEST_CASE("deform_solver: cloth far from the origin has the same shape there", "
   CHECK(there.energy() == Approx(here.energy()).epsilon(1e-5));  // 1e-8 m are the last digits
 }
 
+TEST_CASE("deform_solver: once converged it has hardly anything left to gain", "[deform]") {
+  const double pull = GENERATE(0.0015, 0.003);  // [m]; of many short steps
+  const double unit = GENERATE(1e-9, 1.0);
+  CAPTURE(pull, unit);
+  const DeformWeights weights = {1e-5 * unit, 0.32 * unit, 1.4e-4 * unit};
+  DeformSolver solver =
+      pulled(sheet(8), EnergyForm::consistent, weights, Vec3(0, 0.3 * pull, pull));
+  solver.solve(kFarAhead);
+  REQUIRE(solver.converged());
+  const double energy = solver.energy();
+  for (int anew = 0; anew < 10; ++anew) {
+    solver.take_back({solver.positions(), {}, false});
+    solver.solve(kFarAhead);
+  }
+  CHECK(solver.energy() == Approx(energy).epsilon(1e-4));
+}
+
+TEST_CASE("deform_solver: weights in another unit have the same shape", "[deform]") {
+  const EnergyForm form = GENERATE(EnergyForm::consistent, EnergyForm::published);
+  const DeformWeights weights = GENERATE(from_range(kFabrics));
+  const double unit = GENERATE(1e-9, 1e9);
+  CAPTURE(form, weights.recovery, unit);
+  const auto solved = [&](const DeformWeights& chosen) {
+    DeformSolver solver = pulled(sheet(8), form, chosen, Vec3(0.02, 0.01, 0.1));
+    CHECK(solver.solve(kFarAhead).ok());
+    return solver;
+  };
+  const DeformSolver expected = solved(weights);
+  const DeformSolver found =
+      solved({unit * weights.recovery, unit * weights.stretch, unit * weights.bending});
+  CHECK(found.energy() == Approx(unit * expected.energy()).epsilon(1e-6));
+  CHECK((found.positions() - expected.positions()).colwise().norm().maxCoeff() < 1e-3 * kSide);
+}
+
 TEST_CASE("deform_solver: cloth that lies askew has the same shape, askew", "[deform]") {
   const EnergyForm form = GENERATE(EnergyForm::consistent, EnergyForm::published);
   const DeformWeights weights = GENERATE(kCanvas, kSilk, kLinen, kEven);
