@@ -22,6 +22,9 @@ constexpr int kPatience = 25;
 constexpr double kContraction = 0.01;
 constexpr int kMostSteps = 200;
 constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then and goes on well
+/// Factors in a row whose first step was halved more than that: the energy has a kink, as where a
+/// triangle has collapsed, which another factor does not know either, but corrections learn.
+constexpr int kFactorsInVain = 2;
 
 /// Many short steps can still lead far: the end is a short one that gained less than this share of
 /// the energy. Where the least energy is nothing every step gains most of it, and the end is a step
@@ -90,6 +93,7 @@ void DeformSolver::begin_anew() {
   steps_.clear();
   n_before_ = n_linearisations_;
   n_with_factor_ = 0;
+  n_in_vain_ = 0;
   last_change_.resize(3, 0);
   converged_ = false;
 }
@@ -273,9 +277,13 @@ bool DeformSolver::descend(const Positions& direction, double slope, double befo
 
 /// What a step from that energy says about the factor and the end.
 void DeformSolver::judge(const DeformStep& step, double before) {
-  if (n_with_factor_++ == 0) first_with_factor_ = step.relative_step;
+  const bool is_halved = step.halvings > kPatienceWithHalving;
+  if (n_with_factor_++ == 0) {
+    first_with_factor_ = step.relative_step;
+    n_in_vain_ = is_halved ? n_in_vain_ + 1 : 0;
+  }
   is_stale_ =
-      step.halvings > kPatienceWithHalving || n_with_factor_ >= kMostSteps ||
+      (is_halved && n_in_vain_ < kFactorsInVain) || n_with_factor_ >= kMostSteps ||
       (n_with_factor_ >= kPatience && step.relative_step > kContraction * first_with_factor_);
   if (step.halvings > 0) return;
   const bool gains = before - step.energy > kWorthMore * before;

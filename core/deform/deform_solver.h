@@ -140,6 +140,7 @@ class DeformSolver {
   bool is_stale_ = false;         // the factor serves badly
   int n_with_factor_ = 0;         // steps since the last move
   double first_with_factor_ = 0;  // DeformStep::relative_step of the first
+  int n_in_vain_ = 0;             // factors in a row whose first step was halved much
   int n_linearisations_ = 0;
   int n_before_ = 0;  // of them, before something was last moved, held or weighted
   double damping_ = 0;
