@@ -66,16 +66,18 @@ double girth_of(const Pattern& pattern, const Ring& ring) {
   return length;
 }
 
-/// u goes on from the ring above, if there is one; v begins at `v_begin`.
+/// u is that of the ring above, if there is one, and the mean way down from there: a ring is a row
+/// of the cloth's grid. v begins at `v_begin`.
 Ring add_ring(Pattern& pattern, const std::vector<Vec3>& places, const Ring& above,
               double v_begin) {
+  double u = 0;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    u += (pattern.coordinates[above[i]].x() + (places[i] - pattern.places[above[i]]).norm()) /
+         static_cast<double>(above.size());
   Ring ring;
   double v = v_begin;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (i > 0) v += (places[i] - places[i - 1]).norm();
-    double u = 0;
-    if (!above.empty())
-      u = pattern.coordinates[above[i]].x() + (places[i] - pattern.places[above[i]]).norm();
     ring.push_back(pattern.add(places[i], u, v));
   }
   return ring;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/mesh/mesh_lines.h"
+#include "core/scene/garment_section.h"
 #include "core/scene/mesh_section.h"
 #include "core/scene/vertex_arrays.h"
 
@@ -26,6 +28,20 @@ std::int64_t n_mesh_vertices(const TriangleMesh& mesh, int level) {
     n_vertices += n_edges;
     n_edges = 2 * n_edges + 3 * n_triangles;
     n_triangles *= 4;
+  }
+  return n_vertices;
+}
+
+/// Each level puts a vertex on every edge and in every face; an edge becomes two, a face four with
+/// four edges between.
+std::int64_t n_garment_vertices(const QuadPatch& patch, int level) {
+  std::int64_t n_vertices = patch.rest_positions.cols();
+  auto n_faces = static_cast<std::int64_t>(patch.quads.size());
+  auto n_edges = static_cast<std::int64_t>(thread_edges(QuadMesh::from_patch(patch)).edges.size());
+  for (; level > 0; --level) {
+    n_vertices += n_edges + n_faces;
+    n_edges = 2 * n_edges + 4 * n_faces;
+    n_faces *= 4;
   }
   return n_vertices;
 }
@@ -162,6 +178,8 @@ std::int64_t n_refined_vertices(const Scene& scene, int level) {
     return n_sheet_vertices(*shape, level);
   if (const auto* cloth = std::get_if<MeshCloth>(&scene.cloth))
     return n_mesh_vertices(cloth->mesh, level);
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+    return n_garment_vertices(garment->garment.patch, level);
   return std::get<InlineCloth>(scene.cloth).positions.cols();
 }
 
@@ -177,14 +195,16 @@ void check_level(const Scene& scene, int level, const std::string& where) {
 }
 
 void read_cloth(const JsonReader& reader, const FileSource& files, Scene& scene) {
-  reader.allow_keys({"sheet", "particles", "mesh"});
-  switch (reader.only_one_of({"sheet", "particles", "mesh"})) {
+  reader.allow_keys({"sheet", "particles", "mesh", "garment"});
+  switch (reader.only_one_of({"sheet", "particles", "mesh", "garment"})) {
     case 0:
       return read_sheet(reader.at("sheet"), scene);
     case 1:
       return read_particles(reader.at("particles"), scene);
-    default:
+    case 2:
       return read_mesh(reader.at("mesh"), files, scene);
+    default:
+      scene.cloth = read_garment(reader.at("garment"), scene);
   }
 }
 
@@ -193,6 +213,8 @@ Json json_cloth(const Scene& scene) {
     return {{"sheet", json_sheet(*shape, scene.initial_velocity)}};
   if (const auto* cloth = std::get_if<MeshCloth>(&scene.cloth))
     return {{"mesh", json_mesh(*cloth, scene.initial_velocity)}};
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+    return {{"garment", json_garment(*garment)}};
   return {{"particles", json_particles(std::get<InlineCloth>(scene.cloth))}};
 }
 

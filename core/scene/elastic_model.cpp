@@ -28,13 +28,15 @@ void drop_shear(std::vector<Spring>& springs) {
 }
 
 void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
-  SpringLattice lattice = spring_lattice(quads, scene.fabric, lattice_law(scene.model.bending));
+  SpringLattice lattice = spring_lattice(quads, scene.fabric, lattice_law(scene.model.bending),
+                                         scene.model.stiffness_exponent);
   if (!scene.model.shear) drop_shear(lattice.springs);
   if (scene.model.strain_limit > 0)
     model.taut_springs = taut_springs(lattice.springs, scene.model.strain_limit);
   model.springs = std::move(lattice.springs);
   model.bends = std::move(lattice.bends);
   model.chord_bends = std::move(lattice.chord_bends);
+  model.hanging = quads.hanging_vertices();
 }
 
 void add_particles(ClothModel& model, const Scene& scene, const InlineCloth& particles) {

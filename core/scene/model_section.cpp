@@ -18,7 +18,10 @@ constexpr std::array<Word<BendingModel>, 6> kBendingModels{{{"quadratic", Bendin
 constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
     {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
 
-bool is_sheet(const Scene& scene) { return std::holds_alternative<SheetShape>(scene.cloth); }
+bool is_quads(const Scene& scene) {
+  return std::holds_alternative<SheetShape>(scene.cloth) ||
+         std::holds_alternative<GarmentCloth>(scene.cloth);
+}
 bool is_mesh(const Scene& scene) { return std::holds_alternative<MeshCloth>(scene.cloth); }
 
 BendingModel usual_bending(Elasticity elasticity) {
@@ -29,13 +32,13 @@ BendingModel usual_bending(Elasticity elasticity) {
 std::vector<BendingModel> possible_bending(const Scene& scene) {
   if (scene.model.elasticity == Elasticity::membrane)
     return {BendingModel::fitted, BendingModel::hinge, BendingModel::none};
-  if (!is_sheet(scene)) return {BendingModel::quadratic, BendingModel::none};
+  if (!is_quads(scene)) return {BendingModel::quadratic, BendingModel::none};
   return {BendingModel::quadratic, BendingModel::arc, BendingModel::linear, BendingModel::none};
 }
 
 void check_elasticity(const JsonReader& reader, const Scene& scene) {
   const bool wants_membrane = scene.model.elasticity == Elasticity::membrane;
-  if (wants_membrane && !is_sheet(scene) && !is_mesh(scene))
+  if (wants_membrane && !is_quads(scene) && !is_mesh(scene))
     reader.fail("\"springs\" for particles, which have no area");
   if (!wants_membrane && is_mesh(scene))
     reader.fail("\"membrane\" for a mesh, as springs follow the threads of a sheet");
@@ -49,7 +52,7 @@ void check_bending(const JsonReader& reader, const Scene& scene) {
     expected +=
         std::string(law == possible.front() ? " \"" : ", \"") + word_for(kBendingModels, law) + '"';
   reader.fail(expected + " with " + word_for(kElasticities, scene.model.elasticity) +
-              (is_sheet(scene) || is_mesh(scene) ? "" : " of particles"));
+              (is_quads(scene) || is_mesh(scene) ? "" : " of particles"));
 }
 
 }  // namespace
@@ -62,7 +65,8 @@ ModelOptions usual_model(const Scene& scene) {
 }
 
 void read_model(const JsonReader& reader, Scene& scene) {
-  reader.allow_keys({"elasticity", "bending", "shear", "damping", "strain_limit", "torsion"});
+  reader.allow_keys({"elasticity", "bending", "shear", "damping", "strain_limit", "torsion",
+                     "stiffness_exponent"});
   ModelOptions& model = scene.model;
   if (const auto at = reader.find("elasticity")) {
     model.elasticity = at->word(kElasticities);
@@ -84,8 +88,12 @@ void read_model(const JsonReader& reader, Scene& scene) {
   }
   if (const auto at = reader.find("strain_limit")) {
     model.strain_limit = at->number(kNotNegative);
-    if (!is_sheet(scene) && !is_mesh(scene))
+    if (!is_quads(scene) && !is_mesh(scene))
       at->fail("no such key, as particles have springs of their own");
+  }
+  if (const auto at = reader.find("stiffness_exponent")) {
+    model.stiffness_exponent = at->number({0, 1});
+    if (!has_springs || !is_quads(scene)) at->fail("no such key without the springs of quads");
   }
   if (const auto at = reader.find("torsion")) {
     model.torsion = at->number(kNotNegative);
@@ -100,6 +108,7 @@ Json json_model(const ModelOptions& model) {
     json["shear"] = model.shear;
     json["damping"] = word_for(kDampingDirections, model.damping_direction);
   }
+  if (model.stiffness_exponent > 0) json["stiffness_exponent"] = model.stiffness_exponent;
   if (model.strain_limit > 0) json["strain_limit"] = model.strain_limit;
   if (model.bending == BendingModel::fitted) json["torsion"] = model.torsion;
   return json;

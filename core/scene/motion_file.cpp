@@ -69,22 +69,48 @@ ChannelKeys read_channels(const JsonReader& angles, const JsonReader& path) {
   return result;
 }
 
+Json json_channel(const ChannelKeys& keys, int channel) {
+  const auto row = keys.row(channel);
+  if ((row.array() == row[0]).all()) return row[0];
+  Json json = Json::array();
+  for (const double key : row) json.push_back(key);
+  return json;
+}
+
 }  // namespace
+
+BodyMotion read_motion(const JsonReader& reader) {
+  reader.allow_keys({"name", "confidence", "sources", "cycle_time_s", "forward_speed_m_per_s",
+                     "left_phase_cycles", "angles", "pelvis_path"});
+  BodyMotion motion;
+  motion.name = reader.at("name").text();
+  if (const auto at = reader.find("confidence")) at->text();
+  if (const auto at = reader.find("sources"))
+    for (const auto& [key, citation] : at->members()) citation.text();
+  motion.cycle_time = reader.at("cycle_time_s").number(kCycleTime);
+  motion.forward_speed = reader.at("forward_speed_m_per_s").number(kSpeed);
+  motion.left_phase = reader.at("left_phase_cycles").number(kPhase);
+  motion.keys = read_channels(reader.at("angles"), reader.at("pelvis_path"));
+  return motion;
+}
 
 BodyMotion read_motion(std::string_view json_text) {
   const Json document = parse_json(json_text);
-  const JsonReader root(document);
-  root.allow_keys({"name", "confidence", "sources", "cycle_time_s", "forward_speed_m_per_s",
-                   "left_phase_cycles", "angles", "pelvis_path"});
-  BodyMotion motion;
-  motion.name = root.at("name").text();
-  root.at("confidence").text();
-  for (const auto& [key, citation] : root.at("sources").members()) citation.text();
-  motion.cycle_time = root.at("cycle_time_s").number(kCycleTime);
-  motion.forward_speed = root.at("forward_speed_m_per_s").number(kSpeed);
-  motion.left_phase = root.at("left_phase_cycles").number(kPhase);
-  motion.keys = read_channels(root.at("angles"), root.at("pelvis_path"));
-  return motion;
+  return read_motion(JsonReader(document));
+}
+
+Json json_motion(const BodyMotion& motion) {
+  Json angles;
+  Json path;
+  for (int c = 0; c < kMotionChannels; ++c)
+    (c < kAngleChannels ? angles : path)[kKeys[static_cast<std::size_t>(c)]] =
+        json_channel(motion.keys, c);
+  return {{"name", motion.name},
+          {"cycle_time_s", motion.cycle_time},
+          {"forward_speed_m_per_s", motion.forward_speed},
+          {"left_phase_cycles", motion.left_phase},
+          {"angles", angles},
+          {"pelvis_path", path}};
 }
 
 }  // namespace pleat

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/figure/body_motion.h"
+#include "core/scene/json_reader.h"
 
 namespace pleat {
 
@@ -10,5 +11,9 @@ namespace pleat {
 /// number for what stays. Throws InputError with the JSON pointer for a channel that is missing,
 /// fewer than four keys, an angle beyond half a turn and anything else not as asked for.
 BodyMotion read_motion(std::string_view json_text);
+BodyMotion read_motion(const JsonReader& reader);
+
+/// The motion without what its file says of sources; the same motion is read from it to the bit.
+Json json_motion(const BodyMotion& motion);
 
 }  // namespace pleat

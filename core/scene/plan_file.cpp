@@ -117,7 +117,7 @@ void read_options(const JsonReader& root, RefinementPlan& plan) {
 
 }  // namespace
 
-std::string plan_text(const RefinementPlan& plan) {
+Json json_plan(const RefinementPlan& plan) {
   PLEAT_CHECK(plan.options.level_cap.has_value(), "a plan knows its level cap");
   Json examples = Json::array();
   for (const PlanExample& example : plan.examples) examples.push_back(json_example(example));
@@ -136,12 +136,17 @@ std::string plan_text(const RefinementPlan& plan) {
   json["vertices"] = plan.n_vertices;
   json["curvature_limits_per_m"] = plan.curvature_limits;
   json["splits"] = json_splits(plan.splits);
-  return format_json(json);
+  return json;
 }
+
+std::string plan_text(const RefinementPlan& plan) { return format_json(json_plan(plan)); }
 
 RefinementPlan read_plan(std::string_view json_text) {
   const Json document = parse_json(json_text);
-  const JsonReader root(document);
+  return read_plan(JsonReader(document));
+}
+
+RefinementPlan read_plan(const JsonReader& root) {
   root.allow_keys({"format", "base_mesh", "examples", "patterns", "patterns_of_vertices",
                    "vertex_budget", "detail_demand", "level_cap", "vertices",
                    "curvature_limits_per_m", "splits"});

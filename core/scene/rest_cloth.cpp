@@ -6,12 +6,27 @@
 namespace pleat {
 namespace {
 
-RestCloth rest_sheet(const SheetShape& shape, int level) {
+/// With the middles of edges whose ends are both in it.
+VertexGroup refined(const VertexGroup& base, const QuadMesh& quads) {
+  VertexGroup group{base.name, {}};
+  std::vector<bool> inside(static_cast<std::size_t>(quads.n_vertices()), false);
+  for (const VertexId v : base.vertices) inside[v] = true;
+  for (int i = 0; i < quads.n_vertices(); ++i) {
+    const VertexParents& parents = quads.parents()[static_cast<std::size_t>(i)];
+    if (parents.count == 2) inside[i] = inside[parents.vertices[0]] && inside[parents.vertices[1]];
+    if (inside[i]) group.vertices.emplace_back(i);
+  }
+  return group;
+}
+
+RestCloth rest_quads(const Scene& scene, QuadMesh quads) {
   RestCloth cloth;
-  cloth.quads = QuadMesh::sheet(shape);
-  cloth.quads->refine_uniformly(level);
-  cloth.mesh = cloth.quads->triangle_mesh();
-  cloth.rest_coordinates = cloth.quads->rest_coordinates();
+  cloth.mesh = quads.triangle_mesh();
+  cloth.rest_coordinates = quads.rest_coordinates();
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+    for (const VertexGroup& group : garment->garment.groups)
+      cloth.groups.push_back(refined(group, quads));
+  cloth.quads = std::move(quads);
   return cloth;
 }
 
@@ -69,8 +84,23 @@ std::vector<VertexId> chosen(const RestCloth& cloth, IsChosen&& is_chosen) {
 
 }  // namespace
 
+std::optional<QuadMesh> base_quads(const Scene& scene) {
+  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth)) return QuadMesh::sheet(*shape);
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+    return QuadMesh::from_patch(garment->garment.patch);
+  return std::nullopt;
+}
+
+RestCloth rest_cloth(const Scene& scene) {
+  if (!scene.plan) return rest_cloth(scene, scene.level);
+  return rest_quads(scene, planned_mesh(*base_quads(scene), *scene.plan));
+}
+
 RestCloth rest_cloth(const Scene& scene, int level) {
-  if (const auto* shape = std::get_if<SheetShape>(&scene.cloth)) return rest_sheet(*shape, level);
+  if (std::optional<QuadMesh> quads = base_quads(scene)) {
+    quads->refine_uniformly(level);
+    return rest_quads(scene, std::move(*quads));
+  }
   if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) return rest_mesh(*mesh, level);
   const auto& particles = std::get<InlineCloth>(scene.cloth);
   RestCloth cloth;
@@ -87,6 +117,8 @@ Eigen::VectorXd rest_areas(const Scene& scene, const RestCloth& cloth) {
 double rest_diagonal(const Scene& scene) {
   if (const auto* sheet = std::get_if<SheetShape>(&scene.cloth))
     return std::hypot(sheet->width, sheet->height);
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+    return box_diagonal(garment->garment.patch.rest_positions);
   const auto* mesh = std::get_if<MeshCloth>(&scene.cloth);
   const Positions& positions =
       mesh != nullptr ? mesh->mesh.rest_positions : std::get<InlineCloth>(scene.cloth).positions;

@@ -9,13 +9,19 @@ namespace pleat {
 
 /// The cloth of a scene before it moves.
 struct RestCloth {
-  std::optional<QuadMesh> quads;     ///< of a sheet
+  std::optional<QuadMesh> quads;     ///< of a sheet or garment
   TriangleMesh mesh;                 ///< of any cloth; of particles without warp directions
-  std::vector<VertexGroup> groups;   ///< of a mesh
+  std::vector<VertexGroup> groups;   ///< of a mesh or garment
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: of a mesh, texture coordinates
 };
 
-/// `level`  of refinement, which check_level lets pass.
+/// The unrefined quads of a sheet or garment; none of other cloth.
+std::optional<QuadMesh> base_quads(const Scene& scene);
+
+/// As the scene refines it, by its plan or level.
+RestCloth rest_cloth(const Scene& scene);
+
+/// Refined uniformly, to a level that check_level lets pass.
 RestCloth rest_cloth(const Scene& scene, int level);
 
 /// Rest area of each vertex [m^2]; particles count by their mass.

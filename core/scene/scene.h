@@ -9,9 +9,12 @@
 #include "core/dynamics/cloth_model.h"
 #include "core/dynamics/stepper.h"
 #include "core/fabric/fabric.h"
+#include "core/figure/garment_patterns.h"
+#include "core/figure/mannequin.h"
 #include "core/mesh/quad_mesh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/mesh/vertex_group.h"
+#include "core/refinement/refinement_plan.h"
 
 namespace pleat {
 
@@ -35,6 +38,20 @@ struct MeshCloth {
   std::vector<VertexGroup> groups;      ///< with different names, none empty
   RestCoordinates texture_coordinates;  ///< 2 x n; empty unless each vertex has exactly one pair
   std::vector<std::optional<CornerTexture>> textures;  ///< of each triangle
+};
+
+/// A body in the scene: a solid, and bones that pins may follow. It stands at time 0.
+struct Figure {
+  BodyBuild build = BodyBuild::average;
+  BodyMotion motion;
+  Playback playback;
+  std::optional<double> friction;  ///< else the fabric's
+};
+
+/// Quads around the standing figure.
+struct GarmentCloth {
+  std::variant<SkirtMeasures, TrouserMeasures> measures;
+  Garment garment;  ///< made from them
 };
 
 /// Named parts of a sheet. Upper is u = 0 (where warp begins), left is v = 0 (where weft begins).
@@ -63,7 +80,8 @@ struct PinBox {
 /// box; or only listed vertices (of the base mesh, or inline particles).
 struct PinRule {
   std::variant<SheetPart, std::vector<VertexId>, std::string, PinBox> where;
-  Motion motion;
+  Motion motion;             ///< not `follow`
+  std::optional<Bone> bone;  ///< of the figure, which it follows instead
 };
 
 /// What holds a cloth together in its own plane.
@@ -88,6 +106,7 @@ struct ModelOptions {
   bool shear = true;        ///< springs on both diagonals of each quad
   double strain_limit = 0;  ///< along the threads; beyond it kTautFactor times as stiff; 0: never
   double torsion = 1;       ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
+  double stiffness_exponent = 0;  ///< springs of faces of level l are 2^(this l) times as stiff
 };
 
 enum class FrameFormat { none, obj, ply, binary };
@@ -102,7 +121,7 @@ struct RecordOptions {
 struct Scene {
   std::string name = "unnamed";
   std::string caption;  ///< one sentence: what to notice
-  std::variant<SheetShape, InlineCloth, MeshCloth> cloth = SheetShape{};
+  std::variant<SheetShape, InlineCloth, MeshCloth, GarmentCloth> cloth = SheetShape{};
   Vec3 initial_velocity{0, 0, 0};  ///< of a sheet or mesh [m/s]
   BendSource bend_source = BendSource::at_rest;
   bool fabric_is_named =
@@ -111,7 +130,9 @@ struct Scene {
   std::vector<std::string>
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   ModelOptions model;
-  int level = 0;  ///< uniform refinements, 0 to kMaxLevel
+  int level = 0;                       ///< uniform refinements, 0 to kMaxLevel; with a plan 0
+  std::optional<RefinementPlan> plan;  ///< of a sheet or garment, where to refine
+  std::optional<Figure> figure;
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;

@@ -6,20 +6,30 @@
 #include "core/base/check.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
+#include "core/scene/figure_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
+#include "core/scene/plan_file.h"
+#include "core/scene/plan_section.h"
 #include "core/scene/world_section.h"
 
 namespace pleat {
 namespace {
 
-int read_refinement(const JsonReader& reader, const Scene& scene) {
-  reader.allow_keys({"level"});
-  const auto at = reader.find("level");
-  if (!at) return scene.level;
-  const int level = static_cast<int>(at->integer(0, kMaxLevel));
-  check_level(scene, level, at->pointer());
-  return level;
+void read_refinement(const JsonReader& reader, const FileSource& files, Scene& scene) {
+  reader.allow_keys({"level", "plan"});
+  if (const auto at = reader.find("plan")) {
+    if (reader.find("level")) at->fail("no such key beside a level");
+    scene.plan = read_scene_plan(*at, files, scene);
+  } else if (const auto level = reader.find("level")) {
+    scene.level = static_cast<int>(level->integer(0, kMaxLevel));
+    check_level(scene, scene.level, level->pointer());
+  }
+}
+
+Json json_refinement(const Scene& scene) {
+  if (scene.plan) return {{"plan", json_plan(*scene.plan)}};
+  return {{"level", scene.level}};
 }
 
 }  // namespace
@@ -40,17 +50,18 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
                  const FileSource& files) {
   const Json document = parse_json(json_text);
   const JsonReader root(document);
-  root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "refinement", "pins",
-                   "world", "method", "duration_s", "record"});
+  root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement",
+                   "pins", "world", "method", "duration_s", "record"});
   Scene scene;
   if (const auto at = root.find("$schema")) at->text();
   if (const auto at = root.find("name")) scene.name = at->text();
   if (const auto at = root.find("caption")) scene.caption = at->text();
+  if (const auto at = root.find("figure")) scene.figure = read_figure(*at, files);
   read_cloth(root.at("cloth"), files, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
   scene.model = usual_model(scene);
   if (const auto at = root.find("model")) read_model(*at, scene);
-  if (const auto at = root.find("refinement")) scene.level = read_refinement(*at, scene);
+  if (const auto at = root.find("refinement")) read_refinement(*at, files, scene);
   if (const auto at = root.find("pins")) read_pins(*at, scene);
   if (const auto at = root.find("world")) read_world(*at, scene);
   if (const auto at = root.find("method")) read_method(*at, scene.method);
@@ -61,17 +72,19 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
 }
 
 std::string write_scene(const Scene& scene) {
-  return format_json({{"name", scene.name},
-                      {"caption", scene.caption},
-                      {"cloth", json_cloth(scene)},
-                      {"fabric", json_fabric(scene)},
-                      {"model", json_model(scene.model)},
-                      {"refinement", {{"level", scene.level}}},
-                      {"pins", json_pins(scene)},
-                      {"world", json_world(scene)},
-                      {"method", json_method(scene.method)},
-                      {"duration_s", scene.duration},
-                      {"record", json_record(scene.record)}});
+  Json json{{"name", scene.name},
+            {"caption", scene.caption},
+            {"cloth", json_cloth(scene)},
+            {"fabric", json_fabric(scene)},
+            {"model", json_model(scene.model)},
+            {"refinement", json_refinement(scene)},
+            {"pins", json_pins(scene)},
+            {"world", json_world(scene)},
+            {"method", json_method(scene.method)},
+            {"duration_s", scene.duration},
+            {"record", json_record(scene.record)}};
+  if (scene.figure) json["figure"] = json_figure(*scene.figure);
+  return format_json(json);
 }
 
 }  // namespace pleat

@@ -8,33 +8,70 @@
 namespace pleat {
 namespace {
 
-/// A later rule does not pin again what an earlier one holds.
-std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth) {
+Motion following(const std::shared_ptr<const MovingBody>& body, Bone bone) {
+  Motion motion;
+  motion.kind = Motion::Kind::follow;
+  motion.frame = bone_frame(body, bone);
+  return motion;
+}
+
+/// A later rule does not pin again what an earlier one holds, and hanging vertices follow their
+/// parents.
+std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth,
+                            const std::shared_ptr<const MovingBody>& body) {
   const Positions& positions = cloth.mesh.rest_positions;
   std::vector<Pin> pins;
-  std::vector<bool> pinned(static_cast<std::size_t>(positions.cols()), false);
+  std::vector<bool> taken(static_cast<std::size_t>(positions.cols()), false);
+  if (cloth.quads)
+    for (const HangingVertex& hanging : cloth.quads->hanging_vertices())
+      taken[hanging.vertex] = true;
   for (const PinRule& rule : scene.pins) {
+    const Motion motion = rule.bone ? following(body, *rule.bone) : rule.motion;
     for (const VertexId v : pinned_vertices(rule, scene, cloth)) {
-      if (pinned[v]) continue;
-      pinned[v] = true;
-      pins.push_back({v, positions.col(v), rule.motion});
+      if (taken[v]) continue;
+      taken[v] = true;
+      pins.push_back({v, positions.col(v), motion});
     }
   }
   return pins;
 }
 
+/// Hanging arms cut into the hips, where garments of the lower body are.
+std::vector<BodyPart> body_parts(const Scene& scene) {
+  std::vector<BodyPart> parts = mannequin(scene.figure->build);
+  return std::holds_alternative<GarmentCloth>(scene.cloth) ? without_arms(std::move(parts)) : parts;
+}
+
+/// The scene's own solids, then the figure's.
+std::vector<Collider> scene_colliders(const Scene& scene,
+                                      const std::shared_ptr<const MovingBody>& body) {
+  std::vector<Collider> colliders = scene.colliders;
+  if (!scene.figure) return colliders;
+  const double friction = scene.figure->friction.value_or(scene.fabric.friction_solid);
+  for (const BodyPart& part : body_parts(scene))
+    colliders.push_back(Collider{part.shape, following(body, part.bone), friction});
+  return colliders;
+}
+
 /// Of the largest triangle around each vertex [m]. Where a mesh is uniform, so is this: its
-/// triangles differ by rounding, which lies far below kSame.
-Eigen::VectorXd face_circumradii(const TriangleMesh& mesh) {
+/// triangles differ by rounding, which lies far below kSame. A hanging vertex is held off by its
+/// parents alone: what holds a face at one are vertices as far apart as those of a face twice its
+/// size.
+Eigen::VectorXd face_circumradii(const RestCloth& cloth) {
   constexpr double kSame = 1e-9;  // relative; on a rough mesh it adds as little to the clearance
-  const Positions& positions = mesh.rest_positions;
+  const Positions& positions = cloth.mesh.rest_positions;
+  std::vector<bool> hangs(static_cast<std::size_t>(positions.cols()), false);
+  if (cloth.quads)
+    for (const HangingVertex& hanging : cloth.quads->hanging_vertices())
+      hangs[hanging.vertex] = true;
   Eigen::VectorXd circumradii = Eigen::VectorXd::Zero(positions.cols());
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : cloth.mesh.triangles) {
     const Vec3 a = positions.col(t[1]) - positions.col(t[0]);
     const Vec3 b = positions.col(t[2]) - positions.col(t[0]);
     const double doubled_area = a.cross(b).norm();
     if (doubled_area == 0) continue;
-    const double circumradius = a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
+    const double size = hangs[t[0]] || hangs[t[1]] || hangs[t[2]] ? 2 : 1;
+    const double circumradius = size * a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
     for (const VertexId v : t) circumradii[v] = std::max(circumradii[v], circumradius);
   }
   const double largest = circumradii.maxCoeff();
@@ -54,19 +91,22 @@ State scene_state(const Scene& scene, const RestCloth& cloth) {
 
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   ClothModel model;
+  std::shared_ptr<const MovingBody> body;
+  if (scene.figure)
+    body = std::make_shared<MovingBody>(scene.figure->motion, scene.figure->playback);
   add_elasticity(model, scene, cloth);
   model.rest_coordinates = cloth.rest_coordinates;
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
-  model.pins = scene_pins(scene, cloth);
+  model.pins = scene_pins(scene, cloth, body);
   // A sheet's quads are split both ways, so that drag is shared among corners as mass is.
   if (scene.air && cloth.quads)
     model.air.emplace(cloth.quads->crossed_triangles(), *scene.air, model.n_vertices(), 0.5);
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
-  if (!scene.colliders.empty()) {
-    const ContactOptions options{scene.fabric.thickness / 2, face_circumradii(cloth.mesh)};
-    model.contact.emplace(scene.colliders, options);
+  if (std::vector<Collider> colliders = scene_colliders(scene, body); !colliders.empty()) {
+    const ContactOptions options{scene.fabric.thickness / 2, face_circumradii(cloth)};
+    model.contact.emplace(std::move(colliders), options);
   }
   return model;
 }

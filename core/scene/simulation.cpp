@@ -18,7 +18,7 @@ std::vector<GaugeEdge> cloth_gauge(const Scene& scene, const RestCloth& cloth) {
 
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
-      cloth_(rest_cloth(scene, scene.level)),
+      cloth_(rest_cloth(scene)),
       model_(scene_model(scene, cloth_)),
       gauge_(cloth_gauge(scene, cloth_)) {
   start();

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/scene/cloth_section.h"
+#include "core/scene/figure_section.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
 #include "core/scene/vertex_place.h"
@@ -66,9 +67,11 @@ Json json_motion(const Motion& motion) {
   return json;
 }
 
-bool same_motion(const Motion& a, const Motion& b) {
-  return a.kind == b.kind && a.offset == b.offset && a.time_begin == b.time_begin &&
-         a.time_end == b.time_end && a.frequency == b.frequency && a.frame == b.frame;
+bool same_motion(const PinRule& one, const PinRule& other) {
+  const Motion& a = one.motion;
+  const Motion& b = other.motion;
+  return one.bone == other.bone && a.kind == b.kind && a.offset == b.offset &&
+         a.time_begin == b.time_begin && a.time_end == b.time_end && a.frequency == b.frequency;
 }
 
 /// Base vertices of a part: rows r and columns c of the vertex grid.
@@ -97,12 +100,14 @@ std::vector<VertexId> base_vertices(const Scene& scene, const PinRule& pin) {
 }
 
 PinRule read_pin(const JsonReader& reader, const Scene& scene) {
-  reader.allow_keys({"part", "vertices", "box", "motion"});
+  reader.allow_keys({"part", "vertices", "box", "motion", "bone"});
   PinRule pin;
   switch (reader.only_one_of({"part", "vertices", "box"})) {
     case 0:
       if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) {
         pin.where = read_group(reader.at("part"), mesh->groups).name;
+      } else if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth)) {
+        pin.where = read_group(reader.at("part"), garment->garment.groups).name;
       } else {
         pin.where = reader.at("part").word(kSheetParts);
         if (!std::holds_alternative<SheetShape>(scene.cloth))
@@ -116,6 +121,11 @@ PinRule read_pin(const JsonReader& reader, const Scene& scene) {
       pin.where = read_box(reader.at("box"));
   }
   if (const auto at = reader.find("motion")) pin.motion = read_motion(*at);
+  if (const auto at = reader.find("bone")) {
+    if (!scene.figure) at->fail("no such key, as the scene has no figure");
+    if (reader.find("motion")) at->fail("no such key beside a motion");
+    pin.bone = read_bone(*at);
+  }
   return pin;
 }
 
@@ -178,7 +188,7 @@ void read_pins(const JsonReader& reader, Scene& scene) {
       element.at("box").fail("a box with a vertex of the unrefined cloth in it");
     for (const VertexId vertex : vertices) {
       const std::size_t first = owner.emplace(vertex.value, scene.pins.size()).first->second;
-      if (first == scene.pins.size() || same_motion(scene.pins[first].motion, pin.motion)) continue;
+      if (first == scene.pins.size() || same_motion(scene.pins[first], pin)) continue;
       throw InputError(element.pointer(),
                        "expected one motion for each vertex, got a second one for vertex " +
                            std::to_string(vertex.value) + ", which " + reader.pointer() + "/" +
@@ -201,7 +211,10 @@ Json json_pins(const Scene& scene) {
     } else {
       element["vertices"] = json_vertices(std::get<std::vector<VertexId>>(pin.where));
     }
-    element["motion"] = json_motion(pin.motion);
+    if (pin.bone)
+      element["bone"] = bone_name(*pin.bone);
+    else
+      element["motion"] = json_motion(pin.motion);
     json.push_back(element);
   }
   return json;

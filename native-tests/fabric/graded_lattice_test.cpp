@@ -73,12 +73,26 @@ FabricConstants equal_bending() {
   return fabric;
 }
 
+/// Within 5 % of what uniform sheets have: these differ by the half cells at the ends of lines, in
+/// which no chord has its middle.
+void check_between_uniform(const QuadMesh& graded, int finest, double radius, bool along_warp) {
+  const FabricConstants fabric = equal_bending();
+  const auto energy = [&](const QuadMesh& mesh) {
+    return bending_energy(spring_lattice(mesh, fabric), rolled(mesh, radius, along_warp));
+  };
+  QuadMesh fine = square_sheet();
+  fine.refine_uniformly(finest);
+  const double coarse_energy = energy(square_sheet());
+  CHECK(energy(graded) > 0.95 * coarse_energy);
+  CHECK(energy(graded) < 1.05 * energy(fine));
+}
+
 }  // namespace
 
 TEST_CASE("graded lattice: an affine stretch is the same on any graded mesh", "[fabric]") {
   const int seed = GENERATE(1, 2, 3);
   CAPTURE(seed);
-  const FabricConstants fabric = library_fabric("denim");
+  const FabricConstants fabric = library_fabric("coarse cotton (denim)");
   const QuadMesh graded = randomly_refined_sheet(static_cast<std::uint64_t>(seed));
   REQUIRE(graded.hanging_vertices().size() > 20);
   Eigen::Matrix<double, 3, 2> gradient;
@@ -115,15 +129,10 @@ TEST_CASE("graded lattice: rolled on a cylinder it has the uniform sheet's bendi
   const bool border_across_warp = GENERATE(true, false);
   CAPTURE(along_warp, border, border_across_warp);
   const double radius = 0.4;  // 0.21 rad a coarse edge
-  const QuadMesh base = square_sheet();
-  QuadMesh graded = base;
+  QuadMesh graded = square_sheet();
   const double limit = static_cast<double>(border) / kCells;
   refine_inside(graded, [&](double u, double v) { return (border_across_warp ? u : v) < limit; });
-  const FabricConstants fabric = equal_bending();
-  const double expected =
-      bending_energy(spring_lattice(base, fabric), rolled(base, radius, along_warp));
-  CHECK(bending_energy(spring_lattice(graded, fabric), rolled(graded, radius, along_warp)) ==
-        Approx(expected).epsilon(0.05));
+  check_between_uniform(graded, 1, radius, along_warp);
 }
 
 TEST_CASE("graded lattice: patches of any shape bend like the uniform sheet", "[fabric]") {
@@ -137,12 +146,7 @@ TEST_CASE("graded lattice: patches of any shape bend like the uniform sheet", "[
     refine_inside(graded, [&](double u, double v) {
       return (Eigen::Vector2d(u, v) - centre).norm() < radius;
     });
-  const FabricConstants fabric = equal_bending();
-  const QuadMesh base = square_sheet();
-  const double expected =
-      bending_energy(spring_lattice(base, fabric), rolled(base, 0.4, along_warp));
-  CHECK(bending_energy(spring_lattice(graded, fabric), rolled(graded, 0.4, along_warp)) ==
-        Approx(expected).epsilon(0.05));
+  check_between_uniform(graded, 2, 0.4, along_warp);
 }
 
 TEST_CASE("graded lattice: a flat sheet does not bend at its borders", "[fabric]") {
@@ -168,7 +172,7 @@ TEST_CASE("graded lattice: no chord has a hanging vertex in its middle", "[fabri
 TEST_CASE("graded lattice: springs of finer faces stiffen by the exponent", "[fabric]") {
   QuadMesh fine = square_sheet();
   fine.refine_uniformly(2);
-  const FabricConstants fabric = library_fabric("denim");
+  const FabricConstants fabric = library_fabric("coarse cotton (denim)");
   const auto plain = spring_lattice(fine, fabric).springs;
   const auto stiffened = spring_lattice(fine, fabric, BendingLaw::quadratic, 0.5).springs;
   REQUIRE(plain.size() == stiffened.size());

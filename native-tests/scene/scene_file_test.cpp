@@ -44,7 +44,7 @@ const BadScene kBadScenes[] = {
     {"[]", "", "expected an object, got an array of 0 values"},
     {"{}", "", "expected the key \"cloth\", got an empty object"},
     {R"({"cloth": {"sheet": {}}, "gravity": 1})", "/gravity",
-     R"(expected one of the keys "$schema", "name", "caption", "cloth", "fabric", "model", "refinement", )"
+     R"(expected one of the keys "$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement", )"
      R"("pins", "world", "method", "duration_s", "record", got "gravity")"},
     {R"({"cloth": {"sheet": {}}, "duration": 1})", "/duration",
      R"(expected the key "duration_s", got "duration")"},
@@ -61,16 +61,16 @@ const BadScene kBadScenes[] = {
     {"{\"cloth\": {\"sheet\": {}}, \"" + std::string(5000, 'k') + "\": 1}",
      "/" + std::string(60, 'k') + "...",
      "expected one of the keys \"$schema\", \"name\", \"caption\", \"cloth\", \"fabric\", "
-     "\"model\", "
+     "\"model\", \"figure\", "
      "\"refinement\", \"pins\", \"world\", \"method\", \"duration_s\", \"record\", got \"" +
          std::string(59, 'k') + "..."},
     // Cloth: sheet.
     {R"({"cloth": {}})", "/cloth",
-     R"(expected one of the keys "sheet", "particles", "mesh", got an empty object)"},
+     R"(expected one of the keys "sheet", "particles", "mesh", "garment", got an empty object)"},
     {R"({"cloth": {"sheet": {}, "particles": {}}})", "/cloth",
-     R"(expected only one of the keys "sheet", "particles", "mesh", got several)"},
-    {R"({"cloth": {"garment": {}}})", "/cloth/garment",
-     R"(expected one of the keys "sheet", "particles", "mesh", got "garment")"},
+     R"(expected only one of the keys "sheet", "particles", "mesh", "garment", got several)"},
+    {R"({"cloth": {"curtain": {}}})", "/cloth/curtain",
+     R"(expected one of the keys "sheet", "particles", "mesh", "garment", got "curtain")"},
     {R"({"cloth": {"sheet": {"a/b~": 1}}})", "/cloth/sheet/a~1b~0",
      R"(expected one of the keys "width_m", "height_m", "columns", "rows", "origin_m", "warp_direction", )"
      R"("weft_direction", "initial_velocity_m_per_s", got "a/b~")"},

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/refinement/mesh_match.h"
+#include "core/scene/plan_file.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"
@@ -23,6 +25,8 @@ const char* const kShortScenes[] = {
         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}}})",
     R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
         "triangles": [[0, 1, 2]], "warp_direction": [1, 0, 0]}}})",
+    R"({"cloth": {"garment": {"skirt": {}}}, "figure": {"motion": "turn.json"}})",
+    R"({"cloth": {"garment": {"trousers": {}}}, "figure": {"motion": "turn.json"}})",
 };
 
 // What no short scene has.
@@ -40,12 +44,31 @@ const char* const kFurtherScenes[] = {
         "warp_direction": [1, 0, 0], "texture_coordinates": [[0, 0], [1, 0], [0, 1]],
         "groups": {"waist": [0, 1]}}},
         "pins": [{"part": "waist"}, {"box": {"low_m": [0, 0, 0], "high_m": [0, 0, 1]}}]})",
+    R"({"cloth": {"garment": {"skirt": {}}}, "model": {"stiffness_exponent": 0.5},
+        "figure": {"build": "slim", "motion": "turn.json", "friction": 0.2},
+        "pins": [{"part": "waist", "bone": "pelvis"}]})",
+    R"({"cloth": {"sheet": {}}, "refinement": {"plan": "plan.json"}})",
 };
+
+/// One face that is split once.
+std::string plan_of_unit_sheet() {
+  RefinementPlan plan;
+  plan.examples = {{"flutter", BendFeatures::Zero(2, 3)}};
+  plan.patterns = {2, 2, 2, 2};
+  plan.options.level_cap = 1;
+  plan.splits = {{FaceId(0), 8}};
+  plan.n_vertices = 9;
+  plan.base_mesh = base_fingerprint(QuadMesh::sheet({}));
+  plan.curvature_limits = {1, 2, 3};
+  return plan_text(plan);
+}
 
 json schema() { return json::parse(scene_schema()); }
 
 json written(const std::string& text) {
-  const FileSource files = [](const std::string&) {
+  const FileSource files = [](const std::string& name) -> std::string {
+    if (name == "turn.json") return repository_file("assets/motions/turn.json");
+    if (name == "plan.json") return plan_of_unit_sheet();
     return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   };
   return json::parse(write_scene(read_scene(text, fabric_library(), files)));

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/scene/file_source.h"
+#include "core/scene/json_reader.h"
+#include "core/scene/scene.h"
+
+namespace pleat {
+
+/// The plan of a scene's "refinement": written out, or the name of its file. The scene's cloth has
+/// been read. Throws InputError for a plan of another mesh and for cloth that is not made of quads.
+RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource& files,
+                               const Scene& scene);
+
+}  // namespace pleat

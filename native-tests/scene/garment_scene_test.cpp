@@ -1,0 +1,117 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/refinement/mesh_match.h"
+#include "core/scene/plan_file.h"
+#include "core/scene/scene_file.h"
+#include "core/scene/simulation.h"
+#include "native-tests/support/assets.h"
+
+namespace pleat {
+namespace {
+
+constexpr const char* kGarments[] = {"skirt", "trousers"};
+constexpr const char* kMotions[] = {"walk", "fast_walk", "squat", "turn"};
+
+std::string file_beside_garments(const std::string& name) {
+  return repository_file("assets/scenes/garments/" + name);
+}
+
+Scene garment_scene(const std::string& name) {
+  return read_scene(file_beside_garments(name + ".json"), fabric_library(), file_beside_garments);
+}
+
+/// Every third base face is split once.
+RefinementPlan patchy_plan(const QuadMesh& base) {
+  RefinementPlan plan;
+  plan.examples = {{"walk", BendFeatures::Zero(2, 3)}};
+  plan.patterns.assign(static_cast<std::size_t>(base.n_vertices()), 1);
+  plan.options.level_cap = 2;
+  QuadMesh mesh = base;
+  for (int f = 0; f < base.n_base_faces(); f += 3) {
+    plan.splits.push_back({FaceId(f), 4});
+    mesh.refine(std::array{FaceId(f)});
+  }
+  plan.n_vertices = mesh.n_vertices();
+  plan.base_mesh = base_fingerprint(base);
+  plan.curvature_limits = {1, 2, 3};
+  return plan;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read_scene(text, fabric_library(), file_beside_garments);
+  } catch (const InputError& error) {
+    return error.where() + ": " + error.what();
+  }
+  return "";
+}
+
+std::string with(const std::string& scene, const std::string& pointer, const char* value) {
+  auto json = nlohmann::json::parse(file_beside_garments(scene + ".json"));
+  json[nlohmann::json::json_pointer(pointer)] = nlohmann::json::parse(value);
+  return json.dump();
+}
+
+}  // namespace
+
+TEST_CASE("garment scene: what is written is read back as the same scene", "[scene]") {
+  const std::string garment = GENERATE(from_range(std::begin(kGarments), std::end(kGarments)));
+  const std::string motion = GENERATE(from_range(std::begin(kMotions), std::end(kMotions)));
+  CAPTURE(garment, motion);
+  Scene scene = garment_scene(garment + "_" + motion);
+  scene.plan = patchy_plan(*base_quads(scene));
+  scene.level = 0;
+  const std::string text = write_scene(scene);
+  CHECK(write_scene(read_scene(text, fabric_library())) == text);
+}
+
+TEST_CASE("garment scene: the waist follows the pelvis and all else is free", "[scene]") {
+  const std::string garment = GENERATE(from_range(std::begin(kGarments), std::end(kGarments)));
+  const Scene scene = garment_scene(garment + "_walk");
+  Simulation simulation(scene);
+  const MovingBody body(scene.figure->motion, scene.figure->playback);
+  REQUIRE(!simulation.model().pins.empty());
+  for (int n = 0; n < 12; ++n) REQUIRE(simulation.step().ok());
+  const Pose pelvis = body.pose(Bone::pelvis, simulation.time());
+  for (const Pin& pin : simulation.model().pins) {
+    const Vec3 rest = simulation.rest_positions().col(pin.vertex);
+    CHECK((simulation.state().positions.col(pin.vertex) - pelvis * rest).norm() < 1e-6);
+  }
+  CHECK(simulation.model().contact->colliders().size() > 10);
+}
+
+TEST_CASE("garment scene: a planned mesh keeps the mass and pins no hanging vertex", "[scene]") {
+  const std::string garment = GENERATE(from_range(std::begin(kGarments), std::end(kGarments)));
+  Scene scene = garment_scene(garment + "_walk");
+  const Simulation uniform(scene);
+  scene.plan = patchy_plan(*base_quads(scene));
+  const Simulation graded(scene);
+  CHECK(graded.model().hanging.size() > 50);
+  CHECK(graded.model().masses.sum() == Approx(uniform.model().masses.sum()).epsilon(1e-13));
+  for (const Pin& pin : graded.model().pins) CHECK(graded.model().masses[pin.vertex] > 0);
+}
+
+TEST_CASE("garment scene: what makes no scene is refused at its place", "[scene]") {
+  CHECK(refusal(with("skirt_walk", "/cloth/garment/skirt/length_m", "-0.4"))
+            .find("/cloth/garment/skirt/length_m") != std::string::npos);
+  CHECK(refusal(with("skirt_walk", "/cloth/garment/skirt/waist_ease_m", "0.9"))
+            .find("/cloth/garment/skirt/waist_ease_m") != std::string::npos);
+  CHECK(refusal(with("skirt_walk", "/figure/motion", "\"absent.json\"")) != "");
+  CHECK(refusal(with("skirt_walk", "/pins/0/bone", "\"tail\"")).find("/pins/0/bone") == 0);
+  CHECK(refusal(with("skirt_walk", "/refinement", R"({"plan": {}})")).find("/refinement/plan") ==
+        0);
+  auto json = nlohmann::json::parse(file_beside_garments("skirt_walk.json"));
+  json.erase("figure");
+  CHECK(refusal(json.dump()).find("no figure") != std::string::npos);
+}
+
+TEST_CASE("garment scene: a plan for another mesh is refused", "[scene]") {
+  Scene scene = garment_scene("skirt_walk");
+  scene.plan = patchy_plan(*base_quads(scene));
+  scene.plan->base_mesh ^= 1;
+  CHECK(refusal(write_scene(scene)).find("/refinement/plan") == 0);
+}
+
+}  // namespace pleat
