@@ -63,32 +63,51 @@ RunComparison::RunComparison(const Scene& scene, int reference_level)
   if (has_curvature) bend_.emplace(fine.mesh, base_edge(scene));
 }
 
+RunComparison::RunComparison(const Scene& scene, const Scene& reference)
+    : own_(rest_cloth(scene)),
+      reference_(rest_cloth(reference)),
+      own_is_finer_(false),
+      areas_(rest_areas(reference, reference_)) {
+  PLEAT_CHECK(!own_.mesh.triangles.empty() && !reference_.mesh.triangles.empty(),
+              "cloth with triangles");
+  map_.emplace(own_.mesh, reference_.mesh.rest_positions);
+  bend_.emplace(reference_.mesh, base_edge(reference));
+}
+
 Positions RunComparison::on_finer_mesh(const Positions& positions, bool is_finer) const {
-  if (is_finer || own_.mesh.n_vertices() == reference_.mesh.n_vertices()) return positions;
+  if (map_ || is_finer || own_.mesh.n_vertices() == reference_.mesh.n_vertices()) return positions;
   const RestCloth& fine = own_is_finer_ ? own_ : reference_;
   if (fine.quads) return carried_positions(positions, *fine.quads);
   return subdivided_positions(positions, middles_);
 }
 
+Positions RunComparison::at_common_vertices(const Positions& own) const {
+  return map_ ? map_->of(own) : own;
+}
+
 RunErrors RunComparison::errors(std::span<const Sample> run,
                                 std::span<const Sample> reference) const {
-  RunErrors errors;
-  errors.position = root_mean_square(position_errors(run, reference, areas_));
-  if (!bend_) return errors;
+  check_times(run, reference);
   const auto n = static_cast<double>(run.size());
+  RunErrors errors;
+  std::vector<double> position_errors;
   std::vector<double> surface_errors;
-  errors.surface_95 = errors.bend_distribution = errors.bend_regions = 0;
+  if (bend_) errors.surface_95 = errors.bend_distribution = errors.bend_regions = 0;
   for (std::size_t s = 0; s < run.size(); ++s) {
+    const Positions own = at_common_vertices(run[s].positions);
+    position_errors.push_back(position_error(own, reference[s].positions, areas_));
+    if (!bend_) continue;
     const SurfaceError surface = surface_error(own_.mesh.triangles, run[s].positions,
                                                reference_.mesh.triangles, reference[s].positions);
-    const BendError bend = bend_->error(on_finer_mesh(run[s].positions, own_is_finer_),
+    const BendError bend = bend_->error(on_finer_mesh(own, own_is_finer_),
                                         on_finer_mesh(reference[s].positions, !own_is_finer_));
     surface_errors.push_back(surface.rms);
     errors.surface_95 += surface.percentile_95 / n;
     errors.bend_distribution += bend.distribution / n;
     errors.bend_regions += bend.regions / n;
   }
-  errors.surface_rms = root_mean_square(surface_errors);
+  errors.position = root_mean_square(position_errors);
+  if (bend_) errors.surface_rms = root_mean_square(surface_errors);
   return errors;
 }
 

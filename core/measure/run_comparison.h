@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/measure/bend_error.h"
+#include "core/measure/material_map.h"
 #include "core/measure/sampled_run.h"
 #include "core/scene/rest_cloth.h"
 
@@ -33,10 +34,16 @@ class RunComparison {
   /// reference_level  of the run that is taken for right
   RunComparison(const Scene& scene, int reference_level);
 
+  /// Of runs on any two meshes of one cloth, graded ones too: compared at the material points that
+  /// are the vertices of the reference, and smoothed over an edge of its unrefined mesh. Both are
+  /// cloth with triangles.
+  RunComparison(const Scene& scene, const Scene& reference);
+
   /// Throws ContractError unless both have samples at the same times.
   RunErrors errors(std::span<const Sample> run, std::span<const Sample> reference) const;
 
  private:
+  Positions at_common_vertices(const Positions& own) const;
   Positions on_finer_mesh(const Positions& positions, bool is_finer) const;
 
   RestCloth own_;
@@ -44,6 +51,7 @@ class RunComparison {
   bool own_is_finer_;
   Eigen::VectorXd areas_;                         // of the vertices that both have
   std::vector<std::array<VertexId, 2>> middles_;  // of a triangle mesh, coarser to finer
+  std::optional<MaterialMap> map_;                // of the reference's vertices to its own mesh
   std::optional<BendMeasure> bend_;
 };
 

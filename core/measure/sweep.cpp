@@ -57,8 +57,10 @@ void compare(const SampledRun& run, const Scene& reference_scene, const Referenc
   row.largest_stretch = own.largest;
   if (reference.samples.size() != run.samples().size()) return;
   const Scene& scene = run.simulation().scene();
-  const RunErrors errors =
-      RunComparison(scene, reference_scene.level).errors(run.samples(), reference.samples);
+  const RunComparison comparison = scene.plan || reference_scene.plan
+                                       ? RunComparison(scene, reference_scene)
+                                       : RunComparison(scene, reference_scene.level);
+  const RunErrors errors = comparison.errors(run.samples(), reference.samples);
   row.surface_error = errors.surface_rms;
   row.surface_error_95 = errors.surface_95;
   row.bend_error = errors.bend_distribution;

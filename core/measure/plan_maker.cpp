@@ -1,0 +1,110 @@
+#include "core/measure/plan_maker.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/base/check.h"
+#include "core/refinement/fit_monitor.h"
+#include "core/refinement/mesh_match.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a frame
+
+std::vector<double> frame_times(const Scene& scene, const PlanRecipe& recipe) {
+  std::vector<double> times;
+  for (int k = 1;; ++k) {
+    const double time = k * recipe.frame_time;
+    if (time > scene.duration + kRounding * recipe.frame_time) break;
+    if (time > recipe.begin) times.push_back(time);
+  }
+  if (times.size() < 2)
+    throw InputError("/duration_s", "expected at least two frames after " +
+                                        std::to_string(recipe.begin) + " s, got " +
+                                        std::to_string(times.size()));
+  return times;
+}
+
+QuadMesh example_base(const Scene& scene) {
+  std::optional<QuadMesh> base = base_quads(scene);
+  if (!base)
+    throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
+  if (scene.plan || scene.level < 1)
+    throw InputError("/refinement",
+                     "expected an example refined uniformly, once at least, got " +
+                         (scene.plan ? std::string("one with a plan") : std::string("level 0")));
+  return *std::move(base);
+}
+
+}  // namespace
+
+PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)
+    : scenes_(std::move(examples)), recipe_(recipe) {
+  PLEAT_CHECK(!scenes_.empty() && recipe.frame_time > 0, "a plan has an example with frames");
+  base_ = example_base(scenes_.front());
+  fine_ = base_;
+  fine_.refine_uniformly(scenes_.front().level);
+  for (const Scene& scene : scenes_)
+    if (base_fingerprint(example_base(scene)) != base_fingerprint(base_) ||
+        scene.level != scenes_.front().level)
+      throw InputError("/cloth", "expected examples of one cloth at one level, got \"" +
+                                     scene.name + "\" beside \"" + scenes_.front().name + '"');
+  cost_.frame_time = recipe.frame_time;
+  begin_example();
+}
+
+void PlanMaker::begin_example() {
+  const Scene& scene = scenes_[examples_.size()];
+  run_ =
+      std::make_unique<SampledRun>(scene, frame_times(scene, recipe_), SampledRun::Parts::untimed);
+}
+
+void PlanMaker::end_example() {
+  const Scene& scene = scenes_[examples_.size()];
+  if (run_->failed())
+    throw InputError("", "expected an example that runs to its end, got \"" + scene.name +
+                             "\": " + run_->report().message);
+  BendFeatureSum sum(fine_);
+  for (const Sample& sample : run_->samples()) {
+    sum.add(sample.positions);
+    frames_.push_back(sample.positions);
+  }
+  const BendFeatures features = sum.features();
+  examples_.push_back({scene.name, features, bend_patterns(features, recipe_.patterns)});
+}
+
+void PlanMaker::make_plan() {
+  plan_ = refinement_plan(base_, fine_, examples_, recipe_.plan);
+  ExampleEnvelope envelope(planned_mesh(base_, plan_), fine_, plan_);
+  for (const Positions& frame : frames_) envelope.add(frame);
+  plan_.curvature_limits = envelope.limits();
+  cost_.n_frames = static_cast<int>(frames_.size());
+  cost_.megabytes = 24e-6 * static_cast<double>(fine_.n_vertices()) * cost_.n_frames;
+}
+
+void PlanMaker::advance(double budget) {
+  if (done_) return;
+  const Stopwatch running;
+  run_->advance(budget);
+  cost_.example_seconds += running.elapsed();
+  if (!run_->done()) return;
+  const Stopwatch planning;
+  end_example();
+  if (examples_.size() < scenes_.size()) {
+    begin_example();
+  } else {
+    run_.reset();
+    make_plan();
+    done_ = true;
+  }
+  cost_.planning_seconds += planning.elapsed();
+}
+
+double PlanMaker::progress() const {
+  if (done_) return 1;
+  return (static_cast<double>(examples_.size()) + run_->progress()) /
+         static_cast<double>(scenes_.size());
+}
+
+}  // namespace pleat
