@@ -13,6 +13,7 @@ enum class Outcome {
 Outcome run_command(Arguments arguments);
 Outcome sweep_command(Arguments arguments);
 Outcome reference_command(Arguments arguments);
+Outcome refine_command(Arguments arguments);
 Outcome bench_command(Arguments arguments);
 Outcome deform_command(Arguments arguments);
 Outcome bench_deform(Arguments arguments);  ///< bench deform

@@ -45,6 +45,15 @@ pleat reference SCENE.json    make one by newton and tell how well it is known
   --step S               of it (default 1/960 s);  --every S  of its samples (default 1/60 s)
   --steps N | --duration S
   --out FILE             keep it, with 32-bit positions
+pleat refine EXAMPLE.json    run it on a fine mesh and plan where its cloth needs one
+  --level N              of the fine mesh (default 2);  --cap N  finest level of the plan
+  --patterns N           kinds of bending to tell apart (default 3)
+  --demand X             split faces whose corners' patterns sum to more (default 3);
+  --vertices N           or as many vertices as possible up to this number
+  --from S               look from here on (default: when a figure has walked in for 1 s)
+  --merge OTHER.json,... further examples of the same cloth
+  --raw-features         cluster curvatures as they are, not from 0 to 1
+  --out PLAN.json        write the plan, for a scene's "refinement": {"plan": "PLAN.json"}
 pleat deform SCENE.json  the shape of least energy of a cloth that is pinned and pulled
 pleat deform MESH.obj    the same of any mesh
   --pin PLACE            hold what is there; --handle PLACE:X,Y,Z  move it so far [m]. Each may come
@@ -86,6 +95,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "run") return run_command(std::move(arguments));
   if (command == "sweep") return sweep_command(std::move(arguments));
   if (command == "reference") return reference_command(std::move(arguments));
+  if (command == "refine") return refine_command(std::move(arguments));
   if (command == "bench") return bench_command(std::move(arguments));
   if (command == "deform") return deform_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
@@ -100,7 +110,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   }
   throw InputError(
       cut(command),
-      "unknown command; the commands are run, sweep, reference, deform, bench and help");
+      "unknown command; the commands are run, sweep, reference, refine, deform, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {

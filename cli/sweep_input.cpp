@@ -90,7 +90,7 @@ Json value_list(const std::string& text) {
 }
 
 /// What the options say of a plan.
-struct PlanOptions {
+struct SweepOptions {
   Json values = Json::object();  // of the grid
   std::map<std::string, const char*> grid;
   std::vector<std::string> steppers;
@@ -110,8 +110,8 @@ struct PlanOptions {
   }
 };
 
-PlanOptions take_plan_options(Arguments& arguments) {
-  PlanOptions options;
+SweepOptions take_plan_options(Arguments& arguments) {
+  SweepOptions options;
   if (const auto levels = arguments.text("--levels"))
     options.add_list("--levels", "/refinement/level", *levels);
   while (const auto set = arguments.text("--set")) {
@@ -162,7 +162,7 @@ std::string whole_plan(SweepInput& input) {
   return json.dump();
 }
 
-std::string plan_of_options(const PlanOptions& options, const SceneInput& scene) {
+std::string plan_of_options(const SweepOptions& options, const SceneInput& scene) {
   Json plan = {{"scene", parse_json(scene.text)}, {"grid", options.values}};
   if (!options.steppers.empty() || !options.is_given("--set"))
     plan["settings"] = stepper_settings(options.steppers, scene.scene);
@@ -199,7 +199,7 @@ void SweepInput::throw_out_of_memory() const {
 }
 
 SweepInput take_sweep(Arguments& arguments) {
-  const PlanOptions options = take_plan_options(arguments);
+  const SweepOptions options = take_plan_options(arguments);
   const FabricLibrary fabrics = take_fabrics(arguments);
   const SceneChanges changes = take_scene_changes(arguments);
   SweepInput input;

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/scene_input.h"
+#include "core/base/check.h"
+#include "core/measure/plan_maker.h"
+#include "core/scene/plan_file.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kSlice = 0.1;         // [s] between reports of progress
+constexpr int kUsualFineLevel = 2;     // of an example, where neither it nor --level says one
+constexpr double kSettlingTime = 1.0;  // [s] after a figure has begun to move as it will
+
+double parse_time(const std::string& text, const char* option) {
+  return text == "0" ? 0 : parse_positive_number(text, option);
+}
+
+PlanRecipe take_recipe(Arguments& arguments) {
+  PlanRecipe recipe;
+  if (const auto n = arguments.whole_number("--patterns", 1, kMaxPatterns))
+    recipe.patterns.n_patterns = *n;
+  recipe.patterns.normalised = !arguments.flag("--raw-features");
+  if (const auto text = arguments.text("--demand"))
+    recipe.plan.demand = parse_time(*text, "--demand");
+  recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
+  recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
+  return recipe;
+}
+
+/// Without a time of one's own, what is analysed begins when the cloth has settled into the motion.
+double settled_time(const Scene& scene) {
+  return scene.figure ? scene.figure->playback.blend_time + kSettlingTime : 0;
+}
+
+void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& scene) {
+  std::vector<int> n_base(static_cast<std::size_t>(plan.n_patterns), 0);
+  for (const int pattern : plan.patterns) ++n_base[static_cast<std::size_t>(pattern)];
+  std::printf("pattern  base vertices  mean 1/m  deviation 1/m  limit 1/m\n");
+  const BendFeatures& centres = plan.examples.front().centres;
+  for (int p = 0; p < plan.n_patterns; ++p)
+    std::printf("%7d  %13d  %8.3g  %13.3g  %9.3g\n", p, n_base[static_cast<std::size_t>(p)],
+                centres(0, p), centres(1, p), plan.curvature_limits[static_cast<std::size_t>(p)]);
+  Scene fine = scene;
+  fine.plan.reset();
+  const auto n_fine = rest_cloth(fine).mesh.n_vertices();
+  const auto n_balance = std::count_if(plan.splits.begin(), plan.splits.end(),
+                                       [](const PlannedSplit& split) { return split.for_balance; });
+  std::printf("%zu faces split, %lld of them for balance: %d vertices, %.1f %% of %d\n",
+              plan.splits.size(), static_cast<long long>(n_balance), plan.n_vertices,
+              100.0 * plan.n_vertices / n_fine, n_fine);
+  std::printf("%d frames of %.4g s: %.1f s to run, %.2f s to plan, %.0f MB\n", cost.n_frames,
+              cost.frame_time, cost.example_seconds, cost.planning_seconds, cost.megabytes);
+}
+
+}  // namespace
+
+Outcome refine_command(Arguments arguments) {
+  const auto out = arguments.text("--out");
+  const auto begin = arguments.text("--from");
+  const auto more = arguments.list("--merge");
+  PlanRecipe recipe = take_recipe(arguments);
+  const FabricLibrary fabrics = take_fabrics(arguments);
+  SceneChanges changes = take_scene_changes(arguments);
+  const std::string file = arguments.word("an example, SCENE.json");
+  arguments.finish();
+  const SceneInput input = read_scene_input(file, changes, fabrics);
+  std::vector<Scene> scenes{input.scene};
+  for (const std::string& other : more)
+    scenes.push_back(read_scene_input(other, changes, fabrics).scene);
+  for (Scene& scene : scenes)
+    if (scene.level == 0 && !scene.plan) scene.level = kUsualFineLevel;
+  recipe.begin = begin ? parse_time(*begin, "--from") : settled_time(scenes.front());
+  if (out) check_writable(*out);
+  return with_source_named(input, [&] {
+    PlanMaker maker(scenes, recipe);
+    Progress progress;
+    while (!maker.done()) {
+      maker.advance(kSlice);
+      progress.show(maker.progress(), input.scene.name);
+    }
+    print_plan(maker.plan(), maker.cost(), scenes.front());
+    if (out) write_file(*out, plan_text(maker.plan()));
+    return Outcome::ok;
+  });
+}
+
+}  // namespace pleat
