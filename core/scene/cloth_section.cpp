@@ -135,40 +135,52 @@ void read_particles(const JsonReader& reader, Scene& scene) {
   scene.cloth = std::move(cloth);
 }
 
+// Key by key, as write_scene does.
 Json json_sheet(const SheetShape& shape, const Vec3& initial_velocity) {
-  return {{"width_m", shape.width},
-          {"height_m", shape.height},
-          {"columns", shape.columns},
-          {"rows", shape.rows},
-          {"origin_m", json_vec3(shape.origin)},
-          {"warp_direction", json_vec3(shape.warp_direction)},
-          {"weft_direction", json_vec3(shape.weft_direction)},
-          {"initial_velocity_m_per_s", json_vec3(initial_velocity)}};
+  Json json;
+  json["width_m"] = shape.width;
+  json["height_m"] = shape.height;
+  json["columns"] = shape.columns;
+  json["rows"] = shape.rows;
+  json["origin_m"] = json_vec3(shape.origin);
+  json["warp_direction"] = json_vec3(shape.warp_direction);
+  json["weft_direction"] = json_vec3(shape.weft_direction);
+  json["initial_velocity_m_per_s"] = json_vec3(initial_velocity);
+  return json;
+}
+
+Json json_spring(const Spring& spring) {
+  Json json;
+  json["a"] = spring.a.value;
+  json["b"] = spring.b.value;
+  json["stiffness_n_per_m"] = spring.stiffness;
+  json["rest_length_m"] = spring.rest_length;
+  json["damping_n_s_per_m"] = spring.damping;
+  return json;
+}
+
+Json json_bend(const BendElement& bend) {
+  Json json;
+  json["vertices"] = json_vertices(bend.vertices);
+  json["stiffness_n_m3"] = bend.stiffness;
+  json["weights_per_m2"] = bend.weights;
+  return json;
 }
 
 Json json_particles(const InlineCloth& cloth) {
-  Json masses = Json::array();
-  for (const double mass : cloth.masses) masses.push_back(mass);
-  Json springs = Json::array();
-  for (const Spring& spring : cloth.springs)
-    springs.push_back({{"a", spring.a.value},
-                       {"b", spring.b.value},
-                       {"stiffness_n_per_m", spring.stiffness},
-                       {"rest_length_m", spring.rest_length},
-                       {"damping_n_s_per_m", spring.damping}});
-  Json bends = Json::array();
-  for (const BendElement& bend : cloth.bends)
-    bends.push_back({{"vertices", json_vertices(bend.vertices)},
-                     {"stiffness_n_m3", bend.stiffness},
-                     {"weights_per_m2", bend.weights}});
-  Json triangles = Json::array();
-  for (const Triangle& triangle : cloth.triangles) triangles.push_back(json_vertices(triangle));
-  return {{"positions_m", json_columns(cloth.positions)},
-          {"velocities_m_per_s", json_columns(cloth.velocities)},
-          {"masses_kg", masses},
-          {"springs", springs},
-          {"bends", bends},
-          {"triangles", triangles}};
+  Json json;
+  json["positions_m"] = json_columns(cloth.positions);
+  json["velocities_m_per_s"] = json_columns(cloth.velocities);
+  json["masses_kg"] = Json::array();
+  for (const double mass : cloth.masses) json["masses_kg"].push_back(mass);
+  json["springs"] = Json::array();
+  for (const Spring& spring : cloth.springs) json["springs"].push_back(json_spring(spring));
+  json["bends"] = Json::array();
+  for (const BendElement& bend : cloth.bends) json["bends"].push_back(json_bend(bend));
+  json["triangles"] = Json::array();
+  for (const Triangle& triangle : cloth.triangles)
+    json["triangles"].push_back(json_vertices(triangle));
+  return json;
 }
 
 }  // namespace
@@ -209,13 +221,16 @@ void read_cloth(const JsonReader& reader, const FileSource& files, Scene& scene)
 }
 
 Json json_cloth(const Scene& scene) {
+  Json json;
   if (const auto* shape = std::get_if<SheetShape>(&scene.cloth))
-    return {{"sheet", json_sheet(*shape, scene.initial_velocity)}};
+    json["sheet"] = json_sheet(*shape, scene.initial_velocity);
   if (const auto* cloth = std::get_if<MeshCloth>(&scene.cloth))
-    return {{"mesh", json_mesh(*cloth, scene.initial_velocity)}};
+    json["mesh"] = json_mesh(*cloth, scene.initial_velocity);
   if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
-    return {{"garment", json_garment(*garment)}};
-  return {{"particles", json_particles(std::get<InlineCloth>(scene.cloth))}};
+    json["garment"] = json_garment(*garment);
+  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+    json["particles"] = json_particles(*particles);
+  return json;
 }
 
 }  // namespace pleat

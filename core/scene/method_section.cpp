@@ -64,14 +64,16 @@ void read_method(const JsonReader& reader, MethodOptions& method) {
 }
 
 Json json_method(const MethodOptions& method) {
-  return {{"stepper", word_for(kSteppers, method.stepper)},
-          {"step_s", method.step},
-          {"substeps", method.substeps == 0 ? Json(kStableSubsteps) : Json(method.substeps)},
-          {"iterations", method.iterations},
-          {"solver", word_for(kSolvers, method.solver)},
-          {"tolerance", method.tolerance},
-          {"constraints", word_for(kConstraints, method.constraints)},
-          {"rule", word_for(kNewtonRules, method.rule)}};
+  Json json;
+  json["stepper"] = word_for(kSteppers, method.stepper);
+  json["step_s"] = method.step;
+  json["substeps"] = method.substeps == 0 ? Json(kStableSubsteps) : Json(method.substeps);
+  json["iterations"] = method.iterations;
+  json["solver"] = word_for(kSolvers, method.solver);
+  json["tolerance"] = method.tolerance;
+  json["constraints"] = word_for(kConstraints, method.constraints);
+  json["rule"] = word_for(kNewtonRules, method.rule);
+  return json;
 }
 
 void read_record(const JsonReader& reader, RecordOptions& record) {

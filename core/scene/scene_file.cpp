@@ -28,8 +28,12 @@ void read_refinement(const JsonReader& reader, const FileSource& files, Scene& s
 }
 
 Json json_refinement(const Scene& scene) {
-  if (scene.plan) return {{"plan", json_plan(*scene.plan)}};
-  return {{"level", scene.level}};
+  Json json;
+  if (scene.plan)
+    json["plan"] = json_plan(*scene.plan);
+  else
+    json["level"] = scene.level;
+  return json;
 }
 
 }  // namespace
@@ -72,17 +76,20 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
 }
 
 std::string write_scene(const Scene& scene) {
-  Json json{{"name", scene.name},
-            {"caption", scene.caption},
-            {"cloth", json_cloth(scene)},
-            {"fabric", json_fabric(scene)},
-            {"model", json_model(scene.model)},
-            {"refinement", json_refinement(scene)},
-            {"pins", json_pins(scene)},
-            {"world", json_world(scene)},
-            {"method", json_method(scene.method)},
-            {"duration_s", scene.duration},
-            {"record", json_record(scene.record)}};
+  // Key by key: from a list in braces nlohmann's templates would make 20 kB of a browser's
+  // download.
+  Json json;
+  json["name"] = scene.name;
+  json["caption"] = scene.caption;
+  json["cloth"] = json_cloth(scene);
+  json["fabric"] = json_fabric(scene);
+  json["model"] = json_model(scene.model);
+  json["refinement"] = json_refinement(scene);
+  json["pins"] = json_pins(scene);
+  json["world"] = json_world(scene);
+  json["method"] = json_method(scene.method);
+  json["duration_s"] = scene.duration;
+  json["record"] = json_record(scene.record);
   if (scene.figure) json["figure"] = json_figure(*scene.figure);
   return format_json(json);
 }

@@ -156,10 +156,12 @@ Collider read_collider(const JsonReader& reader, double default_friction) {
 Json json_collider(const Collider& collider) {
   Json json;
   if (const auto* plane = std::get_if<Plane>(&collider.shape)) {
-    json["plane"] = {{"point_m", json_vec3(plane->point)}, {"normal", json_vec3(plane->normal)}};
+    json["plane"]["point_m"] = json_vec3(plane->point);
+    json["plane"]["normal"] = json_vec3(plane->normal);
   } else {
     const auto& sphere = std::get<Sphere>(collider.shape);
-    json["sphere"] = {{"centre_m", json_vec3(sphere.centre)}, {"radius_m", sphere.radius}};
+    json["sphere"]["centre_m"] = json_vec3(sphere.centre);
+    json["sphere"]["radius_m"] = sphere.radius;
   }
   json["motion"] = json_motion(collider.motion);
   json["friction"] = collider.friction;
@@ -207,7 +209,8 @@ Json json_pins(const Scene& scene) {
     } else if (const auto* name = std::get_if<std::string>(&pin.where)) {
       element["part"] = *name;
     } else if (const auto* box = std::get_if<PinBox>(&pin.where)) {
-      element["box"] = {{"low_m", json_vec3(box->low)}, {"high_m", json_vec3(box->high)}};
+      element["box"]["low_m"] = json_vec3(box->low);
+      element["box"]["high_m"] = json_vec3(box->high);
     } else {
       element["vertices"] = json_vertices(std::get<std::vector<VertexId>>(pin.where));
     }
@@ -230,11 +233,13 @@ void read_world(const JsonReader& reader, Scene& scene) {
 }
 
 Json json_world(const Scene& scene) {
-  Json json{{"gravity_m_per_s2", json_vec3(scene.gravity)}};
-  if (scene.air)
-    json["air"] = {{"density_kg_per_m3", scene.air->density},
-                   {"normal_coefficient", scene.air->normal_coefficient},
-                   {"tangent_coefficient", scene.air->tangent_coefficient}};
+  Json json;
+  json["gravity_m_per_s2"] = json_vec3(scene.gravity);
+  if (scene.air) {
+    json["air"]["density_kg_per_m3"] = scene.air->density;
+    json["air"]["normal_coefficient"] = scene.air->normal_coefficient;
+    json["air"]["tangent_coefficient"] = scene.air->tangent_coefficient;
+  }
   json["colliders"] = Json::array();
   for (const Collider& collider : scene.colliders)
     json["colliders"].push_back(json_collider(collider));
