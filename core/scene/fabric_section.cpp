@@ -73,7 +73,9 @@ Json json_fabric(const Scene& scene) {
       numbers[number.key] = scene.fabric.*number.field;
   }
   if (!scene.fabric_is_named) return numbers;
-  Json json{{"name", scene.fabric.name}, {"bending", word_for(kBendSources, scene.bend_source)}};
+  Json json;
+  json["name"] = scene.fabric.name;
+  json["bending"] = word_for(kBendSources, scene.bend_source);
   if (!numbers.empty()) json["overrides"] = numbers;
   return json;
 }

@@ -199,19 +199,18 @@ void read_mesh(const JsonReader& reader, const FileSource& files, Scene& scene) 
 }
 
 Json json_mesh(const MeshCloth& cloth, const Vec3& initial_velocity) {
-  Json triangles = Json::array();
+  Json json;
+  json["positions_m"] = json_columns(cloth.mesh.rest_positions);
+  json["triangles"] = Json::array();
   for (const Triangle& triangle : cloth.mesh.triangles)
-    triangles.push_back(json_vertices(triangle));
-  Json directions = Json::array();
+    json["triangles"].push_back(json_vertices(triangle));
+  json["warp_directions"] = Json::array();
   for (const Vec3& direction : cloth.mesh.warp_directions)
-    directions.push_back(json_vec3(direction));
-  Json groups = Json::object();
-  for (const VertexGroup& group : cloth.groups) groups[group.name] = json_vertices(group.vertices);
-  Json json{{"positions_m", json_columns(cloth.mesh.rest_positions)},
-            {"triangles", triangles},
-            {"warp_directions", directions},
-            {"groups", groups},
-            {"initial_velocity_m_per_s", json_vec3(initial_velocity)}};
+    json["warp_directions"].push_back(json_vec3(direction));
+  json["groups"] = Json::object();
+  for (const VertexGroup& group : cloth.groups)
+    json["groups"][group.name] = json_vertices(group.vertices);
+  json["initial_velocity_m_per_s"] = json_vec3(initial_velocity);
   if (cloth.texture_coordinates.cols() == 0) return json;
   json["texture_coordinates"] = Json::array();
   for (const auto& pair : cloth.texture_coordinates.colwise())

@@ -83,7 +83,10 @@ void read_record(const JsonReader& reader, RecordOptions& record) {
 }
 
 Json json_record(const RecordOptions& record) {
-  return {{"every_s", record.every}, {"format", word_for(kFrameFormats, record.format)}};
+  Json json;
+  json["every_s"] = record.every;
+  json["format"] = word_for(kFrameFormats, record.format);
+  return json;
 }
 
 }  // namespace pleat

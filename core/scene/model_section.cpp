@@ -102,8 +102,9 @@ void read_model(const JsonReader& reader, Scene& scene) {
 }
 
 Json json_model(const ModelOptions& model) {
-  Json json = {{"elasticity", word_for(kElasticities, model.elasticity)},
-               {"bending", word_for(kBendingModels, model.bending)}};
+  Json json;
+  json["elasticity"] = word_for(kElasticities, model.elasticity);
+  json["bending"] = word_for(kBendingModels, model.bending);
   if (model.elasticity == Elasticity::springs) {
     json["shear"] = model.shear;
     json["damping"] = word_for(kDampingDirections, model.damping_direction);

@@ -80,8 +80,8 @@ struct PinBox {
 /// box; or only listed vertices (of the base mesh, or inline particles).
 struct PinRule {
   std::variant<SheetPart, std::vector<VertexId>, std::string, PinBox> where;
-  Motion motion;             ///< not `follow`
-  std::optional<Bone> bone;  ///< of the figure, which it follows instead
+  Motion motion;                            ///< not `follow`
+  std::optional<Bone> bone = std::nullopt;  ///< of the figure, which it follows instead
 };
 
 /// What holds a cloth together in its own plane.

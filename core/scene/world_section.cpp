@@ -55,7 +55,8 @@ Motion read_motion(const JsonReader& reader) {
 }
 
 Json json_motion(const Motion& motion) {
-  Json json{{"kind", word_for(kMotionKinds, motion.kind)}};
+  Json json;
+  json["kind"] = word_for(kMotionKinds, motion.kind);
   if (motion.kind == Motion::Kind::hold) return json;
   json["offset_m"] = json_vec3(motion.offset);
   json["begin_s"] = motion.time_begin;
