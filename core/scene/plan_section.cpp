@@ -10,6 +10,8 @@ RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource& files
                                const Scene& scene) {
   const auto base = base_quads(scene);
   if (!base) reader.fail("no plan, as only a sheet or a garment is refined by one");
+  if (scene.model.elasticity == Elasticity::membrane)
+    reader.fail("no plan with a membrane, as only springs hold hanging vertices");
   const bool is_file = reader.is_text();
   if (is_file && !files) reader.fail("a plan written out, as no files can be read here");
   const std::string where = is_file ? reader.text() : reader.pointer();

@@ -6,8 +6,9 @@
 
 namespace pleat {
 
-/// The plan of a scene's "refinement": written out, or the name of its file. The scene's cloth has
-/// been read. Throws InputError for a plan of another mesh and for cloth that is not made of quads.
+/// The plan of a scene's "refinement": written out, or the name of its file. The scene's cloth
+/// and model have been read. Throws InputError for a plan of another mesh, for cloth that is not
+/// made of quads and for a membrane.
 RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource& files,
                                const Scene& scene);
 

@@ -114,4 +114,13 @@ TEST_CASE("garment scene: a plan for another mesh is refused", "[scene]") {
   CHECK(refusal(write_scene(scene)).find("/refinement/plan") == 0);
 }
 
+TEST_CASE("garment scene: a membrane is refused on a planned mesh", "[scene]") {
+  Scene scene = garment_scene("skirt_walk");
+  scene.plan = patchy_plan(*base_quads(scene));
+  auto json = nlohmann::json::parse(write_scene(scene));
+  json["model"] = {{"elasticity", "membrane"}};
+  CHECK_THAT(refusal(json.dump()),
+             Catch::StartsWith("/refinement/plan: expected no plan with a membrane"));
+}
+
 }  // namespace pleat
