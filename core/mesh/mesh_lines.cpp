@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "core/base/check.h"
+#include "core/mesh/edge_key.h"
 
 namespace pleat {
 namespace {
@@ -12,12 +13,6 @@ constexpr int kNone = -1;
 
 /// Two edges within 60 degrees of opposite are one line: the cosine between their directions.
 constexpr double kLargestCosine = -0.5;
-
-std::uint64_t edge_key(VertexId a, VertexId b) {
-  const auto low = static_cast<std::uint32_t>(std::min(a.value, b.value));
-  const auto high = static_cast<std::uint32_t>(std::max(a.value, b.value));
-  return (static_cast<std::uint64_t>(low) << 32) | high;
-}
 
 /// Gathers the edges along one thread.
 class EdgeCollector {

@@ -4,17 +4,12 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/mesh/edge_key.h"
 
 namespace pleat {
 namespace {
 
 constexpr double kDirectionTolerance = 1e-9;  // of unit length and right angle
-
-std::uint64_t edge_key(VertexId a, VertexId b) {
-  const auto low = static_cast<std::uint32_t>(std::min(a.value, b.value));
-  const auto high = static_cast<std::uint32_t>(std::max(a.value, b.value));
-  return (static_cast<std::uint64_t>(low) << 32) | high;
-}
 
 void check_shape(const SheetShape& shape) {
   PLEAT_CHECK(shape.width > 0 && shape.height > 0, "a sheet has positive width and height");

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "core/base/check.h"
+#include "core/mesh/edge_key.h"
 
 namespace pleat {
 namespace {
@@ -34,9 +35,9 @@ EdgeMap directed_edges(const QuadPatch& patch) {
   EdgeMap left;
   for (std::size_t f = 0; f < patch.quads.size(); ++f) {
     for (int k = 0; k < 4; ++k) {
-      const auto from = static_cast<std::uint32_t>(patch.quads[f][k].value);
-      const auto to = static_cast<std::uint32_t>(patch.quads[f][(k + 1) % 4].value);
-      const auto [other, is_new] = left.emplace((static_cast<std::uint64_t>(from) << 32) | to, f);
+      const VertexId from = patch.quads[f][k];
+      const VertexId to = patch.quads[f][(k + 1) % 4];
+      const auto [other, is_new] = left.emplace(directed_edge_key(from, to), f);
       if (!is_new)
         throw InputError(quad_where(f),
                          "expected at most two faces at an edge, wound alike, got its edge " +
@@ -82,9 +83,7 @@ std::vector<bool> chess_board(const QuadPatch& patch) {
     for (std::size_t at = 0; at < queue.size(); ++at) {
       const auto& corners = patch.quads[queue[at]];
       for (int k = 0; k < 4; ++k) {
-        const auto from = static_cast<std::uint32_t>(corners[(k + 1) % 4].value);
-        const auto to = static_cast<std::uint32_t>(corners[k].value);
-        const auto other = left.find((static_cast<std::uint64_t>(from) << 32) | to);
+        const auto other = left.find(directed_edge_key(corners[(k + 1) % 4], corners[k]));
         if (other == left.end() || colours[other->second] != Colour::none) continue;
         colours[other->second] =
             colours[queue[at]] == Colour::white ? Colour::black : Colour::white;

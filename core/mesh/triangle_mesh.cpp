@@ -5,15 +5,10 @@
 #include <unordered_map>
 
 #include "core/base/check.h"
+#include "core/mesh/edge_key.h"
 
 namespace pleat {
 namespace {
-
-std::uint64_t edge_key(VertexId a, VertexId b) {
-  const auto low = static_cast<std::uint64_t>(std::min(a.value, b.value));
-  const auto high = static_cast<std::uint64_t>(std::max(a.value, b.value));
-  return (low << 32) | high;
-}
 
 /// Middles of edges, made on first use.
 class EdgeMiddles {
