@@ -16,6 +16,7 @@
 #include "native-tests/support/finite_difference.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
+#include "native-tests/support/momentum.h"
 
 namespace pleat {
 namespace {
@@ -75,20 +76,6 @@ double largest_gap(const ClothModel& model, const Positions& columns) {
   Positions placed = columns;
   place_between_parents(model.hanging, placed);
   return (placed - columns).cwiseAbs().maxCoeff();
-}
-
-Vec3 momentum(const ClothModel& model, const State& state) {
-  return state.velocities * model.masses;
-}
-
-/// About the centre of mass.
-Vec3 angular_momentum(const ClothModel& model, const State& state) {
-  const Vec3 centre = state.positions * model.masses / model.masses.sum();
-  Vec3 sum = Vec3::Zero();
-  for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
-    sum += model.masses[i] *
-           (Vec3(state.positions.col(i)) - centre).cross(Vec3(state.velocities.col(i)));
-  return sum;
 }
 
 Positions columns(const Eigen::VectorXd& x) {

@@ -1,9 +1,9 @@
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/dynamics/stepper.h"
 #include "native-tests/support/models.h"
+#include "native-tests/support/momentum.h"
 
 namespace pleat {
 namespace {
@@ -22,20 +22,6 @@ State tumbling_state() {
     state.velocities.col(i) =
         Vec3(1, -2, 0.5) + Vec3(0.5, 1, -2).cross(Vec3(state.positions.col(i)));
   return state;
-}
-
-Vec3 momentum(const ClothModel& model, const State& state) {
-  return state.velocities * model.masses;
-}
-
-/// About the centre of mass.
-Vec3 angular_momentum(const ClothModel& model, const State& state) {
-  const Vec3 centre = state.positions * model.masses / model.masses.sum();
-  Vec3 sum = Vec3::Zero();
-  for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
-    sum += model.masses[i] *
-           (Vec3(state.positions.col(i)) - centre).cross(Vec3(state.velocities.col(i)));
-  return sum;
 }
 
 State after(ClothModel& model, const MethodOptions& options, double duration) {

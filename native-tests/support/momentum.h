@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/dynamics/cloth_model.h"
+#include "core/dynamics/state.h"
+
+namespace pleat {
+
+/// Linear momentum [kg m/s].
+Vec3 momentum(const ClothModel& model, const State& state);
+
+/// About the centre of mass [kg m^2/s].
+Vec3 angular_momentum(const ClothModel& model, const State& state);
+
+}  // namespace pleat
