@@ -17,18 +17,15 @@ Motion following(const std::shared_ptr<const MovingBody>& body, Bone bone) {
 
 /// A later rule does not pin again what an earlier one holds, and hanging vertices follow their
 /// parents.
-std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth,
+std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const ClothModel& model,
                             const std::shared_ptr<const MovingBody>& body) {
   const Positions& positions = cloth.mesh.rest_positions;
   std::vector<Pin> pins;
   std::vector<bool> taken(static_cast<std::size_t>(positions.cols()), false);
-  if (cloth.quads)
-    for (const HangingVertex& hanging : cloth.quads->hanging_vertices())
-      taken[hanging.vertex] = true;
   for (const PinRule& rule : scene.pins) {
     const Motion motion = rule.bone ? following(body, *rule.bone) : rule.motion;
     for (const VertexId v : pinned_vertices(rule, scene, cloth)) {
-      if (taken[v]) continue;
+      if (taken[v] || model.hangs(v)) continue;
       taken[v] = true;
       pins.push_back({v, positions.col(v), motion});
     }
@@ -57,20 +54,17 @@ std::vector<Collider> scene_colliders(const Scene& scene,
 /// triangles differ by rounding, which lies far below kSame. A hanging vertex is held off by its
 /// parents alone: what holds a face at one are vertices as far apart as those of a face twice its
 /// size.
-Eigen::VectorXd face_circumradii(const RestCloth& cloth) {
+Eigen::VectorXd face_circumradii(const RestCloth& cloth, const ClothModel& model) {
   constexpr double kSame = 1e-9;  // relative; on a rough mesh it adds as little to the clearance
   const Positions& positions = cloth.mesh.rest_positions;
-  std::vector<bool> hangs(static_cast<std::size_t>(positions.cols()), false);
-  if (cloth.quads)
-    for (const HangingVertex& hanging : cloth.quads->hanging_vertices())
-      hangs[hanging.vertex] = true;
   Eigen::VectorXd circumradii = Eigen::VectorXd::Zero(positions.cols());
   for (const Triangle& t : cloth.mesh.triangles) {
     const Vec3 a = positions.col(t[1]) - positions.col(t[0]);
     const Vec3 b = positions.col(t[2]) - positions.col(t[0]);
     const double doubled_area = a.cross(b).norm();
     if (doubled_area == 0) continue;
-    const double size = hangs[t[0]] || hangs[t[1]] || hangs[t[2]] ? 2 : 1;
+    const bool has_hanging = model.hangs(t[0]) || model.hangs(t[1]) || model.hangs(t[2]);
+    const double size = has_hanging ? 2 : 1;
     const double circumradius = size * a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
     for (const VertexId v : t) circumradii[v] = std::max(circumradii[v], circumradius);
   }
@@ -98,14 +92,14 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   model.rest_coordinates = cloth.rest_coordinates;
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
-  model.pins = scene_pins(scene, cloth, body);
+  model.pins = scene_pins(scene, cloth, model, body);
   // A sheet's quads are split both ways, so that drag is shared among corners as mass is.
   if (scene.air && cloth.quads)
     model.air.emplace(cloth.quads->crossed_triangles(), *scene.air, model.n_vertices(), 0.5);
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
   if (std::vector<Collider> colliders = scene_colliders(scene, body); !colliders.empty()) {
-    const ContactOptions options{scene.fabric.thickness / 2, face_circumradii(cloth)};
+    const ContactOptions options{scene.fabric.thickness / 2, face_circumradii(cloth, model)};
     model.contact.emplace(std::move(colliders), options);
   }
   return model;
