@@ -76,8 +76,7 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
 }
 
 std::string write_scene(const Scene& scene) {
-  // Key by key: from a list in braces nlohmann's templates would make 20 kB of a browser's
-  // download.
+  // Key by key: nlohmann's templates for a list in braces would be a part of a browser's download.
   Json json;
   json["name"] = scene.name;
   json["caption"] = scene.caption;
