@@ -177,6 +177,9 @@ std::string joined(const std::vector<std::string>& words) {
   return text.empty() ? "nothing" : text;
 }
 
+/// So many that the first step, and with it the first sign of progress, may take minutes.
+bool chooses_substeps(const Scene& scene) { return scene.method.substeps == 0; }
+
 /// What a long run is waited for.
 void print_beginning(const Simulation& simulation) {
   std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n",
@@ -221,7 +224,7 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   Simulation simulation(scene);
   if (dump) dump->prepare();
   if (out) out->prepare(overwrite);
-  if (!for_machines) print_beginning(simulation);
+  if (!for_machines || chooses_substeps(scene)) print_beginning(simulation);
   if (dump) {
     write_file(dump->mass, matrix_market_text(mass_matrix(simulation.model())));
     write_stiffness(simulation, dump->stiffness_begin);

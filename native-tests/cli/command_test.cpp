@@ -635,12 +635,18 @@ TEST_CASE("command: a duration is rounded to whole steps and told as it was", "[
   CHECK(odd.out.find("3 steps to 0.037035 s") != std::string::npos);
 }
 
-TEST_CASE("command: a run for people begins with what it will cost", "[cli]") {
+TEST_CASE("command: what chooses its substeps begins with what it will cost", "[cli]") {
   const SmallScene scene;
-  const Ending ending = scene.run({"run", "--stepper", "explicit", "--steps", "1"});
-  REQUIRE(ending.status == 0);
-  CHECK(ending.error.rfind("explicit, ", 0) == 0);
-  CHECK(ending.error.find(" substeps per step, 9 vertices\n") != std::string::npos);
+  for (const char* stepper : {"explicit", "rk4"}) {
+    for (const char* reader : {"--drift", "--json"}) {
+      CAPTURE(stepper, reader);
+      const Ending ending = scene.run({"run", "--stepper", stepper, "--steps", "1", reader});
+      REQUIRE(ending.status == 0);
+      CHECK(ending.error.rfind(stepper + std::string(", "), 0) == 0);
+      CHECK(ending.error.find(" substeps per step, 9 vertices\n") != std::string::npos);
+    }
+  }
+  CHECK(scene.run({"run", "--json", "--steps", "1"}).error.empty());
 }
 
 TEST_CASE("command: metrics.json ends with one end of line", "[cli]") {
