@@ -10,6 +10,7 @@
 #include "core/measure/core_version.h"
 #include "core/measure/energy_ledger.h"
 #include "core/measure/error_norms.h"
+#include "core/measure/self_crossings.h"
 #include "core/scene/frame_file.h"
 #include "core/scene/matrix_file.h"
 #include "core/scene/method_section.h"
@@ -24,7 +25,9 @@ struct RunSummary {
   SolveReport report;  // of the worst step; residual the largest, iterations the sum
   Stretch last_stretch;
   double largest_stretch = 0;
-  double rms_stretch_sum = 0;  // over steps
+  double rms_stretch_sum = 0;       // over steps
+  std::int64_t last_crossings = 0;  // of the cloth with itself, where they are counted
+  std::int64_t largest_crossings = 0;
   int n_frames = 0;
 };
 
@@ -96,8 +99,24 @@ void add_step(const Simulation& simulation, SolveReport report, RunSummary& summ
   summary.rms_stretch_sum += summary.last_stretch.rms;
 }
 
-/// Runs to the scene's end or until the numbers end it. `frames` and `ledger` may be null.
-RunSummary run_to_end(Simulation& simulation, FrameWriter* frames, EnergyLedger* ledger) {
+/// What is done beside a run; any may be null.
+struct Company {
+  FrameWriter* frames = nullptr;
+  SelfCrossings* crossings = nullptr;
+  EnergyLedger* ledger = nullptr;
+};
+
+/// What is done in every frame.
+void add_frame(const Simulation& simulation, const Company& company, RunSummary& summary) {
+  const Positions& positions = simulation.state().positions;
+  if (company.frames != nullptr) company.frames->write(positions, simulation.time());
+  if (company.crossings == nullptr) return;
+  summary.last_crossings = company.crossings->count(positions);
+  summary.largest_crossings = std::max(summary.largest_crossings, summary.last_crossings);
+}
+
+/// Runs to the scene's end or until the numbers end it.
+RunSummary run_to_end(Simulation& simulation, const Company& company) {
   const Scene& scene = simulation.scene();
   const double step = scene.method.step;
   const std::int64_t n_steps = whole_steps(scene.duration, step);
@@ -105,18 +124,17 @@ RunSummary run_to_end(Simulation& simulation, FrameWriter* frames, EnergyLedger*
   RunSummary summary;
   Progress progress;
   State begin;
-  if (frames != nullptr) frames->write(simulation.state().positions, 0);
+  add_frame(simulation, company, summary);
   while (simulation.n_steps() < n_steps) {
-    if (ledger != nullptr) begin = simulation.state();
+    if (company.ledger != nullptr) begin = simulation.state();
     const SolveReport report = simulation.step();
     const bool ended = report.ends_run();
     add_step(simulation, report, summary);
-    if (ledger != nullptr && !ended)
-      ledger->record(begin, simulation.state(), simulation.time(), step);
+    if (company.ledger != nullptr && !ended)
+      company.ledger->record(begin, simulation.state(), simulation.time(), step);
     // The last finite frame of a run that ended early is kept, unless it was written already.
     const bool is_frame = (simulation.n_steps() % steps_per_frame == 0) != ended;
-    if (frames != nullptr && is_frame)
-      frames->write(simulation.state().positions, simulation.time());
+    if (is_frame) add_frame(simulation, company, summary);
     if (ended) break;
     progress.show(static_cast<double>(simulation.n_steps()) / static_cast<double>(n_steps),
                   scene.name);
@@ -135,8 +153,7 @@ Json drift_json(const EnergyLedger& ledger) {
           {"work_of_contact_j", works.contact}};
 }
 
-Json metrics_json(const Simulation& simulation, const RunSummary& summary,
-                  const EnergyLedger* ledger) {
+Json metrics_json(const Simulation& simulation, const RunSummary& summary, const Company& company) {
   const Scene& scene = simulation.scene();
   const ClothModel& model = simulation.model();
   const BuildReport built = build_report(model);
@@ -166,7 +183,11 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                {"largest_stretch_at_end", summary.last_stretch.largest},
                {"mean_rms_stretch", summary.rms_stretch_sum / n_steps},
                {"largest_stretch", summary.largest_stretch}};
-  if (ledger != nullptr) json["energy"] = drift_json(*ledger);
+  if (company.crossings != nullptr) {
+    json["crossings_at_end"] = summary.last_crossings;
+    json["largest_crossings"] = summary.largest_crossings;
+  }
+  if (company.ledger != nullptr) json["energy"] = drift_json(*company.ledger);
   json["core"] = core_version();
   return json;
 }
@@ -188,7 +209,7 @@ void print_beginning(const Simulation& simulation) {
 }
 
 void print_summary(const Simulation& simulation, const RunSummary& summary,
-                   const EnergyLedger* ledger) {
+                   const Company& company) {
   const Scene& scene = simulation.scene();
   const BuildReport built = build_report(simulation.model());
   std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n",
@@ -205,7 +226,11 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   if (!summary.report.message.empty() && !summary.report.ends_run())
     std::printf("%s\n", summary.report.message.c_str());
   std::printf("largest residual %.3g\n", summary.report.relative_residual);
-  if (ledger != nullptr)
+  if (company.crossings != nullptr)
+    std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
+                static_cast<long long>(summary.last_crossings),
+                static_cast<long long>(summary.largest_crossings));
+  if (const EnergyLedger* ledger = company.ledger)
     std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n", ledger->drift(),
                 100 * ledger->relative_drift());
 }
@@ -237,15 +262,20 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   }
   std::optional<EnergyLedger> ledger;
   if (wants_drift) ledger.emplace(simulation.model(), simulation.state());
-  RunSummary summary =
-      run_to_end(simulation, frames ? &*frames : nullptr, ledger ? &*ledger : nullptr);
+  std::optional<SelfCrossings> crossings;
+  if (frames || std::holds_alternative<GarmentCloth>(scene.cloth))
+    crossings.emplace(simulation.triangles(), simulation.rest_positions(),
+                      simulation.model().hanging);
+  const Company company{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,
+                        ledger ? &*ledger : nullptr};
+  RunSummary summary = run_to_end(simulation, company);
   if (frames) summary.n_frames = frames->n_frames();
 
-  const Json metrics = metrics_json(simulation, summary, ledger ? &*ledger : nullptr);
+  const Json metrics = metrics_json(simulation, summary, company);
   if (for_machines)
     std::printf("%s\n", metrics.dump().c_str());
   else
-    print_summary(simulation, summary, ledger ? &*ledger : nullptr);
+    print_summary(simulation, summary, company);
   if (out) write_file(out->metrics, format_json(metrics));
   if (dump) write_stiffness(simulation, dump->stiffness_end);
   if (!summary.report.ends_run()) return Outcome::ok;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/check.h"
-
 namespace pleat {
 namespace {
 
@@ -40,15 +38,6 @@ double triangle_distance_squared(const Vec3& p, const Corners& c) {
 
 }  // namespace
 
-std::vector<Corners> triangle_corners(std::span<const Triangle> triangles,
-                                      const Eigen::Ref<const Positions>& positions) {
-  std::vector<Corners> corners;
-  corners.reserve(triangles.size());
-  for (const Triangle& t : triangles)
-    corners.push_back({positions.col(t[0]), positions.col(t[1]), positions.col(t[2])});
-  return corners;
-}
-
 Vec3 nearest_weights(const Vec3& p, const Corners& c) {
   const Vec3 normal = doubled_area(c);
   Vec3 weights = Vec3::Zero();
@@ -73,48 +62,23 @@ Vec3 nearest_weights(const Vec3& p, const Corners& c) {
   return weights;
 }
 
-TriangleTree::TriangleTree(const std::vector<Corners>& triangles) {
-  PLEAT_CHECK(!triangles.empty(), "a tree has a triangle");
-  members_.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) members_.push_back({triangles[t], t});
-  nodes_.reserve(2 * triangles.size());
-  build(0, members_.size());
+TriangleTree::TriangleTree(const std::vector<Corners>& triangles) : boxes_(triangles) {
+  corners_.reserve(triangles.size());
+  for (const std::size_t t : boxes_.order()) corners_.push_back(triangles[t]);
 }
 
 TriangleTree::Nearest TriangleTree::nearest(const Vec3& p) {
-  double least = triangle_distance_squared(p, members_[last_nearest_].corners);
+  double least = triangle_distance_squared(p, corners_[last_nearest_]);
   search(0, p, least);
-  return {members_[last_nearest_].triangle, least};
-}
-
-/// Splits at the median of the centroids along the box's longest side.
-void TriangleTree::build(std::size_t begin, std::size_t end) {
-  const std::size_t index = nodes_.size();
-  nodes_.push_back({{}, begin, end, 0});
-  for (std::size_t t = begin; t < end; ++t)
-    for (const Vec3& corner : members_[t].corners) nodes_[index].box.extend(corner);
-  if (end - begin <= kLeafSize) return;
-  Eigen::Index axis = 0;
-  nodes_[index].box.sizes().maxCoeff(&axis);
-  const std::size_t middle = (begin + end) / 2;
-  const auto first = members_.begin();
-  const auto sum = [axis](const Member& m) {
-    return m.corners[0][axis] + m.corners[1][axis] + m.corners[2][axis];
-  };
-  std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
-                   first + static_cast<std::ptrdiff_t>(middle),
-                   first + static_cast<std::ptrdiff_t>(end),
-                   [&sum](const Member& a, const Member& b) { return sum(a) < sum(b); });
-  build(begin, middle);
-  nodes_[index].second = nodes_.size();
-  build(middle, end);
+  return {boxes_.order()[last_nearest_], least};
 }
 
 void TriangleTree::search(std::size_t index, const Vec3& p, double& nearest) {
-  const Node& node = nodes_[index];
+  const std::vector<TriangleBoxes::Node>& nodes = boxes_.nodes();
+  const TriangleBoxes::Node& node = nodes[index];
   if (node.is_leaf()) {
     for (std::size_t t = node.begin; t < node.end; ++t) {
-      const double distance = triangle_distance_squared(p, members_[t].corners);
+      const double distance = triangle_distance_squared(p, corners_[t]);
       if (distance >= nearest) continue;
       nearest = distance;
       last_nearest_ = t;
@@ -123,8 +87,8 @@ void TriangleTree::search(std::size_t index, const Vec3& p, double& nearest) {
   }
   std::size_t first = index + 1;
   std::size_t second = node.second;
-  double to_first = nodes_[first].box.squaredExteriorDistance(p);
-  double to_second = nodes_[second].box.squaredExteriorDistance(p);
+  double to_first = nodes[first].box.squaredExteriorDistance(p);
+  double to_second = nodes[second].box.squaredExteriorDistance(p);
   if (to_second < to_first) {
     std::swap(first, second);
     std::swap(to_first, to_second);

@@ -12,6 +12,7 @@
 #include "core/scene/frame_file.h"
 #include "core/scene/json_text.h"
 #include "core/scene/matrix_file.h"
+#include "native-tests/support/assets.h"
 #include "native-tests/support/pleat_command.h"
 
 using namespace pleat;
@@ -112,6 +113,25 @@ std::map<std::string, fs::file_time_type> dates_in(const fs::path& folder) {
 
 }  // namespace
 
+TEST_CASE("command: crossings of the cloth with itself are told where it is asked for", "[cli]") {
+  // Two edges of an upright triangle go down through a lying one.
+  const SmallScene crossing(R"({"cloth": {"particles": {
+    "positions_m": [[0, 0, 0], [3, 0, 0], [0, 0, 3], [1, 1, 0.9], [1, -1, 0.9], [-0.5, -1, 0.9]],
+    "masses_kg": [1, 1, 1, 1, 1, 1], "triangles": [[0, 1, 2], [3, 4, 5]]}},
+    "world": {"gravity_m_per_s2": [0, 0, 0]}, "record": {"format": "none"}, "duration_s": 0.1})");
+  const std::string out = (crossing.folder / "out").string();
+  const Ending told = crossing.run({"run", "--out", out});
+  CAPTURE(told.error);
+  CHECK(told.out.find("crossings of the cloth with itself: 2 in the last frame, at most 2\n") !=
+        std::string::npos);
+  CHECK_FALSE(parse_json(crossing.run({"run", "--json"}).out).contains("crossings_at_end"));
+  const Ending garment = pleat_command(
+      crossing.folder, {"run", repository_path("assets/scenes/garments/skirt_walk.json"), "--level",
+                        "0", "--steps", "1", "--json"});
+  CAPTURE(garment.error);
+  CHECK(parse_json(garment.out).at("crossings_at_end") == 0);
+}
+
 TEST_CASE("command: run writes the frames and the numbers of the scene", "[cli]") {
   const SmallScene scene;
   const std::string out = (scene.folder / "a/b").string();
@@ -127,6 +147,8 @@ TEST_CASE("command: run writes the frames and the numbers of the scene", "[cli]"
   CHECK_FALSE(metrics.at("built").empty());
   CHECK_FALSE(metrics.at("left_out").empty());
   CHECK(metrics.at("energy").at("work_of_pins_j") == 0);
+  CHECK(metrics.at("crossings_at_end") == 0);
+  CHECK(metrics.at("largest_crossings") == 0);
   const RecordedFrames frames = read_frames(out + "/frames.bin");
   REQUIRE(frames.times.size() == 6);
   CHECK(frames.times[5] == Approx(0.2));
