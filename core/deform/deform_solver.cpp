@@ -74,6 +74,10 @@ Positions bulges(const TriangleMesh& mesh, double extent) {
   return result;
 }
 
+bool are_equal(const DeformWeights& a, const DeformWeights& b) {
+  return a.recovery == b.recovery && a.stretch == b.stretch && a.bending == b.bending;
+}
+
 }  // namespace
 
 DeformSolver::DeformSolver(const TriangleMesh& mesh, EnergyForm form, const DeformWeights& weights)
@@ -102,6 +106,7 @@ void DeformSolver::set_weights(const DeformWeights& weights) {
   PLEAT_CHECK(weights.recovery >= 0 && weights.stretch >= 0 && weights.bending >= 0 &&
                   weights.recovery + weights.stretch + weights.bending > 0,
               "weights are not negative and not all zero");
+  if (are_equal(weights, weights_)) return;
   const bool has_other_terms = (weights.stretch > 0) != (weights_.stretch > 0) ||
                                (weights.bending > 0) != (weights_.bending > 0);
   if (has_other_terms) has_pattern_ = false;

@@ -52,7 +52,7 @@ class DeformSolver {
   DeformSolver(DeformSolver&&) = default;
   ~DeformSolver();
 
-  /// Keeps the shape.
+  /// Keeps the shape, and with equal weights all else too.
   void set_weights(const DeformWeights& weights);
 
   /// Holds these vertices, each once, and no others. They stay where they are until moved.

@@ -180,6 +180,20 @@ TEST_CASE("deform_solver: a kept factor serves while the hand moves on", "[defor
   CHECK(solver.energy() < 1.001 * anew.energy());
 }
 
+TEST_CASE("deform_solver: equal weights change nothing", "[deform]") {
+  DeformSolver solver = pulled(sheet(8), EnergyForm::consistent, kCanvas, Vec3(0, 0, 0.08));
+  REQUIRE(solver.solve().ok());
+  const Positions shape = solver.positions();
+  const std::size_t n_steps = solver.steps().size();
+  solver.set_weights(kCanvas);
+  CHECK(solver.steps().size() == n_steps);
+  CHECK(solver.converged());
+  CHECK(solver.positions() == shape);
+  solver.set_weights({kCanvas.recovery, kCanvas.stretch, 2 * kCanvas.bending});
+  CHECK(solver.steps().empty());
+  CHECK_FALSE(solver.converged());
+}
+
 TEST_CASE("deform_solver: pulled far out and back it ends no higher than from rest", "[deform]") {
   const DeformWeights weights = GENERATE(from_range(kFabrics));
   CAPTURE(weights.recovery);
