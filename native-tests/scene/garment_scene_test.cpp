@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/refinement/mesh_match.h"
 #include "core/scene/plan_file.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulation.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/graded_sheets.h"
 
 namespace pleat {
 namespace {
@@ -20,23 +20,6 @@ std::string file_beside_garments(const std::string& name) {
 
 Scene garment_scene(const std::string& name) {
   return read_scene(file_beside_garments(name + ".json"), fabric_library(), file_beside_garments);
-}
-
-/// Every third base face is split once.
-RefinementPlan patchy_plan(const QuadMesh& base) {
-  RefinementPlan plan;
-  plan.examples = {{"walk", BendFeatures::Zero(2, 3)}};
-  plan.patterns.assign(static_cast<std::size_t>(base.n_vertices()), 1);
-  plan.options.level_cap = 2;
-  QuadMesh mesh = base;
-  for (int f = 0; f < base.n_base_faces(); f += 3) {
-    plan.splits.push_back({FaceId(f), 4});
-    mesh.refine(std::array{FaceId(f)});
-  }
-  plan.n_vertices = mesh.n_vertices();
-  plan.base_mesh = base_fingerprint(base);
-  plan.curvature_limits = {1, 2, 3};
-  return plan;
 }
 
 std::string refusal(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/scene/simulation.h"
+#include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {
@@ -39,6 +40,33 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
     simulation.release_grab();
     CHECK_FALSE(simulation.is_grabbed());
     CHECK((simulation.state().velocities.col(kLowerCorner.value) - velocity).norm() < 1e-8);
+  }
+}
+
+TEST_CASE("hand: a vertex that hangs is at its target too, between its parents", "[scene]") {
+  const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
+  for (const MethodOptions& method : everyday_methods()) {
+    CAPTURE(name(method.stepper));
+    Scene scene = hanging_scene(method);
+    scene.plan = patchy_plan(*base_quads(scene));
+    Simulation simulation(scene);
+    const HangingVertex held = simulation.model().hanging.back();
+    for (const Pin& pin : simulation.model().pins)
+      for (const VertexId parent : held.parents) REQUIRE(pin.vertex != parent);
+    simulation.grab(held.vertex);
+    const auto place = [&](VertexId v) { return Vec3(simulation.state().positions.col(v)); };
+    const Vec3 begin = place(held.vertex);
+    for (int s = 1; s <= 10; ++s) {
+      const Vec3 target = begin + s * method.step * velocity;
+      simulation.move_grab(target);
+      REQUIRE(simulation.step().ok());
+      CHECK((place(held.vertex) - target).norm() < 1e-12);
+      CHECK((place(held.parents[0]) + place(held.parents[1]) - 2 * target).norm() < 1e-12);
+    }
+    const std::size_t n_held = simulation.model().pins.size();
+    simulation.release_grab();
+    CHECK(simulation.model().pins.size() < n_held);
+    CHECK((simulation.state().velocities.col(held.parents[0]) - velocity).norm() < 1e-8);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/refinement/mesh_match.h"
+
 namespace pleat {
 
 QuadMesh graded_sheet(std::uint64_t seed) {
@@ -12,6 +14,22 @@ QuadMesh graded_sheet(std::uint64_t seed) {
     if (mesh.faces()[static_cast<std::size_t>(face)].level < 3) mesh.refine(std::array{face});
   }
   return mesh;
+}
+
+RefinementPlan patchy_plan(const QuadMesh& base) {
+  RefinementPlan plan;
+  plan.examples = {{"walk", BendFeatures::Zero(2, 3)}};
+  plan.patterns.assign(static_cast<std::size_t>(base.n_vertices()), 1);
+  plan.options.level_cap = 2;
+  QuadMesh mesh = base;
+  for (int f = 0; f < base.n_base_faces(); f += 3) {
+    plan.splits.push_back({FaceId(f), 4});
+    mesh.refine(std::array{FaceId(f)});
+  }
+  plan.n_vertices = mesh.n_vertices();
+  plan.base_mesh = base_fingerprint(base);
+  plan.curvature_limits = {1, 2, 3};
+  return plan;
 }
 
 Eigen::MatrixXd prolongation(const ClothModel& model) {
