@@ -212,10 +212,11 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
 // of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
 // new one, in the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as
 // well; then it is clear of both.
-bool ContactStage::resolve(VertexId vertex, const Vec3& position_begin, Vec3& position,
-                           Vec3& velocity) {
+ContactStage::Touch ContactStage::resolve(VertexId vertex, const Vec3& position_begin,
+                                          Vec3& position, Vec3& velocity) {
+  Touch touch;
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
-  if (!meeting.solid || !velocity.allFinite()) return false;
+  if (!meeting.solid || !velocity.allFinite()) return touch;
   const Solid* before = nullptr;
   for (int n_meetings = 0; meeting.solid; ++n_meetings) {
     if (n_meetings == kMaxMeetings) {
@@ -231,6 +232,7 @@ bool ContactStage::resolve(VertexId vertex, const Vec3& position_begin, Vec3& po
     const Vec3 tangential_velocity = relative_velocity - normal_speed * normal;
     const double left =
         slip(solid.friction, std::max(-normal_speed, 0.0), tangential_velocity.norm());
+    touch = {static_cast<int>(&solid - solids_.data()), normal, left == 0};
     position = meeting.impact.point + (1 - meeting.impact.fraction) * left * path;
     velocity = solid_velocity + left * tangential_velocity + std::max(normal_speed, 0.0) * normal;
 
@@ -248,7 +250,12 @@ bool ContactStage::resolve(VertexId vertex, const Vec3& position_begin, Vec3& po
     const double slack = kRoundingSlack * (position.cwiseAbs().maxCoeff() + path.norm());
     meeting = earliest_meeting(vertex, position_begin, position, slack, before);
   }
-  return true;
+  return touch;
+}
+
+Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) const {
+  const Solid& solid = solids_[static_cast<std::size_t>(touch.solid)];
+  return solid.turns ? Vec3((solid.carry * place_begin - place_begin) / substep_) : solid.velocity;
 }
 
 SolidShape ContactStage::placed(const Collider& collider, double time) {

@@ -55,12 +55,24 @@ class ContactStage {
   /// time_begin.
   void begin_substep(double time_begin, double time_end);
 
+  /// How a solid acted on a vertex; false when none did.
+  struct Touch {
+    int solid = -1;        ///< the last one that acted
+    Vec3 normal{0, 0, 0};  ///< unit, away from it
+    bool sticks = false;   ///< friction took all of the velocity across the normal
+    explicit operator bool() const { return solid >= 0; }
+  };
+
   /// position_begin  where the vertex was at time_begin [m]
   /// position        where the stepper puts it at time_end [m]; corrected
   /// velocity        at time_end [m/s]; corrected
-  /// Returns true when a contact acted. Allocates only where there are rounded cones, once for each
+  /// Allocates only where there are rounded cones, once for each
   /// vertex. A vertex that is not finite is left as it is.
-  bool resolve(VertexId vertex, const Vec3& position_begin, Vec3& position, Vec3& velocity);
+  Touch resolve(VertexId vertex, const Vec3& position_begin, Vec3& position, Vec3& velocity);
+
+  /// Mean velocity over the substep of the touched solid's point that is at a place [m] when it
+  /// begins [m/s].
+  Vec3 solid_velocity(const Touch& touch, const Vec3& place_begin) const;
 
   /// How often, since construction, solids closed in on a vertex from sides so opposed, or so many,
   /// that it was left inside one of them.

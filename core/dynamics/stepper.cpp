@@ -75,7 +75,9 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
       memory_(model.contact ? memory : ContactMemory::none) {
   options.validate();
   model.validate();
-  if (memory_ != ContactMemory::none) contact_forces_ = Positions::Zero(3, model.n_vertices());
+  if (memory_ == ContactMemory::none) return;
+  contact_forces_ = Positions::Zero(3, model.n_vertices());
+  touches_.resize(static_cast<std::size_t>(model.n_vertices()));
 }
 
 void Stepper::start_from_contact_forces(const Eigen::Ref<const Positions>& forces) {
@@ -99,7 +101,9 @@ SolveReport Stepper::advance(State& state, double time) {
   SolveReport report;
   load(state);
   for (int s = 1; s <= substeps_; ++s) {
-    SolveReport part = substep(state, time + options_.step * s / substeps_, h);
+    const double time_end = time + options_.step * s / substeps_;
+    place_solids(time_end - h, time_end);
+    SolveReport part = substep(state, time_end, h);
     place_between_parents(model_.hanging, state);
     part.iterations += report.iterations;
     if (!report.ok() &&
@@ -115,6 +119,12 @@ SolveReport Stepper::advance(State& state, double time) {
   if (bad.valid()) report = lost_report(bad, time);
   if (report.ends_run()) state = last_finite_;
   return report;
+}
+
+void Stepper::place_solids(double time_begin, double time_end) {
+  if (!model_.contact) return;
+  const StageScope scope(observer_, Stage::contact);
+  model_.contact->begin_substep(time_begin, time_end);
 }
 
 std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options, int block_size,
@@ -140,37 +150,46 @@ void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Posit
                            forces);
 }
 
-// With f the remembered force, zero without memory, the proposed place and velocity without it are
-// x - h^2 f/m (times travel_share) and v - h f/m: what the vertex would do were it let go. The
-// contact acts on those, so that the new force, m dv/h, is the whole one: never pulling, and inside
-// Coulomb's cone. It equals f where the vertex is held in equilibrium and vanishes where it leaves.
+// With f the remembered force, zero without memory, and r the vertex's resistance, the place and
+// velocity without f are x - h^2 f/r (times travel_share) and v - h f/r: what the vertex would do
+// were it let go. The contact acts on those, so it never pulls and stays inside Coulomb's cone. f
+// then grows by the force m dv/h that makes of the proposed velocity the corrected one, and
+// vanishes where the vertex leaves. With r = m, that is of a free particle, it is the whole new
+// force.
 void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double time_end,
-                               double h, double travel_share) {
+                               double h, const Eigen::VectorXd& resistances, double travel_share) {
   if (!model_.contact) return;
   const StageScope scope(observer_, Stage::contact);
   const bool remembers = memory_ != ContactMemory::none;
-  model_.contact->begin_substep(time_end - h, time_end);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
     if (model_.hangs(VertexId(i))) continue;
-    const double mobility = h / model_.masses[i];
     Vec3 position = state.positions.col(i);
     Vec3 velocity = state.velocities.col(i);
     if (remembers) {
-      velocity -= mobility * contact_forces_.col(i);
-      position -= travel_share * h * mobility * contact_forces_.col(i);
+      const Vec3 change = h / resistances[i] * contact_forces_.col(i);
+      velocity -= change;
+      position -= travel_share * h * change;
     }
-    const Vec3 free_velocity = velocity;
-    model_.contact->resolve(VertexId(i), positions_begin.col(i), position, velocity);
+    const ContactStage::Touch touch =
+        model_.contact->resolve(VertexId(i), positions_begin.col(i), position, velocity);
+    if (remembers) {
+      if (touch)
+        contact_forces_.col(i) += model_.masses[i] / h * (velocity - state.velocities.col(i));
+      else
+        contact_forces_.col(i).setZero();
+      touches_[static_cast<std::size_t>(i)] = touch;
+    }
     state.positions.col(i) = position;
     state.velocities.col(i) = velocity;
-    if (remembers) contact_forces_.col(i) = (velocity - free_velocity) / mobility;
   }
   // A pin wins over a solid: it is where the scene puts it.
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) =
         (state.positions.col(pin.vertex) - positions_begin.col(pin.vertex)) / h;
-    if (remembers) contact_forces_.col(pin.vertex).setZero();
+    if (!remembers) continue;
+    contact_forces_.col(pin.vertex).setZero();
+    touches_[static_cast<std::size_t>(pin.vertex)] = {};
   }
 }
 

@@ -110,16 +110,22 @@ class Stepper {
   /// computing once per step only.
   virtual void load(const State& state);
   virtual void store(State& state, SolveReport& report);
-  /// One substep of h [s] ending at time_end, contact included. Hanging vertices follow by
-  /// themselves.
+  /// One substep of h [s] ending at time_end, contact included, whose solids are placed. Hanging
+  /// vertices follow by themselves.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
 
   /// The shared way a substep ends for steppers that work on `State` itself: contact on every
   /// vertex that does not hang.
   ///
-  /// travel_share  how far a force moves a vertex within the substep, in shares of h^2 f/m
+  /// resistances   how much each vertex resists a change of its velocity [kg]
+  /// travel_share  how far a force f moves a vertex within the substep, in shares of h^2 f / its
+  ///               resistance
   void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h,
-                        double travel_share = 1);
+                        const Eigen::VectorXd& resistances, double travel_share = 1);
+  /// The same with the masses alone.
+  void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h) {
+    resolve_contacts(positions_begin, state, time_end, h, model_.masses);
+  }
   /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
   /// [s] (0: explicit), remembered contact [N]. Nothing where vertices hang.
   void set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces);
@@ -133,13 +139,18 @@ class Stepper {
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
+  /// What is remembered of the last substep, for each vertex: by which force [N] solids held it,
+  /// and how the last of them did.
+  Positions contact_forces_;
+  std::vector<ContactStage::Touch> touches_;
 
  private:
+  void place_solids(double time_begin, double time_end);
+
   MethodOptions options_;
   int substeps_;
   ContactMemory memory_;
   State last_finite_;
-  Positions contact_forces_;
 };
 
 /// Throws InputError when the method cannot run on this model (explicit or rk4 beyond the stability

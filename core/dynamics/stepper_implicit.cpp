@@ -18,6 +18,7 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
       velocity_changes_(Positions::Zero(3, model.n_vertices())),
       positions_begin_(3, model.n_vertices()) {
   solver_->analyze(matrix_.lower());
+  if (model_.contact) hold_.emplace(model_);
   refresh();
 }
 
@@ -52,6 +53,10 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
         state.velocities.col(pin.vertex);
   }
   matrix_.reduce_to_parents(flat(forces_));
+  if (hold_) {
+    const StageScope scope(observer_, Stage::contact);
+    hold_->add(touches_, state, matrix_, forces_);
+  }
   matrix_.prescribe(pin_changes_, flat(forces_));
   SolveReport report;
   {
@@ -66,7 +71,10 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   state.velocities += velocity_changes_;
   state.positions += h * state.velocities;
   for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
-  resolve_contacts(positions_begin_, state, time_end, h);
+  if (hold_) {
+    hold_->add_forces(state.velocities, h, contact_forces_);
+    resolve_contacts(positions_begin_, state, time_end, h, hold_->resistances());
+  }
   return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/dynamics/contact_hold.h"
 #include "core/dynamics/stepper.h"
 #include "core/dynamics/system_matrix.h"
 
@@ -24,6 +25,7 @@ class StepperImplicit final : public Stepper {
   void assemble(const State& state, double h);
 
   SystemMatrix matrix_;
+  std::optional<ContactHold> hold_;  // with contact
   std::unique_ptr<LinearSolver> solver_;
   Positions forces_;            // right-hand side, in [N s] once scaled by h
   Positions velocity_changes_;  // kept as the next solve's first guess

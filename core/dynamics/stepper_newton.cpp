@@ -334,7 +334,7 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
     state.velocities.col(pin.vertex) = is_at_rest() ? Vec3(Vec3::Zero()) : pin.velocity(time_end);
   }
   const double travel_share = options().rule == NewtonRule::midpoint ? 0.5 : 1;
-  resolve_contacts(positions_begin_, state, time_end, h, travel_share);
+  resolve_contacts(positions_begin_, state, time_end, h, model_.masses, travel_share);
   return report;
 }
 

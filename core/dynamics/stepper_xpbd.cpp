@@ -155,9 +155,8 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   }
 }
 
-void StepperXpbd::correct_for_contact(State& state, double time_end, double h) {
+void StepperXpbd::correct_for_contact(State& state, double h) {
   const StageScope scope(observer_, Stage::contact);
-  model_.contact->begin_substep(time_end - h, time_end);
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const int slot = slot_of(VertexId(i));
     Vec3 position = position_of(slot);
@@ -207,7 +206,7 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
       residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
                                 hanging_.squared_residual(v));
   }
-  if (model_.contact) correct_for_contact(state, time_end, h);
+  if (model_.contact) correct_for_contact(state, h);
   --substeps_left_;
   time_end_ = time_end;
   SolveReport report;

@@ -48,7 +48,7 @@ class StepperXpbd final : public Stepper {
   void place_pins(double time_end, double h);
   void sweep();
   void add_air_drag(State& state, double h);
-  void correct_for_contact(State& state, double time_end, double h);
+  void correct_for_contact(State& state, double h);
 
   LaneLayout layout_;
   SpringProgram springs_;

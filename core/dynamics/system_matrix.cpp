@@ -123,6 +123,12 @@ void SystemMatrix::add_block(const Slot& slot, const Mat3& block) {
   }
 }
 
+double SystemMatrix::diagonal_trace(VertexId vertex) const {
+  double trace = 0;
+  for (int c = 0; c < 3; ++c) trace += matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * vertex + c]];
+  return trace;
+}
+
 void SystemMatrix::add_diagonal(VertexId vertex, const Mat3& block) {
   for (int c = 0; c < 3; ++c) {
     double* values = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * vertex + c];

@@ -25,6 +25,8 @@ class SystemMatrix {
   /// [N/m], C = -d(damping force)/dv [N s/m].
   void add_elasticity(const Eigen::Ref<const Positions>& positions, double stiffness_factor,
                       double damping_factor, ElementHessian hessian);
+  /// Of a vertex's block on the diagonal.
+  double diagonal_trace(VertexId vertex) const;
   /// Adds a block to the diagonal.
   void add_diagonal(VertexId vertex, const Mat3& block);
 

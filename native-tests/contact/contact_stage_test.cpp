@@ -106,8 +106,8 @@ TEST_CASE("contact: only the motion relative to the solid counts", "[contact]") 
     Vec3 position = begin + 0.1 * velocity;
     Vec3 moving_velocity = velocity + drift;
     Vec3 moving_position = position + 0.1 * drift;
-    REQUIRE(at_rest.resolve(VertexId(0), begin, position, velocity) ==
-            moving.resolve(VertexId(0), begin, moving_position, moving_velocity));
+    REQUIRE(bool(at_rest.resolve(VertexId(0), begin, position, velocity)) ==
+            bool(moving.resolve(VertexId(0), begin, moving_position, moving_velocity)));
     CHECK((moving_velocity - drift - velocity).norm() < 1e-13);
     CHECK((moving_position - 0.1 * drift - position).norm() < 1e-13);
   }

@@ -58,8 +58,8 @@ TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
       particle.velocity += h * (20 * (Vec3(2 * time, 0, 0) - begin) + 3 * random_direction(random));
       particle.position += h * particle.velocity;
       Particle expected = particle;
-      const bool met = stage.resolve(VertexId(i), begin, particle.position, particle.velocity);
-      REQUIRE(met == fresh.resolve(VertexId(i), begin, expected.position, expected.velocity));
+      const bool met{stage.resolve(VertexId(i), begin, particle.position, particle.velocity)};
+      REQUIRE(met == bool(fresh.resolve(VertexId(i), begin, expected.position, expected.velocity)));
       REQUIRE((particle.position == expected.position && particle.velocity == expected.velocity));
       n_contacts += met;
     }

@@ -77,4 +77,29 @@ TEST_CASE("contact: friction stops a sliding particle after v^2 / (2 mu g)", "[c
   }
 }
 
+TEST_CASE(
+    "contact: implicit finds in a few substeps with what force a floor holds a stiff string up",
+    "[contact]") {
+  // Two springs from pins at (-+1, -0.1, 0) below the floor to a particle that it holds up.
+  const double stiffness = 1e5;  // [N/m]: 3e4 times what the mass resists with in a substep
+  ClothModel model = particle_on(floor_collider(0.5));
+  model.masses = Eigen::VectorXd::Constant(3, 0.01);
+  model.gravity = Vec3::Zero();
+  model.springs = {{VertexId(0), VertexId(1), stiffness, 1},
+                   {VertexId(1), VertexId(2), stiffness, 1}};
+  model.pins = {Pin{VertexId(0), Vec3(-1, -0.1, 0), {}}, Pin{VertexId(2), Vec3(1, -0.1, 0), {}}};
+  State state;
+  state.positions.resize(3, 3);
+  state.positions << -1, 0, 1, -0.1, 0, -0.1, 0, 0, 0;
+  state.velocities = Positions::Zero(3, 3);
+  MethodOptions options;
+  options.step = 0.01;
+  const auto stepper = make_stepper(model, options);
+  advance(*stepper, state, 0, 40);
+  const double length = std::hypot(1, 0.1);
+  CHECK(std::abs(state.positions(1, 1)) < 1e-12);
+  CHECK(stepper->contact_forces()(1, 1) ==
+        Approx(2 * stiffness * (length - 1) * 0.1 / length).epsilon(1e-6));
+}
+
 }  // namespace pleat

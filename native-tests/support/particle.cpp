@@ -90,7 +90,7 @@ bool step(ContactStage& stage, const Vec3& acceleration, double time, double h,
   particle.velocity += h * acceleration;
   particle.position += h * particle.velocity;
   stage.begin_substep(time, time + h);
-  return stage.resolve(VertexId(0), begin, particle.position, particle.velocity);
+  return bool(stage.resolve(VertexId(0), begin, particle.position, particle.velocity));
 }
 
 }  // namespace pleat
