@@ -17,6 +17,15 @@ bool is_option(const std::string& word) {
   return word.size() > 1 && word[0] == '-' && word.find_first_of(".0123456789") != 1;
 }
 
+/// NaN where it says no finite number.
+double parsed_number(const std::string& text) {
+  char* stop = nullptr;
+  const double value = std::strtod(text.c_str(), &stop);
+  return text.empty() || *stop != '\0' || !std::isfinite(value) ? std::nan("") : value;
+}
+
+std::string quoted(const std::string& text) { return abbreviated(Json(text)); }
+
 }  // namespace
 
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high) {
@@ -25,15 +34,19 @@ int parse_whole_number(const std::string& text, const std::string& where, int lo
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stop != end || value < low || value > high)
     throw InputError(where, "expected a whole number from " + std::to_string(low) + " to " +
-                                std::to_string(high) + ", got " + abbreviated(Json(text)));
+                                std::to_string(high) + ", got " + quoted(text));
   return value;
 }
 
 double parse_positive_number(const std::string& text, const std::string& where) {
-  char* stop = nullptr;
-  const double value = std::strtod(text.c_str(), &stop);
-  if (text.empty() || *stop != '\0' || !std::isfinite(value) || value <= 0)
-    throw InputError(where, "expected a number > 0, got " + abbreviated(Json(text)));
+  const double value = parsed_number(text);
+  if (!(value > 0)) throw InputError(where, "expected a number > 0, got " + quoted(text));
+  return value;
+}
+
+double parse_number_from_zero(const std::string& text, const std::string& where) {
+  const double value = parsed_number(text);
+  if (!(value >= 0)) throw InputError(where, "expected a number >= 0, got " + quoted(text));
   return value;
 }
 

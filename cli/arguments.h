@@ -40,5 +40,6 @@ class Arguments {
 /// The number that a whole text says. Throws InputError{where} unless it is in [low, high].
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high);
 double parse_positive_number(const std::string& text, const std::string& where);
+double parse_number_from_zero(const std::string& text, const std::string& where);
 
 }  // namespace pleat

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
@@ -16,9 +17,11 @@ constexpr double kSlice = 0.1;         // [s] between reports of progress
 constexpr int kUsualFineLevel = 2;     // of an example, where neither it nor --level says one
 constexpr double kSettlingTime = 1.0;  // [s] after a figure has begun to move as it will
 
-double parse_time(const std::string& text, const char* option) {
-  return text == "0" ? 0 : parse_positive_number(text, option);
-}
+/// The option that sets what the planner names.
+constexpr std::pair<const char*, const char*> kOptions[] = {{"detail demand", "--demand"},
+                                                            {"vertex budget", "--vertices"},
+                                                            {"level cap", "--cap"},
+                                                            {"number of patterns", "--patterns"}};
 
 PlanRecipe take_recipe(Arguments& arguments) {
   PlanRecipe recipe;
@@ -26,7 +29,7 @@ PlanRecipe take_recipe(Arguments& arguments) {
     recipe.patterns.n_patterns = *n;
   recipe.patterns.normalised = !arguments.flag("--raw-features");
   if (const auto text = arguments.text("--demand"))
-    recipe.plan.demand = parse_time(*text, "--demand");
+    recipe.plan.demand = parse_number_from_zero(*text, "--demand");
   recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
   recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   return recipe;
@@ -36,6 +39,18 @@ PlanRecipe take_recipe(Arguments& arguments) {
 double settled_time(const Scene& scene) {
   return scene.figure ? scene.figure->playback.blend_time + kSettlingTime : 0;
 }
+
+/// The scene, and where else what is refused comes from.
+struct RefineInput {
+  const SceneInput& scene;
+
+  [[noreturn]] void throw_with_source(const InputError& error) const {
+    for (const auto& [name, option] : kOptions)
+      if (error.where() == name) throw InputError(option, error.what());
+    scene.throw_with_source(error);
+  }
+  [[noreturn]] void throw_out_of_memory() const { scene.throw_out_of_memory(); }
+};
 
 void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& scene) {
   std::vector<int> n_base(static_cast<std::size_t>(plan.n_patterns), 0);
@@ -73,10 +88,11 @@ Outcome refine_command(Arguments arguments) {
   for (const std::string& other : more)
     scenes.push_back(read_scene_input(other, changes, fabrics).scene);
   for (Scene& scene : scenes)
-    if (scene.level == 0 && !scene.plan) scene.level = kUsualFineLevel;
-  recipe.begin = begin ? parse_time(*begin, "--from") : settled_time(scenes.front());
+    if (scene.level == 0 && !scene.plan && !input.is_set_by("--level"))
+      scene.level = kUsualFineLevel;
+  recipe.begin = begin ? parse_number_from_zero(*begin, "--from") : settled_time(scenes.front());
   if (out) check_writable(*out);
-  return with_source_named(input, [&] {
+  return with_source_named(RefineInput{input}, [&] {
     PlanMaker maker(scenes, recipe);
     Progress progress;
     while (!maker.done()) {

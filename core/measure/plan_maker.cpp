@@ -6,6 +6,8 @@
 #include "core/base/check.h"
 #include "core/refinement/fit_monitor.h"
 #include "core/refinement/mesh_match.h"
+#include "core/scene/cloth_section.h"
+#include "core/scene/json_text.h"
 
 namespace pleat {
 namespace {
@@ -21,7 +23,7 @@ std::vector<double> frame_times(const Scene& scene, const PlanRecipe& recipe) {
   }
   if (times.size() < 2)
     throw InputError("/duration_s", "expected at least two frames after " +
-                                        std::to_string(recipe.begin) + " s, got " +
+                                        Json(recipe.begin).dump() + " s, got " +
                                         std::to_string(times.size()));
   return times;
 }
@@ -30,11 +32,17 @@ QuadMesh example_base(const Scene& scene) {
   std::optional<QuadMesh> base = base_quads(scene);
   if (!base)
     throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
-  if (scene.plan || scene.level < 1)
-    throw InputError("/refinement",
-                     "expected an example refined uniformly, once at least, got " +
-                         (scene.plan ? std::string("one with a plan") : std::string("level 0")));
+  if (scene.plan)
+    throw InputError("/refinement/plan", "expected an example refined uniformly, got a plan");
+  if (scene.level < 1)
+    throw InputError("/refinement/level", "expected an example refined once at least, got level 0");
   return *std::move(base);
+}
+
+/// Of an example: its name, and what has to be the same.
+std::string description(const Scene& scene) {
+  return abbreviated(Json(scene.name)) + " at level " + std::to_string(scene.level) + " with " +
+         std::to_string(n_refined_vertices(scene, 0)) + " unrefined vertices";
 }
 
 }  // namespace
@@ -43,13 +51,16 @@ PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)
     : scenes_(std::move(examples)), recipe_(recipe) {
   PLEAT_CHECK(!scenes_.empty() && recipe.frame_time > 0, "a plan has an example with frames");
   base_ = example_base(scenes_.front());
+  recipe.patterns.validate();
+  check_plan_options(recipe.plan, recipe.patterns.n_patterns, base_, scenes_.front().level);
   fine_ = base_;
   fine_.refine_uniformly(scenes_.front().level);
   for (const Scene& scene : scenes_)
     if (base_fingerprint(example_base(scene)) != base_fingerprint(base_) ||
         scene.level != scenes_.front().level)
-      throw InputError("/cloth", "expected examples of one cloth at one level, got \"" +
-                                     scene.name + "\" beside \"" + scenes_.front().name + '"');
+      throw InputError("/cloth", "expected examples of one cloth at one level, got " +
+                                     description(scene) + " beside " +
+                                     description(scenes_.front()));
   cost_.frame_time = recipe.frame_time;
   begin_example();
 }

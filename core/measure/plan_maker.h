@@ -29,7 +29,8 @@ struct PlanCost {
 class PlanMaker {
  public:
   /// examples  scenes of one garment or sheet refined uniformly, to the same level of at least 1
-  /// Throws InputError when an example is none of these, has fewer than two frames or cannot run.
+  /// Throws InputError when an example is none of these, has fewer than two frames or cannot run,
+  /// and for a recipe out of range.
   PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe);
 
   bool done() const { return done_; }

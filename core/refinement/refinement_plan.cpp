@@ -21,24 +21,6 @@ std::string number_text(double number) {
 /// The level of a uniform mesh.
 int uniform_level(const QuadMesh& mesh) { return mesh.faces().back().level; }
 
-void check_options(const PlanOptions& options, int n_patterns, const QuadMesh& base,
-                   int max_level) {
-  const double end = 4.0 * (n_patterns - 1);
-  if (options.max_vertices) {
-    if (*options.max_vertices < base.n_vertices())
-      throw InputError("vertex budget", "expected at least the base mesh's " +
-                                            std::to_string(base.n_vertices()) + ", got " +
-                                            std::to_string(*options.max_vertices));
-  } else if (!(options.demand >= 0 && options.demand < end)) {
-    throw InputError("detail demand", "expected a number from 0 to below " + number_text(end) +
-                                          ", got " + number_text(options.demand));
-  }
-  const int cap = options.level_cap.value_or(max_level);
-  if (cap < 0 || cap > max_level)
-    throw InputError("level cap", "expected a whole number from 0 to the fine mesh's level, " +
-                                      std::to_string(max_level) + ", got " + std::to_string(cap));
-}
-
 /// The highest pattern that any example gives a base vertex.
 std::vector<int> merged_patterns(std::span<const BendExample> examples, int n_vertices) {
   std::vector<int> patterns(static_cast<std::size_t>(n_vertices), 0);
@@ -210,6 +192,24 @@ class BudgetSplitter {
 
 }  // namespace
 
+void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMesh& base,
+                        int max_level) {
+  const double end = 4.0 * (n_patterns - 1);
+  if (options.max_vertices) {
+    if (*options.max_vertices < base.n_vertices())
+      throw InputError("vertex budget", "expected at least the base mesh's " +
+                                            std::to_string(base.n_vertices()) + ", got " +
+                                            std::to_string(*options.max_vertices));
+  } else if (!(options.demand >= 0 && options.demand < end)) {
+    throw InputError("detail demand", "expected a number from 0 to below " + number_text(end) +
+                                          ", got " + number_text(options.demand));
+  }
+  const int cap = options.level_cap.value_or(max_level);
+  if (cap < 0 || cap > max_level)
+    throw InputError("level cap", "expected a whole number from 0 to the fine mesh's level, " +
+                                      std::to_string(max_level) + ", got " + std::to_string(cap));
+}
+
 RefinementPlan refinement_plan(const QuadMesh& base, const QuadMesh& fine,
                                std::span<const BendExample> examples, const PlanOptions& options) {
   PLEAT_CHECK(!examples.empty(), "a plan has an example");
@@ -227,7 +227,7 @@ RefinementPlan refinement_plan(const QuadMesh& base, const QuadMesh& fine,
     plan.examples.push_back(
         {example.name, example.patterns.centres, example.patterns.low, example.patterns.high});
   }
-  check_options(options, plan.n_patterns, base, uniform_level(fine));
+  check_plan_options(options, plan.n_patterns, base, uniform_level(fine));
   plan.options = options;
   plan.options.level_cap = options.level_cap.value_or(uniform_level(fine));
   plan.patterns = merged_patterns(examples, base.n_vertices());

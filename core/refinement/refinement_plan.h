@@ -27,6 +27,12 @@ struct PlanOptions {
   std::optional<int> level_cap;  ///< finest level; else that of the fine mesh, which is the most
 };
 
+/// Throws InputError naming the demand, vertex budget or level cap that is out of range.
+///
+/// max_level  of the fine mesh
+void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMesh& base,
+                        int max_level);
+
 /// What a plan keeps of an example.
 struct PlanExample {
   std::string name;
@@ -68,7 +74,7 @@ struct RefinementPlan {
 /// base      not refined
 /// fine      base refined uniformly
 /// examples  at least one, all with as many patterns
-/// Throws InputError naming the demand, vertex budget or level cap that is out of range.
+/// Throws InputError as check_plan_options does.
 /// Source: the multi-resolution quad cloth listed as M in docs/reproduction.md;
 /// docs/methods/multiresolution.md.
 RefinementPlan refinement_plan(const QuadMesh& base, const QuadMesh& fine,

@@ -1,6 +1,5 @@
 #include "core/scene/figure_section.h"
 
-#include "core/base/check.h"
 #include "core/scene/motion_file.h"
 
 namespace pleat {
@@ -13,24 +12,13 @@ constexpr std::array<Word<BodyBuild>, 2> kBuilds{
 constexpr NumberRange kTimeScale{0.05, 20};
 constexpr NumberRange kBlendTime{0.05, 1000};  // [s]
 
-BodyMotion read_motion_named(const JsonReader& reader, const FileSource& files) {
-  const std::string& name = reader.text();
-  if (!files) reader.fail("a motion written out, as no files can be read here");
-  try {
-    return read_motion(files(name));
-  } catch (const InputError& error) {
-    throw InputError(name + error.where(), error.what());
-  }
-}
-
 }  // namespace
 
 Figure read_figure(const JsonReader& reader, const FileSource& files) {
   reader.allow_keys({"build", "motion", "time_scale", "blend_time_s", "friction"});
   Figure figure;
   if (const auto at = reader.find("build")) figure.build = at->word(kBuilds);
-  const JsonReader motion = reader.at("motion");
-  figure.motion = motion.is_text() ? read_motion_named(motion, files) : read_motion(motion);
+  figure.motion = read_motion(reader.at("motion"), files);
   if (const auto at = reader.find("time_scale"))
     figure.playback.time_scale = at->number(kTimeScale);
   if (const auto at = reader.find("blend_time_s"))
@@ -46,16 +34,6 @@ Json json_figure(const Figure& figure) {
             {"blend_time_s", figure.playback.blend_time}};
   if (figure.friction) json["friction"] = *figure.friction;
   return json;
-}
-
-Bone read_bone(const JsonReader& reader) {
-  std::string known;
-  for (int b = 0; b < kBones; ++b) {
-    const Bone bone = static_cast<Bone>(b);
-    if (reader.is_text() && reader.text() == bone_name(bone)) return bone;
-    known += std::string(b == 0 ? " \"" : ", \"") + bone_name(bone) + '"';
-  }
-  reader.fail("one of" + known);
 }
 
 }  // namespace pleat

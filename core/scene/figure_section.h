@@ -12,7 +12,4 @@ Figure read_figure(const JsonReader& reader, const FileSource& files);
 /// The motion is always written out, so that the text is the whole scene.
 Json json_figure(const Figure& figure);
 
-/// As scenes write it: "pelvis", "thigh_right".
-Bone read_bone(const JsonReader& reader);
-
 }  // namespace pleat

@@ -114,7 +114,7 @@ MeshCloth read_obj_mesh(const JsonReader& reader, const FileSource& files,
     cloth.textures = std::move(obj.textures);
     return cloth;
   } catch (const InputError& error) {
-    throw InputError(error.where().empty() ? name : name + ": " + error.where(), error.what());
+    throw InputError(place_in(name, error.where()), error.what());
   }
 }
 

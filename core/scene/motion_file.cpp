@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/check.h"
 #include "core/scene/json_reader.h"
 
 namespace pleat {
@@ -97,6 +98,16 @@ BodyMotion read_motion(const JsonReader& reader) {
 BodyMotion read_motion(std::string_view json_text) {
   const Json document = parse_json(json_text);
   return read_motion(JsonReader(document));
+}
+
+BodyMotion read_motion(const JsonReader& reader, const FileSource& files) {
+  if (!reader.is_text()) return read_motion(reader);
+  if (!files) reader.fail("a motion written out, as no files can be read here");
+  try {
+    return read_motion(files(reader.text()));
+  } catch (const InputError& error) {
+    throw InputError(place_in(reader.text(), error.where()), error.what());
+  }
 }
 
 Json json_motion(const BodyMotion& motion) {

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/figure/body_motion.h"
+#include "core/scene/file_source.h"
 #include "core/scene/json_reader.h"
 
 namespace pleat {
@@ -12,6 +13,9 @@ namespace pleat {
 /// fewer than four keys, an angle beyond half a turn and anything else not as asked for.
 BodyMotion read_motion(std::string_view json_text);
 BodyMotion read_motion(const JsonReader& reader);
+
+/// Written out, or the name of its file.
+BodyMotion read_motion(const JsonReader& reader, const FileSource& files);
 
 /// The motion without what its file says of sources; the same motion is read from it to the bit.
 Json json_motion(const BodyMotion& motion);

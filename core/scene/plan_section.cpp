@@ -14,14 +14,14 @@ RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource& files
     reader.fail("no plan with a membrane, as only springs hold hanging vertices");
   const bool is_file = reader.is_text();
   if (is_file && !files) reader.fail("a plan written out, as no files can be read here");
-  const std::string where = is_file ? reader.text() : reader.pointer();
   try {
     RefinementPlan plan = is_file ? read_plan(files(reader.text())) : read_plan(reader);
     planned_mesh(*base, plan);
     return plan;
   } catch (const InputError& error) {
-    if (!is_file && error.where().rfind(where, 0) == 0) throw;
-    throw InputError(where + error.where(), error.what());
+    if (is_file) throw InputError(place_in(reader.text(), error.where()), error.what());
+    if (error.where().rfind(reader.pointer(), 0) == 0) throw;
+    throw InputError(reader.pointer() + error.where(), error.what());
   }
 }
 

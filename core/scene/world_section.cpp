@@ -3,8 +3,8 @@
 #include <map>
 
 #include "core/base/check.h"
+#include "core/scene/bone_word.h"
 #include "core/scene/cloth_section.h"
-#include "core/scene/figure_section.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
 #include "core/scene/vertex_place.h"

@@ -784,6 +784,93 @@ TEST_CASE("command: a bench refuses what it would not use", "[cli]") {
   }
 }
 
+TEST_CASE("command: refine refuses an example, a plan or an option that it cannot use", "[cli]") {
+  const SmallScene scene;
+  write(scene.folder / "other.json", scene_with("\"columns\": 2", "\"columns\": 3"));
+  write(scene.folder / "particles.json",
+        R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}}})");
+  Json wild = parse_json(kScene);
+  wild["cloth"]["sheet"]["initial_velocity_m_per_s"] = {0, 30, 0};
+  wild["method"] = {{"stepper", "explicit"}, {"substeps", "stable"}};
+  wild["world"]["air"]["density_kg_per_m3"] = 1e5;
+  write(scene.folder / "wild.json", wild.dump());
+  write(scene.folder / "still.json",
+        scene_with("\"record\"", "\"world\": {\"gravity_m_per_s2\": [0, 0, 0]}, \"record\""));
+  const auto other = [&](const char* file) { return (scene.folder / file).string(); };
+  const struct {
+    std::vector<std::string> words;
+    std::string sentence;
+  } cases[] = {
+      {{scene.file, "--demand", "8"}, "--demand: expected a number from 0 to below 8, got 8"},
+      {{scene.file, "--demand", "-1"}, "--demand: expected a number >= 0, got \"-1\""},
+      {{scene.file, "--vertices", "8"}, "--vertices: expected at least the base mesh's 9, got 8"},
+      {{scene.file, "--cap", "3"},
+       "--cap: expected a whole number from 0 to the fine mesh's level, 2, got 3"},
+      {{scene.file, "--patterns", "17"}, "--patterns: expected a whole number from 1 to 16"},
+      {{other("still.json")}, "--patterns: expected at most the number of different features"},
+      {{scene.file, "--from", "0.19"},
+       scene.file + ": /duration_s: expected at least two frames after 0.19 s, got 1"},
+      {{scene.file, "--level", "0"}, "--level: expected an example refined once at least"},
+      {{scene.file, "--merge", other("other.json")},
+       scene.file + ": /cloth: expected examples of one cloth at one level, got \"small sheet\" at "
+                    "level 2 with 12 unrefined vertices beside \"small sheet\" at level 2 with 9 "},
+      {{other("particles.json")}, other("particles.json") + ": /cloth: expected a sheet or"},
+      {{other("wild.json")}, other("wild.json") + ": expected an example that runs to its end"},
+  };
+  for (const auto& bad : cases) {
+    std::vector<std::string> words{"refine"};
+    words.insert(words.end(), bad.words.begin(), bad.words.end());
+    const Ending ending = pleat_command(scene.folder, words);
+    CAPTURE(bad.sentence, ending.error);
+    CHECK(ending.status == 2);
+    CHECK(ending.error.rfind("pleat: " + bad.sentence, 0) == 0);
+    CHECK(std::count(ending.error.begin(), ending.error.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("command: what a scene's files have wrong is told with their names", "[cli]") {
+  const SmallScene scene(
+      scene_with("\"name\": \"small sheet\",", "\"refinement\": {\"level\": 1},"));
+  const std::string plan_file = (scene.folder / "plan.json").string();
+  REQUIRE(scene.run({"refine", "--out", plan_file}).status == 0);
+  const Json plan = parse_json(text_of(plan_file));
+  const auto is_refused = [&](const std::string& text, const std::string& sentence) {
+    write(scene.folder / "bad.json", text);
+    const Ending ending =
+        pleat_command(scene.folder, {"run", (scene.folder / "bad.json").string(), "--steps", "1"});
+    CAPTURE(sentence, ending.error);
+    CHECK(ending.status == 2);
+    CHECK(ending.error.find("bad.json: " + sentence) != std::string::npos);
+    CHECK(std::count(ending.error.begin(), ending.error.end(), '\n') == 1);
+  };
+  Json planned = parse_json(kScene);
+  planned["refinement"] = {{"plan", "plan.json"}};
+  planned["cloth"]["sheet"]["columns"] = 3;
+  is_refused(planned.dump(), "plan.json: /base_mesh: expected a plan for this mesh, got one for");
+  planned["cloth"]["sheet"]["columns"] = 2;
+  Json bad = plan;
+  bad["detail_demand"] = 8;
+  write(plan_file, bad.dump());
+  is_refused(planned.dump(), "plan.json: /detail_demand: expected a number below 8, got 8");
+  bad = plan;
+  bad["splits"][0][0] = 999;
+  write(plan_file, bad.dump());
+  is_refused(planned.dump(),
+             "plan.json: /splits/0: expected a face that can be split here, got 999");
+
+  Json motion = parse_json(text_of(repository_path("assets/motions/turn.json")));
+  motion["angles"].erase("knee_flexion_rad");
+  write(scene.folder / "motion.json", motion.dump());
+  Json walk = parse_json(text_of(repository_path("assets/scenes/garments/skirt_walk.json")));
+  walk["figure"]["motion"] = "motion.json";
+  is_refused(walk.dump(), "motion.json: /angles: expected the key \"knee_flexion_rad\"");
+  walk["figure"]["motion"] = repository_path("assets/motions/turn.json");
+  walk["cloth"]["garment"]["skirt"]["waist_ease_m"] = 0.9;
+  is_refused(walk.dump(),
+             "/cloth/garment/skirt/waist_ease_m: expected 0.000 to 0.175, so that the "
+             "waist goes round the body and does not fall over the hips, got 0.9");
+}
+
 TEST_CASE("command: --steps counts whatever the step is", "[cli]") {
   const SmallScene scene(scene_with("\"duration_s\": 0.2", "\"duration_s\": 1000"));
   const Ending ending = scene.run({"run", "--json", "--step", "1e-9", "--steps", "10"});

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/figure/moving_body.h"
+#include "core/scene/json_reader.h"
+
+namespace pleat {
+
+/// As files write it: "pelvis", "thigh_right".
+Bone read_bone(const JsonReader& reader);
+
+}  // namespace pleat
