@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kSlice = 0.1;         // [s] between reports of progress
 constexpr int kUsualFineLevel = 2;     // of an example, where neither it nor --level says one
-constexpr double kSettlingTime = 1.0;  // [s] after a figure has begun to move as it will
 
 double parse_time(const std::string& text, const char* option) {
   return text == "0" ? 0 : parse_positive_number(text, option);
@@ -30,11 +29,6 @@ PlanRecipe take_recipe(Arguments& arguments) {
   recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
   recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   return recipe;
-}
-
-/// Without a time of one's own, what is analysed begins when the cloth has settled into the motion.
-double settled_time(const Scene& scene) {
-  return scene.figure ? scene.figure->playback.blend_time + kSettlingTime : 0;
 }
 
 void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& scene) {
