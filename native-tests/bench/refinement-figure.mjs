@@ -49,7 +49,9 @@ function panel(index, { title, xName, points, lines, xTicks, yTicks, xUnit }) {
   for (const [k, line] of lines.entries())
     parts.push(
       `<path d="M${x(line.at)} ${top}V${top + height}" stroke="${kInk}" stroke-dasharray="4 3"/>`,
-      text(x(line.at) - 4, top + 12 + 14 * k, line.label, 'text-anchor="end" font-size="10"'),
+      line.at > xMost / 2
+        ? text(x(line.at) - 4, top + 12 + 14 * k, line.label, 'text-anchor="end" font-size="10"')
+        : text(x(line.at) + 4, top + 12 + 14 * k, line.label, 'font-size="10"'),
     );
   for (const point of points)
     if (Number.isFinite(point.x) && Number.isFinite(point.y))
