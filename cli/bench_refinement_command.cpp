@@ -103,6 +103,7 @@ Json result_json(const Contestant& contestant, const ContestantResult& result) {
                  {"surface_m", result.errors.surface_rms},
                  {"surface_95_m", result.errors.surface_95},
                  {"bend_per_m", result.errors.bend_distribution},
+                 {"bend_over_time_per_m", result.bend_over_time},
                  {"bend_of_regions_per_m", result.errors.bend_regions}}},
                {"rms_stretch", result.rms_stretch},
                {"largest_stretch", result.largest_stretch},

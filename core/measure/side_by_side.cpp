@@ -224,6 +224,7 @@ std::vector<ContestantResult> SideBySide::results() const {
     const Scene& scene = run->cloth.is_adaptive() ? reference.entry.scene : run->entry.scene;
     const RunComparison comparison(scene, reference.entry.scene);
     results.back().errors = mean_errors(comparison, run->samples, reference.samples);
+    results.back().bend_over_time = comparison.bend_over_time(run->samples, reference.samples);
   }
   return results;
 }

@@ -50,15 +50,16 @@ struct ContestantResult {
   int n_vertices = 0;  ///< of an adaptive mesh the mean over all frames
   SolveReport report;  ///< ok, or what ended the run; residual the largest, iterations the sum
   int n_frames = 0;    ///< whole ones
-  std::vector<double> frame_ms;                ///< by the clock, refinement included
-  std::array<double, kStageCount> parts_ms{};  ///< of a frame, mean
-  std::vector<double> refinement_ms;           ///< of each frame; empty unless adaptive
-  RunErrors errors;                            ///< against the first contestant, means over times
-  double rms_stretch = 0;                      ///< mean over the frames that are compared
-  double largest_stretch = 0;                  ///< of all frames
-  Insides all_inside;                          ///< of all frames
-  Insides unpinned_inside;                     ///< of the vertices that no pin takes along
-  std::optional<FitSummary> fit;               ///< on a mesh of a plan with limits
+  std::vector<double> frame_ms;                 ///< by the clock, refinement included
+  std::array<double, kStageCount> parts_ms{};   ///< of a frame, mean
+  std::vector<double> refinement_ms;            ///< of each frame; empty unless adaptive
+  RunErrors errors;                             ///< against the first contestant, means over times
+  double bend_over_time = RunErrors::kUnknown;  ///< see RunComparison [1/m]
+  double rms_stretch = 0;                       ///< mean over the frames that are compared
+  double largest_stretch = 0;                   ///< of all frames
+  Insides all_inside;                           ///< of all frames
+  Insides unpinned_inside;                      ///< of the vertices that no pin takes along
+  std::optional<FitSummary> fit;                ///< on a mesh of a plan with limits
 };
 
 /// Runs that take turns frame by frame, so that a change of the machine's speed meets all alike.

@@ -89,6 +89,18 @@ TEST_CASE("run_comparison: bending between meshes of different bases is that of 
   CHECK(errors.bend_distribution == Approx(0.5).epsilon(0.02));
 }
 
+TEST_CASE("run_comparison: over all times, bends that trade places are the same", "[measure]") {
+  auto run = bent_run(2, 0.5, Vec3::Zero());
+  run[0].positions = bent_run(2, 0.2, Vec3::Zero())[0].positions;
+  auto reference = run;
+  std::swap(reference[0].positions, reference[1].positions);
+  const RunComparison comparison(sheet_scene(2), 2);
+  CHECK(comparison.errors(run, reference).bend_distribution == Approx(0.3).epsilon(0.02));
+  CHECK(comparison.bend_over_time(run, reference) < 1e-9);
+  const auto flat = bent_run(2, 0, Vec3::Zero());
+  CHECK(comparison.bend_over_time(run, flat) == Approx(0.35).epsilon(0.02));
+}
+
 TEST_CASE("run_comparison: particles have places alone", "[measure]") {
   InlineCloth cloth;
   cloth.positions = Positions::Random(3, 4);
