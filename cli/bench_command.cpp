@@ -229,13 +229,16 @@ Outcome bench_reference(Arguments arguments) {
 }  // namespace
 
 Outcome bench_command(Arguments arguments) {
-  const std::string kind = arguments.first_word("what to measure: run, reference or deform");
+  const std::string kind =
+      arguments.first_word("what to measure: run, reference, deform, plans or together");
   arguments.flag("--json");  // its only form
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
   if (kind == "deform") return bench_deform(std::move(arguments));
-  throw InputError("bench",
-                   "expected run, reference or deform after it, got " + abbreviated(Json(kind)));
+  if (kind == "plans") return bench_plans(std::move(arguments));
+  if (kind == "together") return bench_together(std::move(arguments));
+  throw InputError("bench", "expected run, reference, deform, plans or together after it, got " +
+                                abbreviated(Json(kind)));
 }
 
 }  // namespace pleat

@@ -16,6 +16,8 @@ Outcome reference_command(Arguments arguments);
 Outcome refine_command(Arguments arguments);
 Outcome bench_command(Arguments arguments);
 Outcome deform_command(Arguments arguments);
-Outcome bench_deform(Arguments arguments);  ///< bench deform
+Outcome bench_deform(Arguments arguments);    ///< bench deform
+Outcome bench_plans(Arguments arguments);     ///< bench plans
+Outcome bench_together(Arguments arguments);  ///< bench together
 
 }  // namespace pleat

@@ -77,6 +77,13 @@ pleat bench deform SCENE.json     what the shape of least energy costs
   --drag N               then of a hand that takes the handles there in N moves
   --against OTHER.json   the distance to that shape, with the same fabric and form
   --vertices             how much each vertex has of the bending
+pleat bench plans SCENE.json      plans that one example run leads to, and what they cost
+  --demand X,Y --vertices N,M  a plan each;  --patterns N  --cap N  --from S  as of refine
+pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in turn
+  --with A.json,B.json   the others, whose errors are against the first
+  --adaptive K           one more, split anew in every frame where the first's base cloth bends more
+                         than K [1/m]
+  --from S               of what is timed and compared (default: half);  --every N  frames compared
 pleat help | --version
 
 Changes to the scene, for every command but deform, which takes --fabrics and --json too:

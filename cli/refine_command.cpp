@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kSlice = 0.1;         // [s] between reports of progress
 constexpr int kUsualFineLevel = 2;     // of an example, where neither it nor --level says one
-constexpr double kSettlingTime = 1.0;  // [s] after a figure has begun to move as it will
 
 /// The option that sets what the planner names.
 constexpr std::pair<const char*, const char*> kOptions[] = {{"detail demand", "--demand"},
@@ -33,11 +32,6 @@ PlanRecipe take_recipe(Arguments& arguments) {
   recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
   recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   return recipe;
-}
-
-/// Without a time of one's own, what is analysed begins when the cloth has settled into the motion.
-double settled_time(const Scene& scene) {
-  return scene.figure ? scene.figure->playback.blend_time + kSettlingTime : 0;
 }
 
 /// The scene, and where else what is refused comes from.

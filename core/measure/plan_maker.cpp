@@ -47,6 +47,11 @@ std::string description(const Scene& scene) {
 
 }  // namespace
 
+double settled_time(const Scene& scene) {
+  constexpr double kSettling = 1.0;  // [s] after a figure has begun to move as it will
+  return scene.figure ? scene.figure->playback.blend_time + kSettling : 0;
+}
+
 PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)
     : scenes_(std::move(examples)), recipe_(recipe) {
   PLEAT_CHECK(!scenes_.empty() && recipe.frame_time > 0, "a plan has an example with frames");
@@ -85,13 +90,13 @@ void PlanMaker::end_example() {
   examples_.push_back({scene.name, features, bend_patterns(features, recipe_.patterns)});
 }
 
-void PlanMaker::make_plan() {
-  plan_ = refinement_plan(base_, fine_, examples_, recipe_.plan);
-  ExampleEnvelope envelope(planned_mesh(base_, plan_), fine_, plan_);
+RefinementPlan PlanMaker::plan_for(const PlanOptions& options) const {
+  PLEAT_CHECK(examples_.size() == scenes_.size(), "a plan is made of whole examples");
+  RefinementPlan plan = refinement_plan(base_, fine_, examples_, options);
+  ExampleEnvelope envelope(planned_mesh(base_, plan), fine_, plan);
   for (const Positions& frame : frames_) envelope.add(frame);
-  plan_.curvature_limits = envelope.limits();
-  cost_.n_frames = static_cast<int>(frames_.size());
-  cost_.megabytes = 24e-6 * static_cast<double>(fine_.n_vertices()) * cost_.n_frames;
+  plan.curvature_limits = envelope.limits();
+  return plan;
 }
 
 void PlanMaker::advance(double budget) {
@@ -106,7 +111,9 @@ void PlanMaker::advance(double budget) {
     begin_example();
   } else {
     run_.reset();
-    make_plan();
+    plan_ = plan_for(recipe_.plan);
+    cost_.n_frames = static_cast<int>(frames_.size());
+    cost_.megabytes = 24e-6 * static_cast<double>(fine_.n_vertices()) * cost_.n_frames;
     done_ = true;
   }
   cost_.planning_seconds += planning.elapsed();

@@ -25,6 +25,9 @@ struct PlanCost {
   double frame_time = 0;        ///< [s]
 };
 
+/// When cloth has settled into the scene's motion [s]: a while after a figure moves as it will.
+double settled_time(const Scene& scene);
+
 /// Runs examples on their fine mesh and plans from what is seen there, in slices.
 class PlanMaker {
  public:
@@ -42,10 +45,12 @@ class PlanMaker {
   const RefinementPlan& plan() const { return plan_; }  ///< once done
   const PlanCost& cost() const { return cost_; }
 
+  /// Another plan from the same frames, once done. Throws InputError as refinement_plan does.
+  RefinementPlan plan_for(const PlanOptions& options) const;
+
  private:
   void begin_example();
   void end_example();
-  void make_plan();
 
   std::vector<Scene> scenes_;
   PlanRecipe recipe_;

@@ -111,6 +111,24 @@ RunErrors RunComparison::errors(std::span<const Sample> run,
   return errors;
 }
 
+double RunComparison::bend_over_time(std::span<const Sample> run,
+                                     std::span<const Sample> reference) const {
+  check_times(run, reference);
+  if (!bend_) return RunErrors::kUnknown;
+  const Eigen::Index n = bend_->areas().size();
+  const auto n_times = static_cast<Eigen::Index>(run.size());
+  Eigen::VectorXd own(n * n_times);
+  Eigen::VectorXd theirs(n * n_times);
+  for (Eigen::Index s = 0; s < n_times; ++s) {
+    const auto k = static_cast<std::size_t>(s);
+    own.segment(s * n, n) =
+        bend_->curvatures(on_finer_mesh(at_common_vertices(run[k].positions), own_is_finer_));
+    theirs.segment(s * n, n) =
+        bend_->curvatures(on_finer_mesh(reference[k].positions, !own_is_finer_));
+  }
+  return wasserstein_distance(own, theirs, bend_->areas().replicate(n_times, 1));
+}
+
 std::vector<double> sample_distances(const Scene& scene, std::span<const Sample> run,
                                      std::span<const Sample> reference) {
   PLEAT_CHECK(!run.empty() && !reference.empty(), "two runs have samples to compare");

@@ -42,6 +42,11 @@ class RunComparison {
   /// Throws ContractError unless both have samples at the same times.
   RunErrors errors(std::span<const Sample> run, std::span<const Sample> reference) const;
 
+  /// Wasserstein-1 distance between the distributions of curvature over all of the times together
+  /// [1/m]: what differs from time to time in two runs of one kind averages out. NaN where
+  /// curvature is unknown. Throws as errors.
+  double bend_over_time(std::span<const Sample> run, std::span<const Sample> reference) const;
+
  private:
   Positions at_common_vertices(const Positions& own) const;
   Positions on_finer_mesh(const Positions& positions, bool is_finer) const;

@@ -19,17 +19,6 @@ VertexGroup refined(const VertexGroup& base, const QuadMesh& quads) {
   return group;
 }
 
-RestCloth rest_quads(const Scene& scene, QuadMesh quads) {
-  RestCloth cloth;
-  cloth.mesh = quads.triangle_mesh();
-  cloth.rest_coordinates = quads.rest_coordinates();
-  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
-    for (const VertexGroup& group : garment->garment.groups)
-      cloth.groups.push_back(refined(group, quads));
-  cloth.quads = std::move(quads);
-  return cloth;
-}
-
 RestCloth rest_mesh(const MeshCloth& base, int level) {
   RestCloth cloth;
   std::vector<std::array<VertexId, 2>> middles;
@@ -93,18 +82,29 @@ std::optional<QuadMesh> base_quads(const Scene& scene) {
 
 RestCloth rest_cloth(const Scene& scene) {
   if (!scene.plan) return rest_cloth(scene, scene.level);
-  return rest_quads(scene, planned_mesh(*base_quads(scene), *scene.plan));
+  return rest_cloth(scene, planned_mesh(*base_quads(scene), *scene.plan));
 }
 
 RestCloth rest_cloth(const Scene& scene, int level) {
   if (std::optional<QuadMesh> quads = base_quads(scene)) {
     quads->refine_uniformly(level);
-    return rest_quads(scene, std::move(*quads));
+    return rest_cloth(scene, std::move(*quads));
   }
   if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) return rest_mesh(*mesh, level);
   const auto& particles = std::get<InlineCloth>(scene.cloth);
   RestCloth cloth;
   cloth.mesh = {particles.positions, particles.triangles, {}};
+  return cloth;
+}
+
+RestCloth rest_cloth(const Scene& scene, QuadMesh quads) {
+  RestCloth cloth;
+  cloth.mesh = quads.triangle_mesh();
+  cloth.rest_coordinates = quads.rest_coordinates();
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+    for (const VertexGroup& group : garment->garment.groups)
+      cloth.groups.push_back(refined(group, quads));
+  cloth.quads = std::move(quads);
   return cloth;
 }
 

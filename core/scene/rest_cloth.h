@@ -24,6 +24,9 @@ RestCloth rest_cloth(const Scene& scene);
 /// Refined uniformly, to a level that check_level lets pass.
 RestCloth rest_cloth(const Scene& scene, int level);
 
+/// On quads that refine its base in any way.
+RestCloth rest_cloth(const Scene& scene, QuadMesh quads);
+
 /// Rest area of each vertex [m^2]; particles count by their mass.
 Eigen::VectorXd rest_areas(const Scene& scene, const RestCloth& cloth);
 

@@ -45,23 +45,25 @@ export function described(rows) {
   return `errors against ${references.join('; ')}\n\n${table(rows)}`;
 }
 
-const usage = (name, purpose, parts) => `./pleat bench ${name}   ${purpose}
+const usage = (name, purpose, parts, more) => `./pleat bench ${name}   ${purpose}
   --only PART,...   of ${parts.join(', ')} (default: all)
   --repeat N        runs of each contestant, in turn (default 5)
-  --json FILE       write the rows as JSON lines
+${more.map(({ usage: line }) => `  ${line}\n`).join('')}  --json FILE       write the rows as JSON lines
   --check           exit status 1 when a goal is short
 Exit status: 0 done, 1 a goal is short (with --check), 2 bad input.`;
 
 /**
  * Runs the parts that the command line asks for and prints what they found, goals at the end.
  *
- * parts: {name: async ({repeat, scale}) => {rows, goals, text}}; bounds in ms times `scale` hold
- * here. Without a text the rows are told as `table` does.
+ * parts: {name: async ({repeat, scale, options}) => {rows, goals, text}}; bounds in ms times `scale`
+ * hold here. Without a text the rows are told as `table` does.
+ * more: [{name, type, usage}], options of this bench alone
  */
-export function runParts(bench, purpose, parts) {
+export function runParts(bench, purpose, parts, more = []) {
   return runBench(bench, async (words) => {
     const names = Object.keys(parts);
-    const options = readOptions(words, usage(bench, purpose, names), {
+    const options = readOptions(words, usage(bench, purpose, names, more), {
+      ...Object.fromEntries(more.map(({ name, type }) => [name, { type }])),
       only: { type: 'string', default: names.join() },
       repeat: { type: 'string', default: '5' },
       json: { type: 'string' },
@@ -75,7 +77,7 @@ export function runParts(bench, purpose, parts) {
     const rows = [];
     const goals = [];
     for (const name of wanted) {
-      const part = await parts[name]({ repeat, scale });
+      const part = await parts[name]({ repeat, scale, options });
       if (process.stderr.isTTY) tell('');
       console.log(`${name}: ${part.text ?? described(part.rows)}\n`);
       rows.push(...part.rows);

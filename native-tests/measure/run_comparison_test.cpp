@@ -62,6 +62,45 @@ TEST_CASE("run_comparison: bending is compared whichever run is finer", "[measur
   CHECK(errors.bend_regions == Approx(0.5).epsilon(0.02));
 }
 
+TEST_CASE("run_comparison: a shift is seen between meshes of different bases", "[measure]") {
+  const double shift = GENERATE(0.0, 0.002, 0.07);
+  CAPTURE(shift);
+  const Scene own = released_sheet_scene(5, "fine cotton");
+  const Scene reference = sheet_scene(1);
+  const Positions rest = rest_cloth(own).mesh.rest_positions;
+  const std::vector<Sample> run{{1, rest.colwise() + Vec3(0, shift, 0), {}}};
+  const std::vector<Sample> right{{1, rest_cloth(reference).mesh.rest_positions, {}}};
+  const RunErrors errors = RunComparison(own, reference).errors(run, right);
+  CHECK(errors.position == Approx(shift).margin(1e-12));
+  CHECK(errors.surface_rms == Approx(shift).margin(1e-12));
+  CHECK(errors.surface_95 == Approx(shift).margin(1e-12));
+  CHECK(errors.bend_distribution < 1e-9);
+}
+
+TEST_CASE("run_comparison: bending between meshes of different bases is that of the cylinder",
+          "[measure]") {
+  Scene own = released_sheet_scene(5, "fine cotton");
+  own.level = 2;
+  const std::vector<Sample> flat{{1, rest_cloth(own).mesh.rest_positions, {}}};
+  auto bent = bent_run(2, 0.5, Vec3::Zero());
+  bent.resize(1);
+  bent[0].time = 1;
+  const RunErrors errors = RunComparison(own, sheet_scene(2)).errors(flat, bent);
+  CHECK(errors.bend_distribution == Approx(0.5).epsilon(0.02));
+}
+
+TEST_CASE("run_comparison: over all times, bends that trade places are the same", "[measure]") {
+  auto run = bent_run(2, 0.5, Vec3::Zero());
+  run[0].positions = bent_run(2, 0.2, Vec3::Zero())[0].positions;
+  auto reference = run;
+  std::swap(reference[0].positions, reference[1].positions);
+  const RunComparison comparison(sheet_scene(2), 2);
+  CHECK(comparison.errors(run, reference).bend_distribution == Approx(0.3).epsilon(0.02));
+  CHECK(comparison.bend_over_time(run, reference) < 1e-9);
+  const auto flat = bent_run(2, 0, Vec3::Zero());
+  CHECK(comparison.bend_over_time(run, flat) == Approx(0.35).epsilon(0.02));
+}
+
 TEST_CASE("run_comparison: particles have places alone", "[measure]") {
   InlineCloth cloth;
   cloth.positions = Positions::Random(3, 4);

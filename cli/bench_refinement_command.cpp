@@ -1,0 +1,183 @@
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/scene_input.h"
+#include "core/base/check.h"
+#include "core/measure/core_version.h"
+#include "core/measure/plan_maker.h"
+#include "core/measure/platform.h"
+#include "core/measure/side_by_side.h"
+#include "core/scene/method_section.h"
+#include "core/scene/plan_file.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kSlice = 0.1;  // [s] between reports of progress
+
+std::optional<double> take_number(Arguments& arguments, const char* option) {
+  const auto text = arguments.text(option);
+  if (!text) return std::nullopt;
+  return parse_positive_number(*text, option);
+}
+
+std::vector<PlanOptions> take_plan_options(Arguments& arguments) {
+  std::vector<PlanOptions> all;
+  const auto cap = arguments.whole_number("--cap", 1, kMaxLevel);
+  for (const std::string& demand : arguments.list("--demand"))
+    all.push_back({demand == "0" ? 0 : parse_positive_number(demand, "--demand"), {}, cap});
+  for (const std::string& count : arguments.list("--vertices"))
+    all.push_back({PlanOptions{}.demand,
+                   parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices)),
+                   cap});
+  if (all.empty()) throw InputError("--demand", "expected this or --vertices, got neither");
+  return all;
+}
+
+Json plans_json(const PlanMaker& maker, const std::vector<PlanOptions>& options) {
+  Json plans = Json::array();
+  for (const PlanOptions& wanted : options) {
+    const Stopwatch watch;
+    const RefinementPlan plan = maker.plan_for(wanted);
+    plans.push_back({{"planning_s", watch.elapsed()}, {"plan", json_plan(plan)}});
+  }
+  return plans;
+}
+
+Outcome print_plans(const Scene& scene, const PlanRecipe& recipe,
+                    const std::vector<PlanOptions>& options) {
+  PlanMaker maker({scene}, recipe);
+  Progress progress;
+  while (!maker.done()) {
+    maker.advance(kSlice);
+    progress.show(maker.progress(), scene.name);
+  }
+  const PlanCost& cost = maker.cost();
+  Json json = {{"scene", scene.name},
+               {"n_fine_vertices", rest_cloth(scene).mesh.n_vertices()},
+               {"example_s", cost.example_seconds},
+               {"planning_s", cost.planning_seconds},
+               {"kept_bytes", 1e6 * cost.megabytes},
+               {"n_frames", cost.n_frames},
+               {"frame_s", cost.frame_time},
+               {"plans", plans_json(maker, options)},
+               {"core", core_version()}};
+  if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
+  std::printf("%s\n", json.dump().c_str());
+  return Outcome::ok;
+}
+
+Json parts_json(const std::array<double, kStageCount>& parts_ms) {
+  Json json = Json::object();
+  for (int s = 0; s < kStageCount; ++s)
+    json[name(static_cast<Stage>(s))] = parts_ms[static_cast<std::size_t>(s)];
+  return json;
+}
+
+Json fit_json(const FitSummary& fit) {
+  return {{"share_outside", fit.outside},
+          {"worst_share", fit.last.worst_share},
+          {"n_frames", fit.last.n_frames},
+          {"first_fired", fit.last.first_fired ? Json(*fit.last.first_fired) : Json()}};
+}
+
+Json insides_json(const Insides& inside) {
+  return {{"n_frames", inside.n_frames}, {"most", inside.most}, {"deepest_m", inside.deepest}};
+}
+
+Json result_json(const Contestant& contestant, const ContestantResult& result) {
+  const Scene& scene = contestant.scene;
+  Json json = {{"scene", scene.name},
+               {"method", json_method(scene.method)},
+               {"n_vertices", result.n_vertices},
+               {"status", name(result.report.status)},
+               {"message", result.report.message},
+               {"residual", result.report.relative_residual},
+               {"n_frames", result.n_frames},
+               {"frame_ms", result.frame_ms},
+               {"parts_ms", parts_json(result.parts_ms)},
+               {"refinement_ms", result.refinement_ms},
+               {"errors",
+                {{"position_m", result.errors.position},
+                 {"surface_m", result.errors.surface_rms},
+                 {"surface_95_m", result.errors.surface_95},
+                 {"bend_per_m", result.errors.bend_distribution},
+                 {"bend_over_time_per_m", result.bend_over_time},
+                 {"bend_of_regions_per_m", result.errors.bend_regions}}},
+               {"rms_stretch", result.rms_stretch},
+               {"largest_stretch", result.largest_stretch},
+               {"inside", insides_json(result.all_inside)},
+               {"unpinned_inside", insides_json(result.unpinned_inside)}};
+  if (result.fit) json["fit"] = fit_json(*result.fit);
+  if (contestant.adaptive) json["split_curvature_per_m"] = contestant.adaptive->split_curvature;
+  return json;
+}
+
+Outcome print_together(const std::vector<Contestant>& contestants, const FrameOptions& options) {
+  SideBySide runs(contestants, options);
+  {
+    Progress progress;
+    while (!runs.done()) {
+      runs.advance();
+      progress.show(runs.progress(), contestants.front().scene.name);
+    }
+  }
+  const std::vector<ContestantResult> results = runs.results();
+  Json rows = Json::array();
+  Outcome outcome = Outcome::ok;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    rows.push_back(result_json(contestants[i], results[i]));
+    if (results[i].report.ends_run()) outcome = Outcome::check_failed;
+  }
+  Json json = {{"runs", rows},
+               {"frame_s", options.frame_time},
+               {"duration_s", options.duration},
+               {"begin_s", options.begin},
+               {"target", build_target()},
+               {"core", core_version()}};
+  if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
+  std::printf("%s\n", json.dump().c_str());
+  return outcome;
+}
+
+}  // namespace
+
+Outcome bench_plans(Arguments arguments) {
+  const std::vector<PlanOptions> options = take_plan_options(arguments);
+  PlanRecipe recipe;
+  recipe.plan = options.front();
+  if (const auto n = arguments.whole_number("--patterns", 1, kMaxPatterns))
+    recipe.patterns.n_patterns = *n;
+  const auto begin = take_number(arguments, "--from");
+  const SceneInput input = take_scene(arguments);
+  arguments.finish();
+  recipe.begin = begin.value_or(settled_time(input.scene));
+  return with_source_named(input, [&] { return print_plans(input.scene, recipe, options); });
+}
+
+Outcome bench_together(Arguments arguments) {
+  FrameOptions options;
+  const auto begin = take_number(arguments, "--from");
+  const auto split_curvature = take_number(arguments, "--adaptive");
+  if (const auto n = arguments.whole_number("--every", 1, 1'000'000)) options.error_every = *n;
+  const std::vector<std::string> others = arguments.list("--with");
+  const FabricLibrary fabrics = take_fabrics(arguments);
+  const SceneChanges changes = take_scene_changes(arguments);
+  const std::string file = arguments.word("a scene, SCENE.json");
+  arguments.finish();
+  std::vector<SceneInput> inputs{read_scene_input(file, changes, fabrics)};
+  for (const std::string& other : others)
+    inputs.push_back(read_scene_input(other, changes, fabrics));
+  const Scene& first = inputs.front().scene;
+  options.duration = first.duration;
+  options.begin = begin.value_or(first.duration / 2);
+  options.settled = settled_time(first);
+  std::vector<Contestant> contestants;
+  for (const SceneInput& input : inputs) contestants.push_back({input.scene, {}});
+  if (split_curvature)
+    contestants.push_back({first, DynamicOptions{*split_curvature, first.level}});
+  return with_source_named(inputs.front(), [&] { return print_together(contestants, options); });
+}
+
+}  // namespace pleat

@@ -1,0 +1,144 @@
+// Rows of runs on meshes of one garment, their table, and what was promised of them.
+import { goal, markdown, mean, median, short } from './bench-rows.mjs';
+
+/** Bounds of the share of vertices, by garment. */
+export const kMostVertices = { skirt: 1 / 3, trousers: 1 / 4 };
+const kMostTime = 0.3;
+const kTimePerVertex = 1.15;
+
+/** A row of one run: times of frames of 1/30 s, errors against the first run. */
+export function runRow(label, run, { garment, fine, commit, duration }) {
+  const ms = median(run.frame_ms.length ? run.frame_ms : [Number.NaN]);
+  const refinement = run.refinement_ms.length ? mean(run.refinement_ms) : 0;
+  const contact = run.parts_ms.contact;
+  return {
+    label,
+    garment,
+    scene: run.scene,
+    method: run.method,
+    n_vertices: run.n_vertices,
+    ms_per_frame: ms,
+    dynamics_ms: mean(run.frame_ms) - contact - refinement,
+    contact_ms: contact,
+    refinement_ms: refinement,
+    n_timed_frames: run.frame_ms.length,
+    errors: run.errors,
+    rms_stretch: run.rms_stretch,
+    largest_stretch: run.largest_stretch,
+    inside: run.inside,
+    unpinned_inside: run.unpinned_inside,
+    fit: run.fit ?? null,
+    split_curvature_per_m: run.split_curvature_per_m ?? null,
+    reference: { id: fine, description: `the fine mesh's own run of ${duration} s` },
+    status: run.status,
+    message: run.message,
+    target: 'native',
+    commit,
+  };
+}
+
+const milli = (value) => short(1e3 * (value ?? Number.NaN));
+
+export function runTable(rows) {
+  const [fine] = rows;
+  const head = [
+    'mesh',
+    'vertices',
+    '% of fine',
+    'ms/frame',
+    'dynamics',
+    'contact',
+    'refinement',
+    'of fine',
+    'bend 1/m',
+    'over time',
+    'surface mm',
+    'position mm',
+    'rms stretch %',
+    'frames with a vertex inside',
+    'status',
+  ];
+  const lines = rows.map((row) => [
+    row.label,
+    row.n_vertices,
+    short((100 * row.n_vertices) / fine.n_vertices),
+    short(row.ms_per_frame),
+    short(row.dynamics_ms),
+    short(row.contact_ms),
+    short(row.refinement_ms),
+    short(row.ms_per_frame / fine.ms_per_frame),
+    short(row.errors.bend_per_m ?? Number.NaN),
+    short(row.errors.bend_over_time_per_m ?? Number.NaN),
+    milli(row.errors.surface_m),
+    milli(row.errors.position_m),
+    short(100 * row.rms_stretch),
+    `${row.inside.n_frames} (unpinned ${row.unpinned_inside.n_frames})`,
+    row.status,
+  ]);
+  return markdown(head, lines);
+}
+
+/** Frames until the example run and the plan have been saved again. */
+export function framesToPay(plans, fine, multi) {
+  const saved = fine.ms_per_frame - multi.ms_per_frame;
+  return saved > 0 ? (1e3 * (plans.example_s + plans.planning_s)) / saved : Number.NaN;
+}
+
+/** Of the comparison on the test motion. */
+export function comparisonGoals(garment, { fine, multi, same }) {
+  const share = multi.n_vertices / fine.n_vertices;
+  const rows = [fine, multi, same];
+  const ratio = (key) => multi.errors[key] / same.errors[key];
+  const at = (name, value, bound, of = rows) =>
+    goal(`${garment}_${name}`, value, 'at-most', bound, of);
+  return [
+    at('vertices_share', share, kMostVertices[garment]),
+    at(
+      'time_share',
+      multi.ms_per_frame / fine.ms_per_frame,
+      Math.min(kMostTime, kTimePerVertex * share),
+    ),
+    at('bend_error_to_uniform', ratio('bend_per_m'), 0.6),
+    at('surface_error_to_uniform', ratio('surface_m'), 0.8),
+    at('refinement_ms_per_frame', multi.refinement_ms, 0, [multi]),
+  ];
+}
+
+const firings = ({ fit }) => (fit.first_fired === null ? 0 : 1);
+
+/** Does the monitor tell the example's kind of motion from others? */
+export function monitorGoals(garment, { example, test, squat }) {
+  return [
+    goal(
+      `${garment}_monitor_outside_percent_on_the_example`,
+      100 * example.fit.share_outside,
+      'at-most',
+      1,
+      [example],
+    ),
+    goal(`${garment}_monitor_fires_on_the_test_walk`, firings(test), 'at-most', 0, [test]),
+    goal(`${garment}_monitor_fires_on_the_squat`, firings(squat), 'at-least', 1, [squat]),
+  ];
+}
+
+/** No vertex inside of the mannequin, in any frame of these rows. */
+export function insideGoals(garment, rows) {
+  return rows.map((row) =>
+    goal(`${garment}_frames_with_a_vertex_inside_${row.label}`, row.inside.n_frames, 'at-most', 0, [
+      row,
+    ]),
+  );
+}
+
+export function monitorTable(rows) {
+  const head = ['motion', 'mesh', 'faces outside %', 'worst frame %', 'fires after', 'status'];
+  const lines = rows.map(({ label, n_vertices, fit, status }) => [
+    label,
+    n_vertices,
+    short(100 * fit.share_outside),
+    short(100 * fit.worst_share),
+    fit.first_fired === null ? 'never' : `${fit.first_fired + 1} frames`,
+    status,
+  ]);
+  return markdown(head, lines);
+}

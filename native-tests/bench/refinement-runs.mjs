@@ -1,0 +1,112 @@
+// Scenes of garments, and the command's runs of them. An answer is kept in build/refinement, so
+// that a bench that was stopped goes on where it was; another core or another scene asks anew.
+import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+
+import { BadInput } from './bench-options.mjs';
+import { tell } from './bench-parts.mjs';
+import { command, root } from './contestants.mjs';
+
+const kMaxOutput = 2 ** 30; // [bytes]
+const kFolder = join(root, 'build', 'refinement');
+
+const readJson = (file) => JSON.parse(readFileSync(file, 'utf8'));
+
+/** A garment's scene, its motion written out; `method` has values that take the place of its own. */
+export function garmentScene(garment, motion, method = {}) {
+  const file = join(root, 'assets', 'scenes', 'garments', `${garment}_${motion}.json`);
+  const { $schema, ...scene } = readJson(file);
+  return {
+    ...scene,
+    figure: { ...scene.figure, motion: readJson(join(dirname(file), scene.figure.motion)) },
+    method: { ...scene.method, ...method },
+  };
+}
+
+/** The words with the files of scenes in the place of scenes. */
+function withFiles(words, work) {
+  const folder = join(tmpdir(), `pleat-refinement-${process.pid}`);
+  mkdirSync(folder, { recursive: true });
+  try {
+    let count = 0;
+    const file = (scene) => {
+      const path = join(folder, `${count++}.json`);
+      writeFileSync(path, JSON.stringify(scene));
+      return path;
+    };
+    const text = (word) =>
+      Array.isArray(word) ? word.map(text).join() : typeof word === 'object' ? file(word) : word;
+    return work(words.map((word) => String(text(word))));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+/** What the command prints, also where a run ended early (exit status 1). */
+function printed(words) {
+  const options = { encoding: 'utf8', maxBuffer: kMaxOutput, stdio: ['ignore', 'pipe', 'inherit'] };
+  try {
+    return execFileSync(command, words, options);
+  } catch (error) {
+    if (error.status === 2) throw new BadInput(''); // the command has said why
+    if (error.status === 1 && error.stdout) return error.stdout;
+    throw error;
+  }
+}
+
+/** The command's answer in JSON; words are texts, numbers, scenes or lists of scenes. */
+export function answer(...words) {
+  const version = printed(['--version']);
+  const name = createHash('sha256')
+    .update(JSON.stringify([version, words]))
+    .digest('hex')
+    .slice(0, 24);
+  const file = join(kFolder, `${name}.json`);
+  if (existsSync(file)) return readJson(file);
+  const text = withFiles(words, printed);
+  mkdirSync(kFolder, { recursive: true });
+  writeFileSync(`${file}.part`, text);
+  renameSync(`${file}.part`, file);
+  return JSON.parse(text);
+}
+
+/** Vertices of a scene's cloth; null where its measures are refused. */
+function vertexCount(scene) {
+  const one = { ...scene, duration_s: scene.method.step_s };
+  try {
+    return withFiles(['run', one, '--json'], (words) => {
+      const text = execFileSync(command, words, {
+        encoding: 'utf8',
+        stdio: ['ignore', 'pipe', 'pipe'],
+      });
+      return JSON.parse(text).n_vertices;
+    });
+  } catch {
+    return null;
+  }
+}
+
+/** The scene on a uniform mesh of about so many vertices: other columns, and rows to match. */
+export function uniformOfAbout(scene, garment, n) {
+  const measured = (level, columns) => {
+    const cloth = { garment: { [garment]: { ...scene.cloth.garment[garment], columns } } };
+    return { ...scene, cloth, refinement: { level } };
+  };
+  let best = null;
+  for (const level of [1, 0]) {
+    tell(`${scene.name}: a uniform mesh of about ${n} vertices`);
+    const known = 40; // columns
+    const about = known * Math.sqrt(n / vertexCount(measured(level, known)));
+    for (let columns = 2 * Math.floor(about / 2) - 2; columns <= about + 4; columns += 2) {
+      const candidate = measured(level, columns);
+      const count = vertexCount(candidate);
+      if (count !== null && (!best || Math.abs(count - n) < Math.abs(best.count - n)))
+        best = { count, scene: candidate, columns, level };
+    }
+  }
+  if (!best) throw new Error(`no uniform ${garment} of about ${n} vertices`);
+  return best;
+}

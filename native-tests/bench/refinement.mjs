@@ -1,0 +1,219 @@
+// ./pleat bench refinement (--help tells the options)
+// Garments refined where one example motion bends them, against uniform meshes and against
+// refinement in every frame: vertices, time and error on a motion that the example does not
+// contain; whether the monitor tells motions apart; and that no vertex ends inside of the body.
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { wholeNumber } from './bench-options.mjs';
+import { commit, runParts, tell } from './bench-parts.mjs';
+import { markdown, short } from './bench-rows.mjs';
+import { root } from './contestants.mjs';
+import { savingsFigure } from './refinement-figure.mjs';
+import {
+  comparisonGoals,
+  framesToPay,
+  insideGoals,
+  monitorGoals,
+  monitorTable,
+  runRow,
+  runTable,
+} from './refinement-goals.mjs';
+import { answer, garmentScene, uniformOfAbout } from './refinement-runs.mjs';
+
+const kFineLevel = 2;
+const kDuration = 10; // [s], of which the second half is timed and compared
+const kQuickDuration = 4; // [s]
+const kErrorEvery = 5; // frames
+const kDemands = [0, 1, 2, 3, 4]; // of the figure
+const kFigureFile = join('docs', 'refinement.svg');
+
+/** How each garment's plan in the table is made, and where its mesh of every frame is split. */
+const kRecipes = {
+  skirt: { plan: ['--vertices', 3640], splitCurvature: 20 },
+  trousers: { plan: ['--vertices', 2313], splitCurvature: 30 },
+};
+
+const kMore = [
+  {
+    name: 'method',
+    type: 'string',
+    usage: "--method NAME     of all runs alike, in place of the scenes' own",
+  },
+  { name: 'substeps', type: 'string', usage: '--substeps N      the same' },
+  {
+    name: 'quick',
+    type: 'boolean',
+    usage: `--quick           ${kQuickDuration} s of motion: for trying, no figure`,
+  },
+];
+
+/** What holds for all runs of a bench. */
+function settings(options) {
+  const method = {};
+  if (options.method) method.stepper = options.method;
+  if (options.substeps) method.substeps = wholeNumber('--substeps', options.substeps, 1);
+  return { method, duration: options.quick ? kQuickDuration : kDuration };
+}
+
+const at = (scene, duration, more = {}) => ({ ...scene, duration_s: duration, ...more });
+const uniform = (level) => ({ refinement: { level } });
+const planned = ({ plan }) => ({ refinement: { plan } });
+
+/** How far this run comes apart from its twin is the least that any error can mean. */
+const oneSubstepMore = (scene) => ({
+  ...scene,
+  method: { ...scene.method, substeps: (scene.method.substeps ?? 1) + 1 },
+});
+
+/** Plans of one example run: of the garment's own recipe, then of each detail demand. */
+function plansOf(garment, { method, duration }) {
+  const example = at(garmentScene(garment, 'walk', method), duration, uniform(kFineLevel));
+  tell(`${garment}: example run and plans`);
+  const found = answer(
+    'bench',
+    'plans',
+    example,
+    ...kRecipes[garment].plan,
+    '--demand',
+    kDemands.join(),
+  );
+  const chosen = found.plans.find(({ plan }) => 'vertex_budget' in plan);
+  return { ...found, chosen, demands: found.plans.filter((plan) => plan !== chosen) };
+}
+
+/** All meshes of a garment on the test motion, frame by frame in turn. */
+function compared(garment, plans, { method, duration }) {
+  const test = garmentScene(garment, 'fast_walk', method);
+  const same = uniformOfAbout(test, garment, plans.chosen.plan.vertices);
+  const entries = [
+    ['fine', at(test, duration, uniform(kFineLevel))],
+    ['multi', at(test, duration, planned(plans.chosen))],
+    [`uniform, ${same.columns} columns, level ${same.level}`, at(same.scene, duration)],
+    ['uniform, level 1', at(test, duration, uniform(1))],
+    ['coarse', at(test, duration, uniform(0))],
+    ['fine, one substep more', oneSubstepMore(at(test, duration, uniform(kFineLevel)))],
+    ...plans.demands.map((plan, k) => [`demand ${kDemands[k]}`, at(test, duration, planned(plan))]),
+  ];
+  tell(`${garment}: test walk`);
+  const { runs } = answer(
+    'bench',
+    'together',
+    entries[0][1],
+    '--with',
+    entries.slice(1).map(([, scene]) => scene),
+    '--adaptive',
+    kRecipes[garment].splitCurvature,
+    '--every',
+    kErrorEvery,
+  );
+  const labels = [...entries.map(([label]) => label), 'split in every frame'];
+  const about = { garment, fine: `${garment} fast walk, level ${kFineLevel}`, commit, duration };
+  return runs.map((run, k) => runRow(labels[k], run, about));
+}
+
+/** The planned mesh in other motions. */
+function otherMotions(garment, plans, { method, duration }) {
+  const run = (label, motion, timeScale = 1) => {
+    const scene = at(garmentScene(garment, motion, method), duration, planned(plans.chosen));
+    scene.figure = { ...scene.figure, time_scale: timeScale };
+    tell(`${garment}: ${label}`);
+    const { runs } = answer('bench', 'together', scene, '--every', 1000);
+    const about = { garment, fine: `${garment}, its own`, commit, duration };
+    return runRow(label, runs[0], about);
+  };
+  return {
+    example: run('walk', 'walk'),
+    squat: run('squat', 'squat'),
+    double: run('walk_at_double_speed', 'walk', 2),
+  };
+}
+
+function planText(plans, fine, multi) {
+  const head = ['example s', 'plan s', 'kept MB', 'peak MB', 'frames', 'paid for after frames'];
+  const line = [
+    short(plans.example_s),
+    short(plans.planning_s),
+    short(plans.kept_bytes / 1e6),
+    short(plans.process_peak_memory_bytes / 1e6),
+    plans.n_frames,
+    short(framesToPay(plans, fine, multi)),
+  ];
+  return markdown(head, [line]);
+}
+
+const measured = {};
+
+/** All that is found out about a garment, once. */
+function study(garment, options) {
+  measured[garment] ??= (() => {
+    const set = settings(options);
+    const plans = plansOf(garment, set);
+    const rows = compared(garment, plans, set);
+    return { plans, rows, others: otherMotions(garment, plans, set) };
+  })();
+  return measured[garment];
+}
+
+async function garmentPart(garment, { options }) {
+  const { plans, rows, others } = study(garment, options);
+  const [fine, multi, same] = rows;
+  const test = { ...multi, label: 'test walk' };
+  const walks = [others.example, others.double];
+  return {
+    rows: [...rows, ...Object.values(others)],
+    goals: [
+      ...comparisonGoals(garment, { fine, multi, same }),
+      ...monitorGoals(garment, { ...others, test }),
+      ...insideGoals(garment, walks),
+    ],
+    text: `errors against ${fine.reference.description}, frames of 1/30 s
+
+${runTable(rows)}
+
+${planText(plans, fine, multi)}
+
+${monitorTable([others.example, test, others.squat])}
+
+${runTable([fine, ...Object.values(others)])}`,
+  };
+}
+
+function figurePoints(garment, { rows }) {
+  const [fine, multi, same, level1, coarse, , ...rest] = rows;
+  const point = (kind) => (row) => ({
+    garment,
+    kind,
+    removed: 100 * (1 - row.n_vertices / fine.n_vertices),
+    faster: fine.ms_per_frame / row.ms_per_frame,
+    bend: row.errors.bend_per_m ?? Number.NaN,
+  });
+  return [
+    ...[same, level1, coarse].map(point('uniform')),
+    ...rest.slice(0, kDemands.length).map(point('plan')),
+    point('chosen')(multi),
+  ];
+}
+
+/** Savings against error, for five detail demands. */
+async function figure({ options }) {
+  const studies = ['skirt', 'trousers'].map((garment) => [garment, study(garment, options)]);
+  const points = studies.flatMap(([garment, found]) => figurePoints(garment, found));
+  const notes = studies.map(
+    ([garment, { plans }]) =>
+      `${garment}: ${short(plans.example_s)} s for the example on ${plans.n_fine_vertices} vertices, ${short(plans.planning_s)} s to plan, ${short(plans.kept_bytes / 1e6)} MB of frames kept; demands ${kDemands.join(', ')}`,
+  );
+  if (!options.quick) writeFileSync(join(root, kFigureFile), savingsFigure(points, notes));
+  return { rows: [], goals: [], text: options.quick ? 'not drawn from short runs' : kFigureFile };
+}
+
+await runParts(
+  'refinement',
+  'garments refined where an example bends',
+  {
+    skirt: (wanted) => garmentPart('skirt', wanted),
+    trousers: (wanted) => garmentPart('trousers', wanted),
+    figure,
+  },
+  kMore,
+);
