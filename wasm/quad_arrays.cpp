@@ -8,6 +8,44 @@ namespace {
 
 std::uint32_t number(VertexId v) { return static_cast<std::uint32_t>(v.value); }
 
+/// The corners of a face with the vertices that hang on its edges, in turn; when there is one, it
+/// comes first.
+std::vector<VertexId> outline_of(const QuadMesh& mesh, const QuadFace& face) {
+  std::vector<VertexId> outline;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    outline.push_back(face.corners[k]);
+    const VertexId middle = mesh.middle(face.corners[k], face.corners[(k + 1) % 4]);
+    if (!middle.valid()) continue;
+    first = outline.size();
+    outline.push_back(middle);
+  }
+  std::rotate(outline.begin(), outline.begin() + static_cast<std::ptrdiff_t>(first), outline.end());
+  return outline;
+}
+
+void add_triangles(const QuadMesh& mesh, QuadArrays& arrays) {
+  const std::vector<Triangle> pairs = mesh.triangles();
+  const auto add = [&](const Triangle& t, std::size_t face) {
+    for (const VertexId v : t) arrays.triangles.push_back(number(v));
+    arrays.triangle_faces.push_back(static_cast<std::uint32_t>(face));
+  };
+  std::size_t n = 0;
+  for (const QuadFace& face : mesh.faces()) {
+    if (!face.active()) continue;
+    const std::vector<VertexId> outline = outline_of(mesh, face);
+    if (outline.size() == 4) {
+      add(pairs[2 * n], n);
+      add(pairs[2 * n + 1], n);
+    } else {
+      // From a vertex inside an edge every other one is seen at an angle.
+      for (std::size_t k = 1; k + 1 < outline.size(); ++k)
+        add({outline[0], outline[k], outline[k + 1]}, n);
+    }
+    ++n;
+  }
+}
+
 std::vector<std::uint32_t> edges_of(const QuadMesh& mesh) {
   std::vector<std::array<std::uint32_t, 2>> sides;
   for (const QuadFace& face : mesh.faces())
@@ -47,8 +85,7 @@ std::vector<std::int32_t> parents_of(const QuadMesh& mesh) {
 
 QuadArrays quad_arrays(const QuadMesh& mesh) {
   QuadArrays arrays;
-  for (const Triangle& t : mesh.triangles())
-    for (const VertexId v : t) arrays.triangles.push_back(number(v));
+  add_triangles(mesh, arrays);
   for (const HangingVertex& h : mesh.hanging_vertices()) arrays.hanging.push_back(number(h.vertex));
   arrays.edges = edges_of(mesh);
   arrays.faces = faces_of(mesh);

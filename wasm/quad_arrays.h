@@ -9,8 +9,11 @@ namespace pleat {
 
 /// What is drawn of a mesh of quads, and told of its faces.
 struct QuadArrays {
-  std::vector<std::uint32_t> triangles;  ///< two for each active face, in their order
-  std::vector<std::uint32_t> edges;      ///< pairs of vertices, each once
+  /// Of each active face, in their order: two, or more where vertices hang on its edges, so that
+  /// neighbours share all edges and nothing shines through.
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> triangle_faces;  ///< of each triangle, counted among active faces
+  std::vector<std::uint32_t> edges;           ///< pairs of vertices, each once
   std::vector<std::uint32_t> hanging;
   /// Of each active face: itself, level, parent (or -1), corners.
   std::vector<std::int32_t> faces;

@@ -182,6 +182,7 @@ class GarmentRun {
   double time() const { return time_; }
   val positions() const { return view_of(positions_); }
   val triangles() const { return array(&pleat::QuadArrays::triangles); }
+  val triangle_faces() const { return array(&pleat::QuadArrays::triangle_faces); }
   val edges() const { return array(&pleat::QuadArrays::edges); }
   val hanging() const { return array(&pleat::QuadArrays::hanging); }
   val parents() const { return array(&pleat::QuadArrays::parents); }
@@ -314,6 +315,7 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("time", &GarmentRun::time)
       .function("positions", &GarmentRun::positions)
       .function("triangles", &GarmentRun::triangles)
+      .function("triangleFaces", &GarmentRun::triangle_faces)
       .function("edges", &GarmentRun::edges)
       .function("hanging", &GarmentRun::hanging)
       .function("faces", &GarmentRun::faces)

@@ -78,6 +78,8 @@ export interface GarmentRunHandle {
   time(): number;
   positions(): Float32Array;
   triangles(): Uint32Array;
+  /** The face that each triangle is of, by its place in `faces`. */
+  triangleFaces(): Uint32Array;
   /** Of the quads: pairs of vertices. */
   edges(): Uint32Array;
   hanging(): Uint32Array;
@@ -126,6 +128,7 @@ export const REFINEMENT_METHODS: Record<keyof RefinementModule, string[]> = {
     time: true,
     positions: true,
     triangles: true,
+    triangleFaces: true,
     edges: true,
     hanging: true,
     faces: true,

@@ -39,12 +39,6 @@ const SCENES: Record<GarmentId, Record<MotionId, string>> = {
   },
 };
 
-/** Of the mesh that all others are held against, and that plans go up to. */
-export const FINE_LEVEL = 2;
-
-/** Time between frames [s]. */
-export const FRAME_S = 1 / 30;
-
 /** The files that the scenes name. */
 export const SCENE_FILES: HandedFiles = {
   '../../motions/walk_normal.json': walkNormal,
