@@ -45,12 +45,17 @@ function stand(link: Partial<RefinementLink> = {}, changes: Partial<TrioParts> =
   const meshes: Stand['meshes'] = {};
   const shown: Stand['shown'] = {};
   const questions: ToGarment[] = [];
+  const held: Partial<Record<PaneId, ArrayBuffer>> = {};
   const view = {
     showMesh(pane: PaneId, mesh: GarmentMesh) {
       meshes[pane] = mesh;
     },
     showFrames(frames: ShownFrame[]) {
-      for (const { pane, buffer } of frames) shown[pane] = frameViews(buffer).positions.slice();
+      for (const { pane, buffer } of frames) {
+        expect(buffer).not.toBe(held[pane]); // that is drawn until now
+        held[pane] = buffer;
+        shown[pane] = frameViews(buffer).positions.slice();
+      }
     },
   };
   const trio = createTrio(store, view, {

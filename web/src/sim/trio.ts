@@ -56,7 +56,9 @@ interface PaneRun {
   /** What its worker has loaded, to be told from what is wanted. */
   loaded: string;
   stepS: number;
-  buffer: ArrayBuffer | null;
+  /** Of the shown frame, and the one to be filled next. */
+  shown: ArrayBuffer | null;
+  spare: ArrayBuffer | null;
 }
 
 type Answer<Type> = Extract<FromGarment, { type: Type }>;
@@ -118,7 +120,8 @@ export function createTrio(
     recording: null,
     loaded: '',
     stepS: FRAME_S,
-    buffer: null,
+    shown: null,
+    spare: null,
   }));
   let wanted = 0; // counts loads: what belongs to an earlier one is dropped
   let at = 0; // frame that is shown
@@ -186,7 +189,8 @@ export function createTrio(
     pane.loaded = content;
     pane.recording = loaded.recording;
     pane.stepS = loaded.summary.step_s;
-    pane.buffer = null;
+    pane.shown = null;
+    pane.spare = null;
     view.showMesh(pane.id, loaded.mesh);
     const nVertices = loaded.summary.n_vertices;
     const msPerFrame = loaded.recording?.ms_per_frame ?? null;
@@ -287,8 +291,8 @@ export function createTrio(
     const isOther = pane.id !== 'fine';
     const isSampled = isPreview && isOther && pane.source === 'computed';
     const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
-    const { buffer } = pane;
-    pane.buffer = null;
+    const { spare: buffer } = pane;
+    pane.spare = null;
     return ask<'described'>(
       pane,
       {
@@ -326,7 +330,10 @@ export function createTrio(
       shown.map(({ pane, described }) => ({ pane: pane.id, buffer: described.buffer })),
       answers[0]?.solids ?? null,
     );
-    for (const { pane, described } of shown) pane.buffer = described.buffer;
+    for (const { pane, described } of shown) {
+      pane.spare = pane.shown;
+      pane.shown = described.buffer;
+    }
     store.set({ timeS: at * FRAME_S });
   }
 
