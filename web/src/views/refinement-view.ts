@@ -52,6 +52,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
 
   const messages = element('div');
   const stageBox = element('section', { class: 'stage', 'aria-label': 'Garment on three meshes' });
+  const legendBox = element('div');
   const toolBox = element('section', { class: 'toolbar', 'aria-label': 'Run' });
   const panel = element('aside', { class: 'panel', 'aria-label': 'Refinement' });
   const canvas = element('canvas', {
@@ -61,7 +62,10 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
       'A walking figure in a garment, three times. Space plays, arrows turn the view, a press on a face tells why it is so fine.',
   });
   stageBox.append(canvas);
-  root.replaceChildren(element('div', { class: 'left' }, messages, stageBox, toolBox), panel);
+  root.replaceChildren(
+    element('div', { class: 'left' }, messages, stageBox, legendBox, toolBox),
+    panel,
+  );
 
   function repaint(): void {
     const state = store.get();
@@ -125,7 +129,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
   }
 
   createGarmentBadges(stageBox, store);
-  createGarmentLegend(stageBox, store);
+  createGarmentLegend(legendBox, store);
   watch(store, ['colour', 'ranges', 'plan', 'phase'], repaint);
   watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
   watch(store, ['hanging'], ({ hanging }) => stage?.setHanging(hanging));

@@ -2,7 +2,6 @@
 import { DEMANDS, type RefinementState } from '../../state/refinement-state';
 import { type Store, watch } from '../../state/store';
 import { element, field, setText } from '../element';
-import { digits } from '../quantity';
 import { sourceSentence, vertices } from './garment-words';
 
 /** A slider is not followed more often [ms]: each plan builds a mesh. */
@@ -53,7 +52,7 @@ export function createDetailPanel(
   const progress = element('progress', { 'aria-label': 'Work in progress' });
   const cancel = element('button', { type: 'button', click: actions.cancel }, 'Cancel');
   const work = element('div', { class: 'work' }, doing, progress, cancel);
-  const sayDemand = () => setText(demandValue, `τ = ${digits(demand.valueAsNumber, 2)}`);
+  const sayDemand = () => setText(demandValue, `τ = ${demand.valueAsNumber}`);
   const sayBudget = () => {
     const text = vertices(budget.valueAsNumber);
     setText(budgetValue, text);

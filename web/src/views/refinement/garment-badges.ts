@@ -11,7 +11,9 @@ export function createGarmentBadges(
   const grid = element('div', { class: 'panes garment-panes' });
   parent.append(grid);
   const badges = PANES.map((id) => {
-    const [count, cost, error] = [element('span'), element('span'), element('span')];
+    const count = element('span');
+    const cost = element('span', { class: 'more' });
+    const error = element('span', { class: id === 'fine' ? 'more' : '' });
     const badge = element(
       'p',
       { class: 'pane-badge garment-badge' },

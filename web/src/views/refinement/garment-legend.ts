@@ -38,25 +38,23 @@ export function createGarmentLegend(
 ): () => void {
   const title = element('p', { class: 'legend-title' });
   const keys = element('div');
-  const bar = element('div', { class: 'legend-bar', 'aria-hidden': 'true' });
-  const [low, high] = [element('span', {}, '0'), element('span')];
-  const ends = element('p', { class: 'legend-ends' }, low, high);
+  const bar = element('span', { class: 'legend-bar', 'aria-hidden': 'true' });
+  const high = element('span');
+  const scale = element('p', { class: 'legend-scale' }, element('span', {}, '0'), bar, high);
   bar.style.background = MAGNITUDE_MAP.gradient;
   const legend = element(
     'div',
-    { class: 'legend garment-legend', role: 'group', 'aria-label': 'Colours' },
+    { class: 'garment-legend', role: 'group', 'aria-label': 'Colours' },
     title,
     keys,
-    bar,
-    ends,
+    scale,
   );
   parent.append(legend);
   return watch(store, ['colour', 'ranges', 'plan'], (state) => {
     const { colour, ranges } = state;
     legend.hidden = colour === 'material';
     const isScale = colour === 'curvature' || colour === 'distance';
-    bar.hidden = !isScale;
-    ends.hidden = !isScale;
+    scale.hidden = !isScale;
     keys.hidden = isScale;
     if (colour === 'level') {
       setText(title, 'Level of a face');

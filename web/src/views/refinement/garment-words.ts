@@ -8,7 +8,7 @@ import {
   type PaneId,
   type RefinementState,
 } from '../../state/refinement-state';
-import { digits, milliseconds, percent, smallLength } from '../quantity';
+import { milliseconds, percent, smallLength } from '../quantity';
 
 export const PANE_TITLES: Record<PaneId, string> = {
   coarse: 'Coarse',
@@ -59,7 +59,7 @@ export function noticeSentence({ panes, plan, motion }: RefinementState): string
 
 export function ruleWords({ rule }: PlanStory): string {
   return rule.kind === 'demand'
-    ? `where the patterns at a face’s corners sum to more than ${digits(rule.value, 2)}`
+    ? `where the patterns at a face’s corners sum to more than ${Number(rule.value.toFixed(2))}`
     : `one after another, the most urgent first, up to ${vertices(rule.value)}`;
 }
 
@@ -67,11 +67,11 @@ export function ruleWords({ rule }: PlanStory): string {
 export function storySentences(story: PlanStory): string {
   const { nSplits, nForBalance, patterns } = story;
   const asked = nSplits - nForBalance;
-  const balance =
+  const splits =
     nForBalance === 0
-      ? 'None had to be split for balance.'
-      : `The other ${nForBalance} only keep neighbours within one level of each other.`;
-  return `The example walk sorted the coarse vertices into ${patterns.length} patterns of bending. ${nSplits} faces were split: ${asked} ${ruleWords(story)}. ${balance} A split face asks for one less at each corner before it may be split again.`;
+      ? `${nSplits} faces were split, ${ruleWords(story)}; none only to keep neighbours within one level of each other.`
+      : `${nSplits} faces were split: ${asked} ${ruleWords(story)}, the other ${nForBalance} only to keep neighbours within one level of each other.`;
+  return `The example walk sorted the coarse vertices into ${patterns.length} patterns of bending. ${splits} A split face asks for one less at each corner before it may be split again.`;
 }
 
 export interface FitReading {
