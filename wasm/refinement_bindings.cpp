@@ -12,6 +12,7 @@
 #include "core/base/check.h"
 #include "core/figure/moving_body.h"
 #include "core/measure/error_norms.h"
+#include "core/measure/self_crossings.h"
 #include "core/measure/stage_timer.h"
 #include "core/measure/surface_distance.h"
 #include "core/refinement/fit_monitor.h"
@@ -164,6 +165,22 @@ class GarmentRun {
     });
   }
 
+  /// What is wrong with the shown frame: vertices inside of solids, and where the cloth passes
+  /// through itself.
+  std::string faults() {
+    return guarded([&](val& envelope) {
+      pleat::Penetration inside;
+      if (const auto& contact = running().model().contact)
+        inside = contact->penetration(shown_, time_);
+      envelope.set("n_inside", inside.n_inside);
+      envelope.set("deepest_m", inside.depth);
+      if (!crossings_)
+        crossings_.emplace(running().triangles(), running().rest_positions(),
+                           running().model().hanging);
+      envelope.set("n_crossings", static_cast<double>(crossings_->count(shown_)));
+    });
+  }
+
   /// The solids at the shown time, and where the figure's pelvis is.
   std::string solids() const {
     return guarded([&](val& envelope) {
@@ -227,6 +244,7 @@ class GarmentRun {
     arrays_ = pleat::quad_arrays(mesh());
     curvature_.emplace(mesh());
     fine_.reset();
+    crossings_.reset();
     body_ = scene.figure ? std::make_shared<const pleat::MovingBody>(scene.figure->motion,
                                                                      scene.figure->playback)
                          : nullptr;
@@ -282,6 +300,7 @@ class GarmentRun {
   std::optional<pleat::QuadArrays> arrays_;
   std::optional<pleat::VertexCurvature> curvature_;
   std::optional<pleat::FitMonitor> monitor_;
+  std::optional<pleat::SelfCrossings> crossings_;
   std::optional<pleat::QuadMesh> fine_;
   int fine_level_ = 0;
   Eigen::VectorXd fine_areas_;
@@ -311,6 +330,7 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("look", &GarmentRun::look)
       .function("compare", &GarmentRun::compare)
       .function("compareSurface", &GarmentRun::compare_surface)
+      .function("faults", &GarmentRun::faults)
       .function("solids", &GarmentRun::solids)
       .function("time", &GarmentRun::time)
       .function("positions", &GarmentRun::positions)

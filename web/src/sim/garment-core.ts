@@ -5,6 +5,7 @@ import type { Described, FromGarment, GarmentPost, ToGarment } from './garment-p
 import { FLOATS_PER_VERTEX, frameViews } from './protocol';
 import { type Recording, readRecording } from './recording';
 import type {
+  FaultsAnswer,
   FitAnswer,
   GarmentCosts,
   GarmentRunHandle,
@@ -119,8 +120,9 @@ export function createGarmentCore(
     const given = message.buffer;
     const buffer = given?.byteLength === nBytes ? given : new ArrayBuffer(nBytes);
     const isKnown = fill(owner, message, buffer);
-    const isSought = isCompared && message.wantsSurface;
+    const isSought = isCompared && message.wantsAll;
     const surfaceM = isSought ? of(owner.compareSurface(reference, fineLevel)) : null;
+    const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
     const costs = payloadOf<GarmentCosts>(owner.costs());
     const solids = payloadOf<SolidsAnswer>(owner.solids());
     const answer: Described = {
@@ -130,6 +132,7 @@ export function createGarmentCore(
       isKnown,
       errorM,
       surfaceM,
+      faults,
       costs,
       solids,
     };

@@ -3,6 +3,7 @@
 import type { PlanFile } from '../state/plan-file';
 import type { RecordingHead } from './recording';
 import type {
+  FaultsAnswer,
   FitAnswer,
   GarmentCosts,
   GarmentSummary,
@@ -41,8 +42,8 @@ export type ToGarment =
       /** In the place of a frame of its own: the reference as this mesh could show it. */
       takesSample: boolean;
       timeS: number;
-      /** The distance between surfaces takes longer than all other numbers. */
-      wantsSurface: boolean;
+      /** What takes longer than a frame: the distance between surfaces, and faults. */
+      wantsAll: boolean;
       /** An earlier frame's, to be filled. */
       buffer: ArrayBuffer | null;
     };
@@ -67,6 +68,7 @@ export interface Described {
   /** RMS against the reference: of the same points, and of the surfaces. */
   errorM: number | null;
   surfaceM: number | null;
+  faults: FaultsAnswer | null;
   costs: GarmentCosts | null;
   solids: SolidsAnswer | null;
 }

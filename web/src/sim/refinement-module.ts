@@ -37,6 +37,14 @@ export interface FitAnswer {
   first_fired: number | null;
 }
 
+export interface FaultsAnswer {
+  /** Vertices inside of the figure's solids, and the deepest of them [m]. */
+  n_inside: number;
+  deepest_m: number;
+  /** Edges that go through faces of the same cloth. */
+  n_crossings: number;
+}
+
 /** The hull of two balls, widened across its axis. */
 export interface RoundedCone {
   a_m: Triple;
@@ -74,6 +82,8 @@ export interface GarmentRunHandle {
   compare(finePlaces: Float32Array, fineLevel: number): string;
   /** `rms_m` between both surfaces, whatever slid along them. */
   compareSurface(finePlaces: Float32Array, fineLevel: number): string;
+  /** A FaultsAnswer of the shown frame. */
+  faults(): string;
   solids(): string;
   time(): number;
   positions(): Float32Array;
@@ -124,6 +134,7 @@ export const REFINEMENT_METHODS: Record<keyof RefinementModule, string[]> = {
     look: true,
     compare: true,
     compareSurface: true,
+    faults: true,
     solids: true,
     time: true,
     positions: true,

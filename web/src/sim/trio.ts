@@ -1,11 +1,10 @@
 // Runs the three panes of a garment in step: turns changes of the state into questions to their workers,
 // and the answers into state and frames.
-import { fabricsText } from '../state/fabric-data';
 import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';
-import { SCENE_FILES, sceneText, usualFabric } from '../state/garments';
+import { sceneText, usualFabric } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
 import {
-  type FrameSource,
+  EMPTY_PANE,
   type GarmentPane,
   PANES,
   type PaneId,
@@ -13,12 +12,12 @@ import {
 } from '../state/refinement-state';
 import type { Store } from '../state/store';
 import { BrokenWorker, type GarmentClient, Refused, startGarmentWorker } from './garment-client';
-import type { Described, FromGarment, GarmentMesh, GarmentScalar } from './garment-protocol';
+import { createPaneRun, type PaneRun } from './garment-pane';
+import type { Described, GarmentMesh, GarmentScalar } from './garment-protocol';
 import { createPlanner, type Fetched, fetched, isUsual, type Planner } from './planner';
 import { frameViews } from './protocol';
-import type { RecordingHead } from './recording';
 import { recordUrl } from './records';
-import type { GarmentCosts, SolidsAnswer } from './refinement-module';
+import type { SolidsAnswer } from './refinement-module';
 import type { Failure } from './wasm-module';
 
 /** Errors and numbers are read this often while it plays [ms]: faster cannot be read. */
@@ -46,22 +45,6 @@ export interface Trio {
   /** Gives up what is on its way, if that can be given up. */
   cancel(): void;
 }
-
-/** A pane's end of things. */
-interface PaneRun {
-  id: PaneId;
-  client: GarmentClient;
-  source: FrameSource;
-  recording: RecordingHead | null;
-  /** What its worker has loaded, to be told from what is wanted. */
-  loaded: string;
-  stepS: number;
-  /** Of the shown frame, and the one to be filled next. */
-  shown: ArrayBuffer | null;
-  spare: ArrayBuffer | null;
-}
-
-type Answer<Type> = Extract<FromGarment, { type: Type }>;
 
 /** What it takes to run anywhere. */
 export interface TrioParts {
@@ -101,28 +84,12 @@ function scalarOf({ colour }: RefinementState): GarmentScalar | null {
   return colour === 'curvature' || colour === 'distance' ? colour : null;
 }
 
-function costsOf(costs: GarmentCosts, stepS: number): Pick<GarmentPane, 'msPerFrame' | 'parts'> {
-  if (costs.steps_timed === 0) return { msPerFrame: null, parts: [] };
-  const perFrame = Math.max(1, Math.round(FRAME_S / stepS)) / costs.steps_timed;
-  const parts = Object.entries(costs.parts_ms).map(([name, ms]) => ({ name, ms: ms * perFrame }));
-  return { msPerFrame: costs.steps_ms * perFrame, parts };
-}
-
 export function createTrio(
   store: Store<RefinementState>,
   view: TrioView,
   parts: TrioParts = BROWSER,
 ): Trio {
-  const panes: PaneRun[] = PANES.map((id) => ({
-    id,
-    client: parts.start(),
-    source: 'resting',
-    recording: null,
-    loaded: '',
-    stepS: FRAME_S,
-    shown: null,
-    spare: null,
-  }));
+  const panes = PANES.map((id) => createPaneRun(id, parts.start(), parts.fetchBytes));
   let wanted = 0; // counts loads: what belongs to an earlier one is dropped
   let at = 0; // frame that is shown
   let isPreview = false; // the planned pane shows a sample, and starts anew when it plays
@@ -134,14 +101,6 @@ export function createTrio(
   let lastNumbersMs = 0;
 
   const fine = () => panes.find(({ id }) => id === 'fine') as PaneRun;
-
-  async function ask<Type extends FromGarment['type']>(
-    pane: PaneRun,
-    message: Parameters<GarmentClient['ask']>[0],
-    transfer: Transferable[] = [],
-  ): Promise<Answer<Type>> {
-    return (await pane.client.ask(message, transfer)) as Answer<Type>;
-  }
 
   function setPane(id: PaneId, patch: Partial<GarmentPane>): void {
     const known = store.get().panes;
@@ -165,49 +124,28 @@ export function createTrio(
 
   async function loadPane(pane: PaneRun, plan: PlanFile, request: number): Promise<void> {
     const { garment, motion, fabric } = store.get();
-    const text = sceneText(garment, motion, fabric, refinementOf(pane.id, plan));
-    const url = recordOf(pane.id);
-    const content = `${url} ${text}`;
-    if (pane.loaded === content) return;
-    pane.loaded = '';
-    // Frames that cannot be had are computed.
-    const recording = url ? await parts.fetchBytes(url).catch(() => null) : null;
-    const loaded = await ask<'loaded'>(
-      pane,
-      {
-        type: 'load',
-        request,
-        fabricsText,
-        sceneText: text,
-        files: SCENE_FILES,
-        recording,
-        frameS: FRAME_S,
-      },
-      recording ? [recording] : [],
-    );
-    if (request !== wanted) return;
-    pane.loaded = content;
-    pane.recording = loaded.recording;
-    pane.stepS = loaded.summary.step_s;
-    pane.shown = null;
-    pane.spare = null;
+    const loaded = await pane.load({
+      sceneText: sceneText(garment, motion, fabric, refinementOf(pane.id, plan)),
+      recordUrl: recordOf(pane.id),
+    });
+    if (!loaded || request !== wanted) return;
     view.showMesh(pane.id, loaded.mesh);
     const nVertices = loaded.summary.n_vertices;
     const msPerFrame = loaded.recording?.ms_per_frame ?? null;
-    setPane(pane.id, { nVertices, msPerFrame, parts: [], errorM: null, surfaceM: null });
+    setPane(pane.id, { ...EMPTY_PANE, nVertices, msPerFrame });
   }
 
   function setSources(): void {
     const { computeFine } = store.get();
     for (const pane of panes) {
       const isRest = pane.id === 'fine' && !computeFine;
-      pane.source = pane.recording ? 'recorded' : isRest ? 'resting' : 'computed';
+      pane.source = pane.recording() ? 'recorded' : isRest ? 'resting' : 'computed';
     }
     isPreview = false;
   }
 
   function endFrame(): number {
-    const lengths = panes.map(({ recording }) => recording?.n_frames ?? Number.POSITIVE_INFINITY);
+    const lengths = panes.map((pane) => pane.recording()?.n_frames ?? Number.POSITIVE_INFINITY);
     return Math.min(...lengths, 1 + Math.round(10 / FRAME_S)) - 1;
   }
 
@@ -234,7 +172,7 @@ export function createTrio(
       store.set({ phase: 'ready', doing: null });
     } catch (error) {
       if (request !== wanted) return;
-      const isShown = panes.every(({ loaded }) => loaded !== '');
+      const isShown = panes.every((pane) => pane.isLoaded());
       const phase = error instanceof BrokenWorker ? 'broken' : isShown ? 'ready' : 'stopped';
       store.set({ phase, doing: null, problem: failureOf(error) });
     }
@@ -255,7 +193,7 @@ export function createTrio(
 
   async function restart(frame: number, request = wanted): Promise<void> {
     store.set({ fit: null });
-    await Promise.all(panes.map((pane) => ask(pane, { type: 'reset', request })));
+    await Promise.all(panes.map((pane) => pane.reset()));
     if (request !== wanted) return;
     at = frame;
     await advanceAll((pane) => (pane.source === 'recorded' ? 'recorded' : 'still'));
@@ -269,12 +207,7 @@ export function createTrio(
     let ended: string | null = null;
     await Promise.all(
       panes.map(async (pane) => {
-        const answer = await ask<'advanced'>(pane, {
-          type: 'advance',
-          request,
-          frame: at,
-          how: how(pane),
-        });
+        const answer = await pane.advance(at, how(pane));
         if (answer.fit && request === wanted) store.set({ fit: answer.fit });
         ended ??= answer.ended && `${pane.id}: ${answer.ended}`;
       }),
@@ -282,7 +215,7 @@ export function createTrio(
     return ended;
   }
 
-  async function describePane(
+  function describePane(
     pane: PaneRun,
     reference: Float32Array | null,
     wantsNumbers: boolean,
@@ -291,23 +224,14 @@ export function createTrio(
     const isOther = pane.id !== 'fine';
     const isSampled = isPreview && isOther && pane.source === 'computed';
     const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
-    const { spare: buffer } = pane;
-    pane.spare = null;
-    return ask<'described'>(
-      pane,
-      {
-        type: 'describe',
-        request: wanted,
-        scalar: scalarOf(state),
-        reference: isOther && isCompared ? reference : null,
-        fineLevel: FINE_LEVEL,
-        takesSample: isSampled,
-        timeS: at * FRAME_S,
-        wantsSurface: wantsNumbers,
-        buffer,
-      },
-      buffer ? [buffer] : [],
-    );
+    return pane.describe({
+      scalar: scalarOf(state),
+      reference: isOther && isCompared ? reference : null,
+      fineLevel: FINE_LEVEL,
+      takesSample: isSampled,
+      timeS: at * FRAME_S,
+      wantsAll: wantsNumbers && !state.playing,
+    });
   }
 
   /** The shown time in all panes, with numbers where they are due. */
@@ -330,22 +254,20 @@ export function createTrio(
       shown.map(({ pane, described }) => ({ pane: pane.id, buffer: described.buffer })),
       answers[0]?.solids ?? null,
     );
-    for (const { pane, described } of shown) {
-      pane.spare = pane.shown;
-      pane.shown = described.buffer;
-    }
+    for (const { pane, described } of shown) pane.keep(described);
     store.set({ timeS: at * FRAME_S });
   }
 
   /** The numbers of one pane. */
-  function tell(pane: PaneRun, { errorM, surfaceM, costs }: Described): void {
+  function tell(pane: PaneRun, { errorM, surfaceM, faults, costs }: Described): void {
     const isSampled = isPreview && pane.source === 'computed';
     const patch: Partial<GarmentPane> = {
       errorM: isSampled ? null : errorM,
       surfaceM: isSampled ? null : surfaceM,
+      faults: isSampled ? null : faults,
       source: isSampled ? 'sampled' : pane.source,
     };
-    if (pane.source === 'computed' && costs) Object.assign(patch, costsOf(costs, pane.stepS));
+    if (pane.source === 'computed' && costs) Object.assign(patch, pane.costs(costs));
     setPane(pane.id, patch);
   }
 

@@ -1,5 +1,5 @@
 // What the view of refinement shows.
-import type { FitAnswer } from '../sim/refinement-module';
+import type { FaultsAnswer, FitAnswer } from '../sim/refinement-module';
 import type { Failure } from '../sim/wasm-module';
 import { USUAL_DEMAND } from './garment-frames';
 import { type GarmentId, type MotionId, usualFabric } from './garments';
@@ -31,6 +31,7 @@ export interface GarmentPane {
   /** Against the fine pane, RMS of the same points and of the surfaces [m]. */
   errorM: number | null;
   surfaceM: number | null;
+  faults: FaultsAnswer | null;
 }
 
 export const EMPTY_PANE: GarmentPane = {
@@ -40,6 +41,7 @@ export const EMPTY_PANE: GarmentPane = {
   parts: [],
   errorM: null,
   surfaceM: null,
+  faults: null,
 };
 
 /** What a link carries. */

@@ -16,6 +16,10 @@ function heading(...words: string[]): HTMLElement {
   );
 }
 
+function count(number: number | undefined): string {
+  return number === undefined ? '–' : String(number);
+}
+
 function numberCell(text: string): HTMLElement {
   return element('td', { class: 'number' }, text);
 }
@@ -87,6 +91,14 @@ function numberTable(state: RefinementState): HTMLElement {
         cells((id) => (id === 'fine' ? '' : smallLength(panes[id].errorM))),
       ),
       row(
+        'in the body',
+        cells((id) => count(panes[id].faults?.n_inside)),
+      ),
+      row(
+        'in itself',
+        cells((id) => count(panes[id].faults?.n_crossings)),
+      ),
+      row(
         'surface off',
         cells((id) => (id === 'fine' ? '' : smallLength(panes[id].surfaceM))),
       ),
@@ -112,7 +124,7 @@ export function createStoryPanel(
   const meaning = element(
     'p',
     { class: 'note' },
-    'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. A frame is 1/30 s.',
+    'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. Then: vertices inside the body, and edges that go through the cloth itself, which it is not kept from. A frame is 1/30 s.',
   );
   parent.append(
     element(
