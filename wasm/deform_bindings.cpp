@@ -13,6 +13,7 @@
 #include "core/scene/deform_scene.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/vertex_place.h"
+#include "wasm/arrays.h"
 #include "wasm/envelope.h"
 
 namespace {
@@ -22,6 +23,7 @@ using pleat::DeformSolver;
 using pleat::guarded;
 using pleat::json_array;
 using pleat::json_value;
+using pleat::positions_in;
 using pleat::VertexId;
 
 /// What a step came to.
@@ -90,12 +92,6 @@ template <class Numbers>
 Numbers three_numbers(const val& numbers) {
   return {numbers["recovery"].as<double>(), numbers["stretch"].as<double>(),
           numbers["bending"].as<double>()};
-}
-
-pleat::Positions positions_in(const val& places) {
-  const auto numbers = emscripten::convertJSArrayToNumberVector<double>(places);
-  return Eigen::Map<const pleat::Positions>(numbers.data(), 3,
-                                            static_cast<Eigen::Index>(numbers.size() / 3));
 }
 
 /// One cloth in several panes, each with weights of its own.

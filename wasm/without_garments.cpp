@@ -1,6 +1,6 @@
-// What the page's modules have in the place of figures, garments and plans, which none of their
-// views shows: linked before the core's libraries, it keeps those out of what a visitor fetches. A
-// scene that asks for one is refused, so that nothing else here is ever reached.
+// What most of the page's modules have in the place of figures, garments and plans, which none of
+// their views shows: linked before the core's libraries, it keeps those out of what a visitor
+// fetches. A scene that asks for one is refused, so that nothing else here is ever reached.
 #include "core/base/check.h"
 #include "core/scene/figure_section.h"
 #include "core/scene/garment_section.h"
@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void refuse(const JsonReader& reader, const char* what) {
   throw InputError(reader.pointer(), std::string("expected no ") + what +
-                                         ", as the page shows none; pleat run takes it");
+                                         ", as this view shows none; pleat run takes it");
 }
 
 [[noreturn]] void unreachable() { throw ContractError("a scene without a figure asks for one"); }

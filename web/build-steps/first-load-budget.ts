@@ -3,9 +3,11 @@ import { gzipSync } from 'node:zlib';
 import type { Plugin } from 'vite';
 
 /**
- * Fetched only when it is asked for: meshes, references, what a sweep needs, and the view of fabrics.
+ * Fetched only when it is asked for: meshes, references, records, what a sweep needs, and the views of
+ * fabrics and of refinement.
  */
-const LATER = /\.(map|obj|reference)$|(^|\/)(sweep|deform|fabrics-view)[-.]/;
+const LATER =
+  /\.(map|obj|reference|recording)$|(^|\/)(sweep|deform|fabrics-view|refinement|refinement-view|garment-worker|example-worker|plan)[-.]/;
 
 /** Bounds of a first load, gzipped [kB]. */
 const BOUNDS_KB = { page: 200, wasm: 350 };

@@ -12,9 +12,9 @@ export function offlineCopy(): Plugin {
     generateBundle: {
       order: 'post',
       handler(_options, bundle) {
-        // References are large, and the page goes without them.
+        // References and records are large, and the page goes without them.
         const files = Object.keys(bundle)
-          .filter((name) => !name.endsWith('.reference'))
+          .filter((name) => !/\.(reference|recording)$/.test(name))
           .sort();
         const hash = createHash('sha256');
         for (const name of files) {

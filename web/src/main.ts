@@ -1,8 +1,7 @@
 // Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
 import './design.css';
-import type { FabricsView } from './views/fabrics-view';
 import { createMotionView, type MotionView } from './views/motion-view';
-import { createTabs, type ViewId } from './views/tabs';
+import { createTabs, VIEWS, type ViewId } from './views/tabs';
 import type { View } from './views/view';
 
 const place = (id: string): HTMLElement => {
@@ -13,33 +12,41 @@ const place = (id: string): HTMLElement => {
 
 function viewIn(hash: string): ViewId {
   const name = new URLSearchParams(hash.replace(/^#/, '')).get('view');
-  return name === 'fabrics' ? 'fabrics' : 'motion';
+  return VIEWS.find(({ id }) => id === name)?.id ?? 'motion';
 }
 
 let motion: MotionView | null = null;
-let fabrics: FabricsView | null = null;
+const views: Partial<Record<ViewId, View>> = {};
 let shown: ViewId | null = null;
 
 function motionView(hash: string): MotionView {
   motion ??= createMotionView(place, hash);
+  views.motion = motion;
   return motion;
 }
 
-/** A part of the page that only this view needs, fetched when it is first asked for. */
-async function fabricsView(hash: string): Promise<FabricsView> {
-  const { createFabricsView } = await import('./views/fabrics-view');
-  fabrics ??= createFabricsView(place('fabrics'), hash, {
-    wear(fabric) {
-      motionView('#').wear(fabric);
-      show('motion');
-    },
-    start(shape, fabric) {
-      motionView('#').start(shape, fabric);
-      show('motion');
-    },
-  });
-  return fabrics;
-}
+/** Parts of the page that only one view needs, fetched when it is first asked for. */
+const FETCHED: Record<Exclude<ViewId, 'motion'>, (hash: string) => Promise<View>> = {
+  async refinement(hash) {
+    const { createRefinementView } = await import('./views/refinement-view');
+    views.refinement ??= createRefinementView(place('refinement'), hash);
+    return views.refinement;
+  },
+  async fabrics(hash) {
+    const { createFabricsView } = await import('./views/fabrics-view');
+    views.fabrics ??= createFabricsView(place('fabrics'), hash, {
+      wear(fabric) {
+        motionView('#').wear(fabric);
+        show('motion');
+      },
+      start(shape, fabric) {
+        motionView('#').start(shape, fabric);
+        show('motion');
+      },
+    });
+    return views.fabrics;
+  },
+};
 
 /** For the console and for tests: the shown view's state and frame. */
 function expose({ probe }: View): void {
@@ -50,36 +57,29 @@ function expose({ probe }: View): void {
 async function show(id: ViewId, hash = ''): Promise<void> {
   shown = id;
   tabs.select(id);
-  place('motion').hidden = id !== 'motion';
-  place('fabrics').hidden = id !== 'fabrics';
-  if (id === 'motion') {
-    fabrics?.setShown(false);
-    const view = motionView(hash);
-    view.setShown(true);
-    return expose(view);
+  for (const view of VIEWS) {
+    place(view.id).hidden = view.id !== id;
+    if (view.id !== id) views[view.id]?.setShown(false);
   }
-  motion?.setShown(false);
   try {
-    const view = await fabricsView(hash);
-    if (shown !== 'fabrics') return;
+    const view = id === 'motion' ? motionView(hash) : await FETCHED[id](hash);
+    if (shown !== id) return;
     view.setShown(true);
     expose(view);
   } catch {
-    place('fabrics').textContent =
-      'This view could not be fetched. Check the connection and reload.';
+    place(id).textContent = 'This view could not be fetched. Check the connection and reload.';
   }
 }
 
 const tabs = createTabs(place('tabs'), {
-  link: (id) => (id === 'motion' ? motion?.link() : fabrics?.link()) ?? `#view=${id}`,
+  link: (id) => views[id]?.link() ?? `#view=${id}`,
   open: (id) => void show(id),
 });
 
 window.addEventListener('hashchange', () => {
   const { hash } = window.location;
   const id = viewIn(hash);
-  const known = id === 'motion' ? motion : fabrics;
-  known?.open(hash);
+  views[id]?.open(hash);
   if (id !== shown) void show(id, hash);
 });
 void show(viewIn(window.location.hash), window.location.hash);

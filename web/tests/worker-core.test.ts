@@ -22,6 +22,7 @@ import {
   withStepper,
 } from '../src/state/setting';
 import { settingOfRow, sweepPlan } from '../src/state/sweep-plan';
+import { boundMethods } from './support/bound-methods';
 import { createFakeModule } from './support/fake-module';
 
 type AllModules = PleatModule & SweepModule;
@@ -512,19 +513,6 @@ describe.runIf(hasModule)('the cost of a step', () => {
 describe.runIf(hasModule)('wasm-module', () => {
   it('binds exactly the classes and methods that the types name', async () => {
     const module: object = { ...(await loadRealModule()), ...(await createReal('deform')) };
-    // What Embind itself gives to every class.
-    const inherited = ['constructor', 'isAliasOf', 'clone', 'isDeleted', 'deleteLater'];
-    const bound: Record<string, string[]> = {};
-    for (const [name, value] of Object.entries(module)) {
-      if (typeof value !== 'function' || !/^[A-Z][a-z]/.test(name)) continue;
-      const { prototype } = value as { prototype: object };
-      if (prototype instanceof Error) continue; // Embind's own
-      const prototypes = [prototype, Object.getPrototypeOf(prototype)];
-      const methods = prototypes.flatMap((owner) => Object.getOwnPropertyNames(owner));
-      bound[name] = [...new Set(methods)]
-        .filter((method) => !inherited.includes(method) && !(method in Object.prototype))
-        .sort();
-    }
-    expect(bound).toEqual(BOUND_METHODS);
+    expect(boundMethods(module)).toEqual(BOUND_METHODS);
   });
 });

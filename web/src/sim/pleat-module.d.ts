@@ -19,3 +19,10 @@ declare module '*/deform.mjs' {
   const createDeform: (options?: { wasmBinary?: Uint8Array }) => Promise<DeformModule>;
   export default createDeform;
 }
+
+declare module '*/refinement.mjs' {
+  import type { RefinementModule } from './refinement-module';
+
+  const createRefinement: (options?: { wasmBinary?: Uint8Array }) => Promise<RefinementModule>;
+  export default createRefinement;
+}

@@ -267,7 +267,7 @@ export interface DeformModule {
 }
 
 /** Lists the keys of `Handle`; a missing or a surplus name does not compile. */
-function methodsOf<Handle>(names: Record<keyof Handle, true>): string[] {
+export function methodsOf<Handle>(names: Record<keyof Handle, true>): string[] {
   return Object.keys(names).sort();
 }
 

@@ -24,6 +24,8 @@ export interface View {
 export interface CameraControl {
   frame(view: View): void;
   home(): void;
+  /** Goes along with what has to be seen, which is there now; the viewer's own turns stay. */
+  follow(centre: Vector3): void;
   /** True when the key was one of the camera's. */
   key(name: string): boolean;
   /** While resting, pointers do nothing: a hand is holding the cloth. */
@@ -177,6 +179,12 @@ export function createCameraControl(
       home();
     },
     home,
+    follow(centre) {
+      const moved = centre.clone().sub(view.centre);
+      target.add(moved);
+      view = { ...view, centre: centre.clone() };
+      apply();
+    },
     key(name) {
       const action = keys[name];
       action?.();

@@ -17,7 +17,9 @@ import { frameViews, type Scalar } from '../sim/protocol';
 import type { HeatScale } from '../state/app-state';
 import type { HeatMap } from '../state/url-codec';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
-import { type FabricLook, SHEEN_ROUGHNESS } from './fabric-look';
+import type { FabricLook } from './fabric-look';
+import { dress } from './fabric-material';
+import { addNormals } from './normals';
 
 /** A still cloth has no stretch: the scale then ends at 0.01 %, or at 0.1 mm, not at nothing. */
 const LEAST_REACH = 1e-4;
@@ -37,41 +39,6 @@ function edgesOf(triangles: Uint32Array): Uint32Array {
     edges.push(a, b);
   }
   return Uint32Array.from(edges);
-}
-
-/** Sums each triangle's area-weighted normal at its corners; the shader normalises. */
-function addNormals(positions: Float32Array, triangles: Uint32Array, normals: Float32Array): void {
-  normals.fill(0);
-  for (let t = 0; t < triangles.length; t += 3) {
-    const a = 3 * (triangles[t] as number);
-    const b = 3 * (triangles[t + 1] as number);
-    const c = 3 * (triangles[t + 2] as number);
-    const ux = (positions[b] as number) - (positions[a] as number);
-    const uy = (positions[b + 1] as number) - (positions[a + 1] as number);
-    const uz = (positions[b + 2] as number) - (positions[a + 2] as number);
-    const vx = (positions[c] as number) - (positions[a] as number);
-    const vy = (positions[c + 1] as number) - (positions[a + 1] as number);
-    const vz = (positions[c + 2] as number) - (positions[a + 2] as number);
-    const nx = uy * vz - uz * vy;
-    const ny = uz * vx - ux * vz;
-    const nz = ux * vy - uy * vx;
-    for (const corner of [a, b, c]) {
-      normals[corner] = (normals[corner] as number) + nx;
-      normals[corner + 1] = (normals[corner + 1] as number) + ny;
-      normals[corner + 2] = (normals[corner + 2] as number) + nz;
-    }
-  }
-  for (let v = 0; v < normals.length; v += 3) {
-    const length = Math.hypot(
-      normals[v] as number,
-      normals[v + 1] as number,
-      normals[v + 2] as number,
-    );
-    if (length === 0) continue;
-    normals[v] = (normals[v] as number) / length;
-    normals[v + 1] = (normals[v + 1] as number) / length;
-    normals[v + 2] = (normals[v + 2] as number) / length;
-  }
 }
 
 export interface ClothMesh {
@@ -194,21 +161,7 @@ export function createClothMesh(): ClothMesh {
       normals.needsUpdate = true;
       paintHeat();
     },
-    setLook(look) {
-      for (const [material, colour] of [
-        [frontMaterial, look.front],
-        [backMaterial, look.back],
-      ] as const) {
-        material.color.set(colour);
-        material.roughness = look.roughness;
-        material.sheen = look.sheen;
-        material.sheenRoughness = SHEEN_ROUGHNESS;
-        material.sheenColor.set(look.sheenColour);
-        material.transparent = look.opacity < 1;
-        material.opacity = look.opacity;
-        material.needsUpdate = true;
-      }
-    },
+    setLook: (look) => dress(frontMaterial, backMaterial, look),
     setHeat(map, range) {
       if (map === heatMap && range === heatRange) return false;
       heatMap = map;

@@ -22,6 +22,16 @@ function channel(anchor: string, index: number): number {
   return Number.parseInt(anchor.slice(2 * index, 2 * index + 2), 16) / 255;
 }
 
+/** Linear red, green, blue of "#rrggbb". */
+export function linearColour(hex: string): [number, number, number] {
+  const digits = hex.slice(1);
+  return [0, 1, 2].map((index) => linearFromSrgb(channel(digits, index))) as [
+    number,
+    number,
+    number,
+  ];
+}
+
 function colormapFrom(anchors: string): Colormap {
   const stops = anchors.split(' ');
   const table = new Float32Array(3 * TABLE_SIZE);

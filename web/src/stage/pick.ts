@@ -6,6 +6,8 @@ export interface Hit {
   /** Along the ray, in lengths of its direction. */
   distance: number;
   point: Point;
+  /** Of the list, counted from 0. */
+  triangle: number;
   /** The corner of the met triangle that is nearest to the point. */
   vertex: number;
 }
@@ -54,12 +56,14 @@ export function pick(
 ): Hit | null {
   let nearest = Number.POSITIVE_INFINITY;
   let corners: [number, number, number] | null = null;
+  let triangle = 0;
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [triangles[t] ?? 0, triangles[t + 1] ?? 0, triangles[t + 2] ?? 0];
     const distance = meets(origin, direction, at(positions, a), at(positions, b), at(positions, c));
     if (distance !== null && distance < nearest) {
       nearest = distance;
       corners = [a, b, c];
+      triangle = t / 3;
     }
   }
   if (!corners) return null;
@@ -73,5 +77,5 @@ export function pick(
     return dot(offset, offset);
   });
   const vertex = corners[away.indexOf(Math.min(...away))] ?? corners[0];
-  return { distance: nearest, point, vertex };
+  return { distance: nearest, point, triangle, vertex };
 }

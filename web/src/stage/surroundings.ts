@@ -13,7 +13,7 @@ import {
   MeshStandardMaterial,
   ShadowMaterial,
   SphereGeometry,
-  type Vector3,
+  Vector3,
 } from 'three';
 import type { Collider } from '../sim/wasm-module';
 
@@ -23,6 +23,8 @@ export interface Surroundings {
   setColliders(colliders: Collider[]): void;
   /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
   frame(centre: Vector3, radius: number, height: number): void;
+  /** Puts floor and lights under somebody who walks; the grid's lines stay where they are [m]. */
+  follow(x: number, z: number): void;
   /** Shadows cost as much as the picture itself, each time. */
   setShadows(areCast: boolean): void;
   /** CSS colours of the page's theme. */
@@ -124,9 +126,15 @@ export function createSurroundings(): Surroundings {
   key.shadow.bias = -0.0004;
   object.add(floor, sky, key, key.target);
 
+  function placeLights(centre: Vector3, radius: number): void {
+    key.position.set(centre.x + 1.2 * radius, centre.y + 3 * radius, centre.z + 1.6 * radius);
+    key.target.position.copy(centre);
+  }
+
   const bodyMaterial = new MeshStandardMaterial({ roughness: 0.75 });
   let spheres: Mesh[] = [];
   let radii = '';
+  let seen = { centre: new Vector3(), radius: 1 };
 
   return {
     object,
@@ -157,8 +165,8 @@ export function createSurroundings(): Surroundings {
       floor.scale.setScalar(scale);
       key.shadow.normalBias = NORMAL_BIAS * Math.max(scale, Math.min(1, radius));
       floor.position.set(centre.x, height, centre.z);
-      key.position.set(centre.x + 1.2 * radius, centre.y + 3 * radius, centre.z + 1.6 * radius);
-      key.target.position.copy(centre);
+      seen = { centre: centre.clone(), radius };
+      placeLights(centre, radius);
       const { camera } = key.shadow;
       camera.left = -1.6 * radius;
       camera.right = 1.6 * radius;
@@ -167,6 +175,15 @@ export function createSurroundings(): Surroundings {
       camera.near = 0.1 * radius;
       camera.far = 8 * radius;
       camera.updateProjectionMatrix();
+    },
+    follow(x, z) {
+      seen.centre.set(x, seen.centre.y, z);
+      placeLights(seen.centre, seen.radius);
+      floor.position.x = x;
+      floor.position.z = z;
+      const metre = floor.scale.x;
+      const into = (place: number) => (Math.round(place / metre) * metre - place) / metre;
+      grid.position.set(into(x), 0, into(z));
     },
     setShadows(areCast) {
       key.castShadow = areCast;

@@ -11,7 +11,7 @@ import { type FabricsState, initialFabricsState, recordOf } from '../state/fabri
 import { joined, middleOf } from '../state/holds';
 import { createStore, watch } from '../state/store';
 import { createDropTarget } from './drop-target';
-import { element, setText } from './element';
+import { element } from './element';
 import { createEnergyCurve } from './fabrics/energy-curve';
 import { createExperimentPanel } from './fabrics/experiment-panel';
 import { createFabricCard } from './fabrics/fabric-card';
@@ -24,6 +24,7 @@ import { columnsFor, createPaneBadges } from './fabrics/pane-badges';
 import { createStageTools } from './fabrics/stage-tools';
 import { createTermReading } from './fabrics/term-reading';
 import { createTermSwitches } from './fabrics/term-switches';
+import { createFailureBanner } from './failure-banner';
 import { createInvitation } from './invitation';
 import type { View } from './view';
 
@@ -52,23 +53,6 @@ function invitingVertex({ handles, cloth }: FabricsState): number {
   const [handle] = handles;
   if (handle) return handle.vertices[Math.floor(handle.vertices.length / 2)] ?? 0;
   return Math.floor((cloth?.n_vertices ?? 0) / 2);
-}
-
-/** What went wrong, in a sentence. */
-function createProblem(parent: HTMLElement, dismiss: () => void) {
-  const sentence = element('p');
-  const button = element('button', { type: 'button', click: dismiss }, 'Dismiss');
-  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, button);
-  parent.append(banner);
-  return ({ problem, phase }: FabricsState) => {
-    banner.hidden = problem === null;
-    button.hidden = phase === 'broken';
-    if (!problem) return;
-    const place =
-      problem.where && !problem.what.includes(problem.where) ? `${problem.where}: ` : '';
-    const prefix = problem.kind === 'internal' && phase !== 'broken' ? 'The program failed: ' : '';
-    setText(sentence, `${prefix}${place}${problem.what}`);
-  };
 }
 
 export function createFabricsView(
@@ -172,7 +156,7 @@ export function createFabricsView(
   watch(store, ['invited', 'phase', 'panes'], ({ invited, phase, panes }) =>
     invitation.setShown(invited && phase === 'ready' && panes[0]?.status !== 'dragging'),
   );
-  const showProblem = createProblem(messages, () => store.set({ problem: null }));
+  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
   watch(store, ['problem', 'phase'], showProblem);
 
   createFabricsAnnouncer(messages, store);

@@ -1,9 +1,10 @@
 // The views of the page, each with the question that it answers.
 import { element } from './element';
 
-export type ViewId = 'fabrics' | 'motion';
+export type ViewId = 'refinement' | 'fabrics' | 'motion';
 
 export const VIEWS: readonly { id: ViewId; title: string; question: string }[] = [
+  { id: 'refinement', title: 'Refinement', question: 'What does refinement buy?' },
   { id: 'fabrics', title: 'Fabrics', question: 'What makes silk silk?' },
   { id: 'motion', title: 'Speed and error', question: 'How fast, how wrong?' },
 ];

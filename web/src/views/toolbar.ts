@@ -23,7 +23,13 @@ const ICONS = {
   view: 'M8 1.5L15 8H13V14H9.5V10H6.5V14H3V8H1Z',
 };
 
-function button(icon: keyof typeof ICONS, text: string, title: string, onClick: () => void) {
+/** A button with a drawing and a word. */
+export function toolButton(
+  icon: keyof typeof ICONS,
+  text: string,
+  title: string,
+  onClick: () => void,
+) {
   const made = element('button', { type: 'button', class: 'tool', title, click: onClick });
   const drawing = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
   const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
@@ -45,14 +51,14 @@ export function createToolbar(
   store: Store<AppState>,
   actions: ToolbarActions,
 ): () => void {
-  const play = button('play', 'Play', 'Play or pause (space)', () => {
+  const play = toolButton('play', 'Play', 'Play or pause (space)', () => {
     if (store.get().playing) actions.pause();
     else actions.play();
   });
   play.made.classList.add('primary');
-  const step = button('step', 'Step', 'One step (full stop)', actions.step);
-  const reset = button('reset', 'Reset', 'Back to the start (R)', actions.reset);
-  const view = button(
+  const step = toolButton('step', 'Step', 'One step (full stop)', actions.step);
+  const reset = toolButton('reset', 'Reset', 'Back to the start (R)', actions.reset);
+  const view = toolButton(
     'view',
     'View',
     'Look from the first direction again (Home)',

@@ -11,6 +11,7 @@ import {
   stateOf,
   until,
 } from './harness.mjs';
+import { checkRefinement } from './refinement.mjs';
 import { button, choice, drop, expectSilence, findingsOf, picture, squareObj } from './visitor.mjs';
 
 /** A whole sweep may take this long on a busy machine [ms]. */
@@ -596,5 +597,6 @@ await check('without the WebAssembly file: a sentence, and the text stays', asyn
 });
 
 await checkFabrics(harness);
+await checkRefinement(harness);
 
 process.exit((await finish()) ? 0 : 1);

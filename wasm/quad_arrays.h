@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/quad_mesh.h"
+
+namespace pleat {
+
+/// What is drawn of a mesh of quads, and told of its faces.
+struct QuadArrays {
+  /// Of each active face, in their order: two, or more where vertices hang on its edges, so that
+  /// neighbours share all edges and nothing shines through.
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> triangle_faces;  ///< of each triangle, counted among active faces
+  std::vector<std::uint32_t> edges;           ///< pairs of vertices, each once
+  std::vector<std::uint32_t> hanging;
+  /// Of each active face: itself, level, parent (or -1), corners.
+  std::vector<std::int32_t> faces;
+  /// Of each vertex: up to four whose mean it is at rest, -1 for none; parents come first.
+  std::vector<std::int32_t> parents;
+};
+
+constexpr std::size_t kNumbersPerFace = 7;
+
+QuadArrays quad_arrays(const QuadMesh& mesh);
+
+}  // namespace pleat

@@ -1,0 +1,206 @@
+// Makes what the view of refinement shows without computing it, by the native command: see
+// assets/recordings/README.md. Run by `npm run recordings`.
+import { execFile } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
+import { deflateSync } from 'node:zlib';
+import { encodeFrames, type Parents, type RecordingHead } from '../src/sim/recording.ts';
+import type { ExampleStudyHandle, GarmentRunHandle } from '../src/sim/refinement-module.ts';
+import { FINE_LEVEL, FRAME_S, PATTERNS, USUAL_DEMAND } from '../src/state/garment-frames.ts';
+import createRefinement from '../src/wasm/refinement.mjs';
+
+/** As long as the frames of the test motion are [s]. */
+const TEST_S = 5;
+
+/** The example's frames count from when the cloth has settled into the walk [s]. */
+const EXAMPLE_S = { from: 2, to: 8 };
+
+/** Of the example's frames, as many are kept for a plan's limits as one in these. */
+const KEPT_OF = 3;
+
+/** Of places [m] and of curvature [1/m]. */
+const QUANTUM = { place: 1e-4, curvature: 1e-3 };
+
+const root = fileURLToPath(new URL('../..', import.meta.url));
+const command = join(root, 'build/release/cli/pleat');
+const temporary = mkdtempSync(join(tmpdir(), 'pleat-recordings-'));
+const readText = (path: string) => readFileSync(join(root, path), 'utf8');
+const fabrics = readText('assets/fabrics/fabrics.json');
+const module = await createRefinement({
+  wasmBinary: readFileSync(join(root, 'web/src/wasm/refinement.wasm')),
+});
+
+/** The scene with its motion written out. */
+function sceneOf(name: string, refinement: object, durationS: number) {
+  const scene = JSON.parse(readText(`assets/scenes/garments/${name}.json`));
+  const motion = JSON.parse(readText(join('assets/scenes/garments', scene.figure.motion)));
+  return {
+    ...scene,
+    figure: { ...scene.figure, motion },
+    refinement,
+    duration_s: durationS,
+    record: { every_s: FRAME_S, format: 'binary' },
+  };
+}
+
+interface Run {
+  frames: Float64Array[];
+  /** Of one core [ms]. */
+  msPerFrame: number;
+}
+
+/** Runs a scene natively and reads its frames, the first one at rest. */
+async function run(scene: { name: string }, pane: string): Promise<Run> {
+  const name = `${scene.name}-${pane}`;
+  const file = join(temporary, `${name}.json`);
+  const out = join(temporary, name);
+  writeFileSync(file, JSON.stringify(scene));
+  const timed = `TIMEFORMAT=%U; time "$@" 2> "$0.log"`;
+  const { stderr } = await promisify(execFile)('bash', [
+    '-c',
+    timed,
+    out,
+    command,
+    'run',
+    file,
+    '--out',
+    out,
+  ]);
+  const bytes = readFileSync(join(out, 'frames.bin'));
+  const begin = bytes.indexOf('\n') + 1;
+  const { n_vertices: n } = JSON.parse(bytes.toString('utf8', 0, begin));
+  const size = 8 * (1 + 3 * n);
+  const frames: Float64Array[] = [];
+  for (let at = begin; at + size <= bytes.length; at += size) {
+    const own = bytes.buffer.slice(bytes.byteOffset + at + 8, bytes.byteOffset + at + size);
+    frames.push(new Float64Array(own));
+  }
+  const seconds = Number(stderr.trim());
+  console.log(`${name}: ${frames.length} frames, ${seconds} s`);
+  return { frames, msPerFrame: (1000 * seconds) / (frames.length - 1) };
+}
+
+interface Place {
+  folder: string;
+  file: string;
+}
+
+function write({ folder, file }: Place, content: string | Uint8Array): void {
+  const path = join(root, 'assets/recordings', folder);
+  mkdirSync(path, { recursive: true });
+  writeFileSync(join(path, file), content);
+  console.log(`${folder}/${file}: ${(content.length / 1e6).toFixed(2)} MB`);
+}
+
+type HeadPart = Pick<
+  RecordingHead,
+  'name' | 'quantum' | 'n_components' | 'first_s' | 'every_s' | 'ms_per_frame'
+>;
+
+function writeRecording(
+  place: Place,
+  part: HeadPart,
+  parents: Parents,
+  frames: readonly ArrayLike<number>[],
+): void {
+  const head: RecordingHead = {
+    format: 'pleat recording 1',
+    n_vertices: parents.length / 4,
+    n_frames: frames.length,
+    ...part,
+  };
+  const body = deflateSync(encodeFrames(head, parents, frames), { level: 9 });
+  write(place, Buffer.concat([Buffer.from(`${JSON.stringify(head)}\n`), body]));
+}
+
+function answered<Answer>(text: string): Answer {
+  const answer = JSON.parse(text);
+  if (!answer.ok) throw new Error(`${answer.where}: ${answer.what}`);
+  return answer;
+}
+
+function parentsOf(scene: object): Parents {
+  const made: GarmentRunHandle = new module.GarmentRun(fabrics);
+  answered(made.load(JSON.stringify(scene), {}));
+  const parents = made.parents().slice();
+  made.delete();
+  return parents;
+}
+
+/** Features, frames for limits, and the usual plan, which is made of what is written, not of more. */
+async function makeExample(garment: string): Promise<object> {
+  const folder = `${garment}_walk`;
+  const scene = sceneOf(folder, { level: FINE_LEVEL }, EXAMPLE_S.to);
+  const { frames, msPerFrame } = await run(scene, 'example');
+  const parents = parentsOf(scene);
+  const first = Math.round(EXAMPLE_S.from / FRAME_S) + 1;
+  const seen = frames.slice(first);
+  const kept = seen.filter((_, index) => index % KEPT_OF === 0);
+  const study: ExampleStudyHandle = new module.ExampleStudy(fabrics);
+  answered(study.open(JSON.stringify(scene), {}));
+  for (const frame of seen) answered(study.addFrame(Float32Array.from(frame)));
+  const features = study.features().slice();
+  const part = {
+    name: folder,
+    first_s: first * FRAME_S,
+    every_s: KEPT_OF * FRAME_S,
+    ms_per_frame: msPerFrame,
+  };
+  writeRecording(
+    { folder, file: 'example.recording' },
+    { ...part, quantum: QUANTUM.place, n_components: 3 },
+    parents,
+    kept,
+  );
+  writeRecording(
+    { folder, file: 'features.recording' },
+    { ...part, quantum: QUANTUM.curvature, n_components: 2 },
+    parents,
+    [features],
+  );
+  answered(study.open(JSON.stringify(scene), {}));
+  const rounded = (values: ArrayLike<number>, quantum: number) =>
+    Float32Array.from(values, (value) => Math.round(value / quantum) * quantum);
+  for (const frame of kept) answered(study.addFrame(rounded(frame, QUANTUM.place)));
+  answered(study.sort(folder, rounded(features, QUANTUM.curvature), PATTERNS));
+  const planned = answered<{ plan: object }>(study.plan(JSON.stringify({ demand: USUAL_DEMAND })));
+  study.delete();
+  write({ folder, file: 'plan.json' }, JSON.stringify(planned.plan));
+  return planned.plan;
+}
+
+async function makePane(name: string, pane: string, refinement: object): Promise<void> {
+  const scene = sceneOf(name, refinement, TEST_S);
+  const { frames, msPerFrame } = await run(scene, pane);
+  writeRecording(
+    { folder: name, file: `${pane}.recording` },
+    {
+      name,
+      first_s: 0,
+      every_s: FRAME_S,
+      ms_per_frame: msPerFrame,
+      quantum: QUANTUM.place,
+      n_components: 3,
+    },
+    parentsOf(scene),
+    frames,
+  );
+}
+
+async function makeGarment(garment: string): Promise<void> {
+  const plan = await makeExample(garment);
+  const test = `${garment}_fast_walk`;
+  await makePane(test, 'coarse', { level: 0 });
+  await makePane(test, 'planned', { plan });
+  await makePane(test, 'fine', { level: FINE_LEVEL });
+}
+
+const wanted = process.argv.slice(2);
+try {
+  await Promise.all((wanted.length > 0 ? wanted : ['skirt', 'trousers']).map(makeGarment));
+} finally {
+  rmSync(temporary, { recursive: true });
+}

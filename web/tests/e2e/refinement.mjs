@@ -1,0 +1,213 @@
+// Checks of the view of refinement in a real browser.
+import { eventually, expectThat, largestMove, positionsOf, stateOf, until } from './harness.mjs';
+import { button, canvasOf, choice, expectSilence, findingsOf, picture } from './visitor.mjs';
+
+/** Three meshes, with software rendering on a busy machine [ms]. */
+const LOAD_MS = 120000;
+
+const isReady = (page) => until(page, (state) => state.phase === 'ready', LOAD_MS);
+
+const paneOf = (page, pane) => page.evaluate((at) => window.pleat.positions(at), pane);
+
+/** Moves a slider by its keys. */
+async function press(page, label, key, times) {
+  await page.getByLabel(label).focus();
+  for (let count = 0; count < times; ++count) await page.keyboard.press(key);
+}
+
+export async function checkRefinement({ open, check, countColours }) {
+  async function visit(hash, work, options) {
+    const { page, complaints, close } = await open(hash, options);
+    try {
+      await isReady(page);
+      await work(page);
+      expectSilence(complaints);
+    } finally {
+      await close();
+    }
+  }
+
+  await check('refinement: starts still in the middle of a walk, and tells what it buys', () =>
+    visit('#view=refinement', async (page) => {
+      const { panes, timeS, playing } = await stateOf(page);
+      expectThat(timeS > 1 && !playing, `at ${timeS} s, playing: ${playing}`);
+      const counts = [panes.coarse, panes.planned, panes.fine].map(({ nVertices }) => nVertices);
+      expectThat(counts[0] < counts[1] && 2 * counts[1] < counts[2], `vertices: ${counts}`);
+      expectThat((await countColours(await picture(page))) > 300, 'the picture is blank');
+      const text = await page.locator('#refinement').textContent();
+      expectThat(text.includes(`${counts[2]}`) && /faces were split/.test(text), 'no story');
+      expectThat(/\d mm off fine/.test(text), 'no error in a badge');
+      const before = await positionsOf(page);
+      await page.waitForTimeout(300);
+      expectThat(largestMove(before, await positionsOf(page)) === 0, 'the cloth moves unasked');
+    }),
+  );
+
+  await check('refinement: plays three panes in step, in positions and in pixels', () =>
+    visit('#view=refinement&colour=material&edges=off', async (page) => {
+      const before = [];
+      for (const pane of [0, 1, 2]) before.push(await paneOf(page, pane));
+      const still = await picture(page);
+      const { timeS } = await stateOf(page);
+      await button(page, 'Play').click();
+      await eventually(async () => (await stateOf(page)).timeS > timeS + 0.2, 'time goes on');
+      await button(page, 'Pause').click();
+      await until(page, (state) => !state.playing);
+      for (const pane of [0, 1, 2]) {
+        const move = largestMove(before[pane], await paneOf(page, pane));
+        expectThat(move > 0.05, `pane ${pane} moved ${move} m`);
+      }
+      expectThat(!still.equals(await picture(page)), 'the picture is the same');
+    }),
+  );
+
+  await check('refinement: sliders make other plans, by demand and by a budget', () =>
+    visit('#view=refinement&fine=on', async (page) => {
+      const first = (await stateOf(page)).panes.planned.nVertices;
+      await press(page, /^Detail demand/, 'ArrowRight', 4);
+      await until(page, (state) => state.plan?.detail_demand === 5 && state.phase === 'ready');
+      const fewer = (await stateOf(page)).panes.planned;
+      expectThat(fewer.nVertices < first, `${fewer.nVertices} of ${first} vertices`);
+      expectThat(fewer.source === 'sampled', `its shape is ${fewer.source}`);
+      await page.getByLabel(/^Or: at most/).fill('2000');
+      await until(page, (state) => state.plan?.vertex_budget === 2000 && state.phase === 'ready');
+      const { nVertices } = (await stateOf(page)).panes.planned;
+      expectThat(nVertices <= 2000 && nVertices >= 1940, `${nVertices} vertices`);
+    }),
+  );
+
+  await check('refinement: a press on a face tells why it is as fine as it is', () =>
+    visit('#view=refinement', async (page) => {
+      const box = await canvasOf(page).boundingBox();
+      const at = await page.evaluate(() => {
+        const places = window.pleat.positions(1);
+        let nearest = null;
+        // The vertex that is seen lowest lies at the hem, in front.
+        for (let vertex = 0; vertex < places.length / 3; ++vertex) {
+          const seen = window.pleat.project(vertex, 1);
+          if (!nearest || seen.y > nearest.y) nearest = seen;
+        }
+        return nearest;
+      });
+      await page.mouse.click(box.x + at.x, box.y + at.y - 12);
+      await until(page, (state) => state.face !== null);
+      const story = await page.locator('.face-story').textContent();
+      expectThat(/face of (level|the base mesh)/.test(story), `it says: ${story}`);
+    }),
+  );
+
+  await check('refinement: each colour has a legend with its unit', () =>
+    visit('#view=refinement', async (page) => {
+      const legend = page.locator('.garment-legend');
+      const words = { Level: /coarse face/, Pattern: /1\/m/, Curvature: /1\/m/ };
+      const pictures = [];
+      for (const [colour, unit] of Object.entries({ ...words, 'Distance to fine': /mm/ })) {
+        await choice(page, 'Colour shows').selectOption(colour);
+        await eventually(
+          async () => unit.test((await legend.textContent()).replaceAll('\u202f', ' ')),
+          `the legend of ${colour}`,
+        );
+        await page.waitForTimeout(300);
+        pictures.push((await picture(page)).toString('base64'));
+      }
+      expectThat(new Set(pictures).size === pictures.length, 'two colours look the same');
+      await choice(page, 'Colour shows').selectOption('Fabric');
+      await eventually(async () => !(await legend.isVisible()), 'fabric has no legend');
+    }),
+  );
+
+  await check('refinement: a squat fires the light', () =>
+    visit('#view=refinement&motion=squat&fine=off&edges=off&colour=material', async (page) => {
+      await button(page, 'Play').click();
+      await until(page, (state) => state.fit?.fires, LOAD_MS);
+      await eventually(
+        async () => /Does not fit/.test(await page.locator('.fit-title').textContent()),
+        'the light says so',
+      );
+    }),
+  );
+
+  await check('refinement: a link brings back what is shown', () =>
+    visit(
+      '#view=refinement&vertices=1500&colour=pattern&hanging=on&edges=off&speed=0.5&start=2',
+      async (page) => {
+        const { panes, timeS, colour, hanging, edges, speed } = await stateOf(page);
+        expectThat(panes.planned.nVertices <= 1500, `${panes.planned.nVertices} vertices`);
+        expectThat(Math.abs(timeS - 2) < 1e-6, `at ${timeS} s`);
+        expectThat(colour === 'pattern' && hanging && !edges && speed === 0.5, 'other settings');
+        await eventually(
+          () => page.evaluate(() => window.location.hash.includes('vertices=1500')),
+          'the address has it',
+        );
+        const before = await paneOf(page, 1);
+        await page.reload();
+        await isReady(page);
+        expectThat(largestMove(before, await paneOf(page, 1)) === 0, 'another shape');
+      },
+    ),
+  );
+
+  await check('refinement: keys play, step and turn', () =>
+    visit('#view=refinement&start=1', async (page) => {
+      await canvasOf(page).focus();
+      await page.keyboard.press('.');
+      await until(page, (state) => state.timeS > 1.02 && state.timeS < 1.05);
+      await page.keyboard.press('h');
+      await until(page, (state) => state.hanging);
+      const still = await picture(page);
+      await page.keyboard.press('ArrowLeft');
+      await page.waitForTimeout(500);
+      expectThat(!still.equals(await picture(page)), 'the view did not turn');
+      await page.keyboard.press('r');
+      await until(page, (state) => state.timeS === 0);
+    }),
+  );
+
+  for (const colorScheme of ['light', 'dark']) {
+    await check(`refinement: axe has no serious findings, ${colorScheme}`, () =>
+      visit(
+        '#view=refinement&colour=pattern',
+        async (page) => {
+          const findings = await findingsOf(page, '#refinement details');
+          expectThat(findings.length === 0, findings.join('; '));
+        },
+        { colorScheme },
+      ),
+    );
+  }
+
+  for (const [width, height] of [
+    [320, 568],
+    [390, 844],
+    [1024, 768],
+  ]) {
+    await check(`refinement: nothing scrolls sideways at ${width} px`, () =>
+      visit(
+        '#view=refinement',
+        async (page) => {
+          const [content, view] = await page.evaluate(() => [
+            document.documentElement.scrollWidth,
+            window.innerWidth,
+          ]);
+          expectThat(content <= view, `${content} px of content in ${view} px`);
+        },
+        { width, height },
+      ),
+    );
+  }
+
+  await check(
+    'refinement: without its WebAssembly file a sentence, and other views work',
+    async () => {
+      const { page, close } = await open('#view=refinement', {
+        prepare: (fresh) => fresh.context().route('**/refinement*.wasm', (route) => route.abort()),
+      });
+      await until(page, (state) => state.phase === 'broken');
+      const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+      expectThat(/WebAssembly/.test(sentence), `it says: ${sentence}`);
+      await page.getByRole('link', { name: /Speed and error/ }).click();
+      await until(page, (state) => state.setting && state.phase === 'ready');
+      await close();
+    },
+  );
+}

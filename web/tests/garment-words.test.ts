@@ -1,0 +1,103 @@
+import { describe, expect, it } from 'vitest';
+import type { FitAnswer } from '../src/sim/refinement-module';
+import type { PlanStory } from '../src/state/plan-file';
+import { DEFAULT_LINK, EMPTY_PANE, initialRefinementState } from '../src/state/refinement-state';
+import { garmentSentence } from '../src/views/refinement/garment-announcer';
+import {
+  costWords,
+  errorWords,
+  fitReading,
+  sourceSentence,
+  storySentences,
+} from '../src/views/refinement/garment-words';
+import { upperEnd } from '../src/views/refinement/paints';
+import { objText } from '../src/views/refinement/saving';
+
+const STORY: PlanStory = {
+  example: 'walk',
+  patterns: [
+    { meanPerM: 5, deviationPerM: 2, nVertices: 10, limitPerM: 15 },
+    { meanPerM: 15, deviationPerM: 6, nVertices: 5, limitPerM: 40 },
+  ],
+  nVertices: 900,
+  nSplits: 30,
+  nForBalance: 4,
+  rule: { kind: 'demand', value: 3 },
+};
+
+const FIT: FitAnswer = {
+  share: 0.01,
+  worst_share: 0.03,
+  n_in_a_row: 0,
+  n_frames: 20,
+  fires: false,
+  first_fired: null,
+};
+
+const STATE = initialRefinementState(DEFAULT_LINK, []);
+
+describe('garment-words', () => {
+  it('says where a cost was found out', () => {
+    const pane = { ...EMPTY_PANE, nVertices: 5, msPerFrame: 12.34 };
+    expect(costWords({ ...pane, source: 'recorded' })).toBe('12 ms a frame, recorded');
+    expect(costWords({ ...pane, source: 'computed' })).toBe('12 ms a frame here');
+    expect(costWords({ ...pane, source: 'computed', msPerFrame: null })).toBe('computed here');
+    expect(errorWords('coarse', { ...pane, errorM: 0.0123 })).toBe('12 mm off fine');
+    expect(errorWords('fine', { ...pane, source: 'resting' })).toBe('');
+  });
+
+  it('tells splits that were asked for from those for balance', () => {
+    const text = storySentences(STORY);
+    expect(text).toContain('2 patterns');
+    expect(text).toContain('30 faces were split: 26 where the patterns');
+    expect(text).toContain('the other 4 only to keep neighbours');
+    expect(storySentences({ ...STORY, nForBalance: 0 })).toContain('none only to keep');
+  });
+
+  it('lights by what the monitor says', () => {
+    expect(fitReading(null, STORY).light).toBe('unknown');
+    expect(fitReading(FIT, null).light).toBe('unknown');
+    expect(fitReading(FIT, STORY)).toMatchObject({ light: 'fits' });
+    expect(fitReading({ ...FIT, share: 0.2, n_in_a_row: 3 }, STORY).detail).toContain('3 of 10');
+    expect(fitReading({ ...FIT, fires: true, first_fired: 34 }, STORY).light).toBe('fires');
+    // Once it has fired the plan stays doubtful.
+    expect(fitReading({ ...FIT, first_fired: 34 }, STORY).light).toBe('fires');
+  });
+
+  it('says who is computed where, and who waits', () => {
+    const computed = { ...EMPTY_PANE, source: 'computed' as const };
+    const recorded = { ...EMPTY_PANE, source: 'recorded' as const };
+    const mixed = { ...STATE, panes: { coarse: computed, planned: computed, fine: recorded } };
+    expect(sourceSentence(mixed)).toContain('come with the page: fine.');
+    expect(sourceSentence(mixed)).toContain('on this device: coarse, multi-resolution.');
+    const slow = { ...STATE, panes: { coarse: computed, planned: computed, fine: computed } };
+    expect(sourceSentence(slow)).toContain('wait for the fine mesh');
+    const rest = { ...slow, panes: { ...slow.panes, fine: EMPTY_PANE } };
+    expect(sourceSentence(rest)).toContain('rests');
+  });
+
+  it('announces events, not numbers', () => {
+    const ready = { ...STATE, phase: 'ready' as const };
+    expect(garmentSentence(ready, STATE)).toContain('Ready');
+    expect(garmentSentence({ ...ready, timeS: 1 }, ready)).toBeNull();
+    const fired = { ...ready, fit: { ...FIT, fires: true, first_fired: 3 } };
+    expect(garmentSentence(fired, ready)).toContain('does not fit');
+    expect(garmentSentence({ ...fired, timeS: 2 }, fired)).toBeNull();
+    expect(garmentSentence(ready, { ...ready, playing: true })).toBe('Paused at 0.0 seconds.');
+  });
+});
+
+describe('what is saved and painted', () => {
+  it('leaves a fiftieth of the values beyond the scale, and unknown ones out', () => {
+    const values = Float32Array.from({ length: 101 }, (_, k) => (k === 100 ? 1e6 : k));
+    expect(upperEnd(values)).toBe(98);
+    expect(upperEnd(Float32Array.of(Number.NaN))).toBe(0);
+  });
+
+  it('writes an OBJ with vertices counted from one', () => {
+    const text = objText(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), Uint32Array.of(0, 1, 2));
+    expect(text).toBe(
+      'v 0.00000 0.00000 0.00000\nv 1.00000 0.00000 0.00000\nv 0.00000 1.00000 0.00000\nf 1 2 3\n',
+    );
+  });
+});
