@@ -132,7 +132,8 @@ export function createTrio(
     view.showMesh(pane.id, loaded.mesh);
     const nVertices = loaded.summary.n_vertices;
     const msPerFrame = loaded.recording?.ms_per_frame ?? null;
-    setPane(pane.id, { ...EMPTY_PANE, nVertices, msPerFrame });
+    const { source } = store.get().panes[pane.id];
+    setPane(pane.id, { ...EMPTY_PANE, source, nVertices, msPerFrame });
   }
 
   function setSources(): void {

@@ -24,6 +24,8 @@ export interface GarmentStage {
   setMesh(pane: number, mesh: GarmentMesh): void;
   showFrame(pane: number, buffer: ArrayBuffer): void;
   setSolids(solids: SolidsAnswer): void;
+  /** A cloth that does not move with its figure is left out. */
+  setShown(pane: number, isShown: boolean): void;
   setPaint(pane: number, paint: Paint): void;
   setEdges(isShown: boolean): void;
   setHanging(isShown: boolean): void;
@@ -70,6 +72,7 @@ export function createGarmentStage(
   const mannequin = createMannequin();
   const panes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
   scene.add(surroundings.object, mannequin.object, ...panes.map(({ object }) => object));
+  const leftOut: boolean[] = [];
   let isFramed = false;
   let colours = { line: '#000000', dot: '#000000' };
   let areEdgesShown = false;
@@ -116,7 +119,7 @@ export function createGarmentStage(
 
   function drawPane(renderer: WebGLRenderer, index: number, width: number, height: number): void {
     panes.forEach((other, k) => {
-      other.object.visible = k === index && other.positions().length > 0;
+      other.object.visible = k === index && !leftOut[k] && other.positions().length > 0;
     });
     panes[index]?.update();
     const box = cut(index, { left: 0, top: 0, width, height });
@@ -201,6 +204,10 @@ export function createGarmentStage(
     setSolids({ cones, pelvis_m: pelvis }) {
       mannequin.setCones(cones);
       if (pelvis) follow(new Vector3(...pelvis));
+      redraw();
+    },
+    setShown(pane, isShown) {
+      leftOut[pane] = !isShown;
       redraw();
     },
     setPaint(pane, paint) {

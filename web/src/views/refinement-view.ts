@@ -131,6 +131,11 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
   createGarmentBadges(stageBox, store);
   createGarmentLegend(legendBox, store);
   watch(store, ['colour', 'ranges', 'plan', 'phase'], repaint);
+  watch(store, ['panes'], ({ panes }) => {
+    PANES.forEach((id, pane) => {
+      stage?.setShown(pane, panes[id].source !== 'resting');
+    });
+  });
   watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
   watch(store, ['hanging'], ({ hanging }) => stage?.setHanging(hanging));
   watch(store, ['fabric'], ({ fabric }) => stage?.setFabric(fabricNamed(fabric).id));
