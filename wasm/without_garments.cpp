@@ -40,7 +40,7 @@ std::shared_ptr<const MovingFrame> bone_frame(std::shared_ptr<const MovingBody>,
   unreachable();
 }
 std::vector<BodyPart> mannequin(BodyBuild) { unreachable(); }
-std::vector<BodyPart> without_arms(std::vector<BodyPart>) { unreachable(); }
+std::vector<BodyPart> below_waist(std::vector<BodyPart>) { unreachable(); }
 MotionCurves::MotionCurves(const ChannelKeys&) { unreachable(); }
 
 }  // namespace pleat

@@ -130,7 +130,7 @@ struct Fitting {
   double hip_girth = 0;    // the largest between waist and crotch [m]
   double crotch = 0;       // height of the hips' underside [m]
 
-  explicit Fitting(BodyBuild build) : body(without_arms(mannequin(build))) {
+  explicit Fitting(BodyBuild build) : body(below_waist(mannequin(build))) {
     waist = outline(body, kWaistHeight, kDirections);
     waist_girth = girth(waist);
     crotch = kWaistHeight;

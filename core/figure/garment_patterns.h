@@ -34,7 +34,7 @@ struct TrouserMeasures {
 /// Groups: waist, hem. A skirt's two ends are its border; every other vertex has four edges.
 ///
 /// From the second row of vertices on, its second refinement keeps 5 mm, and what contact adds for
-/// flat faces, from the solids of the body without arms.
+/// flat faces, from the solids below the waist.
 /// Throws InputError naming the measure for a waist that does not hold above the hips, a hem the
 /// body does not pass or the length does not reach, a length that is not positive or ends on the
 /// floor; ContractError for an odd number of columns or fewer than 8.

@@ -148,10 +148,10 @@ std::vector<BodyPart> mannequin(BodyBuild build) {
   return parts;
 }
 
-std::vector<BodyPart> without_arms(std::vector<BodyPart> parts) {
-  const auto arms = std::remove_if(parts.begin(), parts.end(),
-                                   [](const BodyPart& part) { return is_arm(part.bone); });
-  parts.erase(arms, parts.end());
+std::vector<BodyPart> below_waist(std::vector<BodyPart> parts) {
+  const auto above = std::remove_if(
+      parts.begin(), parts.end(), [](const BodyPart& part) { return !is_below_waist(part.bone); });
+  parts.erase(above, parts.end());
   return parts;
 }
 

@@ -159,7 +159,9 @@ class BoneFrame : public MovingFrame {
 
 const char* bone_name(Bone bone) { return spec(bone).name; }
 
-bool is_arm(Bone bone) { return bone >= Bone::upper_arm_right; }
+bool is_below_waist(Bone bone) {
+  return bone == Bone::pelvis || (bone >= Bone::thigh_right && bone <= Bone::foot_left);
+}
 
 Vec3 standing_joint(Bone bone) { return {spec(bone).x, spec(bone).y, side(bone) * spec(bone).z}; }
 

@@ -28,7 +28,7 @@ constexpr int kBones = 13;
 /// "thigh_right"
 const char* bone_name(Bone bone);
 
-bool is_arm(Bone bone);
+bool is_below_waist(Bone bone);
 
 /// Where a bone hangs while the body stands [m]: x forward, y up from the floor, z to the right,
 /// the hips midway over the origin; a woman of 1.635 m.

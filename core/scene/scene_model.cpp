@@ -33,10 +33,10 @@ std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const Cl
   return pins;
 }
 
-/// Hanging arms cut into the hips, where garments of the lower body are.
+/// Those that the scene's cloth meets: garments are of the lower body.
 std::vector<BodyPart> body_parts(const Scene& scene) {
   std::vector<BodyPart> parts = mannequin(scene.figure->build);
-  return std::holds_alternative<GarmentCloth>(scene.cloth) ? without_arms(std::move(parts)) : parts;
+  return std::holds_alternative<GarmentCloth>(scene.cloth) ? below_waist(std::move(parts)) : parts;
 }
 
 /// The scene's own solids, then the figure's.

@@ -102,7 +102,7 @@ const VertexGroup& group_named(const Garment& garment, const std::string& name) 
 /// Vertices of the second refinement, but for the first row of base quads, that are nearer to some
 /// solid than 5 mm and what contact adds for their face (docs/methods/contact.md).
 int n_too_near(const Garment& garment, BodyBuild build) {
-  const std::vector<BodyPart> body = without_arms(mannequin(build));
+  const std::vector<BodyPart> body = below_waist(mannequin(build));
   QuadMesh mesh = QuadMesh::from_patch(garment.patch);
   mesh.refine_uniformly(2);
   const int n_waist_quads = static_cast<int>(group_named(garment, "waist").vertices.size());
@@ -216,7 +216,7 @@ TEST_CASE("garments: below the waist's row cloth stays 5 mm off the body", "[fig
 TEST_CASE("garments: the waist lies snugly outside of the body", "[figure]") {
   const auto build = GENERATE(BodyBuild::average, BodyBuild::slim);
   const Garment garment = GENERATE(0, 1) ? skirt({}, build) : trousers({}, build);
-  const std::vector<BodyPart> body = without_arms(mannequin(build));
+  const std::vector<BodyPart> body = below_waist(mannequin(build));
   for (const VertexId v : group_named(garment, "waist").vertices) {
     const Vec3 place = garment.patch.rest_positions.col(v);
     CHECK(place.y() == 0.984);
@@ -239,7 +239,7 @@ TEST_CASE("garments: hems are where and as wide as they were measured", "[figure
     return girth;
   };
   CHECK(girth_of(tube, "hem") == Approx(measures.hem_girth).epsilon(1e-3));
-  const std::vector<BodyPart> body = without_arms(mannequin(BodyBuild::average));
+  const std::vector<BodyPart> body = below_waist(mannequin(BodyBuild::average));
   CHECK(girth_of(tube, "waist") ==
         Approx(girth(outline(body, 0.984, 360)) + measures.waist_ease).epsilon(1e-3));
   // Points at equal distances round make columns run a little askew.

@@ -24,6 +24,12 @@ Parts parts_named(BodyBuild build, const std::string& ending) {
   return found;
 }
 
+Parts without_arms(Parts parts) {
+  std::erase_if(parts,
+                [](const BodyPart& part) { return part.name.find("arm") != std::string::npos; });
+  return parts;
+}
+
 double girth_at(const Parts& parts, double height) { return girth(outline(parts, height, 720)); }
 
 /// Distance between two moving solids [m], sampled along the first one's axis and width.
