@@ -1,6 +1,6 @@
-// What most of the page's modules have in the place of figures, garments and plans, which none of
-// their views shows: linked before the core's libraries, it keeps those out of what a visitor
-// fetches. A scene that asks for one is refused, so that nothing else here is ever reached.
+// What modules without garments have in the place of them, of plans and of a scene's figure: linked
+// before the core's libraries, it keeps those out of what a visitor fetches. A scene that asks for
+// one is refused, so that nothing else here is ever reached.
 #include "core/base/check.h"
 #include "core/scene/figure_section.h"
 #include "core/scene/garment_section.h"
@@ -21,8 +21,6 @@ namespace {
 
 Figure read_figure(const JsonReader& reader, const FileSource&) { refuse(reader, "figure"); }
 Json json_figure(const Figure&) { unreachable(); }
-Bone read_bone(const JsonReader& reader) { refuse(reader, "bone"); }
-const char* bone_name(Bone) { unreachable(); }
 
 GarmentCloth read_garment(const JsonReader& reader, const Scene&) { refuse(reader, "garment"); }
 Json json_garment(const GarmentCloth&) { unreachable(); }
@@ -33,14 +31,7 @@ RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource&, cons
 Json json_plan(const RefinementPlan&) { unreachable(); }
 QuadMesh planned_mesh(const QuadMesh&, const RefinementPlan&) { unreachable(); }
 
-MovingBody::MovingBody(const BodyMotion& motion, const Playback&) : curves_(motion.keys) {
-  unreachable();
-}
-std::shared_ptr<const MovingFrame> bone_frame(std::shared_ptr<const MovingBody>, Bone) {
-  unreachable();
-}
 std::vector<BodyPart> mannequin(BodyBuild) { unreachable(); }
 std::vector<BodyPart> below_waist(std::vector<BodyPart>) { unreachable(); }
-MotionCurves::MotionCurves(const ChannelKeys&) { unreachable(); }
 
 }  // namespace pleat

@@ -9,6 +9,7 @@
 #include "core/deform/held_parts.h"
 #include "core/mesh/sheet_pattern.h"
 #include "core/scene/mesh_section.h"
+#include "core/scene/target_section.h"
 #include "core/scene/vertex_place.h"
 
 namespace pleat {
@@ -173,51 +174,11 @@ std::vector<VertexId> read_pins(const JsonReader& reader, const DeformScene& sce
   return pins;
 }
 
-/// Straight up or down to the upper half of a ball.
-Positions onto_sphere(const JsonReader& reader, const Positions& from) {
-  reader.allow_keys({"centre_m", "radius_m"});
-  const Vec3 centre = reader.at("centre_m").vec3();
-  const double radius = reader.at("radius_m").number(kPositive);
-  Positions targets = from;
-  for (auto x : targets.colwise()) {
-    const double beside = std::hypot(x.x() - centre.x(), x.z() - centre.z());
-    if (beside > radius)
-      throw InputError(reader.pointer(),
-                       "expected a ball below or above all of the handle's vertices, got one that "
-                       "lies " +
-                           Json(beside).dump() + " m beside its centre");
-    x.y() = centre.y() + std::sqrt(radius * radius - beside * beside);
-  }
-  return targets;
-}
-
-Positions turned(const JsonReader& reader, const Positions& from) {
-  reader.allow_keys({"axis", "angle_deg", "centre_m"});
-  const double angle = reader.at("angle_deg").number() * M_PI / 180;
-  const Eigen::AngleAxisd turn(angle, reader.at("axis").direction());
-  Vec3 centre = from.rowwise().mean();
-  if (const auto at = reader.find("centre_m")) centre = at->vec3();
-  return (turn.toRotationMatrix() * (from.colwise() - centre)).colwise() + centre;
-}
-
-/// Turned first, then moved.
-Positions read_targets(const JsonReader& reader, const Positions& from) {
-  if (const auto at = reader.find("onto_sphere")) {
-    reader.only_one_of({"onto_sphere", "move_m", "turn"});
-    return onto_sphere(*at, from);
-  }
-  const auto turn = reader.find("turn");
-  const auto move = reader.find("move_m");
-  if (!turn && !move) reader.only_one_of({"move_m", "onto_sphere", "turn"});
-  Positions targets = turn ? turned(*turn, from) : from;
-  if (move) targets.colwise() += move->vec3();
-  return targets;
-}
-
-std::vector<DeformHandle> read_handles(const JsonReader& reader, const DeformScene& scene) {
+std::vector<DeformHandle> read_handles(const JsonReader& reader, const Posing* posing,
+                                       const DeformScene& scene) {
   std::vector<DeformHandle> handles;
   for (const JsonReader& element : reader.elements()) {
-    element.allow_keys(with_place_keys({"name", "move_m", "onto_sphere", "turn"}));
+    element.allow_keys(with_place_keys({"name", "move_m", "onto_sphere", "turn", "bone"}));
     DeformHandle handle;
     handle.name = element.at("name").text();
     for (const DeformHandle& other : handles)
@@ -227,7 +188,7 @@ std::vector<DeformHandle> read_handles(const JsonReader& reader, const DeformSce
     Positions from(3, static_cast<Eigen::Index>(handle.vertices.size()));
     for (std::size_t k = 0; k < handle.vertices.size(); ++k)
       from.col(static_cast<Eigen::Index>(k)) = rest.col(handle.vertices[k]);
-    handle.targets = read_targets(element, from);
+    handle.targets = read_targets(element, posing, from);
     handles.push_back(std::move(handle));
   }
   return handles;
@@ -320,14 +281,17 @@ DeformScene read_deform_scene(std::string_view json_text, const FabricLibrary& f
                               const FileSource& files) {
   const Json document = parse_json(json_text);
   const JsonReader root(document);
-  root.allow_keys({"name", "caption", "cloth", "pins", "handles", "fabric", "weights", "measures",
-                   "form", "terms"});
+  root.allow_keys({"name", "caption", "cloth", "figure", "pins", "handles", "fabric", "weights",
+                   "measures", "form", "terms"});
   DeformScene scene;
   if (const auto at = root.find("name")) scene.name = at->text();
   if (const auto at = root.find("caption")) scene.caption = at->text();
   read_cloth(root.at("cloth"), files, scene);
   if (const auto at = root.find("pins")) scene.pins = read_pins(*at, scene);
-  if (const auto at = root.find("handles")) scene.handles = read_handles(*at, scene);
+  std::optional<Posing> posing;
+  if (const auto at = root.find("figure")) posing = read_posing(*at, files);
+  if (const auto at = root.find("handles"))
+    scene.handles = read_handles(*at, posing ? &*posing : nullptr, scene);
   read_fabric(root, fabrics, scene);
   if (const auto at = root.find("form")) scene.form = at->word(kForms);
   if (const auto at = root.find("terms")) scene.terms = read_terms(*at);

@@ -8,6 +8,8 @@
 #include "core/base/check.h"
 #include "core/deform/deform_solver.h"
 #include "core/deform/fabric_weights.h"
+#include "core/figure/moving_body.h"
+#include "core/scene/motion_file.h"
 #include "core/scene/vertex_place.h"
 #include "native-tests/support/assets.h"
 
@@ -202,15 +204,20 @@ TEST_CASE("deform scene: bad input is told with its place, what was expected and
        "got (0, 100, 0) m, 100 m from the nearest vertex"},
       {R"("handles": [{"vertices": [1], "move_m": [0, 0, 0]}])",
        "/handles/0: expected the key \"name\", got an object"},
+      {hand + R"("bone": "pelvis"}])",
+       "/handles/0/bone: expected no bone without a figure, got \"pelvis\""},
+      {hand + R"("bone": "pelvis", "move_m": [0, 0, 0]}])",
+       "/handles/0: expected only one of the keys \"bone\", \"move_m\", \"turn\", got several"},
       {hand + R"("move": [0, 0, 0]}])",
        "/handles/0/move: expected the key \"move_m\", got \"move\""},
       {hand.substr(0, hand.size() - 2) + "}]",
-       "/handles/0: expected one of the keys \"move_m\", \"onto_sphere\", \"turn\", got an object"},
+       "/handles/0: expected one of the keys \"move_m\", \"onto_sphere\", \"turn\", \"bone\", got "
+       "an object"},
       {hand + R"("move_m": [0, 1, 0]}, {"name": "hand", "vertices": [1], "move_m": [0, 0, 0]}])",
        "/handles/1/name: expected a name that no other handle has, got \"hand\""},
       {hand + R"("move_m": [0, 1, 0], "onto_sphere": {}}])",
-       "/handles/0: expected only one of the keys \"onto_sphere\", \"move_m\", \"turn\", got "
-       "several"},
+       "/handles/0: expected only one of the keys \"onto_sphere\", \"move_m\", \"turn\", "
+       "\"bone\", got several"},
       {hand + R"("onto_sphere": {"centre_m": [0, 0, -0.1], "radius_m": 0.08}}])",
        "/handles/0/onto_sphere: expected a ball below or above all of the handle's vertices, got "
        "one "
@@ -369,6 +376,34 @@ TEST_CASE("deform scene: in every experiment the energy falls in every step, to 
       CHECK(step.energy < before);
       before = step.energy;
     }
+  }
+}
+
+TEST_CASE("deform scene: the T-shirt's cuffs are around the figure's elbows, at rest and posed",
+          "[scene]") {
+  constexpr double kLeeway = 0.05;  // [m]
+  const auto motion = [](const char* name) {
+    return MovingBody(read_motion(repository_file(std::string("assets/motions/") + name)), {});
+  };
+  const MovingBody at_rest = motion("arms_out.json");
+  const MovingBody posed = motion("walk_normal.json");
+  const double time = 2.087;
+  // The neck stays, so the trunk stands; the figure looks along z.
+  const Pose to_trunk = at_rest.pose(Bone::thorax, 1) * posed.pose(Bone::thorax, time).inverse();
+  const auto in_cloth = [](const Vec3& x) { return Vec3(-x.z(), x.y(), x.x()); };
+  const DeformScene scene = shipped("t_shirt");
+  REQUIRE(scene.handles.size() == 3);
+  for (std::size_t h = 0; h < 2; ++h) {
+    const DeformHandle& sleeve = scene.handles[h];
+    const Bone forearm = h == 0 ? Bone::forearm_left : Bone::forearm_right;
+    CAPTURE(sleeve.name);
+    Vec3 rest = Vec3::Zero();
+    for (const VertexId v : sleeve.vertices) rest += scene.mesh.rest_positions.col(v);
+    rest /= static_cast<double>(sleeve.vertices.size());
+    const Vec3 target = sleeve.targets.rowwise().mean();
+    CHECK((rest - in_cloth(at_rest.joint(forearm, 1))).norm() < kLeeway);
+    CHECK((target - in_cloth(to_trunk * posed.joint(forearm, time))).norm() < kLeeway);
+    CHECK((target - rest).norm() > 0.2);
   }
 }
 

@@ -105,6 +105,18 @@ describe.runIf(hasModule)('deform-core', () => {
     expect(distance(positions(frames[0]), positions(frames[1]))).toBeGreaterThan(5e-3);
   });
 
+  it('opens every experiment that the page offers', async () => {
+    const { send, take } = await serve();
+    for (const [index, { id, text }] of EXPERIMENTS.entries()) {
+      const obj = JSON.parse(text).cloth.mesh?.obj?.replace(/^.*\//, '');
+      const mesh = obj && new URL(`../../assets/meshes/${obj}`, import.meta.url);
+      const objText = mesh ? readFileSync(mesh, 'utf8') : '';
+      send({ type: 'open', cloth: index + 1, fabricsText, sceneText: text, objText });
+      const { answer } = take('opened');
+      expect(answer.handles.length, id).toBeGreaterThan(0);
+    }
+  });
+
   it('follows a hand without more than the factor at hand, and ends where a rest would', async () => {
     const { settle, send, holds, positions } = await opened();
     settle();

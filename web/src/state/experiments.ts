@@ -13,13 +13,25 @@ const MESHES = import.meta.glob<string>('../../../assets/meshes/*.obj', {
   eager: true,
 });
 
+const MOTIONS = import.meta.glob<string>('../../../assets/motions/{arms_out,walk_normal}.json', {
+  query: '?raw',
+  import: 'default',
+  eager: true,
+});
+
 /** The experiment of the visitor's own mesh. */
 export const OWN = 'own';
+
+/** A posture of a figure; the motion that it is of is named by its file. */
+interface Moment {
+  motion: unknown;
+}
 
 interface DeformFile {
   caption: string;
   cloth: { sheet?: object; mesh?: { obj: string } };
   fabric: string;
+  figure?: { at_rest: Moment; posed: Moment };
   handles?: { onto_sphere?: { centre_m: Triple; radius_m: number } }[];
   terms?: Term[];
   [part: string]: unknown;
@@ -48,6 +60,18 @@ const TITLES: readonly [string, string][] = [
   ['t_shirt', 'T-shirt'],
 ];
 
+/** The file with its figure's motions written out, as the module reads no other file but a mesh. */
+function textWithMotions(text: string, { figure, ...rest }: DeformFile): string {
+  if (!figure) return text;
+  const writtenOut = (moment: Moment): Moment => {
+    const motion = MOTIONS[`../../../assets/motions/${String(moment.motion).replace(/^.*\//, '')}`];
+    return motion ? { ...moment, motion: JSON.parse(motion) } : moment;
+  };
+  const { at_rest, posed } = figure;
+  const moments = { at_rest: writtenOut(at_rest), posed: writtenOut(posed) };
+  return JSON.stringify({ ...rest, figure: { ...figure, ...moments } });
+}
+
 function experimentFrom(id: string, title: string): Experiment | null {
   const text = TEXTS[`../../../assets/deform/${id}.json`];
   if (!text) return null;
@@ -57,7 +81,15 @@ function experimentFrom(id: string, title: string): Experiment | null {
     ball ? [{ shape: 'sphere', centre: ball.centre_m, radius_m: ball.radius_m }] : [],
   );
   const meshUrl = mesh ? (MESHES[`../../../assets/meshes/${mesh}`] ?? null) : null;
-  return { id, title, caption: file.caption, fabric: file.fabric, text, meshUrl, bodies };
+  return {
+    id,
+    title,
+    caption: file.caption,
+    fabric: file.fabric,
+    text: textWithMotions(text, file),
+    meshUrl,
+    bodies,
+  };
 }
 
 export const EXPERIMENTS: readonly Experiment[] = TITLES.flatMap(
