@@ -53,7 +53,7 @@ export function noticeSentence({ panes, plan, motion }: RefinementState): string
   const what =
     motion === 'squat'
       ? 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.'
-      : 'Look at the folds and the hem.';
+      : 'Compare the folds with those on the right.';
   return `The middle mesh has ${percent(share)} of the fine one’s vertices: small faces only where the example walk bent the cloth. ${what}`;
 }
 
