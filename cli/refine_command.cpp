@@ -13,8 +13,8 @@
 namespace pleat {
 namespace {
 
-constexpr double kSlice = 0.1;         // [s] between reports of progress
-constexpr int kUsualFineLevel = 2;     // of an example, where neither it nor --level says one
+constexpr double kSlice = 0.1;      // [s] between reports of progress
+constexpr int kUsualFineLevel = 2;  // of an example, where neither it nor --level says one
 
 /// The option that sets what the planner names.
 constexpr std::pair<const char*, const char*> kOptions[] = {{"detail demand", "--demand"},
