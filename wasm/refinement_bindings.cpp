@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/figure/mannequin.h"
 #include "core/figure/moving_body.h"
 #include "core/measure/error_norms.h"
 #include "core/measure/self_crossings.h"
@@ -40,6 +41,12 @@ val json_cone(const pleat::RoundedCone& cone) {
   entry.set("half_width_a_m", cone.half_width_a);
   entry.set("half_width_b_m", cone.half_width_b);
   return entry;
+}
+
+bool is_arm(pleat::Bone bone) {
+  using pleat::Bone;
+  return bone == Bone::upper_arm_right || bone == Bone::upper_arm_left ||
+         bone == Bone::forearm_right || bone == Bone::forearm_left;
 }
 
 /// A garment, or a sheet, on one of its meshes: stepped, or put where a record has it.
@@ -181,15 +188,15 @@ class GarmentRun {
     });
   }
 
-  /// The solids at the shown time, and where the figure's pelvis is.
+  /// The figure at the shown time, whether the cloth meets all of it or not, but for arms, which
+  /// would hang through a skirt; and where its pelvis is.
   std::string solids() const {
     return guarded([&](val& envelope) {
       val list = val::array();
-      if (const auto& contact = running().model().contact)
-        for (const pleat::Collider& collider : contact->colliders())
-          if (const auto shape = pleat::ContactStage::placed(collider, time_);
-              const auto* cone = std::get_if<pleat::RoundedCone>(&shape))
-            list.call<void>("push", json_cone(*cone));
+      for (const pleat::BodyPart& part : parts_) {
+        const auto shape = pleat::placed(part.shape, body_->pose(part.bone, time_));
+        list.call<void>("push", json_cone(std::get<pleat::RoundedCone>(shape)));
+      }
       envelope.set("cones", list);
       envelope.set("pelvis_m",
                    body_ ? json_triple(body_->joint(pleat::Bone::pelvis, time_)) : val::null());
@@ -248,6 +255,10 @@ class GarmentRun {
     body_ = scene.figure ? std::make_shared<const pleat::MovingBody>(scene.figure->motion,
                                                                      scene.figure->playback)
                          : nullptr;
+    parts_.clear();
+    if (scene.figure)
+      for (const pleat::BodyPart& part : pleat::mannequin(scene.figure->build))
+        if (!is_arm(part.bone)) parts_.push_back(part);
     begin();
   }
 
@@ -297,6 +308,7 @@ class GarmentRun {
   pleat::StageTimer timer_;
   std::unique_ptr<pleat::Simulation> simulation_;
   std::shared_ptr<const pleat::MovingBody> body_;
+  std::vector<pleat::BodyPart> parts_;  // of it that are drawn
   std::optional<pleat::QuadArrays> arrays_;
   std::optional<pleat::VertexCurvature> curvature_;
   std::optional<pleat::FitMonitor> monitor_;
