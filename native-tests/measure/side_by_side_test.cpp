@@ -51,9 +51,8 @@ TEST_CASE("side by side: the same run twice has no error, another mesh has one",
 
 TEST_CASE("side by side: an adaptive run that never splits is as wrong as the coarse mesh",
           "[measure]") {
-  const auto results = run({{sheet_scene(1), {}},
-                            {sheet_scene(0), {}},
-                            {sheet_scene(1), DynamicOptions{1e6, 1}}});
+  const auto results =
+      run({{sheet_scene(1), {}}, {sheet_scene(0), {}}, {sheet_scene(1), DynamicOptions{1e6, 1}}});
   CHECK(results[2].n_vertices == 25);
   CHECK(results[2].refinement_ms.size() == 9);
   CHECK(results[2].errors.position == Approx(results[1].errors.position).epsilon(0.05));
