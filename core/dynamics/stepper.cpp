@@ -142,6 +142,7 @@ void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) {
   if (memory_ != ContactMemory::none) forces += contact_forces_;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
 void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces) {
   const StageScope scope(observer_, Stage::forces);
   set_steady_forces(forces);
