@@ -57,12 +57,12 @@ RoundedCone placed(const RoundedCone& cone, const Pose& pose) {
   return there;
 }
 
-SweptPlane swept(const Plane& plane, double clearance, const Vec3& shift) {
-  return {plane.normal, plane.normal.dot(plane.point) + clearance, shift};
+SweptPlane swept(const Plane& plane, const Clearance& clearance, const Vec3& shift) {
+  return {plane.normal, plane.normal.dot(plane.point) + clearance.at_a, shift};
 }
 
-SweptSphere swept(const Sphere& sphere, double clearance, const Vec3& shift) {
-  return {sphere.centre, sphere.radius + clearance, shift};
+SweptSphere swept(const Sphere& sphere, const Clearance& clearance, const Vec3& shift) {
+  return {sphere.centre, sphere.radius + clearance.at_a, shift};
 }
 
 }  // namespace
@@ -76,20 +76,24 @@ SolidShape placed(const SolidShape& shape, const Pose& pose) {
   return std::visit([&](const auto& solid) { return SolidShape(placed(solid, pose)); }, shape);
 }
 
-SweptSolid swept(const SolidShape& shape, double clearance, const Vec3& shift) {
+SweptSolid swept(const SolidShape& shape, const Clearance& clearance, const Vec3& shift) {
   return std::visit([&](const auto& solid) { return SweptSolid(swept(solid, clearance, shift)); },
                     shape);
 }
 
-Gap gap(const SweptSolid& solid, const Vec3& place, double inset) {
-  return std::visit([&](const auto& shape) { return gap(shape, place, inset); }, solid);
+Gap gap(const SweptSolid& solid, const Vec3& place) {
+  return std::visit([&](const auto& shape) { return gap(shape, place); }, solid);
 }
 
-double least_radius(const SolidShape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* cone = std::get_if<RoundedCone>(&shape))
-    return std::min(cone->radius_a, cone->radius_b);
-  return std::numeric_limits<double>::infinity();
+void shrink(SweptSolid& solid, const Clearance& inset) {
+  std::visit([&](auto& shape) { shrink(shape, inset); }, solid);
+}
+
+std::array<double, 2> end_radii(const SolidShape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return {sphere->radius, sphere->radius};
+  if (const auto* cone = std::get_if<RoundedCone>(&shape)) return {cone->radius_a, cone->radius_b};
+  constexpr double kFlat = std::numeric_limits<double>::infinity();
+  return {kFlat, kFlat};
 }
 
 }  // namespace pleat

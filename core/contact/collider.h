@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "core/base/motion.h"
@@ -29,10 +30,13 @@ SolidShape placed(const SolidShape& shape, const Pose& pose);
 /// shape      where it is at the end of the substep
 /// clearance  [m]
 /// shift      how far it moves during the substep [m]
-SweptSolid swept(const SolidShape& shape, double clearance, const Vec3& shift);
-Gap gap(const SweptSolid& solid, const Vec3& place, double inset = 0);
+SweptSolid swept(const SolidShape& shape, const Clearance& clearance, const Vec3& shift);
+Gap gap(const SweptSolid& solid, const Vec3& place);
+/// Takes from the clearance.
+void shrink(SweptSolid& solid, const Clearance& inset);
 
-/// Of the smallest ball among those that fill the shape [m]; infinite for a plane.
-double least_radius(const SolidShape& shape);
+/// Of the balls that fill the shape [m]: at a rounded cone's ends, else twice the same; infinite
+/// for a plane.
+std::array<double, 2> end_radii(const SolidShape& shape);
 
 }  // namespace pleat

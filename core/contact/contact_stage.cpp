@@ -22,16 +22,17 @@ constexpr int kMaxMeetings = 16;
 /// is no way out of the other. It would leave at their speed divided by the sine.
 constexpr double kLeastSine = 0.04;
 
-double sagitta(double radius, double circumradius) {
-  return std::sqrt(radius * radius + circumradius * circumradius) - radius;
+double sagitta(double radius, double face_radius) {
+  if (!std::isfinite(radius)) return 0;
+  return std::sqrt(radius * radius + face_radius * face_radius) - radius;
 }
 
-DistanceBudget::Hull hull(const RoundedCone& cone, double clearance) {
+DistanceBudget::Hull hull(const RoundedCone& cone, const Clearance& clearance) {
   const Vec3 side_a = cone.half_width_a * cone.across;
   const Vec3 side_b = cone.half_width_b * cone.across;
   return {{cone.centre_a - side_a, cone.centre_a + side_a, cone.centre_b - side_b,
            cone.centre_b + side_b},
-          std::max(cone.radius_a, cone.radius_b) + clearance};
+          std::max(cone.radius_a + clearance.at_a, cone.radius_b + clearance.at_b)};
 }
 
 bool is_no_cone(const Collider& collider) {
@@ -74,37 +75,45 @@ ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions
 
 void ContactStage::set_options(const ContactOptions& options) {
   const auto is_size = [](double size) { return size >= 0 && std::isfinite(size); };
-  const Eigen::VectorXd& circumradii = options.face_circumradii;
+  const Eigen::VectorXd& radii = options.face_radii;
   PLEAT_CHECK(is_size(options.half_thickness), "the cloth's half thickness must not be negative");
-  PLEAT_CHECK(std::all_of(circumradii.begin(), circumradii.end(), is_size),
-              "the faces' circumradii must not be negative");
+  PLEAT_CHECK(std::all_of(radii.begin(), radii.end(), is_size),
+              "the faces' radii must not be negative");
   options_ = options;
-  largest_circumradius_ = circumradii.size() > 0 ? circumradii.maxCoeff() : 0;
-  is_graded_ = circumradii.size() > 0 && circumradii.minCoeff() < largest_circumradius_;
+  largest_face_radius_ = radii.size() > 0 ? radii.maxCoeff() : 0;
+  is_graded_ = radii.size() > 0 && radii.minCoeff() < largest_face_radius_;
   make_budget();
 }
 
-double ContactStage::clearance(double least_radius, double circumradius) const {
-  return options_.half_thickness +
-         (std::isfinite(least_radius) ? sagitta(least_radius, circumradius) : 0);
+Clearance ContactStage::clearance(const std::array<double, 2>& radii, double face_radius) const {
+  return {options_.half_thickness + sagitta(radii[0], face_radius),
+          options_.half_thickness + sagitta(radii[1], face_radius)};
 }
 
-double ContactStage::clearance(const Collider& collider, VertexId vertex) const {
-  return clearance(least_radius(collider.shape),
-                   is_graded_ ? options_.face_circumradii[vertex] : largest_circumradius_);
+Clearance ContactStage::clearance(const Collider& collider, VertexId vertex) const {
+  return clearance(end_radii(collider.shape),
+                   is_graded_ ? options_.face_radii[vertex] : largest_face_radius_);
 }
 
-/// How far below the solid's grown surface the vertex is held [m].
-double ContactStage::inset(const Solid& solid, VertexId vertex) const {
-  if (!is_graded_) return 0;
-  return solid.clearance - clearance(solid.least_radius, options_.face_circumradii[vertex]);
+/// The shape of a solid as this vertex is held off it.
+template <class Shape, class Action>
+auto ContactStage::with_held(const Solid& solid, const Shape& shape, VertexId vertex,
+                             const Action& action) const {
+  if (!is_graded_) return action(shape);
+  const double face_radius = options_.face_radii[vertex];
+  const auto less = [&](double radius) {
+    return sagitta(radius, largest_face_radius_) - sagitta(radius, face_radius);
+  };
+  Shape own = shape;
+  shrink(own, {less(solid.radii[0]), less(solid.radii[1])});
+  return action(own);
 }
 
 void ContactStage::make_budget() {
   std::vector<DistanceBudget::Hull> hulls;
   for (std::size_t k = first_cone_; k < colliders_.size(); ++k) {
     const auto& cone = std::get<RoundedCone>(colliders_[k].shape);
-    hulls.push_back(hull(cone, clearance(least_radius(cone), largest_circumradius_)));
+    hulls.push_back(hull(cone, clearance(end_radii(cone), largest_face_radius_)));
   }
   budget_ = DistanceBudget(std::move(hulls));
 }
@@ -112,8 +121,7 @@ void ContactStage::make_budget() {
 void ContactStage::place(const Collider& collider, const Pose& begin, const Pose& end,
                          Solid& solid) const {
   solid.turns = begin.rotation != end.rotation;
-  solid.least_radius = least_radius(collider.shape);
-  solid.clearance = clearance(solid.least_radius, largest_circumradius_);
+  solid.radii = end_radii(collider.shape);
   solid.friction = collider.friction;
   Vec3 shift = Vec3::Zero();
   if (solid.turns) {
@@ -123,7 +131,8 @@ void ContactStage::place(const Collider& collider, const Pose& begin, const Pose
     shift = end.translation - begin.translation;
     solid.velocity = shift / substep_;
   }
-  solid.swept = swept(pleat::placed(collider.shape, end), solid.clearance, shift);
+  solid.swept = swept(pleat::placed(collider.shape, end),
+                      clearance(solid.radii, largest_face_radius_), shift);
 }
 
 void ContactStage::begin_substep(double time_begin, double time_end) {
@@ -172,7 +181,9 @@ void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& e
     if (&solid == skipped) continue;
     const Vec3 from = solid.turns ? solid.carry * begin : begin;
     with_plane_or_sphere(solid, [&](const auto& shape) {
-      earliest.keep_earlier(solid, first_impact(shape, from, end, slack, inset(solid, vertex)));
+      earliest.keep_earlier(solid, with_held(solid, shape, vertex, [&](const auto& held) {
+                              return first_impact(held, from, end, slack);
+                            }));
     });
   }
   if (first_cone_ == solids_.size()) return;
@@ -181,7 +192,9 @@ void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& e
     if (&solid == skipped) return -std::numeric_limits<double>::infinity();
     const Vec3 from = solid.turns ? solid.carry * begin : begin;
     const auto& cone = std::get<SweptCone>(solid.swept);
-    const ConeMeeting met = meeting(cone, from, end, slack, inset(solid, vertex));
+    const ConeMeeting met = with_held(solid, cone, vertex, [&](const SweptCone& held) {
+      return meeting(held, from, end, slack);
+    });
     earliest.keep_earlier(solid, met.impact);
     return met.height_begin;
   });
@@ -196,7 +209,9 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
     if (&solid == skipped) continue;
     with_plane_or_sphere(solid, [&](const auto& shape) {
       if (may_touch(shape, begin, end))
-        earliest.keep_earlier(solid, first_impact(shape, begin, end, slack, inset(solid, vertex)));
+        earliest.keep_earlier(solid, with_held(solid, shape, vertex, [&](const auto& held) {
+                                return first_impact(held, begin, end, slack);
+                              }));
     });
   }
   if (first_framed_ < solids_.size()) meet_framed(vertex, begin, end, slack, skipped, earliest);
@@ -237,7 +252,8 @@ ContactStage::Touch ContactStage::resolve(VertexId vertex, const Vec3& position_
     velocity = solid_velocity + left * tangential_velocity + std::max(normal_speed, 0.0) * normal;
 
     if (before) {
-      const Gap other = gap(before->swept, position, inset(*before, vertex));
+      const Gap other = with_held(*before, before->swept, vertex,
+                                  [&](const SweptSolid& held) { return gap(held, position); });
       const Vec3 along = tangential(other.normal, normal);
       const double squared_sine = along.squaredNorm();
       if (squared_sine > kLeastSine * kLeastSine) {
@@ -266,7 +282,7 @@ Penetration ContactStage::penetration(const Eigen::Ref<const Positions>& positio
                                       double time) const {
   std::vector<SweptSolid> solids;
   for (const Collider& collider : colliders_)
-    solids.push_back(swept(placed(collider, time), 0, Vec3::Zero()));
+    solids.push_back(swept(placed(collider, time), Clearance{}, Vec3::Zero()));
   Penetration found;
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
     double depth = 0;

@@ -13,9 +13,10 @@ namespace pleat {
 
 struct ContactOptions {
   double half_thickness = 0;  ///< vertices keep at least this distance [m]
-  /// For each vertex, of the largest triangle at rest that has a corner there [m]; empty: no face
-  /// is any larger than a vertex. See clearance().
-  Eigen::VectorXd face_circumradii;
+  /// For each vertex, within which distance of a corner every point of the faces there lies [m]: of
+  /// a triangle the circumradius, of an edge half its length; empty: no face is any larger than a
+  /// vertex. See clearance().
+  Eigen::VectorXd face_radii;
 };
 
 /// How deep a cloth is inside of solids.
@@ -46,10 +47,10 @@ class ContactStage {
   /// Throws ContractError for negative sizes.
   void set_options(const ContactOptions& options);
 
-  /// Distance from the solid's surface at which the vertex is held [m]: half the thickness, and
-  /// from a solid made of balls of radius R or more also the sagitta sqrt(R^2 + c^2) - R of a face
-  /// of circumradius c.
-  double clearance(const Collider& collider, VertexId vertex) const;
+  /// How far off the solid's surface the vertex is held [m]: half the thickness, and off a ball of
+  /// radius R also the sagitta sqrt(R^2 + c^2) - R of a face of radius c; off a rounded cone that
+  /// of the balls at its ends, linearly between.
+  Clearance clearance(const Collider& collider, VertexId vertex) const;
 
   /// Places the solids at both ends of a substep [s]. Throws ContractError unless time_end >
   /// time_begin.
@@ -90,9 +91,8 @@ class ContactStage {
  private:
   /// A collider over the substep that was begun.
   struct Solid {
-    SweptSolid swept;         ///< grown by the largest clearance
-    double clearance = 0;     ///< that one [m]
-    double least_radius = 0;  ///< [m]
+    SweptSolid swept;               ///< grown by the largest clearance
+    std::array<double, 2> radii{};  ///< end_radii [m]
     double friction = 0;
     Vec3 velocity{0, 0, 0};  ///< mean over the substep [m/s], of one that does not turn
     bool turns = false;      ///< then its shift is zero, and all is seen from where it ends:
@@ -106,8 +106,10 @@ class ContactStage {
     void keep_earlier(const Solid& other, const std::optional<Impact>& met);
   };
 
-  double clearance(double least_radius, double circumradius) const;
-  double inset(const Solid& solid, VertexId vertex) const;
+  Clearance clearance(const std::array<double, 2>& radii, double face_radius) const;
+  template <class Shape, class Action>
+  auto with_held(const Solid& solid, const Shape& shape, VertexId vertex,
+                 const Action& action) const;
   Vec3 velocity_at(const Solid& solid, const Vec3& place) const;
   static Vec3 relative_path(const Solid& solid, const Vec3& begin, const Vec3& end);
   void make_budget();
@@ -124,11 +126,11 @@ class ContactStage {
   std::size_t first_cone_ = 0;
   bool has_framed_ = false;
   ContactOptions options_;
-  double largest_circumradius_ = 0;  // [m]
-  bool is_graded_ = false;           // vertices differ in it
-  double substep_ = 0;               // [s]
-  std::vector<Solid> solids_;        // one per collider
-  std::vector<Pose> poses_begin_;    // one per collider
+  double largest_face_radius_ = 0;  // [m]
+  bool is_graded_ = false;          // vertices differ in it
+  double substep_ = 0;              // [s]
+  std::vector<Solid> solids_;       // one per collider
+  std::vector<Pose> poses_begin_;   // one per collider
   std::vector<Pose> poses_end_;
   DistanceBudget budget_;  // of the rounded cones
   std::int64_t n_unresolved_ = 0;

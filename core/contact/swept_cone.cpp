@@ -87,29 +87,37 @@ Gap local_gap(const SweptCone& cone, const Vec3& place) {
   return nearest;
 }
 
-BallRow ball_row(const Vec3& begin, const Vec3& end, double radius_begin, double radius_end) {
-  BallRow row;
-  row.begin = begin;
-  row.length = (end - begin).norm();
+void set_radii(BallRow& row, double radius_begin, double radius_end) {
   row.radius = radius_begin;
   row.growth = radius_end - radius_begin;
-  if (row.length > 0) {
-    row.direction = (end - begin) / row.length;
-    row.per_length = 1 / row.length;
-  }
   if (std::abs(row.growth) < row.length) {
     row.sine = row.growth / row.length;
     row.cosine = std::sqrt((1 - row.sine) * (1 + row.sine));
     row.tangent = row.sine / row.cosine;
+    row.first_share = 0;
+    row.last_share = 1;
   } else {
+    row.sine = row.tangent = 0;
+    row.cosine = 1;
     row.first_share = row.last_share = row.growth > 0 ? 1 : 0;
   }
+}
+
+BallRow ball_row(const Vec3& begin, const Vec3& end, double radius_begin, double radius_end) {
+  BallRow row;
+  row.begin = begin;
+  row.length = (end - begin).norm();
+  if (row.length > 0) {
+    row.direction = (end - begin) / row.length;
+    row.per_length = 1 / row.length;
+  }
+  set_radii(row, radius_begin, radius_end);
   return row;
 }
 
 }  // namespace
 
-SweptCone swept(const RoundedCone& cone, double clearance, const Vec3& shift) {
+SweptCone swept(const RoundedCone& cone, const Clearance& clearance, const Vec3& shift) {
   SweptCone grown;
   grown.has_width = cone.half_width_a > 0 || cone.half_width_b > 0;
   const Vec3 way = cone.centre_b - cone.centre_a;
@@ -118,8 +126,8 @@ SweptCone swept(const RoundedCone& cone, double clearance, const Vec3& shift) {
                       : length > 0    ? way.unitOrthogonal()
                                       : Vec3(Vec3::UnitZ());
   const Vec3 direction = length > 0 ? Vec3(way / length) : across.unitOrthogonal();
-  const double radius_a = cone.radius_a + clearance;
-  const double radius_b = cone.radius_b + clearance;
+  const double radius_a = cone.radius_a + clearance.at_a;
+  const double radius_b = cone.radius_b + clearance.at_b;
   grown.origin = cone.centre_a;
   grown.to_local.row(0) = direction.cross(across).normalized();
   grown.to_local.row(1) = across.cross(grown.to_local.row(0).transpose());
@@ -133,16 +141,22 @@ SweptCone swept(const RoundedCone& cone, double clearance, const Vec3& shift) {
   return grown;
 }
 
+void shrink(SweptCone& cone, const Clearance& inset) {
+  const double radius_a = cone.axis.radius_at(0) - inset.at_a;
+  const double radius_b = cone.axis.radius_at(1) - inset.at_b;
+  set_radii(cone.axis, radius_a, radius_b);
+  set_radii(cone.edge, radius_a, radius_b);
+}
+
 // Along the path the height is convex too. So the tangent plane at the nearest point of the surface
 // lies below it: Newton's steps from the begin come closer from outside and never pass the surface;
 // where the tangent is not met within the substep, or does not fall, neither is the solid. Steps
 // converge quadratically, and at a grazing contact, a double root, still halve the rest of the way.
-ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, double slack,
-                    double inset) {
+ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, double slack) {
   const Vec3 start = cone.to_local * (begin + cone.shift - cone.origin);
   const Vec3 path = cone.to_local * (end - begin - cone.shift);
   Gap here = local_gap(cone, start);
-  const double height_begin = here.distance + inset;
+  const double height_begin = here.distance;
   const ConeMeeting none{height_begin, std::nullopt};
   if (!start.allFinite() || !path.allFinite()) return none;
   const double met_below =
@@ -150,10 +164,10 @@ ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, d
   double fraction = 0;
   Vec3 place = start;
   for (int step = 0;; ++step) {
-    const double height = here.distance + inset + slack;
+    const double height = here.distance + slack;
     const double rate = here.normal.dot(path);
     if (step == 0 && height < 0) {
-      if (rate >= 0 && local_gap(cone, start + path).distance + inset + slack >= 0) return none;
+      if (rate >= 0 && local_gap(cone, start + path).distance + slack >= 0) return none;
     } else if (!(height < -rate * (1 - fraction))) {
       return none;
     }
@@ -162,14 +176,14 @@ ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, d
     place = start + fraction * path;
     here = local_gap(cone, place);
   }
-  const Vec3 point = place - (here.distance + inset) * here.normal;
+  const Vec3 point = place - here.distance * here.normal;
   return {height_begin, Impact{fraction, cone.to_local.transpose() * here.normal,
                                cone.origin + cone.to_local.transpose() * point}};
 }
 
-Gap gap(const SweptCone& cone, const Vec3& place, double inset) {
+Gap gap(const SweptCone& cone, const Vec3& place) {
   const Gap local = local_gap(cone, cone.to_local * (place - cone.origin));
-  return {local.distance + inset, cone.to_local.transpose() * local.normal};
+  return {local.distance, cone.to_local.transpose() * local.normal};
 }
 
 }  // namespace pleat

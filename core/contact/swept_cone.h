@@ -39,7 +39,10 @@ struct SweptCone {
 /// cone       where it is at the end of the substep
 /// clearance  [m]
 /// shift      how far it moves during the substep [m]
-SweptCone swept(const RoundedCone& cone, double clearance, const Vec3& shift);
+SweptCone swept(const RoundedCone& cone, const Clearance& clearance, const Vec3& shift);
+
+/// Takes from the clearance.
+void shrink(SweptCone& cone, const Clearance& inset);
 
 /// How a path meets a cone.
 struct ConeMeeting {
@@ -49,9 +52,8 @@ struct ConeMeeting {
 
 /// As first_impact for a sphere. The place where the surface is met is found to 1e-12 of the larger
 /// radius, and never too late.
-ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, double slack,
-                    double inset = 0);
+ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, double slack);
 
-Gap gap(const SweptCone& cone, const Vec3& place, double inset = 0);
+Gap gap(const SweptCone& cone, const Vec3& place);
 
 }  // namespace pleat

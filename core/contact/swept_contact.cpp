@@ -20,9 +20,8 @@ Impact on_sphere(const Vec3& centre, double radius, double fraction, const Vec3&
 }  // namespace
 
 std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, const Vec3& end,
-                                   double slack, double inset) {
-  const double held_level = plane.level - inset;
-  const double level = held_level - slack;
+                                   double slack) {
+  const double level = plane.level - slack;
   const double distance_end = plane.normal.dot(end) - level;
   if (!(distance_end < 0)) return std::nullopt;
   const Vec3 relative_begin = begin + plane.shift;
@@ -30,15 +29,14 @@ std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, c
   if (!std::isfinite(distance_begin) || !end.allFinite()) return std::nullopt;
   const double fraction = distance_begin > 0 ? distance_begin / (distance_begin - distance_end) : 0;
   const Vec3 met = relative_begin + fraction * (end - relative_begin);
-  return Impact{fraction, plane.normal, met - (plane.normal.dot(met) - held_level) * plane.normal};
+  return Impact{fraction, plane.normal, met - (plane.normal.dot(met) - plane.level) * plane.normal};
 }
 
 // With a from the centre to the beginning and d the path, |a + s d|^2 = r^2 has its smaller root at
 // s = (a.a - r^2) / (-a.d + sqrt((a.d)^2 - d.d (a.a - r^2))), a form in which nothing cancels.
 std::optional<Impact> first_impact(const SweptSphere& sphere, const Vec3& begin, const Vec3& end,
-                                   double slack, double inset) {
-  const double held_radius = sphere.radius - inset;
-  const double radius = held_radius - slack;
+                                   double slack) {
+  const double radius = sphere.radius - slack;
   const Vec3 from_centre = begin + sphere.shift - sphere.centre;
   const Vec3 path = end - begin - sphere.shift;
   const double excess = from_centre.squaredNorm() - radius * radius;
@@ -47,24 +45,28 @@ std::optional<Impact> first_impact(const SweptSphere& sphere, const Vec3& begin,
   if (excess < 0) {
     const bool leaves = approach <= 0 && (from_centre + path).squaredNorm() >= radius * radius;
     if (leaves) return std::nullopt;
-    return on_sphere(sphere.centre, held_radius, 0, from_centre);
+    return on_sphere(sphere.centre, sphere.radius, 0, from_centre);
   }
   if (!(approach > 0)) return std::nullopt;
   const double discriminant = approach * approach - path.squaredNorm() * excess;
   if (!(discriminant > 0)) return std::nullopt;
   const double fraction = excess / (approach + std::sqrt(discriminant));
   if (fraction > 1) return std::nullopt;
-  return on_sphere(sphere.centre, held_radius, fraction, from_centre + fraction * path);
+  return on_sphere(sphere.centre, sphere.radius, fraction, from_centre + fraction * path);
 }
 
-Gap gap(const SweptPlane& plane, const Vec3& place, double inset) {
-  return {plane.normal.dot(place) - (plane.level - inset), plane.normal};
+Gap gap(const SweptPlane& plane, const Vec3& place) {
+  return {plane.normal.dot(place) - plane.level, plane.normal};
 }
 
-Gap gap(const SweptSphere& sphere, const Vec3& place, double inset) {
+Gap gap(const SweptSphere& sphere, const Vec3& place) {
   const Vec3 from_centre = place - sphere.centre;
   const double distance = from_centre.norm();
-  return {distance - (sphere.radius - inset), outward(from_centre, distance)};
+  return {distance - sphere.radius, outward(from_centre, distance)};
 }
+
+void shrink(SweptPlane& plane, const Clearance& inset) { plane.level -= inset.at_a; }
+
+void shrink(SweptSphere& sphere, const Clearance& inset) { sphere.radius -= inset.at_a; }
 
 }  // namespace pleat

@@ -6,6 +6,13 @@
 
 namespace pleat {
 
+/// How far off a solid a vertex is held [m]: off a rounded cone at both of its ends, and linearly
+/// between; off other shapes both are the same.
+struct Clearance {
+  double at_a = 0;
+  double at_b = 0;
+};
+
 /// A plane over one substep, grown by its clearance: vertices keep n . x >= level at the end.
 struct SweptPlane {
   Vec3 normal;       ///< unit, away from the solid
@@ -31,19 +38,22 @@ struct Impact {
 
 /// begin, end  of the vertex's path [m]; a path that is not finite meets nothing
 /// slack       a path that stays above this depth meets nothing [m]
-/// inset       how far below the grown surface this vertex is held [m]
 std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, const Vec3& end,
-                                   double slack, double inset = 0);
+                                   double slack);
 std::optional<Impact> first_impact(const SweptSphere& sphere, const Vec3& begin, const Vec3& end,
-                                   double slack, double inset = 0);
+                                   double slack);
 
 /// The grown surface's nearest point, seen from a place at the end of the substep.
 struct Gap {
   double distance = 0;  ///< [m], negative inside
   Vec3 normal;          ///< unit, away from the solid
 };
-Gap gap(const SweptPlane& plane, const Vec3& place, double inset = 0);
-Gap gap(const SweptSphere& sphere, const Vec3& place, double inset = 0);
+Gap gap(const SweptPlane& plane, const Vec3& place);
+Gap gap(const SweptSphere& sphere, const Vec3& place);
+
+/// Takes from the clearance.
+void shrink(SweptPlane& plane, const Clearance& inset);
+void shrink(SweptSphere& sphere, const Clearance& inset);
 
 /// False when first_impact certainly finds nothing. Runs for every vertex, hence inline.
 inline bool may_touch(const SweptPlane& plane, const Vec3& /*begin*/, const Vec3& end) {

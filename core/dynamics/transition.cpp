@@ -17,10 +17,8 @@ double between(double own, double carried, double share) { return own + share * 
 /// a solid at the change.
 ContactOptions between(ContactOptions own, const ContactOptions& carried, double share) {
   own.half_thickness = between(own.half_thickness, carried.half_thickness, share);
-  const double least =
-      carried.face_circumradii.size() > 0 ? carried.face_circumradii.minCoeff() : 0;
-  for (double& circumradius : own.face_circumradii)
-    circumradius = between(circumradius, least, share);
+  const double least = carried.face_radii.size() > 0 ? carried.face_radii.minCoeff() : 0;
+  for (double& radius : own.face_radii) radius = between(radius, least, share);
   return own;
 }
 

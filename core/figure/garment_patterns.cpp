@@ -17,7 +17,7 @@ constexpr double kTwoPi = 6.283185307179586;
 constexpr double kWaistHeight = 0.984;  // [m], where the body is narrowest
 constexpr int kDirections = 360;        // an outline's; its polygon is 4e-5 of its radius larger
 
-/// From the skin [m]: 5 mm of air and what contact keeps faces of 12 mm off a shank of 59 mm.
+/// From the skin [m]: 5 mm of air and twice what contact keeps quads of 12 mm off a shank of 59 mm.
 constexpr double kGap = 0.0057;
 
 /// Below the body's crotch hangs the garment's, above it its fork [m]: the line between the legs

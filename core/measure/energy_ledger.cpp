@@ -71,10 +71,12 @@ void EnergyLedger::record_contact(const State& begin, const State& end, double t
                                   double step) {
   const ContactStage& contact = *model_.contact;
   for (const Collider& collider : contact.colliders()) {
-    const SweptSolid solid = swept(ContactStage::placed(collider, time_end), 0, Vec3::Zero());
+    const SweptSolid solid =
+        swept(ContactStage::placed(collider, time_end), Clearance{}, Vec3::Zero());
     for (Eigen::Index i = 0; i < end.positions.cols(); ++i) {
       if (is_pinned_[static_cast<std::size_t>(i)]) continue;
-      const double reach = contact.clearance(collider, VertexId(i)) + kTouchDistance;
+      const Clearance clearance = contact.clearance(collider, VertexId(i));
+      const double reach = std::max(clearance.at_a, clearance.at_b) + kTouchDistance;
       const Gap point = gap(solid, end.positions.col(i));
       if (point.distance > reach) continue;
       const Vec3 impulse = coulomb_part(missing_impulse(VertexId(i), begin, end, step),

@@ -50,28 +50,48 @@ std::vector<Collider> scene_colliders(const Scene& scene,
   return colliders;
 }
 
-/// Of the largest triangle around each vertex [m]. Where a mesh is uniform, so is this: its
-/// triangles differ by rounding, which lies far below kSame. A hanging vertex is held off by its
-/// parents alone: what holds a face at one are vertices as far apart as those of a face twice its
-/// size.
-Eigen::VectorXd face_circumradii(const RestCloth& cloth, const ClothModel& model) {
-  constexpr double kSame = 1e-9;  // relative; on a rough mesh it adds as little to the clearance
+/// 0 without area [m].
+double circumradius(const Positions& positions, const Triangle& t) {
+  const Vec3 a = positions.col(t[1]) - positions.col(t[0]);
+  const Vec3 b = positions.col(t[2]) - positions.col(t[0]);
+  const double doubled_area = a.cross(b).norm();
+  if (doubled_area == 0) return 0;
+  return a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
+}
+
+double longest_edge(const Positions& positions, const std::array<VertexId, 4>& corners) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    longest =
+        std::max(longest, (positions.col(corners[k]) - positions.col(corners[(k + 1) % 4])).norm());
+  return longest;
+}
+
+/// Of the largest face around each vertex [m]: of a garment half of the longest edge of quads,
+/// whose threads run along limbs and around them; of other cloth a triangle's circumradius. A
+/// hanging vertex is held off by its parents alone: what holds a face at one are vertices as far
+/// apart as those of a face twice its size.
+Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
   const Positions& positions = cloth.mesh.rest_positions;
-  Eigen::VectorXd circumradii = Eigen::VectorXd::Zero(positions.cols());
-  for (const Triangle& t : cloth.mesh.triangles) {
-    const Vec3 a = positions.col(t[1]) - positions.col(t[0]);
-    const Vec3 b = positions.col(t[2]) - positions.col(t[0]);
-    const double doubled_area = a.cross(b).norm();
-    if (doubled_area == 0) continue;
-    const bool has_hanging = model.hangs(t[0]) || model.hangs(t[1]) || model.hangs(t[2]);
-    const double size = has_hanging ? 2 : 1;
-    const double circumradius = size * a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
-    for (const VertexId v : t) circumradii[v] = std::max(circumradii[v], circumradius);
+  Eigen::VectorXd radii = Eigen::VectorXd::Zero(positions.cols());
+  const auto add_face = [&](const auto& corners, double radius) {
+    const bool has_hanging =
+        std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return model.hangs(v); });
+    for (const VertexId v : corners) radii[v] = std::max(radii[v], (has_hanging ? 2 : 1) * radius);
+  };
+  if (std::holds_alternative<GarmentCloth>(scene.cloth)) {
+    for (const QuadFace& face : cloth.quads->faces())
+      if (face.active()) add_face(face.corners, longest_edge(positions, face.corners) / 2);
+  } else {
+    for (const Triangle& t : cloth.mesh.triangles) add_face(t, circumradius(positions, t));
   }
-  const double largest = circumradii.maxCoeff();
-  for (double& circumradius : circumradii)
-    if (circumradius > (1 - kSame) * largest) circumradius = largest;
-  return circumradii;
+  // Where a mesh is uniform, so is this: its faces differ by rounding, far below kSame. On a rough
+  // mesh that adds as little to the clearance.
+  constexpr double kSame = 1e-9;  // relative
+  const double largest = radii.maxCoeff();
+  for (double& radius : radii)
+    if (radius > (1 - kSame) * largest) radius = largest;
+  return radii;
 }
 
 }  // namespace
@@ -99,7 +119,7 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
   if (std::vector<Collider> colliders = scene_colliders(scene, body); !colliders.empty()) {
-    const ContactOptions options{scene.fabric.thickness / 2, face_circumradii(cloth, model)};
+    const ContactOptions options{scene.fabric.thickness / 2, face_radii(scene, cloth, model)};
     model.contact.emplace(std::move(colliders), options);
   }
   return model;

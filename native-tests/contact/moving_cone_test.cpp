@@ -212,18 +212,21 @@ TEST_CASE("contact: of two limbs that close in, the last to act keeps the vertex
 
 TEST_CASE("contact: every vertex keeps the clearance of its own faces", "[contact]") {
   const Collider collider = GENERATE(ball_collider({0, 0, 0}, 0.1, 0), cone_collider(limb(), 0));
-  const Eigen::Vector3d circumradii(0.01, 0.03, 0);
-  ContactStage graded({collider}, {0.001, circumradii});
+  const Eigen::Vector3d face_radii(0.01, 0.03, 0);
+  ContactStage graded({collider}, {0.001, face_radii});
   graded.begin_substep(0, 1);
   for (const VertexId v : {VertexId(0), VertexId(1), VertexId(2)}) {
     Vec3 position{0, 0, 0.05};
     Vec3 velocity{0, 0, -1};
     CHECK(graded.resolve(v, {0, 0, 1.05}, position, velocity));
-    const double held = height(collider, position, 0);
-    const double radius = least_radius(collider.shape);
-    CAPTURE(v.value, radius);
-    CHECK(held == Approx(0.001 + std::hypot(radius, circumradii[v]) - radius).epsilon(1e-11));
-    CHECK(graded.clearance(collider, v) == Approx(held).epsilon(1e-11));
+    const auto sagitta = [&](double radius) { return std::hypot(radius, face_radii[v]) - radius; };
+    const auto radii = end_radii(collider.shape);
+    const Clearance clearance = graded.clearance(collider, v);
+    CAPTURE(v.value);
+    CHECK(clearance.at_a == Approx(0.001 + sagitta(radii[0])).epsilon(1e-11));
+    CHECK(clearance.at_b == Approx(0.001 + sagitta(radii[1])).epsilon(1e-11));
+    CHECK(gap(swept(collider.shape, clearance, Vec3::Zero()), position).distance ==
+          Approx(0).margin(1e-12));
   }
 }
 
@@ -258,7 +261,8 @@ TEST_CASE("contact: a face held by its corners does not cut a rounded cone", "[c
   for (int trial = 0; trial < 300; ++trial) {
     const Collider collider = cone_collider(random_cone(random), 0);
     ContactStage stage({collider}, {0.0005, Eigen::VectorXd::Constant(1, circumradius)});
-    const double held = stage.clearance(collider, kVertex);
+    const SweptCone held_off = std::get<SweptCone>(
+        swept(collider.shape, stage.clearance(collider, kVertex), Vec3::Zero()));
     const Vec3 normal = random_direction(random);
     const Vec3 across = normal.unitOrthogonal();
     const Vec3 along = normal.cross(across);
@@ -271,17 +275,39 @@ TEST_CASE("contact: a face held by its corners does not cut a rounded cone", "[c
     const auto lowest = [&](double way) {
       double least = std::numeric_limits<double>::infinity();
       for (const Vec3& corner : corners)
-        least = std::min(least, height(collider, corner - way * normal, 0));
+        least = std::min(least, gap(held_off, corner - way * normal).distance);
       return least;
     };
     double way = 0;
-    for (int k = 0; k < 200 && lowest(way) > held + 1e-9; ++k) way += lowest(way) - held;
+    for (int k = 0; k < 200 && lowest(way) > 1e-9; ++k) way += lowest(way);
     for (int sample = 0; sample < 50; ++sample) {
       const double a = random.uniform(0, 1);
       const double b = random.uniform(0, 1 - a);
       const Vec3 point = a * corners[0] + b * corners[1] + (1 - a - b) * corners[2];
       REQUIRE(height(collider, point - way * normal, 0) >= 0.0005 - 1e-12);
     }
+  }
+}
+
+// Half of its edge across is all that such a quad asks for, however long it is.
+TEST_CASE("contact: a quad with threads along a limb and around it does not cut it", "[contact]") {
+  Random random(44);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double radius = random.uniform(0.03, 0.2);
+    const Collider collider = cone_collider({{0, -1, 0}, {0, 1, 0}, radius, radius}, 0);
+    const double half_width = random.uniform(0.005, 0.05);
+    const ContactStage stage({collider}, {0.0005, Eigen::VectorXd::Constant(1, half_width)});
+    const double held = radius + stage.clearance(collider, kVertex).at_a;
+    const double distance = std::sqrt(held * held - half_width * half_width);
+    double least = std::numeric_limits<double>::infinity();
+    for (int sample = 0; sample < 50; ++sample) {
+      const Vec3 point(random.uniform(-1, 1) * half_width, random.uniform(-0.3, 0.3), distance);
+      least = std::min(least, height(collider, point, 0));
+    }
+    REQUIRE(least >= 0.0005 - 1e-12);
+    // No further than need be: 2 k t is what its square is larger by.
+    const double share = half_width / radius;
+    REQUIRE(height(collider, {0, 0, distance}, 0) <= 0.0005 * (1 + share * share));
   }
 }
 

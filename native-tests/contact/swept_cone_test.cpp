@@ -37,7 +37,7 @@ double height_above(const RoundedCone& cone, const Vec3& place) {
   return least([&](double share) { return height_at(cone, share, place); });
 }
 
-SweptCone at_rest(const RoundedCone& cone) { return swept(cone, 0, Vec3::Zero()); }
+SweptCone at_rest(const RoundedCone& cone) { return swept(cone, {}, Vec3::Zero()); }
 
 /// A point of one of the cone's balls.
 Vec3 random_point(const RoundedCone& cone, Random& random) {
@@ -111,14 +111,15 @@ TEST_CASE("contact: a rounded cone is convex", "[contact]") {
 
 TEST_CASE("contact: a rounded cone is met where bisection says", "[contact]") {
   Random random(34);
-  const double inset = GENERATE(0.0, 0.004);
+  const Clearance inset = GENERATE(Clearance{0, 0}, Clearance{0.004, 0.001});
   const double slack = GENERATE(0.0, 1e-3);
   for (int trial = 0; trial < 500; ++trial) {
     RoundedCone cone = random_cone(random);
     const Vec3 shift = 0.2 * random_direction(random);
-    const SweptCone solid = swept(cone, 0.005, shift);
-    cone.radius_a += 0.005 - inset;
-    cone.radius_b += 0.005 - inset;
+    SweptCone solid = swept(cone, {0.005, 0.002}, shift);
+    shrink(solid, inset);
+    cone.radius_a += 0.005 - inset.at_a;
+    cone.radius_b += 0.002 - inset.at_b;
     const Vec3 start = 1.5 * random_direction(random);
     const Vec3 end = random.uniform(0, 1) * random_direction(random);
     const SweptCone held = at_rest(cone);
@@ -128,7 +129,7 @@ TEST_CASE("contact: a rounded cone is met where bisection says", "[contact]") {
     const double lowest = least(height);
     if (height(0) < 0 || std::abs(lowest) < 1e-9) continue;
     CAPTURE(trial, lowest);
-    const auto impact = meeting(solid, start - shift, end, slack, inset).impact;
+    const auto impact = meeting(solid, start - shift, end, slack).impact;
     REQUIRE(impact.has_value() == (lowest < 0));
     if (!impact) continue;
     // The path is outside before the share that was found and on the surface there.

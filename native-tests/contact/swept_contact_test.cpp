@@ -187,8 +187,10 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
       const double speed_before = particle.velocity.norm();
       stage.begin_substep(k / 60.0, (k + 1) / 60.0);
       stage.resolve(VertexId(0), begin, particle.position, particle.velocity);
-      REQUIRE(height(ball, particle.position, 0) >= stage.clearance(ball, VertexId(0)) - 1e-12);
-      REQUIRE(height(ground, particle.position, 0) >= stage.clearance(ground, VertexId(0)) - 1e-12);
+      REQUIRE(height(ball, particle.position, 0) >=
+              stage.clearance(ball, VertexId(0)).at_a - 1e-12);
+      REQUIRE(height(ground, particle.position, 0) >=
+              stage.clearance(ground, VertexId(0)).at_a - 1e-12);
       REQUIRE(particle.velocity.norm() <= speed_before * (1 + 1e-14));
     }
   }
@@ -273,10 +275,10 @@ TEST_CASE("contact: a face held by its corners does not cut the sphere", "[conta
   const double circumradius = 0.02;
   const double half_thickness = 0.0005;
   ContactStage stage({ball}, {half_thickness, Eigen::VectorXd::Constant(1, circumradius)});
-  CHECK(stage.clearance(ball, VertexId(0)) ==
+  CHECK(stage.clearance(ball, VertexId(0)).at_a ==
         Approx(half_thickness + std::sqrt(radius * radius + circumradius * circumradius) - radius));
-  CHECK(stage.clearance(floor_collider(0), VertexId(0)) == half_thickness);
-  const double held = radius + stage.clearance(ball, VertexId(0));
+  CHECK(stage.clearance(floor_collider(0), VertexId(0)).at_a == half_thickness);
+  const double held = radius + stage.clearance(ball, VertexId(0)).at_a;
   for (int trial = 0; trial < 500; ++trial) {
     // Three points of a circle of that radius, whose plane is tilted until all of them are clear.
     const Vec3 normal = random_direction(random);

@@ -76,6 +76,30 @@ TEST_CASE("garment scene: a planned mesh keeps the mass and pins no hanging vert
   for (const Pin& pin : graded.model().pins) CHECK(graded.model().masses[pin.vertex] > 0);
 }
 
+TEST_CASE("garment scene: both ends of an edge are held off as its half asks", "[scene]") {
+  const std::string garment = GENERATE(from_range(std::begin(kGarments), std::end(kGarments)));
+  Scene scene = garment_scene(garment + "_walk");
+  scene.plan = patchy_plan(*base_quads(scene));
+  const Simulation graded(scene);
+  const RestCloth cloth = rest_cloth(scene);
+  const QuadMesh& quads = *cloth.quads;
+  const Eigen::VectorXd& radii = graded.model().contact->options().face_radii;
+  double longest = 0;
+  for (const QuadFace& face : quads.faces()) {
+    if (!face.active()) continue;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const VertexId a = face.corners[k];
+      const VertexId b = face.corners[(k + 1) % 4];
+      const double half =
+          (quads.rest_positions().col(a) - quads.rest_positions().col(b)).norm() / 2;
+      longest = std::max(longest, half);
+      REQUIRE(std::min(radii[a], radii[b]) >= half * (1 - 1e-9));
+    }
+  }
+  CHECK(radii.maxCoeff() <= 2 * longest);
+  CHECK(radii.minCoeff() < longest / 3);
+}
+
 TEST_CASE("garment scene: what makes no scene is refused at its place", "[scene]") {
   CHECK(refusal(with("skirt_walk", "/cloth/garment/skirt/length_m", "-0.4"))
             .find("/cloth/garment/skirt/length_m") != std::string::npos);
