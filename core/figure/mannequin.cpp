@@ -69,12 +69,12 @@ void add_torso(const Measures& m, std::vector<BodyPart>& parts) {
   parts.push_back({"hips", cone(hips, m.hips, waist, m.waist, across), Bone::pelvis});
   parts.push_back({"waist", cone(waist, m.waist, chest, m.chest, across), Bone::thorax});
   parts.push_back({"chest", cone(chest, m.chest, shoulders, m.shoulders, across), Bone::thorax});
-  // The chest's section is an eighth below the girth of the bust; breasts of 0.06 m, sloping up to
+  // The chest's section is an eighth below the girth of the bust; breasts of 0.075 m, sloping up to
   // the collarbone, make up for it.
-  constexpr Section kBreasts{0.06, 0.08};
+  constexpr Section kBreasts{0.075, 0.065};
   constexpr Section kCollar{0.05, 0.09};
   parts.push_back(
-      {"bust", cone(Vec3(0.07, kChestHeight, 0), kBreasts, Vec3(0.015, 1.29, 0), kCollar, across),
+      {"bust", cone(Vec3(0.06, kChestHeight, 0), kBreasts, Vec3(0.015, 1.29, 0), kCollar, across),
        Bone::thorax});
 }
 
