@@ -104,6 +104,22 @@ export function comparisonGoals(garment, { fine, multi, same }) {
   ];
 }
 
+/**
+ * What has no bound: curvature of all times together, in which folds that two runs have at other
+ * times count as the same; and both errors of a second run on the fine mesh in air that is heavier
+ * by a trifle, below which no mesh can be told from another.
+ */
+export function shownLines(garment, { fine, multi, same, twin }) {
+  const of = (row, key) => row.errors[key] ?? Number.NaN;
+  const shown = (name, key) =>
+    `shown ${garment}_${name}_to_uniform ${short(of(multi, key) / of(same, key))}, a second ${fine.label} run's ${short(of(twin, key) / of(same, key))}`;
+  return [
+    shown('bend_over_time_error', 'bend_over_time_per_m'),
+    shown('bend_error', 'bend_per_m'),
+    shown('surface_error', 'surface_m'),
+  ].join('\n');
+}
+
 const firings = ({ fit }) => (fit.first_fired === null ? 0 : 1);
 
 /** Does the monitor tell the example's kind of motion from others? */
