@@ -9,6 +9,7 @@ import { withShown, withToggled } from '../state/fabric-choice';
 import { decodeFabricsLink, encodeFabricsLink } from '../state/fabrics-link';
 import { type FabricsState, initialFabricsState, recordOf } from '../state/fabrics-state';
 import { joined, middleOf } from '../state/holds';
+import { createLinkWriter } from '../state/link-writer';
 import { createStore, watch } from '../state/store';
 import { createDropTarget } from './drop-target';
 import { element } from './element';
@@ -36,9 +37,6 @@ export interface FabricsActions {
   /** Sets a cloth of that fabric in motion from a shape. */
   start(shape: StartShape, fabric: string): void;
 }
-
-/** Browsers refuse to change an address much more often [ms]. */
-const LINK_EVERY_MS = 400;
 
 function marksOf(state: FabricsState): HoldMark[] {
   return state.holds.map((hold) => ({
@@ -222,15 +220,7 @@ export function createFabricsView(
   deformer.openExperiment(first.link.experiment, first.link);
 
   const link = () => `#${encodeFabricsLink(store.get())}`;
-  let linkTimer = 0;
-  const writeLink = () => {
-    linkTimer = 0;
-    if (!isShown || !store.get().cloth || link() === window.location.hash) return;
-    window.history.replaceState(null, '', link());
-  };
-  store.subscribe(() => {
-    if (linkTimer === 0) linkTimer = window.setTimeout(writeLink, LINK_EVERY_MS);
-  });
+  const writeLink = createLinkWriter(store, link, () => isShown && store.get().cloth !== null);
 
   return {
     link,

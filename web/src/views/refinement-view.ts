@@ -7,6 +7,7 @@ import type { GarmentMesh } from '../sim/garment-protocol';
 import { createTrio, type Trio } from '../sim/trio';
 import { createGarmentStage, type GarmentStage } from '../stage/garment-stage';
 import { fabricNamed } from '../state/fabric-data';
+import { createLinkWriter } from '../state/link-writer';
 import { decodeRefinementLink, encodeRefinementLink } from '../state/refinement-link';
 import {
   initialRefinementState,
@@ -29,9 +30,6 @@ import { paintOf, upperEnd } from './refinement/paints';
 import { objText, save } from './refinement/saving';
 import { createStoryPanel } from './refinement/story-panel';
 import type { View } from './view';
-
-/** Browsers refuse to change an address much more often [ms]. */
-const LINK_EVERY_MS = 400;
 
 const KEYS: readonly [string, string][] = [
   ['Space', 'play or pause'],
@@ -170,15 +168,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
     return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
   };
-  let linkTimer = 0;
-  const writeLink = () => {
-    linkTimer = 0;
-    if (!isShown || !store.get().plan || link() === window.location.hash) return;
-    window.history.replaceState(null, '', link());
-  };
-  store.subscribe(() => {
-    if (linkTimer === 0) linkTimer = window.setTimeout(writeLink, LINK_EVERY_MS);
-  });
+  const writeLink = createLinkWriter(store, link, () => isShown && store.get().plan !== null);
 
   return {
     link,
