@@ -83,11 +83,7 @@ export function createGarmentStage(
     draw,
     resized: refit,
     themed(colour) {
-      surroundings.setTheme({
-        floor: colour('--stage-floor'),
-        grid: colour('--stage-grid'),
-        body: colour('--stage-body'),
-      });
+      surroundings.setTheme(colour);
       mannequin.setColour(colour('--stage-body'));
       colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
       showLines();

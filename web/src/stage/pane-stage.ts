@@ -85,11 +85,7 @@ export function createPaneStage(
     draw,
     resized: refit,
     themed(colour) {
-      surroundings.setTheme({
-        floor: colour('--stage-floor'),
-        grid: colour('--stage-grid'),
-        body: colour('--stage-body'),
-      });
+      surroundings.setTheme(colour);
       handMark.setColour(colour('--stage-hand'));
       holdMarks.setColours({
         pin: colour('--stage-hand'),
