@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import type { FitAnswer } from '../src/sim/refinement-module';
 import type { PlanStory } from '../src/state/plan-file';
 import { DEFAULT_LINK, EMPTY_PANE, initialRefinementState } from '../src/state/refinement-state';
-import { garmentSentence } from '../src/views/refinement/garment-announcer';
+import { garmentSentence } from '../src/views/refinement/garment-sentence';
 import {
   costWords,
   errorWords,

@@ -11,14 +11,15 @@ import { type FabricsState, initialFabricsState, recordOf } from '../state/fabri
 import { joined, middleOf } from '../state/holds';
 import { createLinkWriter } from '../state/link-writer';
 import { createStore, watch } from '../state/store';
+import { createAnnouncer } from './announcer';
 import { createDropTarget } from './drop-target';
 import { element } from './element';
 import { createEnergyCurve } from './fabrics/energy-curve';
 import { createExperimentPanel } from './fabrics/experiment-panel';
 import { createFabricCard } from './fabrics/fabric-card';
 import { createFabricGallery } from './fabrics/fabric-gallery';
-import { createFabricsAnnouncer } from './fabrics/fabrics-announcer';
 import { createFabricsKeys } from './fabrics/fabrics-keys';
+import { fabricsSentence } from './fabrics/fabrics-sentence';
 import { createHoldList } from './fabrics/hold-list';
 import { createOwnFabricForm } from './fabrics/own-fabric-form';
 import { columnsFor, createPaneBadges } from './fabrics/pane-badges';
@@ -157,7 +158,7 @@ export function createFabricsView(
   const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
   watch(store, ['problem', 'phase'], showProblem);
 
-  createFabricsAnnouncer(messages, store);
+  createAnnouncer(messages, store, fabricsSentence);
   createStageTools(toolBox, store, {
     homeView: () => stage?.homeView(),
     wear() {

@@ -18,6 +18,7 @@ import { createHeatLegend } from './heat-legend';
 import { createInvitation } from './invitation';
 import { createKeysPanel } from './keys-panel';
 import { createMethodPanel } from './method-panel';
+import { motionSentence } from './motion-sentence';
 import { createNumbersStrip } from './numbers-strip';
 import { createProblemBanner } from './problem-banner';
 import { createScenePanel } from './scene-panel';
@@ -108,7 +109,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
 
   createProblemBanner(place('messages'), store, actions);
-  createAnnouncer(place('messages'), store);
+  createAnnouncer(place('messages'), store, motionSentence);
   createNumbersStrip(place('strip'), store);
   createToolbar(place('toolbar'), store, actions);
   createScenePanel(place('panel'), store, playback);

@@ -16,15 +16,16 @@ import {
   type RefinementState,
 } from '../state/refinement-state';
 import { createStore, watch } from '../state/store';
+import { createAnnouncer } from './announcer';
 import { element } from './element';
 import { createFailureBanner } from './failure-banner';
 import { createKeyList } from './keys-panel';
 import { createDetailPanel } from './refinement/detail-panel';
 import { createFitPanel } from './refinement/fit-panel';
-import { createGarmentAnnouncer } from './refinement/garment-announcer';
 import { createGarmentBadges } from './refinement/garment-badges';
 import { createGarmentLegend } from './refinement/garment-legend';
 import { createGarmentPanel } from './refinement/garment-panel';
+import { garmentSentence } from './refinement/garment-sentence';
 import { createGarmentToolbar } from './refinement/garment-toolbar';
 import { paintOf, upperEnd } from './refinement/paints';
 import { objText, save } from './refinement/saving';
@@ -141,7 +142,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
   const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
   watch(store, ['problem', 'phase'], showProblem);
 
-  createGarmentAnnouncer(messages, store);
+  createAnnouncer(messages, store, garmentSentence);
   createGarmentToolbar(toolBox, store, {
     ...trio,
     homeView: () => stage?.homeView(),

@@ -1,7 +1,5 @@
-// Says to a screen reader what happened: events, not running numbers.
+// What a screen reader says of the view of refinement.
 import type { RefinementState } from '../../state/refinement-state';
-import type { Store } from '../../state/store';
-import { element, setText } from '../element';
 import { vertices } from './garment-words';
 
 /** The sentence for a change, or null when nothing worth saying happened. */
@@ -13,16 +11,4 @@ export function garmentSentence(state: RefinementState, previous: RefinementStat
   if (!state.playing && previous.playing && state.phase === 'ready')
     return `Paused at ${state.timeS.toFixed(1)} seconds.`;
   return null;
-}
-
-export function createGarmentAnnouncer(
-  parent: HTMLElement,
-  store: Store<RefinementState>,
-): () => void {
-  const region = element('p', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
-  parent.append(region);
-  return store.subscribe((state, previous) => {
-    const sentence = garmentSentence(state, previous);
-    if (sentence !== null) setText(region, sentence);
-  });
 }
