@@ -11,6 +11,7 @@ import {
   type RefinementState,
 } from '../state/refinement-state';
 import type { Store } from '../state/store';
+import { brokenSentence, describe, inputFailure, internalFailure, quoted } from './answers';
 import { BrokenWorker, type GarmentClient, Refused, startGarmentWorker } from './garment-client';
 import { createPaneRun, type PaneRun } from './garment-pane';
 import type { Described, GarmentMesh, GarmentScalar } from './garment-protocol';
@@ -64,20 +65,11 @@ const BROWSER: TrioParts = {
   nowMs: () => performance.now(),
 };
 
-function inputFailure(what: string): Failure {
-  return { ok: false, kind: 'input', where: '', what };
-}
-
 function failureOf(error: unknown): Failure {
   if (error instanceof Refused) return error.failure;
-  const reason = error instanceof Error ? error.message : String(error);
-  if (error instanceof BrokenWorker) {
-    const what = `The garment cannot be computed: its WebAssembly part did not start (${reason.slice(0, 100)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
-    return { ok: false, kind: 'internal', where: '', what };
-  }
-  return inputFailure(
-    `Not all of it could be fetched (${reason.slice(0, 100)}). Check the connection.`,
-  );
+  const reason = describe(error);
+  if (error instanceof BrokenWorker) return internalFailure(brokenSentence('The garment', reason));
+  return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
 function scalarOf({ colour }: RefinementState): GarmentScalar | null {

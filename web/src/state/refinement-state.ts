@@ -1,4 +1,5 @@
 // What the view of refinement shows.
+import { inputFailure } from '../sim/answers';
 import type { FaultsAnswer, FitAnswer } from '../sim/refinement-module';
 import type { Failure } from '../sim/wasm-module';
 import { USUAL_DEMAND } from './garment-frames';
@@ -105,15 +106,6 @@ export function initialRefinementState(
   link: RefinementLink,
   problems: readonly string[],
 ): RefinementState {
-  const problem: Failure | null =
-    problems.length === 0
-      ? null
-      : {
-          ok: false,
-          kind: 'input',
-          where: '',
-          what: `The link was read in part. ${problems.join('; ')}.`,
-        };
   return {
     ...link,
     phase: 'loading',
@@ -127,6 +119,9 @@ export function initialRefinementState(
     face: null,
     ranges: { curvature: 0, distance: 0 },
     doing: null,
-    problem,
+    problem:
+      problems.length > 0
+        ? inputFailure(`The link was read in part. ${problems.join('; ')}.`)
+        : null,
   };
 }
