@@ -2,6 +2,7 @@
 // worker, its stage and its panels, wired together.
 import './fabrics/fabrics.css';
 import './fabrics/panel.css';
+import { inputFailure } from '../sim/answers';
 import { createDeformer, type Deformer, type StartShape } from '../sim/deformer';
 import type { HoldMark } from '../stage/hold-marks';
 import { createPaneStage, type PaneStage } from '../stage/pane-stage';
@@ -28,6 +29,7 @@ import { createTermReading } from './fabrics/term-reading';
 import { createTermSwitches } from './fabrics/term-switches';
 import { createFailureBanner } from './failure-banner';
 import { createInvitation } from './invitation';
+import { PICTURE_LOST, replaceCanvas } from './no-picture';
 import type { View } from './view';
 
 export type FabricsView = View;
@@ -120,16 +122,11 @@ export function createFabricsView(
       key,
       drawn: ({ x, y }) => invitation.place(x, y),
       contextLost() {
-        const what =
-          'The browser took the graphics away for a moment. Reload if the picture stays empty.';
-        store.set({ problem: { ok: false, kind: 'input', where: '', what } });
+        store.set({ problem: inputFailure(PICTURE_LOST) });
       },
     });
   } catch {
-    canvas.remove();
-    const sentence =
-      'This browser shows no WebGL 2, so the cloth cannot be drawn. The numbers still work.';
-    stageBox.append(element('p', { class: 'plain' }, sentence));
+    replaceCanvas(canvas, 'The numbers');
   }
 
   function layOut(): void {

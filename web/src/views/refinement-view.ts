@@ -3,6 +3,7 @@
 import './fabrics/fabrics.css';
 import './fabrics/panel.css';
 import './refinement/refinement.css';
+import { inputFailure } from '../sim/answers';
 import type { GarmentMesh } from '../sim/garment-protocol';
 import { createTrio, type Trio } from '../sim/trio';
 import { createGarmentStage, type GarmentStage } from '../stage/garment-stage';
@@ -20,6 +21,7 @@ import { createAnnouncer } from './announcer';
 import { element } from './element';
 import { createFailureBanner } from './failure-banner';
 import { createKeyList } from './keys-panel';
+import { PICTURE_LOST, replaceCanvas } from './no-picture';
 import { createDetailPanel } from './refinement/detail-panel';
 import { createFitPanel } from './refinement/fit-panel';
 import { createGarmentBadges } from './refinement/garment-badges';
@@ -115,16 +117,11 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
       },
       key,
       contextLost() {
-        const what =
-          'The browser took the graphics away for a moment. Reload if the picture stays empty.';
-        store.set({ problem: { ok: false, kind: 'input', where: '', what } });
+        store.set({ problem: inputFailure(PICTURE_LOST) });
       },
     });
   } catch {
-    canvas.remove();
-    const sentence =
-      'This browser shows no WebGL 2, so the cloth cannot be drawn. The numbers still work.';
-    stageBox.append(element('p', { class: 'plain' }, sentence));
+    replaceCanvas(canvas, 'The numbers');
   }
 
   createGarmentBadges(stageBox, store);
