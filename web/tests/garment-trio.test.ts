@@ -15,16 +15,12 @@ import {
   type RefinementState,
 } from '../src/state/refinement-state';
 import { createStore, type Store } from '../src/state/store';
-import {
-  exampleClient,
-  garmentClient,
-  loadRefinement,
-  recordBytes,
-} from './support/garment-workers';
+import { loadModule } from './support/built-module';
+import { exampleClient, garmentClient, recordBytes } from './support/garment-workers';
 
 let module: RefinementModule;
 beforeAll(async () => {
-  module = await loadRefinement();
+  module = await loadModule('refinement');
 });
 
 const PATIENCE_MS = 60000;

@@ -10,6 +10,7 @@ import { fabricsText } from '../src/state/fabric-data';
 import { SCENE_FILES, sceneText } from '../src/state/garments';
 import type { PlanFile } from '../src/state/plan-file';
 import { boundMethods } from './support/bound-methods';
+import { loadModule } from './support/built-module';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const command = join(root, 'build/release/cli/pleat');
@@ -18,10 +19,7 @@ afterAll(() => rmSync(folder, { recursive: true }));
 
 let module: RefinementModule;
 beforeAll(async () => {
-  const create = (await import('../src/wasm/refinement.mjs')).default;
-  module = await create({
-    wasmBinary: readFileSync(new URL('../src/wasm/refinement.wasm', import.meta.url)),
-  });
+  module = await loadModule('refinement');
 });
 
 function sheet(refinement: object): object {

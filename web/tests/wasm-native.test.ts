@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { PleatModule } from '../src/sim/wasm-module';
+import { loadModule } from './support/built-module';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 const command = join(root, 'build/release/cli/pleat');
@@ -63,10 +64,7 @@ afterAll(() => rmSync(folder, { recursive: true }));
 
 let module: PleatModule;
 beforeAll(async () => {
-  const create = (await import('../src/wasm/pleat.mjs')).default;
-  module = await create({
-    wasmBinary: readFileSync(new URL('../src/wasm/pleat.wasm', import.meta.url)),
-  });
+  module = await loadModule('pleat');
 });
 
 /** Positions after the last step, as the native command writes them. */
