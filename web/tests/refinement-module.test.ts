@@ -1,21 +1,12 @@
 // The module of garments against its types and against the native command.
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { REFINEMENT_METHODS, type RefinementModule } from '../src/sim/refinement-module';
 import { fabricsText } from '../src/state/fabric-data';
 import { SCENE_FILES, sceneText } from '../src/state/garments';
 import type { PlanFile } from '../src/state/plan-file';
 import { boundMethods } from './support/bound-methods';
 import { loadModule } from './support/built-module';
-
-const root = fileURLToPath(new URL('../..', import.meta.url));
-const command = join(root, 'build/release/cli/pleat');
-const folder = mkdtempSync(join(tmpdir(), 'pleat-refinement-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+import { nativePositions } from './support/native-command';
 
 let module: RefinementModule;
 beforeAll(async () => {
@@ -58,16 +49,6 @@ function bentPlan(): PlanFile {
   } finally {
     study.delete();
   }
-}
-
-function nativePositions(scene: object): Float64Array {
-  const file = join(folder, 'scene.json');
-  writeFileSync(file, JSON.stringify(scene));
-  execFileSync(command, ['run', file, '--out', folder, '--overwrite'], { stdio: 'pipe' });
-  const bytes = readFileSync(join(folder, 'frames.bin'));
-  const { n_vertices: n } = JSON.parse(bytes.toString('utf8', 0, bytes.indexOf('\n')));
-  const last = bytes.subarray(bytes.length - 24 * n);
-  return new Float64Array(last.buffer.slice(last.byteOffset, last.byteOffset + last.byteLength));
 }
 
 describe('the module of garments', () => {
