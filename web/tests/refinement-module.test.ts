@@ -3,7 +3,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { REFINEMENT_METHODS, type RefinementModule } from '../src/sim/refinement-module';
 import { fabricsText } from '../src/state/fabric-data';
 import { SCENE_FILES, sceneText } from '../src/state/garments';
-import type { PlanFile } from '../src/state/plan-file';
+import { basePatterns, type PlanFile } from '../src/state/plan-file';
 import { boundMethods } from './support/bound-methods';
 import { loadModule } from './support/built-module';
 import { nativePositions } from './support/native-command';
@@ -52,6 +52,30 @@ function bentPlan(): PlanFile {
 }
 
 describe('the module of garments', () => {
+  it('plans from all examples, of which the highest pattern of a vertex counts', () => {
+    const study = new module.ExampleStudy(fabricsText);
+    study.open(JSON.stringify(sheet({ level: 1 })), {});
+    const bent = (isBent: (column: number) => boolean) =>
+      Float64Array.from({ length: 2 * 169 }, (_, k) => {
+        const vertex = Math.floor(k / 2);
+        return vertex < 49 && isBent(vertex % 7) ? 8 : 1;
+      });
+    study.sort(
+      'left',
+      bent((column) => column < 2),
+      2,
+    );
+    study.sort(
+      'right',
+      bent((column) => column > 5),
+      2,
+    );
+    const { plan } = JSON.parse(study.plan('{"demand": 3}')) as { plan: PlanFile };
+    study.delete();
+    expect(plan.examples.map(({ name }) => name)).toEqual(['left', 'right']);
+    expect(basePatterns(plan).slice(0, 7)).toEqual([1, 1, 0, 0, 0, 0, 1]);
+  });
+
   it('binds exactly the classes and methods that the types name', () => {
     expect(boundMethods(module)).toEqual(REFINEMENT_METHODS);
   });

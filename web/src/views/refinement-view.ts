@@ -155,7 +155,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
   });
   createGarmentPanel(panel, store);
-  createFitPanel(panel, store);
+  createFitPanel(panel, store, { cancel: trio.cancel });
   createDetailPanel(panel, store, { cancel: trio.cancel });
   createStoryPanel(panel, store, () => meshes.planned ?? null);
   createKeyList(panel, KEYS);
