@@ -21,7 +21,7 @@ using pleat::guarded;
 using pleat::positions_in;
 using pleat::view_of;
 
-/// An example on its fine mesh, and plans made of it.
+/// Examples of one cloth on its fine mesh, and plans made of them.
 class ExampleStudy {
  public:
   explicit ExampleStudy(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
@@ -50,7 +50,7 @@ class ExampleStudy {
   /// come before their children.
   val parents() const { return view_of(parents_); }
 
-  /// A frame of the example; limits are of those that were added.
+  /// A frame of an example; limits are of all that were added.
   std::string add_frame(const val& places) {
     return guarded([&](val&) {
       pleat::Positions x = positions_in(places);
@@ -71,7 +71,7 @@ class ExampleStudy {
     return view_of(features_);
   }
 
-  /// Sorts the vertices by features as above: what plans are made of.
+  /// Sorts the vertices by features as above: one example more that plans are made of.
   std::string sort(const std::string& name, const val& features, int n_patterns) {
     return guarded([&](val&) {
       const auto numbers = emscripten::convertJSArrayToNumberVector<double>(features);
@@ -82,7 +82,7 @@ class ExampleStudy {
                                                 std::to_string(fine_.n_vertices()) + " vertices");
       pleat::PatternOptions options;
       options.n_patterns = n_patterns;
-      examples_ = {{name, columns, pleat::bend_patterns(columns, options)}};
+      examples_.push_back({name, columns, pleat::bend_patterns(columns, options)});
     });
   }
 

@@ -9,17 +9,21 @@ import { promisify } from 'node:util';
 import { deflateSync } from 'node:zlib';
 import { encodeFrames, type Parents, type RecordingHead } from '../src/sim/recording.ts';
 import type { ExampleStudyHandle, GarmentRunHandle } from '../src/sim/refinement-module.ts';
-import { FINE_LEVEL, FRAME_S, PATTERNS, USUAL_DEMAND } from '../src/state/garment-frames.ts';
+import {
+  FINE_LEVEL,
+  FRAME_S,
+  KEPT_OF,
+  PATTERNS,
+  SETTLED_S,
+  USUAL_DEMAND,
+} from '../src/state/garment-frames.ts';
 import createRefinement from '../src/wasm/refinement.mjs';
 
 /** As long as the frames of the test motion are [s]. */
 const TEST_S = 5;
 
-/** The example's frames count from when the cloth has settled into the walk [s]. */
-const EXAMPLE_S = { from: 2, to: 8 };
-
-/** Of the example's frames, as many are kept for a plan's limits as one in these. */
-const KEPT_OF = 3;
+/** The end of the example [s]. */
+const EXAMPLE_S = 8;
 
 /** Of places [m] and of curvature [1/m]. */
 const QUANTUM = { place: 1e-4, curvature: 1e-3 };
@@ -133,10 +137,10 @@ function parentsOf(scene: object): Parents {
 /** Features, frames for limits, and the usual plan, which is made of what is written, not of more. */
 async function makeExample(garment: string): Promise<object> {
   const folder = `${garment}_walk`;
-  const scene = sceneOf(folder, { level: FINE_LEVEL }, EXAMPLE_S.to);
+  const scene = sceneOf(folder, { level: FINE_LEVEL }, EXAMPLE_S);
   const { frames, msPerFrame } = await run(scene, 'example');
   const parents = parentsOf(scene);
-  const first = Math.round(EXAMPLE_S.from / FRAME_S) + 1;
+  const first = Math.round(SETTLED_S / FRAME_S) + 1;
   const seen = frames.slice(first);
   const kept = seen.filter((_, index) => index % KEPT_OF === 0);
   const study: ExampleStudyHandle = new module.ExampleStudy(fabrics);

@@ -1,21 +1,14 @@
 // The worker of deformed cloth on its real module, with a clock and a schedule of the test's own.
-import { existsSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { createDeformCore } from '../src/sim/deform-core';
 import type { DeformFrame, FromDeform, ToDeform } from '../src/sim/deform-protocol';
 import { frameViews } from '../src/sim/protocol';
-import type { DeformModule, TermNumbers } from '../src/sim/wasm-module';
+import type { TermNumbers } from '../src/sim/wasm-module';
 import { EXPERIMENTS } from '../src/state/experiments';
 import { fabricNamed, fabricsText, geometryOf } from '../src/state/fabric-data';
 import { type Hold, holdAt, holdsOf, joined } from '../src/state/holds';
-
-const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
-const hasModule = existsSync(fileOf('deform.wasm'));
-
-async function loadModule(): Promise<DeformModule> {
-  const { default: create } = await import(/* @vite-ignore */ fileOf('deform.mjs').href);
-  return create({ wasmBinary: readFileSync(fileOf('deform.wasm')) });
-}
+import { isBuilt, loadModule } from './support/built-module';
 
 /** A sheet that is pulled up in its middle, of so many vertices a side. */
 const sceneText = (side = 9) => {
@@ -29,7 +22,7 @@ const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
 
 /** A core whose turns are taken by `settle`, one after the other, and a page that gives buffers back. */
 async function serve() {
-  const module = await loadModule();
+  const module = await loadModule('deform');
   const posted: FromDeform[] = [];
   const grants: string[] = [];
   let isWoken = false;
@@ -90,7 +83,7 @@ function distance(a: Float32Array, b: Float32Array): number {
 const raised = (holds: Hold[], up: number) =>
   holds.map((hold): Hold => (hold.kind === 'handle' ? { ...hold, offset: [0, up, 0] } : hold));
 
-describe.runIf(hasModule)('deform-core', () => {
+describe.runIf(isBuilt('deform'))('deform-core', () => {
   it('finds the shape of each pane, in which what is held is where it is held', async () => {
     const { settle, positions, holds } = await opened(['silk', 'linen']);
     const frames = settle();

@@ -1,5 +1,4 @@
 // The page's end of the worker of deformed cloth: what it shows is what the worker has.
-import { existsSync, readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it, vi } from 'vitest';
 import { createDeformCore } from '../src/sim/deform-core';
 import type { FromDeform, ToDeform } from '../src/sim/deform-protocol';
@@ -11,6 +10,7 @@ import { decodeFabricsLink, encodeFabricsLink } from '../src/state/fabrics-link'
 import { initialFabricsState } from '../src/state/fabrics-state';
 import { joined } from '../src/state/holds';
 import { createStore } from '../src/state/store';
+import { isBuilt, loadModule } from './support/built-module';
 
 // The worker is a core in this thread. Messages to it and from it come later and in their order.
 let module: DeformModule;
@@ -23,9 +23,6 @@ vi.mock('../src/sim/client', () => ({
     return { send: (message: ToDeform) => setTimeout(core.receive, 0, message) };
   },
 }));
-
-const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
-const hasModule = existsSync(fileOf('deform.wasm'));
 
 /** The view's state at a link, with the frame of its first pane. */
 async function open(hash: string) {
@@ -76,11 +73,10 @@ async function open(hash: string) {
 const SCENE = '#view=fabrics&scene=terms&fabrics=wool';
 const NO_RECOVERY = { recovery: false, stretch: true, bending: true };
 
-describe.runIf(hasModule)('deformer', () => {
+describe.runIf(isBuilt('deform'))('deformer', () => {
   beforeAll(async () => {
     vi.stubGlobal('window', globalThis);
-    const { default: create } = await import(/* @vite-ignore */ fileOf('deform.mjs').href);
-    module = await create({ wasmBinary: readFileSync(fileOf('deform.wasm')) });
+    module = await loadModule('deform');
   });
 
   it('keeps what was moved by hand where it is when a later release is refused', async () => {

@@ -1,12 +1,12 @@
 // The three panes with the real module and the frames that come with the page.
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { GarmentMesh, ToGarment } from '../src/sim/garment-protocol';
-import { createPlanner, type Wish } from '../src/sim/planner';
+import { createPlanner, type Progress, type Wish } from '../src/sim/planner';
 import { frameViews } from '../src/sim/protocol';
 import { exampleUrls } from '../src/sim/records';
 import type { RefinementModule } from '../src/sim/refinement-module';
 import { createTrio, type ShownFrame, type TrioParts } from '../src/sim/trio';
-import type { PlanFile } from '../src/state/plan-file';
+import { basePatterns, type PlanFile } from '../src/state/plan-file';
 import {
   DEFAULT_LINK,
   initialRefinementState,
@@ -15,21 +15,20 @@ import {
   type RefinementState,
 } from '../src/state/refinement-state';
 import { createStore, type Store } from '../src/state/store';
-import {
-  exampleClient,
-  garmentClient,
-  loadRefinement,
-  recordBytes,
-} from './support/garment-workers';
+import { loadModule } from './support/built-module';
+import { exampleClient, garmentClient, recordBytes } from './support/garment-workers';
 
 let module: RefinementModule;
 beforeAll(async () => {
-  module = await loadRefinement();
+  module = await loadModule('refinement');
 });
 
 const PATIENCE_MS = 60000;
 
-const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes);
+/** Of a further example the first three frames count, instead of minutes of work. */
+const SEEN = { fromS: 0, toS: 0.1 };
+
+const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes, SEEN);
 
 interface Stand {
   store: Store<RefinementState>;
@@ -85,7 +84,7 @@ describe('planner', () => {
     const shipped: PlanFile = JSON.parse(
       new TextDecoder().decode(await recordBytes(urls?.plan ?? '')),
     );
-    const wish: Wish = { garment: 'skirt', rule: 'demand', demand: 3, budget: null };
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'demand', demand: 3, budget: null };
     const planner = plannerParts();
     // A hair more demand is another wish, and the same mesh.
     const near = await planner.plan({ ...wish, demand: 3.01 });
@@ -96,7 +95,7 @@ describe('planner', () => {
   });
 
   it('keeps a budget of vertices, nearly used up', async () => {
-    const wish: Wish = { garment: 'skirt', rule: 'budget', demand: 3, budget: 2000 };
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'budget', demand: 3, budget: 2000 };
     const plan = await plannerParts().plan(wish);
     expect(plan.vertices).toBeLessThanOrEqual(2000);
     expect(plan.vertices).toBeGreaterThan(1940);
@@ -104,9 +103,128 @@ describe('planner', () => {
   });
 
   it('says what is wrong with a budget below the coarse mesh', async () => {
-    const wish: Wish = { garment: 'skirt', rule: 'budget', demand: 3, budget: 10 };
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'budget', demand: 3, budget: 10 };
     await expect(plannerParts().plan(wish)).rejects.toThrow('at least the base mesh');
   });
+});
+
+describe('further examples', () => {
+  it(
+    'are run, told of, merged with the one that comes with the page, and kept',
+    async () => {
+      const planner = plannerParts();
+      const wish: Wish = { ...DEFAULT_LINK, demand: 4 };
+      const alone = await planner.plan(wish);
+      const heard: [string, number][] = [];
+      const hear = (motion: string, share: number) => heard.push([motion, share]);
+      const both = await planner.plan({ ...wish, further: ['squat'] }, hear);
+      expect(both.examples.map(({ name }) => name)).toEqual(['skirt_walk', 'skirt_squat']);
+      expect(heard.map(([motion]) => motion)).toEqual(Array(4).fill('squat'));
+      expect(heard.map(([, share]) => Math.round(3 * share))).toEqual([0, 0, 1, 2]);
+      const before = basePatterns(alone);
+      const after = basePatterns(both);
+      expect(after.every((pattern, vertex) => pattern >= (before[vertex] ?? 9))).toBe(true);
+      expect(after).not.toEqual(before);
+      // Another demand runs nothing.
+      heard.length = 0;
+      const again = await planner.plan({ ...wish, demand: 5, further: ['squat'] }, hear);
+      expect([heard.length, again.examples.length]).toEqual([0, 2]);
+      // Another fabric is another cloth.
+      const other = await planner.plan({ ...wish, fabric: 'silk' });
+      expect(other.examples.length).toBe(1);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'say what is wrong with one that cannot run',
+    async () => {
+      const steep = createPlanner(
+        () => {
+          const client = exampleClient(module);
+          return {
+            ...client,
+            ask: (question) =>
+              client.ask(question.type === 'begin' ? { ...question, sceneText: '{' } : question),
+          };
+        },
+        recordBytes,
+        SEEN,
+      );
+      const wish: Wish = { ...DEFAULT_LINK, further: ['squat'] };
+      await expect(steep.plan(wish)).rejects.toThrow();
+      expect((await steep.plan({ ...wish, further: [] })).examples.length).toBe(1);
+    },
+    PATIENCE_MS,
+  );
+
+  /** Stays at half of any further example, or fails there. */
+  function halfway(failure: Error | null) {
+    const planner = plannerParts();
+    return {
+      ...planner,
+      async plan(wish: Wish, progress?: Progress) {
+        if (wish.further.length === 0) return planner.plan(wish);
+        progress?.('squat', 0.5);
+        if (failure) throw failure;
+        return new Promise<PlanFile>(() => undefined);
+      },
+    };
+  }
+
+  it(
+    'are given up by cancelling, and the plan stays',
+    async () => {
+      const { store, trio, settled } = stand({}, { planner: halfway(null) });
+      const { plan } = await settled(isReady);
+      store.set({ further: ['squat'] });
+      expect(store.get()).toMatchObject({
+        phase: 'loading',
+        doing: { share: 0.5, canCancel: true },
+      });
+      trio.cancel();
+      expect(store.get()).toMatchObject({ phase: 'ready', doing: null, further: [], plan });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'are given up when they cannot run, with a sentence',
+    async () => {
+      const { store, settled } = stand({}, { planner: halfway(new Error('no room')) });
+      await settled(isReady);
+      store.set({ further: ['squat'] });
+      const state = await settled(({ problem }) => problem !== null);
+      expect(state).toMatchObject({ phase: 'ready', doing: null, further: [] });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'of a link can be cancelled too, and what is left is shown',
+    async () => {
+      const link = { further: ['squat'] as const };
+      const { store, trio, settled } = stand(link, { planner: halfway(null) });
+      expect(store.get()).toMatchObject({ plan: null, doing: { share: 0.5, canCancel: true } });
+      trio.cancel();
+      const state = await settled(isReady);
+      expect(state.further).toEqual([]);
+      expect(state.plan?.examples.length).toBe(1);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'of a link that cannot run leave the rest of it',
+    async () => {
+      const link = { further: ['squat'] as const };
+      const { settled } = stand(link, { planner: halfway(new Error('no room')) });
+      const state = await settled(isReady);
+      expect(state.further).toEqual([]);
+      expect(state.problem).not.toBeNull();
+    },
+    PATIENCE_MS,
+  );
 });
 
 describe('trio', () => {

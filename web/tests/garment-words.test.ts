@@ -1,12 +1,20 @@
 import { describe, expect, it } from 'vitest';
 import type { FitAnswer } from '../src/sim/refinement-module';
 import type { PlanStory } from '../src/state/plan-file';
-import { DEFAULT_LINK, EMPTY_PANE, initialRefinementState } from '../src/state/refinement-state';
-import { garmentSentence } from '../src/views/refinement/garment-announcer';
 import {
+  canPlanAnew,
+  DEFAULT_LINK,
+  EMPTY_PANE,
+  initialRefinementState,
+  isExample,
+} from '../src/state/refinement-state';
+import { garmentSentence } from '../src/views/refinement/garment-sentence';
+import {
+  anewSentence,
   costWords,
   errorWords,
   fitReading,
+  fromTo,
   sourceSentence,
   storySentences,
 } from '../src/views/refinement/garment-words';
@@ -14,10 +22,10 @@ import { upperEnd } from '../src/views/refinement/paints';
 import { objText } from '../src/views/refinement/saving';
 
 const STORY: PlanStory = {
-  example: 'walk',
+  examples: ['skirt_walk'],
   patterns: [
-    { meanPerM: 5, deviationPerM: 2, nVertices: 10, limitPerM: 15 },
-    { meanPerM: 15, deviationPerM: 6, nVertices: 5, limitPerM: 40 },
+    { meansPerM: [5], deviationsPerM: [2], nVertices: 10, limitPerM: 15 },
+    { meansPerM: [15], deviationsPerM: [6], nVertices: 5, limitPerM: 40 },
   ],
   nVertices: 900,
   nSplits: 30,
@@ -52,6 +60,32 @@ describe('garment-words', () => {
     expect(text).toContain('30 faces were split: 26 where the patterns');
     expect(text).toContain('the other 4 only to keep neighbours');
     expect(storySentences({ ...STORY, nForBalance: 0 })).toContain('none only to keep');
+  });
+
+  it('names every example that a plan is made of', () => {
+    expect(storySentences(STORY)).toContain('The example walk sorted the coarse');
+    const two = { ...STORY, examples: ['skirt_walk', 'skirt_fast_walk in silk'] };
+    expect(storySentences(two)).toContain('The examples walk and fast walk in silk each sorted');
+    expect(fitReading(FIT, two).title).toBe('Fits the examples');
+    expect(fromTo([1.23, 4.56])).toBe('1.2–4.6');
+    expect(fromTo([1.23, 1.231])).toBe('1.2');
+  });
+
+  it('offers a plan anew for a motion that did not fit and is no example', () => {
+    const fired = { ...FIT, fires: true, first_fired: 34 };
+    const squat = { ...STATE, phase: 'ready' as const, motion: 'squat' as const, fit: fired };
+    expect(canPlanAnew(squat)).toBe(true);
+    expect(anewSentence(squat)).toContain('on the fine mesh');
+    expect(canPlanAnew({ ...squat, fit: FIT })).toBe(false);
+    expect(anewSentence({ ...squat, fit: FIT })).toContain('once the light says so');
+    expect(canPlanAnew({ ...squat, phase: 'loading' })).toBe(false);
+    const known = { ...squat, further: ['squat' as const] };
+    expect(canPlanAnew(known)).toBe(false);
+    expect(anewSentence(known)).toContain('already');
+    // The example that comes with the page is of one fabric.
+    const walk = { ...squat, motion: 'walk' as const };
+    expect(isExample(walk)).toBe(true);
+    expect(canPlanAnew({ ...walk, fabric: 'silk' })).toBe(true);
   });
 
   it('lights by what the monitor says', () => {

@@ -75,12 +75,19 @@ describe('plan-file', () => {
     const story = planStory(PLAN);
     expect(story.patterns.map(({ nVertices }) => nVertices)).toEqual([2, 1, 3]);
     expect(story.patterns[1]).toEqual({
-      meanPerM: 10,
-      deviationPerM: 4,
+      meansPerM: [10],
+      deviationsPerM: [4],
       nVertices: 1,
       limitPerM: 20,
     });
     expect(story).toMatchObject({ nSplits: 1, nForBalance: 0, rule: { kind: 'demand', value: 3 } });
+    const [walk] = PLAN.examples;
+    const two = planStory({
+      ...PLAN,
+      examples: [walk, { ...walk, name: 'squat' }] as typeof PLAN.examples,
+    });
+    expect(two.examples).toEqual(['walk', 'squat']);
+    expect(two.patterns[1]?.meansPerM).toEqual([10, 10]);
     const budget = planStory({ ...PLAN, detail_demand: undefined, vertex_budget: 900 });
     expect(budget.rule).toEqual({ kind: 'budget', value: 900 });
   });

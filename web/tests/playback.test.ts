@@ -1,4 +1,3 @@
-import { existsSync, readFileSync } from 'node:fs';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { createPlayback } from '../src/sim/playback';
 import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
@@ -8,6 +7,7 @@ import { initialState, shownHeat } from '../src/state/app-state';
 import { presetSetting, withModel } from '../src/state/setting';
 import { createStore } from '../src/state/store';
 import { decodeLink } from '../src/state/url-codec';
+import { isBuilt, loadModule } from './support/built-module';
 import diverging from './support/diverging.json';
 import { createFakeModule, FRAGILE_STEPS } from './support/fake-module';
 
@@ -27,14 +27,6 @@ vi.mock('../src/sim/client', () => ({
     };
   },
 }));
-
-const wasmFile = new URL('../src/wasm/pleat.wasm', import.meta.url);
-const glueFile = new URL('../src/wasm/pleat.mjs', import.meta.url);
-
-async function realModule(): Promise<PleatModule> {
-  const { default: createPleat } = await import(/* @vite-ignore */ glueFile.href);
-  return createPleat({ wasmBinary: readFileSync(wasmFile) });
-}
 
 /** A playback at a link, with the frame that is shown. */
 function open(hash: string) {
@@ -85,8 +77,8 @@ describe('playback of a run that diverges', () => {
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
   });
 
-  it.runIf(existsSync(wasmFile))('does so with the WebAssembly module', async () => {
-    module = await realModule();
+  it.runIf(isBuilt('pleat'))('does so with the WebAssembly module', async () => {
+    module = await loadModule('pleat');
     changeScene = (scene) => ({ ...scene, ...diverging });
     const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');

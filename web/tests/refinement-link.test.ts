@@ -12,6 +12,7 @@ describe('refinement-link', () => {
       garment: 'trousers',
       motion: 'squat',
       fabric: 'silk',
+      further: ['squat', 'walk'],
       rule: 'budget',
       demand: DEFAULT_LINK.demand,
       budget: 2500,
@@ -33,11 +34,12 @@ describe('refinement-link', () => {
 
   it('says what it cannot read and goes on with the rest', () => {
     const { link, problems } = decodeRefinementLink(
-      '#view=refinement&garment=hat&motion=turn&demand=8&vertices=-3&start=late&hat=1',
+      '#view=refinement&garment=hat&motion=turn&examples=squat,hat&demand=8&vertices=-3&start=late&hat=1',
     );
     expect(link).toEqual({ ...DEFAULT_LINK, motion: 'turn' });
     expect(problems).toEqual([
       'garment: expected skirt, trousers, found "hat"',
+      'examples: expected some of walk, fast_walk, turn, squat, found "squat,hat"',
       'demand: expected 0 to 7.5 in halves, found "8"',
       'vertices: expected a number of vertices, found "-3"',
       'start: expected a time in seconds, found "late"',

@@ -1,27 +1,16 @@
 // The module of garments against its types and against the native command.
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import { REFINEMENT_METHODS, type RefinementModule } from '../src/sim/refinement-module';
 import { fabricsText } from '../src/state/fabric-data';
 import { SCENE_FILES, sceneText } from '../src/state/garments';
-import type { PlanFile } from '../src/state/plan-file';
+import { basePatterns, type PlanFile } from '../src/state/plan-file';
 import { boundMethods } from './support/bound-methods';
-
-const root = fileURLToPath(new URL('../..', import.meta.url));
-const command = join(root, 'build/release/cli/pleat');
-const folder = mkdtempSync(join(tmpdir(), 'pleat-refinement-'));
-afterAll(() => rmSync(folder, { recursive: true }));
+import { loadModule } from './support/built-module';
+import { nativePositions } from './support/native-command';
 
 let module: RefinementModule;
 beforeAll(async () => {
-  const create = (await import('../src/wasm/refinement.mjs')).default;
-  module = await create({
-    wasmBinary: readFileSync(new URL('../src/wasm/refinement.wasm', import.meta.url)),
-  });
+  module = await loadModule('refinement');
 });
 
 function sheet(refinement: object): object {
@@ -62,17 +51,31 @@ function bentPlan(): PlanFile {
   }
 }
 
-function nativePositions(scene: object): Float64Array {
-  const file = join(folder, 'scene.json');
-  writeFileSync(file, JSON.stringify(scene));
-  execFileSync(command, ['run', file, '--out', folder, '--overwrite'], { stdio: 'pipe' });
-  const bytes = readFileSync(join(folder, 'frames.bin'));
-  const { n_vertices: n } = JSON.parse(bytes.toString('utf8', 0, bytes.indexOf('\n')));
-  const last = bytes.subarray(bytes.length - 24 * n);
-  return new Float64Array(last.buffer.slice(last.byteOffset, last.byteOffset + last.byteLength));
-}
-
 describe('the module of garments', () => {
+  it('plans from all examples, of which the highest pattern of a vertex counts', () => {
+    const study = new module.ExampleStudy(fabricsText);
+    study.open(JSON.stringify(sheet({ level: 1 })), {});
+    const bent = (isBent: (column: number) => boolean) =>
+      Float64Array.from({ length: 2 * 169 }, (_, k) => {
+        const vertex = Math.floor(k / 2);
+        return vertex < 49 && isBent(vertex % 7) ? 8 : 1;
+      });
+    study.sort(
+      'left',
+      bent((column) => column < 2),
+      2,
+    );
+    study.sort(
+      'right',
+      bent((column) => column > 5),
+      2,
+    );
+    const { plan } = JSON.parse(study.plan('{"demand": 3}')) as { plan: PlanFile };
+    study.delete();
+    expect(plan.examples.map(({ name }) => name)).toEqual(['left', 'right']);
+    expect(basePatterns(plan).slice(0, 7)).toEqual([1, 1, 0, 0, 0, 0, 1]);
+  });
+
   it('binds exactly the classes and methods that the types name', () => {
     expect(boundMethods(module)).toEqual(REFINEMENT_METHODS);
   });

@@ -1,15 +1,10 @@
 // The same core natively and in WebAssembly: 100 steps of smooth scenes end at the same places.
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { beforeAll, describe, expect, it } from 'vitest';
 import type { PleatModule } from '../src/sim/wasm-module';
+import { fabricsText } from '../src/state/fabric-data';
+import { loadModule } from './support/built-module';
+import { nativePositions } from './support/native-command';
 
-const root = fileURLToPath(new URL('../..', import.meta.url));
-const command = join(root, 'build/release/cli/pleat');
-const fabrics = readFileSync(join(root, 'assets/fabrics/fabrics.json'), 'utf8');
 const steps = 100;
 const tolerance = 1e-9; // of the largest coordinate: rounding, carried through 100 smooth steps
 
@@ -58,33 +53,13 @@ const methods: Record<string, object> = {
   projective: { stepper: 'projective', step_s: 0.004, iterations: 10, solver: 'cholmod' },
 };
 
-const folder = mkdtempSync(join(tmpdir(), 'pleat-wasm-native-'));
-afterAll(() => rmSync(folder, { recursive: true }));
-
 let module: PleatModule;
 beforeAll(async () => {
-  const create = (await import('../src/wasm/pleat.mjs')).default;
-  module = await create({
-    wasmBinary: readFileSync(new URL('../src/wasm/pleat.wasm', import.meta.url)),
-  });
+  module = await loadModule('pleat');
 });
 
-/** Positions after the last step, as the native command writes them. */
-function nativePositions(scene: object): Float64Array {
-  const file = join(folder, 'scene.json');
-  writeFileSync(file, JSON.stringify(scene));
-  execFileSync(command, ['run', file, '--out', folder, '--overwrite'], {
-    stdio: ['ignore', 'ignore', 'pipe'],
-  });
-  const bytes = readFileSync(join(folder, 'frames.bin'));
-  const headerEnd = bytes.indexOf('\n');
-  const { n_vertices } = JSON.parse(bytes.toString('utf8', 0, headerEnd));
-  const last = bytes.subarray(bytes.length - 24 * n_vertices);
-  return new Float64Array(last.buffer.slice(last.byteOffset, last.byteOffset + last.byteLength));
-}
-
 function wasmPositions(scene: object): Float64Array {
-  const simulation = new module.Simulation(fabrics);
+  const simulation = new module.Simulation(fabricsText);
   try {
     expect(JSON.parse(simulation.load(JSON.stringify(scene)))).toMatchObject({ ok: true });
     expect(simulation.step(steps)).toBe(0);

@@ -1,4 +1,4 @@
-import { existsSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { type FromWorker, frameViews, type ToWorker } from '../src/sim/protocol';
 import {
@@ -23,22 +23,15 @@ import {
 } from '../src/state/setting';
 import { settingOfRow, sweepPlan } from '../src/state/sweep-plan';
 import { boundMethods } from './support/bound-methods';
+import { isBuilt, loadModule } from './support/built-module';
 import { createFakeModule } from './support/fake-module';
 
 type AllModules = PleatModule & SweepModule;
 
-const fileOf = (name: string) => new URL(`../src/wasm/${name}`, import.meta.url);
-const MODULES = ['pleat', 'sweep', 'deform'];
-const hasModule = MODULES.every((name) => existsSync(fileOf(`${name}.wasm`)));
-
-async function createReal(name: string) {
-  const { default: make } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
-  return make({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
-}
+const hasModule = (['pleat', 'sweep', 'deform'] as const).every(isBuilt);
 
 async function loadRealModule(): Promise<AllModules> {
-  const pleat: PleatModule = await createReal('pleat');
-  const sweep: SweepModule = await createReal('sweep');
+  const [pleat, sweep] = [await loadModule('pleat'), await loadModule('sweep')];
   return { ...pleat, ...sweep };
 }
 
@@ -512,7 +505,7 @@ describe.runIf(hasModule)('the cost of a step', () => {
 
 describe.runIf(hasModule)('wasm-module', () => {
   it('binds exactly the classes and methods that the types name', async () => {
-    const module: object = { ...(await loadRealModule()), ...(await createReal('deform')) };
+    const module: object = { ...(await loadRealModule()), ...(await loadModule('deform')) };
     expect(boundMethods(module)).toEqual(BOUND_METHODS);
   });
 });

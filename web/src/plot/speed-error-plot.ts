@@ -1,6 +1,7 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
 import type { BenchRow } from '../sim/wasm-module';
 import { hasFinished } from '../state/sweep-plan';
+import { svg } from '../views/element';
 import { digits, milliseconds, smallLength } from '../views/quantity';
 import { logScale } from './log-scale';
 
@@ -12,7 +13,6 @@ export interface PlotContent {
   current: number;
 }
 
-const SVG = 'http://www.w3.org/2000/svg';
 const WIDTH = 520;
 const HEIGHT = 300;
 const LEFT = 62;
@@ -52,13 +52,6 @@ function placeOf(row: BenchRow): [number, number] | null {
   const { ms_per_frame: ms, position_error_m: metres } = row;
   if (!hasFinished(row) || ms === null || metres === null) return null;
   return ms > 0 && metres > 0 ? [ms, 1000 * metres] : null;
-}
-
-function svg(tag: string, attributes: Record<string, string | number>, text = ''): SVGElement {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  if (text) made.textContent = text;
-  return made;
 }
 
 /** A chart that `update` draws anew; `onChoice` gets the index of a chosen row. */

@@ -10,8 +10,24 @@ export function read<Payload>(text: string): Answer<Payload> {
   }
 }
 
+export function inputFailure(what: string): Failure {
+  return { ok: false, kind: 'input', where: '', what };
+}
+
 export function internalFailure(what: string): Failure {
   return { ok: false, kind: 'internal', where: '', what };
+}
+
+/** Of a technical reason, as much is quoted. */
+const MOST_REASON = 100;
+
+export function quoted(reason: string): string {
+  return reason.slice(0, MOST_REASON);
+}
+
+/** The sentence when a worker breaks without which `subject` cannot be computed. */
+export function brokenSentence(subject: string, reason: string): string {
+  return `${subject} cannot be computed: the WebAssembly part did not start (${quoted(reason)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
 }
 
 export function describe(error: unknown): string {

@@ -9,12 +9,12 @@ import {
   countedWeights,
   type FabricsState,
   heldBy,
-  inputFailure,
   linkFailure,
   panesFor,
 } from '../state/fabrics-state';
 import { baseOf, type Hold, holdAt, holdsOf, joined, placeOf } from '../state/holds';
 import type { Store } from '../state/store';
+import { brokenSentence, inputFailure, internalFailure } from './answers';
 import { startDeformWorker } from './client';
 import type { DeformFrame, FromDeform } from './deform-protocol';
 import { frameViews } from './protocol';
@@ -25,9 +25,6 @@ const REST_AFTER_MS = 150;
 
 /** Numbers of a cloth that is being pulled are shown this often [ms]: faster cannot be read. */
 const NUMBERS_EVERY_MS = 150;
-
-/** Of a technical reason, as much is quoted. */
-const MOST_REASON = 100;
 
 export interface DeformerView {
   /** Another cloth; its frames follow. */
@@ -111,8 +108,8 @@ export function createDeformer(store: Store<FabricsState>, view: DeformerView): 
   let onShape: ((shape: StartShape) => void) | null = null;
 
   function broken(reason: string): void {
-    const what = `The shapes cannot be computed: their WebAssembly part did not start (${reason.slice(0, MOST_REASON)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
-    store.set({ phase: 'broken', problem: { ok: false, kind: 'internal', where: '', what } });
+    const problem = internalFailure(brokenSentence('The shapes', reason));
+    store.set({ phase: 'broken', problem });
   }
 
   function refuse(failure: Failure): void {

@@ -112,11 +112,31 @@ export type ToExample =
       features: ArrayBuffer;
       frames: ArrayBuffer;
     }
+  | {
+      /** An example more: the scene on the fine mesh, from its beginning. */
+      type: 'begin';
+      request: number;
+      fabricsText: string;
+      sceneText: string;
+      files: HandedFiles;
+      name: string;
+      nPatterns: number;
+      /** Time of a frame, of the last one before those that count, and of the last one. */
+      frameS: number;
+      fromS: number;
+      toS: number;
+      /** Of the frames that count, one in these is kept for limits. */
+      keptOf: number;
+    }
+  /** A frame of it. */
+  | { type: 'goOn'; request: number }
   | { type: 'plan'; request: number; wish: PlanWish };
 
 export type FromExample =
   | { type: 'broken'; reason: string }
   | { type: 'opened'; nFineVertices: number; nBaseVertices: number }
+  /** So much of the example has run; at 1 plans are made of it too. */
+  | { type: 'wentOn'; request: number; share: number }
   | { type: 'planned'; request: number; plan: PlanFile; ms: number }
   | { type: 'refused'; request: number; failure: Failure };
 

@@ -1,7 +1,16 @@
-// Plans for a garment: the usual one comes with the page, others are made of the recorded example.
+// Plans for a garment: the usual one comes with the page, others are made of the recorded example and of
+// motions that are run here.
 import { fabricsText } from '../state/fabric-data';
-import { FINE_LEVEL, PATTERNS } from '../state/garment-frames';
-import { type GarmentId, SCENE_FILES, sceneText, usualFabric } from '../state/garments';
+import { FINE_LEVEL, FRAME_S, KEPT_OF, PATTERNS, SEEN_S, SETTLED_S } from '../state/garment-frames';
+import {
+  exampleName,
+  type GarmentId,
+  MOTIONS,
+  type MotionId,
+  SCENE_FILES,
+  sceneText,
+  usualFabric,
+} from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
 import { DEMANDS, type RefinementState } from '../state/refinement-state';
 import { type ExampleClient, startExampleWorker } from './garment-client';
@@ -16,22 +25,50 @@ export async function fetched(url: string): Promise<ArrayBuffer> {
   return answer.arrayBuffer();
 }
 
-export type Wish = Pick<RefinementState, 'garment' | 'rule' | 'demand' | 'budget'>;
+export type Wish = Pick<
+  RefinementState,
+  'garment' | 'fabric' | 'further' | 'rule' | 'demand' | 'budget'
+>;
 
-export function isUsual({ rule, demand, budget }: Wish): boolean {
+export function isUsual({ further, rule, demand, budget }: Wish): boolean {
+  if (further.length > 0) return false;
   return rule === 'budget' ? budget === null : demand === DEMANDS.usual;
 }
 
+/** Hears how much of an example has run. */
+export type Progress = (motion: MotionId, share: number) => void;
+
 export interface Planner {
-  /** Rejects when the example cannot be had. */
-  plan(wish: Wish): Promise<PlanFile>;
+  /** Rejects when an example cannot be had. */
+  plan(wish: Wish, progress?: Progress): Promise<PlanFile>;
   /** Gives up what is being planned; the next plan starts anew. */
   cancel(): void;
 }
 
-export function createPlanner(start = startExampleWorker, fetchBytes: Fetched = fetched): Planner {
+/** What the worker has, or is getting. */
+interface Opened extends Pick<Wish, 'garment' | 'fabric'> {
+  further: MotionId[];
+  ready: Promise<unknown>;
+}
+
+/** Only what is missing in `opened` has to be run for `wish`. */
+function isPartOf(opened: Opened, { garment, fabric, further }: Wish): boolean {
+  return (
+    opened.garment === garment &&
+    (opened.further.length === 0 || opened.fabric === fabric) &&
+    opened.further.every((motion, index) => motion === further[index])
+  );
+}
+
+/** `seen` are the frames of an example that count, when it is run here. */
+export function createPlanner(
+  start = startExampleWorker,
+  fetchBytes: Fetched = fetched,
+  seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
+): Planner {
   let client: ExampleClient | null = null;
-  let opened: { garment: GarmentId; ready: Promise<unknown> } | null = null;
+  let opened: Opened | null = null;
+  let tell: Progress = () => undefined;
   let request = 0;
 
   async function open(to: ExampleClient, garment: GarmentId): Promise<void> {
@@ -41,20 +78,65 @@ export function createPlanner(start = startExampleWorker, fetchBytes: Fetched = 
       fetchBytes(urls.features),
       fetchBytes(urls.frames),
     ]);
-    const scene = sceneText(garment, 'walk', usualFabric(garment), { level: FINE_LEVEL });
+    const { value: motion } = MOTIONS[0];
+    const fabric = usualFabric(garment);
     await to.ask(
       {
         type: 'open',
         fabricsText,
-        sceneText: scene,
+        sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
         files: SCENE_FILES,
-        name: `${garment}_walk`,
+        name: exampleName(garment, motion, fabric),
         nPatterns: PATTERNS,
         features,
         frames,
       },
       [features, frames],
     );
+  }
+
+  async function run(to: ExampleClient, wish: Wish, motion: MotionId): Promise<void> {
+    const { garment, fabric } = wish;
+    tell(motion, 0);
+    request += 1;
+    let answer = await to.ask({
+      type: 'begin',
+      request,
+      fabricsText,
+      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
+      files: SCENE_FILES,
+      name: exampleName(garment, motion, fabric),
+      nPatterns: PATTERNS,
+      frameS: FRAME_S,
+      fromS: seen.fromS,
+      toS: seen.toS,
+      keptOf: KEPT_OF,
+    });
+    while (answer.type === 'wentOn' && answer.share < 1) {
+      tell(motion, answer.share);
+      request += 1;
+      answer = await to.ask({ type: 'goOn', request });
+    }
+  }
+
+  /** The worker, once it has all examples. */
+  async function withExamples(wish: Wish): Promise<ExampleClient> {
+    const { garment, fabric, further } = wish;
+    client ??= start();
+    const own = client;
+    opened ??= { garment, fabric, further: [], ready: open(own, garment) };
+    opened.fabric = fabric;
+    for (const motion of further.slice(opened.further.length)) {
+      opened.ready = opened.ready.then(() => run(own, wish, motion));
+      opened.further.push(motion);
+    }
+    try {
+      await opened.ready;
+    } catch (error) {
+      if (client === own) forget();
+      throw error;
+    }
+    return own;
   }
 
   function forget(): void {
@@ -70,21 +152,15 @@ export function createPlanner(start = startExampleWorker, fetchBytes: Fetched = 
   }
 
   return {
-    async plan(wish) {
+    async plan(wish, progress = () => undefined) {
       const { garment, rule, demand, budget } = wish;
+      tell = progress;
+      if (opened && !isPartOf(opened, wish)) forget();
       if (isUsual(wish)) {
         const plan = await usualPlan(garment);
         if (plan) return plan;
       }
-      client ??= start();
-      const own = client;
-      if (opened?.garment !== garment) opened = { garment, ready: open(own, garment) };
-      try {
-        await opened.ready;
-      } catch (error) {
-        if (client === own) forget();
-        throw error;
-      }
+      const own = await withExamples(wish);
       const asked: PlanWish =
         rule === 'budget' && budget !== null ? { max_vertices: budget } : { demand };
       request += 1;

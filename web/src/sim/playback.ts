@@ -6,6 +6,7 @@ import { fabricsText } from '../state/fabric-data';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting, type Setting, sceneOf } from '../state/setting';
 import type { Store } from '../state/store';
+import { brokenSentence } from './answers';
 import { startWorker } from './client';
 import { createPacer } from './pacer';
 import {
@@ -25,9 +26,6 @@ const NUMBERS_EVERY_MS = 200;
 
 /** Running ahead of the first picture gives up after this much of the clock [ms]. */
 const LONGEST_AHEAD_MS = 4000;
-
-/** Of a technical reason, as much is quoted. */
-const MOST_REASON = 100;
 
 /** The pace is measured over this much of the clock [s]. */
 const PACE_WINDOW_S = 1;
@@ -113,7 +111,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   let paceMark = { clockMs: 0, timeS: 0 };
 
   function broken(reason: string): void {
-    const sentence = `The cloth cannot be computed: its WebAssembly part did not start (${reason.slice(0, MOST_REASON)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
+    const sentence = brokenSentence('The cloth', reason);
     store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
   }
 

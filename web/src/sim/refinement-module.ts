@@ -104,13 +104,14 @@ export interface GarmentRunHandle {
   delete(): void;
 }
 
-/** An example on its fine mesh, and the plans made of it. */
+/** Examples of one cloth on its fine mesh, and the plans made of them. */
 export interface ExampleStudyHandle {
   open(sceneText: string, files: HandedFiles): string;
   parents(): Int32Array;
   addFrame(places: Float32Array): string;
   /** Of the added frames: mean and deviation of each fine vertex's curvature [1/m]. */
   features(): Float64Array;
+  /** One example more that plans are made of. */
   sort(name: string, features: ArrayLike<number>, nPatterns: number): string;
   /** `{demand}` or `{max_vertices}`. */
   plan(optionsText: string): string;

@@ -1,9 +1,10 @@
 // Runs the three panes of a garment in step: turns changes of the state into questions to their workers,
 // and the answers into state and frames.
 import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';
-import { sceneText, usualFabric } from '../state/garments';
+import { type MotionId, sceneText, usualFabric } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
 import {
+  type Doing,
   EMPTY_PANE,
   type GarmentPane,
   PANES,
@@ -11,6 +12,7 @@ import {
   type RefinementState,
 } from '../state/refinement-state';
 import type { Store } from '../state/store';
+import { brokenSentence, describe, inputFailure, internalFailure, quoted } from './answers';
 import { BrokenWorker, type GarmentClient, Refused, startGarmentWorker } from './garment-client';
 import { createPaneRun, type PaneRun } from './garment-pane';
 import type { Described, GarmentMesh, GarmentScalar } from './garment-protocol';
@@ -64,20 +66,11 @@ const BROWSER: TrioParts = {
   nowMs: () => performance.now(),
 };
 
-function inputFailure(what: string): Failure {
-  return { ok: false, kind: 'input', where: '', what };
-}
-
 function failureOf(error: unknown): Failure {
   if (error instanceof Refused) return error.failure;
-  const reason = error instanceof Error ? error.message : String(error);
-  if (error instanceof BrokenWorker) {
-    const what = `The garment cannot be computed: its WebAssembly part did not start (${reason.slice(0, 100)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
-    return { ok: false, kind: 'internal', where: '', what };
-  }
-  return inputFailure(
-    `Not all of it could be fetched (${reason.slice(0, 100)}). Check the connection.`,
-  );
+  const reason = describe(error);
+  if (error instanceof BrokenWorker) return internalFailure(brokenSentence('The garment', reason));
+  return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
 function scalarOf({ colour }: RefinementState): GarmentScalar | null {
@@ -95,6 +88,8 @@ export function createTrio(
   let isPreview = false; // the planned pane shows a sample, and starts anew when it plays
   let isBusy = false;
   let isTakingBack = false; // a wish that was given up
+  let isBuilt = false; // all panes are as wanted, but for the plan
+  let planned: readonly MotionId[] = []; // further examples of the plan that is there
   let isAskedAgain = false; // for colours, while busy
   let dueFrames = 0;
   let lastTickMs = 0;
@@ -154,13 +149,19 @@ export function createTrio(
   async function load(what: 'all' | 'plan'): Promise<void> {
     wanted += 1;
     const request = wanted;
-    const isPlan = what === 'plan';
-    const doing = isPlan ? 'Planning' : 'Fetching and building three meshes';
-    store.set({ phase: 'loading', playing: false, doing: { what: doing, canCancel: isPlan } });
+    if (what === 'all') isBuilt = false;
+    const words = isBuilt ? 'Planning' : 'Fetching and building three meshes';
+    const doing: Doing = { what: words, canCancel: isBuilt, share: null };
+    store.set({ phase: 'loading', playing: false, doing });
     try {
-      const plan = await parts.planner.plan(store.get());
+      const { further } = store.get();
+      const plan = await parts.planner.plan(store.get(), (motion, share) => {
+        const running = `Running the ${motion.replaceAll('_', ' ')} on the fine mesh`;
+        if (request === wanted) store.set({ doing: { what: running, canCancel: true, share } });
+      });
       if (request !== wanted) return;
-      store.set({ plan, face: null, fit: null });
+      store.set({ plan, doing, face: null, fit: null });
+      planned = further;
       await Promise.all(panes.map((pane) => loadPane(pane, plan, request)));
       if (request !== wanted) return;
       setSources();
@@ -170,13 +171,25 @@ export function createTrio(
       await idle();
       await start(request);
       if (request !== wanted) return;
+      isBuilt = true;
       store.set({ phase: 'ready', doing: null });
     } catch (error) {
       if (request !== wanted) return;
+      const isBroken = error instanceof BrokenWorker;
+      // A link's examples that cannot be had leave the rest of it.
+      if (!isBuilt && !isBroken && store.get().further.length > 0)
+        return store.set({ further: [], problem: failureOf(error) });
+      if (isBuilt) takeBack({ further: planned });
       const isShown = panes.every((pane) => pane.isLoaded());
-      const phase = error instanceof BrokenWorker ? 'broken' : isShown ? 'ready' : 'stopped';
+      const phase = isBroken ? 'broken' : isShown ? 'ready' : 'stopped';
       store.set({ phase, doing: null, problem: failureOf(error) });
     }
+  }
+
+  function takeBack(patch: Partial<RefinementState>): void {
+    isTakingBack = true;
+    store.set(patch);
+    isTakingBack = false;
   }
 
   /** What runs meanwhile comes to its end. */
@@ -348,7 +361,7 @@ export function createTrio(
     if (state.phase === 'broken' || isTakingBack) return;
     if (differs('garment', 'motion', 'fabric', 'useRecords', 'computeFine', 'startS'))
       void load('all');
-    else if (differs('rule', 'demand', 'budget')) void load('plan');
+    else if (differs('further', 'rule', 'demand', 'budget')) void load('plan');
     else if (differs('colour')) recolour();
     if (state.playing && !previous.playing) {
       lastTickMs = parts.nowMs();
@@ -380,15 +393,14 @@ export function createTrio(
     },
     cancel() {
       const { doing, plan } = store.get();
-      if (!doing?.canCancel || !plan) return;
+      if (!doing?.canCancel) return;
       wanted += 1;
       parts.planner.cancel();
-      isTakingBack = true;
+      if (!plan || !isBuilt) return store.set({ further: [] }); // the rest is still wanted
       const budget = plan.vertex_budget ?? null;
       const demand = plan.detail_demand ?? store.get().demand;
       const rule = budget === null ? 'demand' : 'budget';
-      store.set({ rule, demand, budget, phase: 'ready', doing: null });
-      isTakingBack = false;
+      takeBack({ further: planned, rule, demand, budget, phase: 'ready', doing: null });
     },
   };
 }

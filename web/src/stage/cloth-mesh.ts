@@ -1,25 +1,20 @@
 // One mesh from one frame: positions as they come, smooth normals, material or heat map.
 import {
-  BackSide,
   BufferAttribute,
   BufferGeometry,
-  DoubleSide,
   DynamicDrawUsage,
-  FrontSide,
   Group,
   LineBasicMaterial,
   LineSegments,
   Mesh,
-  MeshBasicMaterial,
-  MeshPhysicalMaterial,
 } from 'three';
 import { frameViews, type Scalar } from '../sim/protocol';
 import type { HeatScale } from '../state/app-state';
 import type { HeatMap } from '../state/url-codec';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
 import type { FabricLook } from './fabric-look';
-import { dress } from './fabric-material';
-import { addNormals } from './normals';
+import { createClothMaterials } from './fabric-material';
+import { showPositions } from './normals';
 
 /** A still cloth has no stretch: the scale then ends at 0.01 %, or at 0.1 mm, not at nothing. */
 const LEAST_REACH = 1e-4;
@@ -62,14 +57,10 @@ export interface ClothMesh {
 export function createClothMesh(): ClothMesh {
   const geometry = new BufferGeometry();
   const edgeGeometry = new BufferGeometry();
-  // Two materials over one geometry: the back has its own tint, so that folds read.
-  const frontMaterial = new MeshPhysicalMaterial({ side: FrontSide, shadowSide: DoubleSide });
-  const backMaterial = new MeshPhysicalMaterial({ side: BackSide });
-  const heatMaterial = new MeshBasicMaterial({ side: DoubleSide, vertexColors: true });
-  heatMaterial.toneMapped = false;
-  const front = new Mesh(geometry, frontMaterial);
-  const back = new Mesh(geometry, backMaterial);
-  const heat = new Mesh(geometry, heatMaterial);
+  const materials = createClothMaterials();
+  const front = new Mesh(geometry, materials.front);
+  const back = new Mesh(geometry, materials.back);
+  const heat = new Mesh(geometry, materials.heat);
   const edges = new LineSegments(
     edgeGeometry,
     new LineBasicMaterial({ color: '#101418', transparent: true, opacity: 0.45 }),
@@ -93,10 +84,6 @@ export function createClothMesh(): ClothMesh {
   let heatRange: 'auto' | number = 'auto';
   let scale: HeatScale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
 
-  function attribute(name: string): BufferAttribute {
-    return geometry.getAttribute(name) as BufferAttribute;
-  }
-
   function paintHeat(): void {
     if (heatMap === 'off') {
       scale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
@@ -118,7 +105,7 @@ export function createClothMesh(): ClothMesh {
     const high = range === 'auto' ? roundedUp(reach) : range / 100;
     const low = heatMap === 'signed' ? -high : 0;
     scale = { map: heatMap, low, high, least, most };
-    const colours = attribute('color');
+    const colours = geometry.getAttribute('color') as BufferAttribute;
     const map = heatMap === 'signed' ? SIGNED_MAP : MAGNITUDE_MAP;
     paint(map, painted, low, high, colours.array as Float32Array);
     colours.needsUpdate = true;
@@ -153,15 +140,10 @@ export function createClothMesh(): ClothMesh {
     update() {
       if (!isStale || positions.length === 0) return;
       isStale = false;
-      const place = attribute('position');
-      place.array = positions;
-      place.needsUpdate = true;
-      const normals = attribute('normal');
-      addNormals(positions, triangles, normals.array as Float32Array);
-      normals.needsUpdate = true;
+      showPositions(geometry, positions, triangles);
       paintHeat();
     },
-    setLook: (look) => dress(frontMaterial, backMaterial, look),
+    setLook: materials.setLook,
     setHeat(map, range) {
       if (map === heatMap && range === heatRange) return false;
       heatMap = map;

@@ -6,9 +6,9 @@ import type { SolidsAnswer } from '../sim/refinement-module';
 import { createCameraControl } from './camera-control';
 import { createCanvas } from './canvas';
 import { lookOf } from './fabric-look';
-import type { Box } from './grab';
 import { createGradedCloth, type GradedCloth, type Paint } from './graded-cloth';
 import { createMannequin } from './mannequin';
+import { createPaneGrid } from './pane-grid';
 import { pick } from './pick';
 import { createSurroundings } from './surroundings';
 
@@ -73,6 +73,8 @@ export function createGarmentStage(
   const panes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
   scene.add(surroundings.object, mannequin.object, ...panes.map(({ object }) => object));
   const leftOut: boolean[] = [];
+  const grid = createPaneGrid(canvas, camera);
+  grid.set(N_PANES, N_PANES); // side by side, as people do: they are higher than wide
   let isFramed = false;
   let colours = { line: '#000000', dot: '#000000' };
   let areEdgesShown = false;
@@ -81,13 +83,12 @@ export function createGarmentStage(
 
   const { redraw, open } = createCanvas(parent, canvas, {
     draw,
-    resized: refit,
+    resized() {
+      grid.fit();
+      control.refit();
+    },
     themed(colour) {
-      surroundings.setTheme({
-        floor: colour('--stage-floor'),
-        grid: colour('--stage-grid'),
-        body: colour('--stage-body'),
-      });
+      surroundings.setTheme(colour);
       mannequin.setColour(colour('--stage-body'));
       colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
       showLines();
@@ -105,35 +106,19 @@ export function createGarmentStage(
     redraw();
   }
 
-  /** Panes stand side by side, as people do: they are higher than wide. */
-  function cut(pane: number, { left, top, width, height }: Box): Box {
-    return { left: left + (pane * width) / N_PANES, top, width: width / N_PANES, height };
-  }
-
-  function refit(): void {
-    const { clientWidth: width, clientHeight: height } = parent;
-    if (width === 0 || height === 0) return;
-    camera.aspect = width / N_PANES / height;
-    control.refit();
-  }
-
-  function drawPane(renderer: WebGLRenderer, index: number, width: number, height: number): void {
-    panes.forEach((other, k) => {
-      other.object.visible = k === index && !leftOut[k] && other.positions().length > 0;
-    });
-    panes[index]?.update();
-    const box = cut(index, { left: 0, top: 0, width, height });
-    const bottom = height - box.top - box.height;
-    renderer.setViewport(box.left, bottom, box.width, box.height);
-    renderer.setScissor(box.left, bottom, box.width, box.height);
-    renderer.render(scene, camera);
+  function positions(pane: number): Float32Array {
+    return panes[pane]?.positions() ?? new Float32Array(0);
   }
 
   function draw(renderer: WebGLRenderer): void {
-    const { clientWidth: width, clientHeight: height } = canvas;
-    if (width === 0 || !isFramed) return;
-    renderer.setScissorTest(true);
-    for (let pane = 0; pane < N_PANES; ++pane) drawPane(renderer, pane, width, height);
+    if (canvas.clientWidth === 0 || !isFramed) return;
+    grid.draw(renderer, (index) => {
+      panes.forEach((other, k) => {
+        other.object.visible = k === index && !leftOut[k] && other.positions().length > 0;
+      });
+      panes[index]?.update();
+      renderer.render(scene, camera);
+    });
     if (!onPicture) return;
     canvas.toBlob(onPicture);
     onPicture = null;
@@ -152,17 +137,8 @@ export function createGarmentStage(
     surroundings.follow(centre.x, centre.z);
   }
 
-  function paneAt(x: number, y: number): number {
-    const box = canvas.getBoundingClientRect();
-    const found = panes.findIndex((_, pane) => {
-      const own = cut(pane, box);
-      return x >= own.left && x < own.left + own.width && y >= own.top && y < own.top + own.height;
-    });
-    return Math.max(0, found);
-  }
-
   function faceAt(pane: number, x: number, y: number): number | null {
-    const box = cut(pane, canvas.getBoundingClientRect());
+    const box = grid.boxOf(pane);
     const across = (2 * (x - box.left)) / box.width - 1;
     const up = 1 - (2 * (y - box.top)) / box.height;
     const ahead = new Vector3(across, up, 0.5).unproject(camera).sub(camera.position).normalize();
@@ -186,7 +162,7 @@ export function createGarmentStage(
     pressed = null;
     if (!start || timeStamp - start.timeMs > PRESS_MS) return;
     if (Math.hypot(x - start.x, y - start.y) > PRESS_REACH) return;
-    const pane = paneAt(x, y);
+    const pane = grid.paneAt({ x, y });
     events.press(pane, faceAt(pane, x, y));
   });
 
@@ -232,19 +208,10 @@ export function createGarmentStage(
     },
     homeView: control.home,
     redraw,
-    positions: (pane) => panes[pane]?.positions() ?? new Float32Array(0),
+    positions,
     triangles: (pane) => panes[pane]?.triangles() ?? new Uint32Array(0),
     scalars: (pane) => panes[pane]?.scalars() ?? new Float32Array(0),
-    project(vertex, pane) {
-      const places = panes[pane]?.positions() ?? [];
-      const place = new Vector3().fromArray(places, 3 * vertex).project(camera);
-      const { clientWidth: width, clientHeight: height } = canvas;
-      const box = cut(pane, { left: 0, top: 0, width, height });
-      return {
-        x: box.left + ((place.x + 1) / 2) * box.width,
-        y: box.top + ((1 - place.y) / 2) * box.height,
-      };
-    },
+    project: (vertex, pane) => grid.project(positions(pane), vertex, pane),
     picture() {
       return new Promise((resolve) => {
         onPicture = resolve;

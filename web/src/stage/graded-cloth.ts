@@ -1,19 +1,16 @@
 // Cloth of quads of several sizes: its material, one colour a face, or a number at each vertex by colour;
 // with the quads' edges and the vertices that hang.
 import {
-  BackSide,
   BufferAttribute,
   BufferGeometry,
   DoubleSide,
   DynamicDrawUsage,
-  FrontSide,
   Group,
   LineBasicMaterial,
   LineSegments,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
-  MeshPhysicalMaterial,
   Points,
   PointsMaterial,
 } from 'three';
@@ -21,8 +18,8 @@ import type { GarmentMesh } from '../sim/garment-protocol';
 import { frameViews } from '../sim/protocol';
 import { type Colormap, paint } from './colormap';
 import type { FabricLook } from './fabric-look';
-import { dress } from './fabric-material';
-import { addNormals } from './normals';
+import { createClothMaterials } from './fabric-material';
+import { showPositions } from './normals';
 
 /** What a cloth is painted with. */
 export type Paint =
@@ -61,13 +58,10 @@ export function createGradedCloth(): GradedCloth {
   const edgeGeometry = new BufferGeometry();
   const dotGeometry = new BufferGeometry();
   const chosenGeometry = new BufferGeometry();
-  const frontMaterial = new MeshPhysicalMaterial({ side: FrontSide, shadowSide: DoubleSide });
-  const backMaterial = new MeshPhysicalMaterial({ side: BackSide });
-  const heatMaterial = new MeshBasicMaterial({ side: DoubleSide, vertexColors: true });
-  heatMaterial.toneMapped = false;
+  const materials = createClothMaterials();
   const faceMaterial = new MeshLambertMaterial({ side: DoubleSide, vertexColors: true });
   // Lines and dots lie on what they belong to.
-  for (const material of [frontMaterial, backMaterial, heatMaterial, faceMaterial]) {
+  for (const material of [materials.front, materials.back, materials.heat, faceMaterial]) {
     material.polygonOffset = true;
     material.polygonOffsetFactor = 1;
     material.polygonOffsetUnits = 1;
@@ -81,9 +75,9 @@ export function createGradedCloth(): GradedCloth {
     polygonOffsetFactor: -1,
     polygonOffsetUnits: -1,
   });
-  const front = new Mesh(geometry, frontMaterial);
-  const back = new Mesh(geometry, backMaterial);
-  const heat = new Mesh(geometry, heatMaterial);
+  const front = new Mesh(geometry, materials.front);
+  const back = new Mesh(geometry, materials.back);
+  const heat = new Mesh(geometry, materials.heat);
   const faces = new Mesh(soup, faceMaterial);
   const edges = new LineSegments(edgeGeometry, lineMaterial);
   const dots = new Points(dotGeometry, dotMaterial);
@@ -184,12 +178,7 @@ export function createGradedCloth(): GradedCloth {
     update() {
       if (!isStale || positions.length === 0) return;
       isStale = false;
-      const place = attribute(geometry, 'position');
-      place.array = positions;
-      place.needsUpdate = true;
-      const normals = attribute(geometry, 'normal');
-      addNormals(positions, triangles, normals.array as Float32Array);
-      normals.needsUpdate = true;
+      showPositions(geometry, positions, triangles);
       if (painted.kind === 'faces') {
         spread('position');
         spread('normal');
@@ -199,7 +188,7 @@ export function createGradedCloth(): GradedCloth {
         colours.needsUpdate = true;
       }
     },
-    setLook: (look) => dress(frontMaterial, backMaterial, look),
+    setLook: materials.setLook,
     setPaint(newPaint) {
       painted = newPaint;
       if (painted.kind === 'faces') paintFaces(painted.colours);

@@ -1,11 +1,8 @@
-// Smooth normals of a triangle mesh.
+// Positions and smooth normals of a triangle mesh.
+import type { BufferAttribute, BufferGeometry } from 'three';
 
 /** Sums each triangle's area-weighted normal at its corners; the shader normalises. */
-export function addNormals(
-  positions: Float32Array,
-  triangles: Uint32Array,
-  normals: Float32Array,
-): void {
+function addNormals(positions: Float32Array, triangles: Uint32Array, normals: Float32Array): void {
   normals.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
     const a = 3 * (triangles[t] as number);
@@ -37,4 +34,18 @@ export function addNormals(
     normals[v + 1] = (normals[v + 1] as number) / length;
     normals[v + 2] = (normals[v + 2] as number) / length;
   }
+}
+
+/** Takes positions to the screen as they come, without a copy, and makes normals for them. */
+export function showPositions(
+  geometry: BufferGeometry,
+  positions: Float32Array,
+  triangles: Uint32Array,
+): void {
+  const place = geometry.getAttribute('position') as BufferAttribute;
+  place.array = positions;
+  place.needsUpdate = true;
+  const normals = geometry.getAttribute('normal') as BufferAttribute;
+  addNormals(positions, triangles, normals.array as Float32Array);
+  normals.needsUpdate = true;
 }

@@ -6,9 +6,10 @@ import { createCameraControl, uprightOf } from './camera-control';
 import { createCanvas } from './canvas';
 import { type ClothMesh, createClothMesh } from './cloth-mesh';
 import { lookOf } from './fabric-look';
-import { type Box, createHand } from './grab';
+import { createHand } from './grab';
 import { createHandMark } from './hand-mark';
 import { createHoldMarks, type HoldMark } from './hold-marks';
+import { createPaneGrid } from './pane-grid';
 import { createSurroundings } from './surroundings';
 
 export interface PaneStageEvents {
@@ -73,8 +74,8 @@ export function createPaneStage(
   scene.add(surroundings.object, holdMarks.object, handMark.object);
 
   const panes: ClothMesh[] = [];
+  const grid = createPaneGrid(canvas, camera);
   let topology: { triangles: Uint32Array; nVertices: number } | null = null;
-  let nColumns = 1;
   let areEdgesShown = false;
   let floor = 0;
   let inviting = 0;
@@ -85,11 +86,7 @@ export function createPaneStage(
     draw,
     resized: refit,
     themed(colour) {
-      surroundings.setTheme({
-        floor: colour('--stage-floor'),
-        grid: colour('--stage-grid'),
-        body: colour('--stage-body'),
-      });
+      surroundings.setTheme(colour);
       handMark.setColour(colour('--stage-hand'));
       holdMarks.setColours({
         pin: colour('--stage-hand'),
@@ -100,12 +97,12 @@ export function createPaneStage(
     key: (name) => hand.key(name) || control.key(name) || events.key(name),
     contextLost: events.contextLost,
   });
-  const control = createCameraControl(canvas, camera, redraw, () => canvas.clientHeight / nRows());
+  const control = createCameraControl(canvas, camera, redraw, grid.paneHeight);
   const hand = createHand(canvas, camera, {
     picture(at) {
-      active = at ? paneAt(at) : Math.min(chosen, panes.length - 1);
+      active = at ? grid.paneAt(at) : Math.min(chosen, panes.length - 1);
       const pane = active;
-      return () => boxOf(pane);
+      return () => grid.boxOf(pane);
     },
     press: (vertex) => events.press(vertex, active),
     grab(vertex) {
@@ -126,75 +123,33 @@ export function createPaneStage(
     onChange: redraw,
   });
 
-  function nRows(): number {
-    return Math.max(1, Math.ceil(panes.length / nColumns));
-  }
-
   function positions(pane: number): Float32Array {
     return panes[pane]?.positions() ?? new Float32Array(0);
   }
 
-  /** Of a pane within a rectangle. */
-  function cut(pane: number, { left, top, width, height }: Box): Box {
-    const [w, h] = [width / nColumns, height / nRows()];
-    return {
-      left: left + (pane % nColumns) * w,
-      top: top + Math.floor(pane / nColumns) * h,
-      width: w,
-      height: h,
-    };
-  }
-
-  function boxOf(pane: number): Box {
-    return cut(pane, canvas.getBoundingClientRect());
-  }
-
-  function paneAt({ x, y }: { x: number; y: number }): number {
-    const found = panes.findIndex((_, pane) => {
-      const box = boxOf(pane);
-      const isInside = (at: number, low: number, size: number) => at >= low && at < low + size;
-      return isInside(x, box.left, box.width) && isInside(y, box.top, box.height);
-    });
-    return Math.max(0, found);
-  }
-
   function refit(): void {
-    const { clientWidth: width, clientHeight: height } = parent;
-    if (width === 0 || height === 0) return;
-    camera.aspect = width / nColumns / (height / nRows());
+    grid.fit();
     control.refit();
   }
 
   function project(vertex: number, pane: number): { x: number; y: number } {
-    const place = new Vector3().fromArray(positions(pane), 3 * vertex).project(camera);
-    const { clientWidth: width, clientHeight: height } = canvas;
-    const box = cut(pane, { left: 0, top: 0, width, height });
-    return {
-      x: box.left + ((place.x + 1) / 2) * box.width,
-      y: box.top + ((1 - place.y) / 2) * box.height,
-    };
+    return grid.project(positions(pane), vertex, pane);
   }
 
   function draw(renderer: WebGLRenderer): void {
-    const { clientWidth: width, clientHeight: height } = canvas;
-    if (width === 0 || panes.length === 0) return;
+    if (canvas.clientWidth === 0 || panes.length === 0) return;
     holdMarks.face(camera);
-    renderer.setScissorTest(true);
     const held = hand.vertex();
-    panes.forEach((pane, index) => {
-      for (const other of panes) other.object.visible = other === pane;
-      const isSeen = pane.positions().length > 0;
-      pane.object.visible = isSeen;
-      if (isSeen) pane.update();
+    grid.draw(renderer, (index) => {
+      panes.forEach((other, k) => {
+        other.object.visible = k === index && other.positions().length > 0;
+      });
+      panes[index]?.update();
       const place =
         held !== null && index === active
-          ? new Vector3().fromArray(pane.positions(), 3 * held)
+          ? new Vector3().fromArray(positions(index), 3 * held)
           : null;
       handMark.place(place, hand.target(), camera);
-      const box = cut(index, { left: 0, top: 0, width, height });
-      const bottom = height - box.top - box.height;
-      renderer.setViewport(box.left, bottom, box.width, box.height);
-      renderer.setScissor(box.left, bottom, box.width, box.height);
       renderer.render(scene, camera);
     });
     if (positions(0).length > 0) events.drawn(project(inviting, 0));
@@ -231,7 +186,7 @@ export function createPaneStage(
       fabricIds.forEach((id, pane) => {
         panes[pane]?.setLook(lookOf(id));
       });
-      nColumns = columns;
+      grid.set(panes.length, columns);
       surroundings.setShadows(panes.length <= MOST_SHADOWED_PANES);
       refit();
       redraw();

@@ -128,11 +128,7 @@ export function createStage(
       control.refit();
     },
     themed(colour) {
-      surroundings.setTheme({
-        floor: colour('--stage-floor'),
-        grid: colour('--stage-grid'),
-        body: colour('--stage-body'),
-      });
+      surroundings.setTheme(colour);
       mark.setColour(colour('--stage-hand'));
     },
     key: (name) => hand.key(name) || control.key(name) || events.key(name),

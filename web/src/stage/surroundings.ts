@@ -27,8 +27,8 @@ export interface Surroundings {
   follow(x: number, z: number): void;
   /** Shadows cost as much as the picture itself, each time. */
   setShadows(areCast: boolean): void;
-  /** CSS colours of the page's theme. */
-  setTheme(colours: { floor: string; grid: string; body: string }): void;
+  /** `colour` reads a variable of the page's design. */
+  setTheme(colour: (name: string) => string): void;
 }
 
 /** Half the side of the grid, and its line spacing: metres, or a power of ten of them [m]. */
@@ -188,10 +188,10 @@ export function createSurroundings(): Surroundings {
     setShadows(areCast) {
       key.castShadow = areCast;
     },
-    setTheme(colours) {
-      discMaterial.color.set(colours.floor);
-      gridMaterial.color.set(colours.grid);
-      bodyMaterial.color.set(colours.body);
+    setTheme(colour) {
+      discMaterial.color.set(colour('--stage-floor'));
+      gridMaterial.color.set(colour('--stage-grid'));
+      bodyMaterial.color.set(colour('--stage-body'));
     },
   };
 }

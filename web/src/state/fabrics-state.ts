@@ -1,4 +1,5 @@
 // The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
+import { inputFailure } from '../sim/answers';
 import type { ClothAnswer, Failure } from '../sim/wasm-module';
 import {
   type DeformState,
@@ -77,10 +78,6 @@ export function panesFor(
       geometryOf(recordOf(fabric, state.ownFabric)).recomputed;
     return { ...numbers, fabric, weights, status: 'settling' };
   });
-}
-
-export function inputFailure(what: string): Failure {
-  return { ok: false, kind: 'input', where: '', what };
 }
 
 /** What a link said that could not be followed, after what was known of it already. */

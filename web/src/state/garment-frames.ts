@@ -6,6 +6,15 @@ export const FINE_LEVEL = 2;
 /** Time between frames [s]. */
 export const FRAME_S = 1 / 30;
 
+/** Frames of an example count from when the cloth has settled into the motion [s]. */
+export const SETTLED_S = 2;
+
+/** For as long an example that is run on this device is seen: the longest cycle of a motion [s]. */
+export const SEEN_S = 3;
+
+/** Of an example's frames, as many are kept for a plan's limits as one in these. */
+export const KEPT_OF = 3;
+
 /** Patterns of a plan. */
 export const PATTERNS = 3;
 

@@ -67,6 +67,12 @@ export function usualFabric(garment: GarmentId): string {
   return sceneOf(garment, 'walk').fabric.name;
 }
 
+/** Of a motion that plans are made of. */
+export function exampleName(garment: GarmentId, motion: MotionId, fabric: string): string {
+  const name = `${garment}_${motion}`;
+  return fabric === usualFabric(garment) ? name : `${name} in ${fabric}`;
+}
+
 /** The text of a scene, refined uniformly or by a plan. */
 export function sceneText(
   garment: GarmentId,

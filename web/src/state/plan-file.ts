@@ -71,17 +71,17 @@ export function facePatterns(faces: Int32Array, parents: Int32Array, plan: PlanF
 }
 
 export interface PatternStory {
-  /** Of curvature over the example [1/m]. */
-  meanPerM: number;
-  deviationPerM: number;
+  /** Of curvature over each example [1/m]. */
+  meansPerM: number[];
+  deviationsPerM: number[];
   /** Base vertices. */
   nVertices: number;
-  /** What the example hardly exceeded [1/m]; null when that was not measured. */
+  /** What the examples hardly exceeded [1/m]; null when that was not measured. */
   limitPerM: number | null;
 }
 
 export interface PlanStory {
-  example: string;
+  examples: string[];
   patterns: PatternStory[];
   nVertices: number;
   nSplits: number;
@@ -93,13 +93,15 @@ export function planStory(plan: PlanFile): PlanStory {
   const counts = Array<number>(plan.patterns).fill(0);
   for (const [pattern, count] of plan.patterns_of_vertices)
     counts[pattern] = (counts[pattern] ?? 0) + count;
-  const [example] = plan.examples;
+  const { examples } = plan;
   return {
-    example: example?.name ?? '',
+    examples: examples.map(({ name }) => name),
     patterns: counts.map((nVertices, pattern) => {
-      const [meanPerM, deviationPerM] = example?.centres_per_m[pattern] ?? [0, 0];
+      const centres = examples.flatMap(({ centres_per_m: own }) => own.slice(pattern, pattern + 1));
+      const meansPerM = centres.map(([mean]) => mean);
+      const deviationsPerM = centres.map(([, deviation]) => deviation);
       const limitPerM = plan.curvature_limits_per_m[pattern] ?? null;
-      return { meanPerM, deviationPerM, nVertices, limitPerM };
+      return { meansPerM, deviationsPerM, nVertices, limitPerM };
     }),
     nVertices: plan.vertices,
     nSplits: plan.splits.length,

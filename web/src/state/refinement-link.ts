@@ -1,6 +1,6 @@
 // The view of refinement to a link and back.
 import { fabrics } from './fabric-data';
-import { GARMENTS, MOTIONS, usualFabric } from './garments';
+import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';
 import { COLOURS, DEFAULT_LINK, DEMANDS, type RefinementLink, SPEEDS } from './refinement-state';
 import { createReader, oneOf, slug } from './url-codec';
 
@@ -23,6 +23,12 @@ function startIn(text: string): number | undefined {
   return value <= LATEST_START_S ? value : undefined;
 }
 
+function motionsIn(text: string): MotionId[] | undefined {
+  const names = text.split(',');
+  const found = names.flatMap((name) => MOTIONS.find(({ value }) => value === name)?.value ?? []);
+  return new Set(found).size === names.length ? found : undefined;
+}
+
 /** The part of a link after `#`. */
 export function encodeRefinementLink(link: RefinementLink): string {
   const flag = (isOn: boolean) => (isOn ? 'on' : 'off');
@@ -42,6 +48,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
     ['speed', String(link.speed)],
     ['start', String(Number(link.startS.toFixed(3)))],
   ];
+  if (link.further.length > 0) parts.push(['examples', link.further.join(',')]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
 }
 
@@ -61,12 +68,14 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
   const fabric = take('fabric', usualFabric(garment), 'the name of a fabric', (text) => {
     return fabrics.find(({ name_en: name }) => slug(name) === text)?.name_en;
   });
+  const further = take('examples', usual.further, `some of ${motions.join(', ')}`, motionsIn);
   const demand = take('demand', usual.demand, `0 to ${DEMANDS.most} in halves`, demandIn);
   const budget = take<number | null>('vertices', null, 'a number of vertices', budgetIn);
   const link: RefinementLink = {
     garment,
     motion,
     fabric,
+    further,
     rule: budget === null ? 'demand' : 'budget',
     demand,
     budget,

@@ -1,8 +1,9 @@
 // What the view of refinement shows.
+import { inputFailure } from '../sim/answers';
 import type { FaultsAnswer, FitAnswer } from '../sim/refinement-module';
 import type { Failure } from '../sim/wasm-module';
 import { USUAL_DEMAND } from './garment-frames';
-import { type GarmentId, type MotionId, usualFabric } from './garments';
+import { type GarmentId, MOTIONS, type MotionId, usualFabric } from './garments';
 import type { PlanFile } from './plan-file';
 
 export const PANES = ['coarse', 'planned', 'fine'] as const;
@@ -49,6 +50,8 @@ export interface RefinementLink {
   garment: GarmentId;
   motion: MotionId;
   fabric: string;
+  /** Motions, in this fabric, that the plan is made of beside the example that comes with the page. */
+  further: readonly MotionId[];
   /** Which of both sliders rules. */
   rule: 'demand' | 'budget';
   demand: number;
@@ -66,6 +69,13 @@ export interface RefinementLink {
   startS: number;
 }
 
+export interface Doing {
+  what: string;
+  canCancel: boolean;
+  /** Of a further example, how much of it has run; else null. */
+  share: number | null;
+}
+
 export interface RefinementState extends RefinementLink {
   phase: 'loading' | 'ready' | 'stopped' | 'broken';
   playing: boolean;
@@ -81,7 +91,7 @@ export interface RefinementState extends RefinementLink {
   face: number | null;
   /** Upper ends of the scales. */
   ranges: { curvature: number; distance: number };
-  doing: { what: string; canCancel: boolean } | null;
+  doing: Doing | null;
   problem: Failure | null;
 }
 
@@ -89,6 +99,7 @@ export const DEFAULT_LINK: RefinementLink = {
   garment: 'skirt',
   motion: 'fast_walk',
   fabric: usualFabric('skirt'),
+  further: [],
   rule: 'demand',
   demand: DEMANDS.usual,
   budget: null,
@@ -101,19 +112,22 @@ export const DEFAULT_LINK: RefinementLink = {
   startS: 3,
 };
 
+/** The shown motion is one of those that the plan is made of. */
+export function isExample({ garment, motion, fabric, further }: RefinementLink): boolean {
+  if (further.includes(motion)) return true;
+  return motion === MOTIONS[0].value && fabric === usualFabric(garment);
+}
+
+/** The shown motion does not fit the plan's examples, and can become one of them. */
+export function canPlanAnew(state: RefinementState): boolean {
+  const { phase, fit } = state;
+  return phase === 'ready' && fit !== null && fit.first_fired !== null && !isExample(state);
+}
+
 export function initialRefinementState(
   link: RefinementLink,
   problems: readonly string[],
 ): RefinementState {
-  const problem: Failure | null =
-    problems.length === 0
-      ? null
-      : {
-          ok: false,
-          kind: 'input',
-          where: '',
-          what: `The link was read in part. ${problems.join('; ')}.`,
-        };
   return {
     ...link,
     phase: 'loading',
@@ -127,6 +141,9 @@ export function initialRefinementState(
     face: null,
     ranges: { curvature: 0, distance: 0 },
     doing: null,
-    problem,
+    problem:
+      problems.length > 0
+        ? inputFailure(`The link was read in part. ${problems.join('; ')}.`)
+        : null,
   };
 }

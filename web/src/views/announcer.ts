@@ -1,26 +1,13 @@
 // Says to a screen reader what happened: events, not running numbers.
-import type { AppState } from '../state/app-state';
-import { PRESETS } from '../state/setting';
 import type { Store } from '../state/store';
 import { element, setText } from './element';
 
-/** The sentence for a change, or null when nothing worth saying happened. */
-function sentenceFor(state: AppState, previous: AppState): string | null {
-  if (state.phase === 'ready' && previous.phase === 'loading' && state.summary) {
-    const { title } = PRESETS[state.setting.preset];
-    return `${title}, ${state.setting.fabric}, ${state.summary.n_vertices} vertices.`;
-  }
-  if (state.sweep.phase !== previous.sweep.phase) {
-    if (state.sweep.phase === 'running') return 'The sweep has started.';
-    if (state.sweep.phase === 'done') return `The sweep is done: ${state.sweep.rows.length} rows.`;
-    if (state.sweep.phase === 'cancelled') return 'The sweep was cancelled.';
-  }
-  if (state.held !== previous.held) return state.held ? 'Holding the cloth.' : 'Let go.';
-  if (state.playing !== previous.playing) return state.playing ? 'Playing.' : 'Paused.';
-  return null;
-}
-
-export function createAnnouncer(parent: HTMLElement, store: Store<AppState>): () => void {
+/** `sentenceFor` is the sentence for a change, or null when nothing worth saying happened. */
+export function createAnnouncer<State>(
+  parent: HTMLElement,
+  store: Store<State>,
+  sentenceFor: (state: State, previous: State) => string | null,
+): () => void {
   const region = element('p', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
   parent.append(region);
   return store.subscribe((state, previous) => {

@@ -17,6 +17,18 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** An element of a drawing. */
+export function svg(
+  tag: string,
+  attributes: Record<string, string | number>,
+  text = '',
+): SVGElement {
+  const made = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  if (text) made.textContent = text;
+  return made;
+}
+
 /** Sets the text only when it is another one, so that nothing is laid out or read anew. */
 export function setText(target: Element, text: string): void {
   if (target.textContent !== text) target.textContent = text;

@@ -2,6 +2,7 @@
 // worker, its stage and its panels, wired together.
 import './fabrics/fabrics.css';
 import './fabrics/panel.css';
+import { inputFailure } from '../sim/answers';
 import { createDeformer, type Deformer, type StartShape } from '../sim/deformer';
 import type { HoldMark } from '../stage/hold-marks';
 import { createPaneStage, type PaneStage } from '../stage/pane-stage';
@@ -9,15 +10,17 @@ import { withShown, withToggled } from '../state/fabric-choice';
 import { decodeFabricsLink, encodeFabricsLink } from '../state/fabrics-link';
 import { type FabricsState, initialFabricsState, recordOf } from '../state/fabrics-state';
 import { joined, middleOf } from '../state/holds';
+import { createLinkWriter } from '../state/link-writer';
 import { createStore, watch } from '../state/store';
+import { createAnnouncer } from './announcer';
 import { createDropTarget } from './drop-target';
 import { element } from './element';
 import { createEnergyCurve } from './fabrics/energy-curve';
 import { createExperimentPanel } from './fabrics/experiment-panel';
 import { createFabricCard } from './fabrics/fabric-card';
 import { createFabricGallery } from './fabrics/fabric-gallery';
-import { createFabricsAnnouncer } from './fabrics/fabrics-announcer';
 import { createFabricsKeys } from './fabrics/fabrics-keys';
+import { fabricsSentence } from './fabrics/fabrics-sentence';
 import { createHoldList } from './fabrics/hold-list';
 import { createOwnFabricForm } from './fabrics/own-fabric-form';
 import { columnsFor, createPaneBadges } from './fabrics/pane-badges';
@@ -26,6 +29,7 @@ import { createTermReading } from './fabrics/term-reading';
 import { createTermSwitches } from './fabrics/term-switches';
 import { createFailureBanner } from './failure-banner';
 import { createInvitation } from './invitation';
+import { PICTURE_LOST, replaceCanvas } from './no-picture';
 import type { View } from './view';
 
 export type FabricsView = View;
@@ -36,9 +40,6 @@ export interface FabricsActions {
   /** Sets a cloth of that fabric in motion from a shape. */
   start(shape: StartShape, fabric: string): void;
 }
-
-/** Browsers refuse to change an address much more often [ms]. */
-const LINK_EVERY_MS = 400;
 
 function marksOf(state: FabricsState): HoldMark[] {
   return state.holds.map((hold) => ({
@@ -121,16 +122,11 @@ export function createFabricsView(
       key,
       drawn: ({ x, y }) => invitation.place(x, y),
       contextLost() {
-        const what =
-          'The browser took the graphics away for a moment. Reload if the picture stays empty.';
-        store.set({ problem: { ok: false, kind: 'input', where: '', what } });
+        store.set({ problem: inputFailure(PICTURE_LOST) });
       },
     });
   } catch {
-    canvas.remove();
-    const sentence =
-      'This browser shows no WebGL 2, so the cloth cannot be drawn. The numbers still work.';
-    stageBox.append(element('p', { class: 'plain' }, sentence));
+    replaceCanvas(canvas, 'The numbers');
   }
 
   function layOut(): void {
@@ -159,7 +155,7 @@ export function createFabricsView(
   const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
   watch(store, ['problem', 'phase'], showProblem);
 
-  createFabricsAnnouncer(messages, store);
+  createAnnouncer(messages, store, fabricsSentence);
   createStageTools(toolBox, store, {
     homeView: () => stage?.homeView(),
     wear() {
@@ -222,15 +218,7 @@ export function createFabricsView(
   deformer.openExperiment(first.link.experiment, first.link);
 
   const link = () => `#${encodeFabricsLink(store.get())}`;
-  let linkTimer = 0;
-  const writeLink = () => {
-    linkTimer = 0;
-    if (!isShown || !store.get().cloth || link() === window.location.hash) return;
-    window.history.replaceState(null, '', link());
-  };
-  store.subscribe(() => {
-    if (linkTimer === 0) linkTimer = window.setTimeout(writeLink, LINK_EVERY_MS);
-  });
+  const writeLink = createLinkWriter(store, link, () => isShown && store.get().cloth !== null);
 
   return {
     link,

@@ -18,6 +18,8 @@ import { createHeatLegend } from './heat-legend';
 import { createInvitation } from './invitation';
 import { createKeysPanel } from './keys-panel';
 import { createMethodPanel } from './method-panel';
+import { motionSentence } from './motion-sentence';
+import { PICTURE_LOST, replaceCanvas } from './no-picture';
 import { createNumbersStrip } from './numbers-strip';
 import { createProblemBanner } from './problem-banner';
 import { createScenePanel } from './scene-panel';
@@ -86,16 +88,11 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
         invitation.place(at.x, at.y);
       },
       contextLost() {
-        const sentence =
-          'The browser took the graphics away for a moment. Reload if the picture stays empty.';
-        store.set({ playing: false, problem: { source: 'run', sentence } });
+        store.set({ playing: false, problem: { source: 'run', sentence: PICTURE_LOST } });
       },
     });
   } catch {
-    canvas.remove();
-    const sentence =
-      'This browser shows no WebGL 2, so the cloth cannot be drawn. The numbers and the sweep still work.';
-    stageBox.append(element('p', { class: 'plain' }, sentence));
+    const sentence = replaceCanvas(canvas, 'The numbers and the sweep');
     store.set({ problem: { source: 'browser', sentence } });
   }
 
@@ -108,7 +105,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
 
   createProblemBanner(place('messages'), store, actions);
-  createAnnouncer(place('messages'), store);
+  createAnnouncer(place('messages'), store, motionSentence);
   createNumbersStrip(place('strip'), store);
   createToolbar(place('toolbar'), store, actions);
   createScenePanel(place('panel'), store, playback);

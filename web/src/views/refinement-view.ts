@@ -3,10 +3,12 @@
 import './fabrics/fabrics.css';
 import './fabrics/panel.css';
 import './refinement/refinement.css';
+import { inputFailure } from '../sim/answers';
 import type { GarmentMesh } from '../sim/garment-protocol';
 import { createTrio, type Trio } from '../sim/trio';
 import { createGarmentStage, type GarmentStage } from '../stage/garment-stage';
 import { fabricNamed } from '../state/fabric-data';
+import { createLinkWriter } from '../state/link-writer';
 import { decodeRefinementLink, encodeRefinementLink } from '../state/refinement-link';
 import {
   initialRefinementState,
@@ -15,23 +17,22 @@ import {
   type RefinementState,
 } from '../state/refinement-state';
 import { createStore, watch } from '../state/store';
+import { createAnnouncer } from './announcer';
 import { element } from './element';
 import { createFailureBanner } from './failure-banner';
 import { createKeyList } from './keys-panel';
+import { PICTURE_LOST, replaceCanvas } from './no-picture';
 import { createDetailPanel } from './refinement/detail-panel';
 import { createFitPanel } from './refinement/fit-panel';
-import { createGarmentAnnouncer } from './refinement/garment-announcer';
 import { createGarmentBadges } from './refinement/garment-badges';
 import { createGarmentLegend } from './refinement/garment-legend';
 import { createGarmentPanel } from './refinement/garment-panel';
+import { garmentSentence } from './refinement/garment-sentence';
 import { createGarmentToolbar } from './refinement/garment-toolbar';
 import { paintOf, upperEnd } from './refinement/paints';
 import { objText, save } from './refinement/saving';
 import { createStoryPanel } from './refinement/story-panel';
 import type { View } from './view';
-
-/** Browsers refuse to change an address much more often [ms]. */
-const LINK_EVERY_MS = 400;
 
 const KEYS: readonly [string, string][] = [
   ['Space', 'play or pause'],
@@ -116,16 +117,11 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
       },
       key,
       contextLost() {
-        const what =
-          'The browser took the graphics away for a moment. Reload if the picture stays empty.';
-        store.set({ problem: { ok: false, kind: 'input', where: '', what } });
+        store.set({ problem: inputFailure(PICTURE_LOST) });
       },
     });
   } catch {
-    canvas.remove();
-    const sentence =
-      'This browser shows no WebGL 2, so the cloth cannot be drawn. The numbers still work.';
-    stageBox.append(element('p', { class: 'plain' }, sentence));
+    replaceCanvas(canvas, 'The numbers');
   }
 
   createGarmentBadges(stageBox, store);
@@ -143,7 +139,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
   const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
   watch(store, ['problem', 'phase'], showProblem);
 
-  createGarmentAnnouncer(messages, store);
+  createAnnouncer(messages, store, garmentSentence);
   createGarmentToolbar(toolBox, store, {
     ...trio,
     homeView: () => stage?.homeView(),
@@ -159,7 +155,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
   });
   createGarmentPanel(panel, store);
-  createFitPanel(panel, store);
+  createFitPanel(panel, store, { cancel: trio.cancel });
   createDetailPanel(panel, store, { cancel: trio.cancel });
   createStoryPanel(panel, store, () => meshes.planned ?? null);
   createKeyList(panel, KEYS);
@@ -170,15 +166,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
     return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
   };
-  let linkTimer = 0;
-  const writeLink = () => {
-    linkTimer = 0;
-    if (!isShown || !store.get().plan || link() === window.location.hash) return;
-    window.history.replaceState(null, '', link());
-  };
-  store.subscribe(() => {
-    if (linkTimer === 0) linkTimer = window.setTimeout(writeLink, LINK_EVERY_MS);
-  });
+  const writeLink = createLinkWriter(store, link, () => isShown && store.get().plan !== null);
 
   return {
     link,

@@ -2,7 +2,7 @@
 import type { Playback } from '../sim/playback';
 import type { AppState } from '../state/app-state';
 import { type Store, watch } from '../state/store';
-import { choice, element, setText } from './element';
+import { choice, element, setText, svg } from './element';
 
 export interface ToolbarActions extends Pick<Playback, 'play' | 'pause' | 'step' | 'reset'> {
   homeView(): void;
@@ -31,10 +31,8 @@ export function toolButton(
   onClick: () => void,
 ) {
   const made = element('button', { type: 'button', class: 'tool', title, click: onClick });
-  const drawing = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-  drawing.setAttribute('viewBox', '0 0 16 16');
-  drawing.setAttribute('aria-hidden', 'true');
+  const drawing = svg('svg', { viewBox: '0 0 16 16', 'aria-hidden': 'true' });
+  const path = svg('path', {});
   drawing.append(path);
   const label = element('span', {}, text);
   made.append(drawing, label);

@@ -1,13 +1,17 @@
 // Checks of the view of fabrics in a real browser.
 import { eventually, expectThat, largestMove, positionsOf, stateOf, until } from './harness.mjs';
 import {
+  alertText,
   button,
   canvasOf,
   choice,
+  createTouch,
+  createVisitor,
   drop,
-  expectSilence,
-  findingsOf,
+  expectMotionWorks,
+  PHONE,
   picture,
+  placeOn,
   squareObj,
 } from './visitor.mjs';
 
@@ -22,15 +26,6 @@ export const isFound = (page) =>
       state.panes.every((pane) => ['converged', 'not_converged'].includes(pane.status)),
   );
 
-const paneOf = (page, pane) => page.evaluate((at) => window.pleat.positions(at), pane);
-
-/** Where a vertex of the first pane is seen, on the page. */
-async function placeOn(page, vertex) {
-  const at = await page.evaluate((v) => window.pleat.project(v), vertex);
-  const box = await canvasOf(page).boundingBox();
-  return { x: box.x + at.x, y: box.y + at.y };
-}
-
 /** Drags a vertex of the first pane by some pixels; `during` runs before the hand lets go. */
 async function dragVertex(page, vertex, dx, dy, during = () => undefined) {
   const { x, y } = await placeOn(page, vertex);
@@ -43,17 +38,13 @@ async function dragVertex(page, vertex, dx, dy, during = () => undefined) {
 
 const holdsOf = ({ pins, handles }) => [...pins, ...handles].map(({ name }) => name);
 
-export async function checkFabrics({ open, check, countColours }) {
-  async function visit(hash, work, options) {
-    const { page, complaints, close } = await open(hash, options);
-    try {
-      await isFound(page);
-      await work(page);
-      expectSilence(complaints);
-    } finally {
-      await close();
-    }
-  }
+export async function checkFabrics(harness) {
+  const { check, countColours } = harness;
+  const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
+    harness,
+    isFound,
+    'fabrics: ',
+  );
 
   await check('fabrics: loads still, a deformed cloth with a handle that asks to be pulled', () =>
     visit('#view=fabrics', async (page) => {
@@ -165,21 +156,16 @@ export async function checkFabrics({ open, check, countColours }) {
       async (page) => {
         const before = await positionsOf(page);
         const { x, y } = await placeOn(page, await page.evaluate(() => window.pleat.inviting()));
-        const touch = await page.context().newCDPSession(page);
-        const send = (type, dy) =>
-          touch.send('Input.dispatchTouchEvent', {
-            type,
-            touchPoints: dy === null ? [] : [{ x, y: y + dy }],
-          });
-        await send('touchStart', 0);
-        await send('touchMove', -20);
-        await send('touchMove', -40);
+        const touch = await createTouch(page);
+        await touch('touchStart', { x, y });
+        await touch('touchMove', { x, y: y - 20 });
+        await touch('touchMove', { x, y: y - 40 });
         await until(page, (state) => state.isDragging);
-        await send('touchEnd', null);
+        await touch('touchEnd');
         await isFound(page);
         expectThat(largestMove(before, await positionsOf(page)) > 0.02, 'the cloth stays');
       },
-      { width: 390, height: 844, hasTouch: true, isMobile: true },
+      PHONE,
     ),
   );
 
@@ -192,13 +178,13 @@ export async function checkFabrics({ open, check, countColours }) {
       await until(page, (state) => state.pins.length === 3 && state.handles.length === 2);
       await page.waitForTimeout(300);
       await isFound(page);
-      const [a, b] = [await paneOf(page, 0), await paneOf(page, 1)];
+      const [a, b] = [await positionsOf(page, 0), await positionsOf(page, 1)];
       const names = holdsOf(await stateOf(page));
       await page.reload();
       await isFound(page);
       expectThat(holdsOf(await stateOf(page)).join() === names.join(), 'other holds');
       for (const [pane, was] of [a, b].entries()) {
-        const off = largestMove(was, await paneOf(page, pane));
+        const off = largestMove(was, await positionsOf(page, pane));
         expectThat(off < 1e-3, `pane ${pane} is ${off} m off`);
       }
     }),
@@ -207,15 +193,15 @@ export async function checkFabrics({ open, check, countColours }) {
   await check('fabrics: four side by side under one pull, each with a shape of its own', () =>
     visit('#view=fabrics&fabrics=silk+linen+wool+canvas', async (page) => {
       expectThat((await page.locator('.pane-badge').count()) === 4, 'there are not four badges');
-      const befores = await Promise.all([0, 1, 2, 3].map((pane) => paneOf(page, pane)));
+      const befores = await Promise.all([0, 1, 2, 3].map((pane) => positionsOf(page, pane)));
       await dragVertex(page, await page.evaluate(() => window.pleat.inviting()), 0, -30, () =>
         eventually(async () => {
-          const afters = await Promise.all([0, 1, 2, 3].map((pane) => paneOf(page, pane)));
+          const afters = await Promise.all([0, 1, 2, 3].map((pane) => positionsOf(page, pane)));
           return afters.every((after, pane) => largestMove(befores[pane], after) > 0.01);
         }, 'all four follow'),
       );
       await isFound(page);
-      const shapes = await Promise.all([0, 1, 2, 3].map((pane) => paneOf(page, pane)));
+      const shapes = await Promise.all([0, 1, 2, 3].map((pane) => positionsOf(page, pane)));
       for (let a = 0; a < 4; ++a) {
         for (let b = 0; b < a; ++b) {
           expectThat(largestMove(shapes[a], shapes[b]) > 5e-3, `panes ${a} and ${b} are alike`);
@@ -231,7 +217,7 @@ export async function checkFabrics({ open, check, countColours }) {
       await isFound(page);
       expectThat((await page.locator('.pane-badge').count()) === 15, 'there are not 15 badges');
       for (let pane = 0; pane < 15; ++pane) {
-        expectThat((await paneOf(page, pane)).length === 3 * 961, `pane ${pane} is empty`);
+        expectThat((await positionsOf(page, pane)).length === 3 * 961, `pane ${pane} is empty`);
       }
       await button(page, 'All fifteen at once').click();
       await until(page, (state) => state.panes.length === 1);
@@ -314,7 +300,7 @@ export async function checkFabrics({ open, check, countColours }) {
         expectThat(largestMove(before, await positionsOf(page)) > 0.05, 'it was not pulled');
         await drop(page, 'torn.obj', `${squareObj(1)}f 1 2 999\n`);
         await until(page, (state) => state.problem !== null);
-        const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+        const sentence = await alertText(page);
         expectThat(/torn\.obj: line \d+: expected/.test(sentence), `it says: ${sentence}`);
         const pulled = await positionsOf(page);
         expectThat(pulled.length === 3 * 169, 'the cloth is another');
@@ -358,8 +344,7 @@ export async function checkFabrics({ open, check, countColours }) {
 
   await check('fabrics: the views keep what they show when one changes between them', () =>
     visit('#view=fabrics&scene=ball&fabrics=wool', async (page) => {
-      await page.getByRole('link', { name: /Speed and error/ }).click();
-      await until(page, (state) => state.setting && state.phase === 'ready');
+      await expectMotionWorks(page);
       expectThat(!page.url().includes('view=fabrics'), `the address is ${page.url()}`);
       await page.getByRole('link', { name: /Fabrics/ }).click();
       await until(page, (state) => state.experiment === 'ball');
@@ -369,7 +354,7 @@ export async function checkFabrics({ open, check, countColours }) {
 
   await check('fabrics: a broken link gives defaults and a message', () =>
     visit('#view=fabrics&scene=moon&fabrics=tin&terms=', async (page) => {
-      const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+      const sentence = await alertText(page);
       for (const part of ['scene:', 'fabrics:', 'terms:']) {
         expectThat(sentence.includes(part), `it says: ${sentence}`);
       }
@@ -377,24 +362,13 @@ export async function checkFabrics({ open, check, countColours }) {
     }),
   );
 
-  for (const colorScheme of ['light', 'dark']) {
-    await check(`fabrics: axe finds nothing serious, ${colorScheme}`, () =>
-      visit(
-        '#view=fabrics&scene=terms&fabrics=silk+wool',
-        async (page) => {
-          const findings = await findingsOf(page, '#fabrics details');
-          expectThat(findings.length === 0, findings.join('; '));
-        },
-        { colorScheme },
-      ),
-    );
-  }
+  await checkAccess('#view=fabrics&scene=terms&fabrics=silk+wool', '#fabrics details');
 
   await check('fabrics: a link without one shape is shown with all terms, and says so', () =>
     visit(
       '#view=fabrics&scene=terms&terms=stretch&free=upper-left;upper-right;lower-left;lower-right;middle',
       async (page) => {
-        const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
+        const sentence = await alertText(page);
         expectThat(/^Undone: .*singular/.test(sentence), `it says: ${sentence}`);
         const { terms, holds } = await stateOf(page);
         expectThat(terms.recovery && holds.length === 0, 'it is not as the sentence says');
@@ -441,38 +415,16 @@ export async function checkFabrics({ open, check, countColours }) {
     }),
   );
 
-  for (const [width, height] of [
+  await checkWidths('#view=fabrics&scene=terms&fabrics=silk+wool+canvas', [
     [320, 568],
     [390, 844],
     [768, 1024],
-  ]) {
-    await check(`fabrics: nothing scrolls sideways at ${width} px`, () =>
-      visit(
-        '#view=fabrics&scene=terms&fabrics=silk+wool+canvas',
-        async (page) => {
-          const [content, view] = await page.evaluate(() => [
-            document.documentElement.scrollWidth,
-            window.innerWidth,
-          ]);
-          expectThat(content <= view, `${content} px of content in ${view} px`);
-        },
-        { width, height },
-      ),
-    );
-  }
+  ]);
 
-  await check(
-    'fabrics: without its WebAssembly file a sentence, and the other view works',
-    async () => {
-      const { page, close } = await open('#view=fabrics', {
-        prepare: (fresh) => fresh.context().route('**/deform*.wasm', (route) => route.abort()),
-      });
-      await until(page, (state) => state.phase === 'broken');
-      const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
-      expectThat(/WebAssembly/.test(sentence), `it says: ${sentence}`);
-      await page.getByRole('link', { name: /Speed and error/ }).click();
-      await until(page, (state) => state.setting && state.phase === 'ready');
-      await close();
-    },
+  await checkWithoutModule(
+    '#view=fabrics',
+    '**/deform*.wasm',
+    'the other view works',
+    expectMotionWorks,
   );
 }

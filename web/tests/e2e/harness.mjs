@@ -77,7 +77,9 @@ export function expectThat(condition, sentence) {
 }
 
 export const stateOf = (page) => page.evaluate(() => window.pleat.state());
-export const positionsOf = (page) => page.evaluate(() => window.pleat.positions());
+/** Of a view with panes, those of one. */
+export const positionsOf = (page, pane = 0) =>
+  page.evaluate((at) => window.pleat.positions(at), pane);
 
 /** Waits until `probe`, asked again and again, answers true. */
 export async function eventually(probe, what, patienceMs = PATIENCE_MS) {

@@ -1,13 +1,14 @@
 // Checks of the view of refinement in a real browser.
 import { eventually, expectThat, largestMove, positionsOf, stateOf, until } from './harness.mjs';
-import { button, canvasOf, choice, expectSilence, findingsOf, picture } from './visitor.mjs';
+import { button, canvasOf, choice, createVisitor, expectMotionWorks, picture } from './visitor.mjs';
 
 /** Three meshes, with software rendering on a busy machine [ms]. */
 const LOAD_MS = 120000;
 
-const isReady = (page) => until(page, (state) => state.phase === 'ready', LOAD_MS);
+/** An example on the fine mesh [ms]. */
+const EXAMPLE_MS = 600000;
 
-const paneOf = (page, pane) => page.evaluate((at) => window.pleat.positions(at), pane);
+const isReady = (page) => until(page, (state) => state.phase === 'ready', LOAD_MS);
 
 /** Moves a slider by its keys. */
 async function press(page, label, key, times) {
@@ -15,17 +16,13 @@ async function press(page, label, key, times) {
   for (let count = 0; count < times; ++count) await page.keyboard.press(key);
 }
 
-export async function checkRefinement({ open, check, countColours }) {
-  async function visit(hash, work, options) {
-    const { page, complaints, close } = await open(hash, options);
-    try {
-      await isReady(page);
-      await work(page);
-      expectSilence(complaints);
-    } finally {
-      await close();
-    }
-  }
+export async function checkRefinement(harness) {
+  const { check, countColours } = harness;
+  const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
+    harness,
+    isReady,
+    'refinement: ',
+  );
 
   await check('refinement: starts still in the middle of a walk, and tells what it buys', () =>
     visit('#view=refinement', async (page) => {
@@ -46,7 +43,7 @@ export async function checkRefinement({ open, check, countColours }) {
   await check('refinement: plays three panes in step, in positions and in pixels', () =>
     visit('#view=refinement&colour=material&edges=off', async (page) => {
       const before = [];
-      for (const pane of [0, 1, 2]) before.push(await paneOf(page, pane));
+      for (const pane of [0, 1, 2]) before.push(await positionsOf(page, pane));
       const still = await picture(page);
       const { timeS } = await stateOf(page);
       await button(page, 'Play').click();
@@ -54,7 +51,7 @@ export async function checkRefinement({ open, check, countColours }) {
       await button(page, 'Pause').click();
       await until(page, (state) => !state.playing);
       for (const pane of [0, 1, 2]) {
-        const move = largestMove(before[pane], await paneOf(page, pane));
+        const move = largestMove(before[pane], await positionsOf(page, pane));
         expectThat(move > 0.05, `pane ${pane} moved ${move} m`);
       }
       expectThat(!still.equals(await picture(page)), 'the picture is the same');
@@ -116,7 +113,7 @@ export async function checkRefinement({ open, check, countColours }) {
     }),
   );
 
-  await check('refinement: a squat fires the light', () =>
+  await check('refinement: a squat fires the light, and becomes an example by a press', () =>
     visit('#view=refinement&motion=squat&fine=off&edges=off&colour=material', async (page) => {
       await button(page, 'Play').click();
       await until(page, (state) => state.fit?.fires, LOAD_MS);
@@ -124,6 +121,24 @@ export async function checkRefinement({ open, check, countColours }) {
         async () => /Does not fit/.test(await page.locator('.fit-title').textContent()),
         'the light says so',
       );
+      const anew = button(page, 'Plan anew with this motion too');
+      await anew.focus();
+      await page.keyboard.press('Enter');
+      await until(page, (state) => state.doing?.share > 0, LOAD_MS);
+      await button(page, 'Cancel').click();
+      const { further, plan } = await until(page, (state) => state.phase === 'ready');
+      expectThat(further.length === 0 && plan.examples.length === 1, 'it was not given up');
+      await anew.click();
+      await until(page, (state) => state.plan?.examples.length === 2, EXAMPLE_MS);
+      await isReady(page);
+      const story = await page.getByRole('region', { name: 'The plan' }).textContent();
+      expectThat(/The examples walk and squat each sorted/.test(story), `it says: ${story}`);
+      const { panes, timeS } = await stateOf(page);
+      const before = plan.vertices;
+      expectThat(panes.planned.nVertices > before, `${panes.planned.nVertices} after ${before}`);
+      expectThat(timeS === 0, `it goes on at ${timeS} s`);
+      const said = page.getByRole('status').filter({ hasText: 'planned from the examples' });
+      expectThat((await said.count()) === 1, 'nothing was announced');
     }),
   );
 
@@ -139,10 +154,10 @@ export async function checkRefinement({ open, check, countColours }) {
           () => page.evaluate(() => window.location.hash.includes('vertices=1500')),
           'the address has it',
         );
-        const before = await paneOf(page, 1);
+        const before = await positionsOf(page, 1);
         await page.reload();
         await isReady(page);
-        expectThat(largestMove(before, await paneOf(page, 1)) === 0, 'another shape');
+        expectThat(largestMove(before, await positionsOf(page, 1)) === 0, 'another shape');
       },
     ),
   );
@@ -163,51 +178,18 @@ export async function checkRefinement({ open, check, countColours }) {
     }),
   );
 
-  for (const colorScheme of ['light', 'dark']) {
-    await check(`refinement: axe has no serious findings, ${colorScheme}`, () =>
-      visit(
-        '#view=refinement&colour=pattern',
-        async (page) => {
-          const findings = await findingsOf(page, '#refinement details');
-          expectThat(findings.length === 0, findings.join('; '));
-        },
-        { colorScheme },
-      ),
-    );
-  }
+  await checkAccess('#view=refinement&colour=pattern', '#refinement details');
 
-  for (const [width, height] of [
+  await checkWidths('#view=refinement', [
     [320, 568],
     [390, 844],
     [1024, 768],
-  ]) {
-    await check(`refinement: nothing scrolls sideways at ${width} px`, () =>
-      visit(
-        '#view=refinement',
-        async (page) => {
-          const [content, view] = await page.evaluate(() => [
-            document.documentElement.scrollWidth,
-            window.innerWidth,
-          ]);
-          expectThat(content <= view, `${content} px of content in ${view} px`);
-        },
-        { width, height },
-      ),
-    );
-  }
+  ]);
 
-  await check(
-    'refinement: without its WebAssembly file a sentence, and other views work',
-    async () => {
-      const { page, close } = await open('#view=refinement', {
-        prepare: (fresh) => fresh.context().route('**/refinement*.wasm', (route) => route.abort()),
-      });
-      await until(page, (state) => state.phase === 'broken');
-      const sentence = await page.getByRole('alert').filter({ visible: true }).textContent();
-      expectThat(/WebAssembly/.test(sentence), `it says: ${sentence}`);
-      await page.getByRole('link', { name: /Speed and error/ }).click();
-      await until(page, (state) => state.setting && state.phase === 'ready');
-      await close();
-    },
+  await checkWithoutModule(
+    '#view=refinement',
+    '**/refinement*.wasm',
+    'other views work',
+    expectMotionWorks,
   );
 }

@@ -12,7 +12,19 @@ import {
   until,
 } from './harness.mjs';
 import { checkRefinement } from './refinement.mjs';
-import { button, choice, drop, expectSilence, findingsOf, picture, squareObj } from './visitor.mjs';
+import {
+  button,
+  canvasOf,
+  choice,
+  createTouch,
+  createVisitor,
+  drop,
+  expectAccessible,
+  PHONE,
+  picture,
+  placeOn,
+  squareObj,
+} from './visitor.mjs';
 
 /** A whole sweep may take this long on a busy machine [ms]. */
 const SWEEP_MS = 300000;
@@ -23,17 +35,7 @@ const diverging = JSON.parse(
 const harness = await createHarness();
 const { open, check, countColours, finish } = harness;
 
-/** Runs `work` on a page at `hash`; whatever it does, the console has to stay empty. */
-async function visit(hash, work, options) {
-  const { page, complaints, close } = await open(hash, options);
-  try {
-    await isReady(page);
-    await work(page);
-    expectSilence(complaints);
-  } finally {
-    await close();
-  }
-}
+const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(harness, isReady);
 
 for (const preset of ['curtain', 'tablecloth', 'swinging-sheet', 'obj']) {
   await check(`${preset}: loads still, then moves, in positions and in pixels`, () =>
@@ -71,11 +73,10 @@ await check('a start time in the link is met to the step, whatever a step costs'
 await check('a drag pulls the cloth, starts it, and lets go', () =>
   visit('#scene=curtain', async (page) => {
     const vertex = await page.evaluate(() => window.pleat.inviting());
-    const at = await page.evaluate((v) => window.pleat.project(v), vertex);
-    const box = await page.locator('canvas').boundingBox();
+    const at = await placeOn(page, vertex);
     const before = await positionsOf(page);
     // A little inside the corner, so that the ray meets the cloth.
-    const [x, y] = [box.x + at.x - 6, box.y + at.y - 8];
+    const [x, y] = [at.x - 6, at.y - 8];
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 60, y - 40, { steps: 4 });
@@ -93,33 +94,28 @@ await check('a finger pulls the cloth, and its loss lets go', () =>
   visit(
     '#scene=curtain&level=1',
     async (page) => {
-      const vertex = await page.evaluate(() => window.pleat.inviting());
-      const at = await page.evaluate((v) => window.pleat.project(v), vertex);
-      const box = await page.locator('canvas').boundingBox();
-      const touch = await page.context().newCDPSession(page);
-      const send = (type, dx, dy) =>
-        touch.send('Input.dispatchTouchEvent', {
-          type,
-          touchPoints: dx === null ? [] : [{ x: box.x + at.x - 5 + dx, y: box.y + at.y - 7 + dy }],
-        });
-      await send('touchStart', 0, 0);
-      await send('touchMove', -20, -30);
-      await send('touchMove', -40, -60);
+      const at = await placeOn(page, await page.evaluate(() => window.pleat.inviting()));
+      // A little inside the corner.
+      const by = (dx, dy) => ({ x: at.x - 5 + dx, y: at.y - 7 + dy });
+      const touch = await createTouch(page);
+      await touch('touchStart', by(0, 0));
+      await touch('touchMove', by(-20, -30));
+      await touch('touchMove', by(-40, -60));
       await until(page, (state) => state.held && state.numbers.time_s > 0.2);
-      await send('touchCancel', null);
+      await touch('touchCancel');
       await until(page, (state) => !state.held);
     },
-    { width: 390, height: 844, hasTouch: true, isMobile: true },
+    PHONE,
   ),
 );
 
 await check('a hand stops at the floor, in a scene that has none for the cloth', () =>
   visit('#scene=swinging-sheet&level=0', async (page) => {
     const vertex = await page.evaluate(() => window.pleat.inviting());
-    const at = await page.evaluate((v) => window.pleat.project(v), vertex);
-    const box = await page.locator('canvas').boundingBox();
+    const at = await placeOn(page, vertex);
+    const box = await canvasOf(page).boundingBox();
     // A little inside the sheet, so that the ray meets it.
-    const [x, y] = [box.x + at.x - 2, box.y + at.y - 4];
+    const [x, y] = [at.x - 2, at.y - 4];
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x, box.y + box.height + 200, { steps: 4 });
@@ -142,16 +138,13 @@ await check('two fingers beside the cloth zoom, and leave the cloth alone', () =
         const [a, b] = await page.evaluate((vs) => vs.map((v) => window.pleat.project(v)), corners);
         return Math.hypot(a.x - b.x, a.y - b.y);
       };
-      const touch = await page.context().newCDPSession(page);
-      const send = (type, ...offsets) =>
-        touch.send('Input.dispatchTouchEvent', {
-          type,
-          touchPoints: offsets.map((offset, id) => ({
-            x: box.x + box.width / 2 + offset,
-            y: box.y + box.height - 12,
-            id,
-          })),
-        });
+      const touch = await createTouch(page);
+      const beside = (offset, id) => ({
+        x: box.x + box.width / 2 + offset,
+        y: box.y + box.height - 12,
+        id,
+      });
+      const send = (type, ...offsets) => touch(type, ...offsets.map(beside));
       const pinch = async (from, to) => {
         await send('touchStart', -from, from);
         for (const part of [1 / 3, 2 / 3, 1]) {
@@ -170,7 +163,7 @@ await check('two fingers beside the cloth zoom, and leave the cloth alone', () =
       expectThat(largestMove(before, await positionsOf(page)) === 0, 'the cloth moved');
       expectThat(!(await stateOf(page)).held, 'the cloth is held');
     },
-    { width: 390, height: 844, hasTouch: true, isMobile: true },
+    PHONE,
   ),
 );
 
@@ -475,8 +468,7 @@ await check('the sweep fills chart and table, and a click on a point applies it'
     expectThat((await page.locator('.point-ring').count()) === 1, 'the point is not ringed');
     const strip = await page.locator('.numbers').textContent();
     expectThat(!strip.includes('unknown'), 'the error is not in the read-out');
-    const findings = await findingsOf(page);
-    expectThat(findings.length === 0, findings.join('; '));
+    await expectAccessible(page);
   }),
 );
 
@@ -525,39 +517,14 @@ await check('a broken link gives defaults and a message', () =>
   }),
 );
 
-for (const colorScheme of ['light', 'dark']) {
-  await check(`axe finds nothing serious, ${colorScheme}`, () =>
-    visit(
-      '#scene=curtain&level=1&heat=magnitude',
-      async (page) => {
-        const findings = await findingsOf(page, 'details');
-        expectThat(findings.length === 0, findings.join('; '));
-      },
-      { colorScheme },
-    ),
-  );
-}
+await checkAccess('#scene=curtain&level=1&heat=magnitude', 'details');
 
-for (const [width, height] of [
+await checkWidths('#scene=curtain&level=1&heat=signed', [
   [320, 568],
   [390, 844],
   [720, 700],
   [1280, 800],
-]) {
-  await check(`nothing scrolls sideways at ${width} px`, () =>
-    visit(
-      '#scene=curtain&level=1&heat=signed',
-      async (page) => {
-        const [content, view] = await page.evaluate(() => [
-          document.documentElement.scrollWidth,
-          window.innerWidth,
-        ]);
-        expectThat(content <= view, `${content} px of content in ${view} px`);
-      },
-      { width, height },
-    ),
-  );
-}
+]);
 
 await check('once loaded, the page and its sweep work without a network', () =>
   visit('#scene=swinging-sheet&level=0', async (page) => {
@@ -586,14 +553,9 @@ await check('without WebGL: a sentence, and the numbers still run', async () => 
   await close();
 });
 
-await check('without the WebAssembly file: a sentence, and the text stays', async () => {
-  const { page, close } = await open('#scene=curtain', {
-    prepare: (fresh) => fresh.context().route('**/*.wasm', (route) => route.abort()),
-  });
-  await until(page, (state) => state.phase === 'broken');
-  expectThat(/WebAssembly/.test(await page.getByRole('alert').textContent()), 'no sentence');
-  expectThat((await page.locator('.caption').textContent()).length > 20, 'the caption is gone');
-  await close();
+await checkWithoutModule('#scene=curtain', '**/*.wasm', 'the text stays', async (page) => {
+  const caption = await page.locator('.caption').textContent();
+  expectThat(caption.length > 20, 'the caption is gone');
 });
 
 await checkFabrics(harness);

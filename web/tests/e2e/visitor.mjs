@@ -1,7 +1,7 @@
 // What a visitor does and sees, for the checks of every view.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { expectThat } from './harness.mjs';
+import { expectThat, until } from './harness.mjs';
 
 const axeText = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
@@ -10,21 +10,102 @@ export const canvasOf = (page) => page.locator('canvas').filter({ visible: true 
 export const picture = (page) => canvasOf(page).screenshot();
 export const button = (page, name) => page.getByRole('button', { name, exact: true });
 export const choice = (page, name) => page.getByRole('combobox', { name, exact: true });
+/** What the shown view says went wrong. */
+export const alertText = (page) => page.getByRole('alert').filter({ visible: true }).textContent();
 
-/** Serious and critical findings of axe, as text, once what `details` matches is opened. */
-export async function findingsOf(page, details = null) {
+/** Nothing serious or critical is found by axe, once what `details` matches is opened. */
+export async function expectAccessible(page, details = null) {
   for (const box of details ? await page.locator(details).all() : []) {
     await box.evaluate((element) => element.setAttribute('open', ''));
   }
   await page.evaluate(axeText);
   const { violations } = await page.evaluate(() => window.axe.run());
-  return violations
+  const findings = violations
     .filter(({ impact }) => impact === 'serious' || impact === 'critical')
     .map(({ id, nodes }) => `${id} at ${nodes.map((node) => node.target.join(' ')).join(', ')}`);
+  expectThat(findings.length === 0, findings.join('; '));
 }
 
-export function expectSilence(complaints) {
-  expectThat(complaints.length === 0, `console: ${complaints.join(' | ')}`);
+/**
+ * Visits to one view, which is there once `isReady` of its page, and the checks that every view is
+ * put to. `prefix` begins their names.
+ */
+export function createVisitor({ open, check }, isReady, prefix = '') {
+  /** Runs `work` on a page at `hash`; whatever it does, the console has to stay empty. */
+  async function visit(hash, work, options) {
+    const { page, complaints, close } = await open(hash, options);
+    try {
+      await isReady(page);
+      await work(page);
+      expectThat(complaints.length === 0, `console: ${complaints.join(' | ')}`);
+    } finally {
+      await close();
+    }
+  }
+
+  async function checkAccess(hash, details) {
+    for (const colorScheme of ['light', 'dark']) {
+      await check(`${prefix}axe finds nothing serious, ${colorScheme}`, () =>
+        visit(hash, (page) => expectAccessible(page, details), { colorScheme }),
+      );
+    }
+  }
+
+  async function checkWidths(hash, sizes) {
+    for (const [width, height] of sizes) {
+      const work = async (page) => {
+        const [content, view] = await page.evaluate(() => [
+          document.documentElement.scrollWidth,
+          window.innerWidth,
+        ]);
+        expectThat(content <= view, `${content} px of content in ${view} px`);
+      };
+      await check(`${prefix}nothing scrolls sideways at ${width} px`, () =>
+        visit(hash, work, { width, height }),
+      );
+    }
+  }
+
+  /** Without the files that match `files` there is a sentence; `work` looks at what is left. */
+  async function checkWithoutModule(hash, files, what, work) {
+    await check(`${prefix}without its WebAssembly file a sentence, and ${what}`, async () => {
+      const { page, close } = await open(hash, {
+        prepare: (fresh) => fresh.context().route(files, (route) => route.abort()),
+      });
+      try {
+        await until(page, (state) => state.phase === 'broken');
+        const sentence = await alertText(page);
+        expectThat(/WebAssembly/.test(sentence), `it says: ${sentence}`);
+        await work(page);
+      } finally {
+        await close();
+      }
+    });
+  }
+
+  return { visit, checkAccess, checkWidths, checkWithoutModule };
+}
+
+/** The view of motion works, whatever became of the one that was shown first. */
+export async function expectMotionWorks(page) {
+  await page.getByRole('link', { name: /Speed and error/ }).click();
+  await until(page, (state) => state.setting && state.phase === 'ready');
+}
+
+/** Where a vertex of the first pane is seen, on the page. */
+export async function placeOn(page, vertex) {
+  const at = await page.evaluate((v) => window.pleat.project(v), vertex);
+  const box = await canvasOf(page).boundingBox();
+  return { x: box.x + at.x, y: box.y + at.y };
+}
+
+/** A screen that is touched. */
+export const PHONE = { width: 390, height: 844, hasTouch: true, isMobile: true };
+
+/** Fingers: what they do, and the place of each that touches the screen then. */
+export async function createTouch(page) {
+  const session = await page.context().newCDPSession(page);
+  return (type, ...touchPoints) => session.send('Input.dispatchTouchEvent', { type, touchPoints });
 }
 
 /** A square cloth of `size` metres that stands upright, in a text of two triangles a cell. */

@@ -19,13 +19,6 @@ import type { RefinementModule } from '../../src/sim/refinement-module';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 
-export async function loadRefinement(): Promise<RefinementModule> {
-  const create = (await import('../../src/wasm/refinement.mjs')).default;
-  return create({
-    wasmBinary: readFileSync(new URL('../../src/wasm/refinement.wasm', import.meta.url)),
-  });
-}
-
 /** A record by its address, wherever the page is served. */
 export async function recordBytes(url: string): Promise<ArrayBuffer> {
   const path = /assets\/recordings\/.*$/.exec(url)?.[0];

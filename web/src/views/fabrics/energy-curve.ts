@@ -11,11 +11,10 @@ import {
 import { titleOf } from '../../state/fabric-choice';
 import { triple } from '../../state/fabric-data';
 import { type Store, watch } from '../../state/store';
-import { element, setText } from '../element';
+import { element, setText, svg } from '../element';
 import { digits } from '../quantity';
 import { TERM_TITLES } from './term-words';
 
-const SVG = 'http://www.w3.org/2000/svg';
 const WIDTH = 360;
 const HEIGHT = 220;
 const LEFT = 58;
@@ -72,13 +71,6 @@ export function curveWords(name: string, steps: readonly WeightedStep[], pane: P
     not_converged: 'It stopped before the least energy was reached.',
   }[pane.status];
   return `${name}: energy ${digits(last.energy)} after ${count}${from}. Rings mark the steps that made a new matrix (${anew}). ${end}`;
-}
-
-function svg(tag: string, attributes: Record<string, string | number>, text = ''): SVGElement {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  if (text) made.textContent = text;
-  return made;
 }
 
 interface VerticalAxis {

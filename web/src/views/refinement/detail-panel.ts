@@ -3,6 +3,7 @@ import { DEMANDS, type RefinementState } from '../../state/refinement-state';
 import { type Store, watch } from '../../state/store';
 import { element, field, setText } from '../element';
 import { sourceSentence, vertices } from './garment-words';
+import { createWork } from './work';
 
 /** A slider is not followed more often [ms]: each plan builds a mesh. */
 const FOLLOW_AFTER_MS = 180;
@@ -48,10 +49,11 @@ export function createDetailPanel(
     change: () => store.set({ computeFine: fine.checked }),
   });
   const source = element('p', { class: 'note' });
-  const doing = element('p', { class: 'note', role: 'status' });
-  const progress = element('progress', { 'aria-label': 'Work in progress' });
-  const cancel = element('button', { type: 'button', click: actions.cancel }, 'Cancel');
-  const work = element('div', { class: 'work' }, doing, progress, cancel);
+  const work = element('div');
+  const closeWork = createWork(work, store, {
+    isOwn: ({ share }) => share === null,
+    cancel: actions.cancel,
+  });
   const sayDemand = () => setText(demandValue, `τ = ${demand.valueAsNumber}`);
   const sayBudget = () => {
     const text = vertices(budget.valueAsNumber);
@@ -73,19 +75,9 @@ export function createDetailPanel(
       source,
     ),
   );
-  return watch(
+  const close = watch(
     store,
-    [
-      'rule',
-      'demand',
-      'budget',
-      'budgetRange',
-      'plan',
-      'doing',
-      'useRecords',
-      'computeFine',
-      'panes',
-    ],
+    ['rule', 'demand', 'budget', 'budgetRange', 'plan', 'useRecords', 'computeFine', 'panes'],
     (state) => {
       const [least, most] = state.budgetRange ?? [0, 1];
       budget.min = String(BUDGET_STEP * Math.ceil(least / BUDGET_STEP));
@@ -99,10 +91,11 @@ export function createDetailPanel(
       budgetField.classList.toggle('idle', state.rule !== 'budget');
       records.checked = state.useRecords;
       fine.checked = state.computeFine;
-      work.hidden = state.doing === null;
-      setText(doing, state.doing?.what ?? '');
-      cancel.hidden = !state.doing?.canCancel;
       setText(source, sourceSentence(state));
     },
   );
+  return () => {
+    close();
+    closeWork();
+  };
 }

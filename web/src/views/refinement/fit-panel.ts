@@ -1,14 +1,35 @@
-// The light that tells whether the motion is of the example's kind.
+// The light that tells whether the motion is of the examples' kind, and what to do when it is not.
 import { planStory } from '../../state/plan-file';
-import type { RefinementState } from '../../state/refinement-state';
+import { canPlanAnew, type RefinementState } from '../../state/refinement-state';
 import { type Store, watch } from '../../state/store';
 import { element, setText } from '../element';
-import { fitReading } from './garment-words';
+import { anewSentence, fitReading } from './garment-words';
+import { createWork } from './work';
 
-export function createFitPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
+export function createFitPanel(
+  parent: HTMLElement,
+  store: Store<RefinementState>,
+  actions: { cancel(): void },
+): () => void {
   const light = element('span', { class: 'fit-light', 'aria-hidden': 'true' });
   const title = element('b');
-  const detail = element('p', { class: 'note' });
+  const detail = element('p', { class: 'note fit-detail' });
+  const reason = element('p', { class: 'note', id: 'plan-anew-reason' });
+  // It keeps the focus while it cannot be pressed: what it began is still on its way.
+  const anew = element(
+    'button',
+    {
+      type: 'button',
+      class: 'wide',
+      'aria-describedby': reason.id,
+      click() {
+        const state = store.get();
+        if (canPlanAnew(state)) store.set({ further: [...state.further, state.motion] });
+      },
+    },
+    'Plan anew with this motion too',
+  );
+  const below = element('div', { class: 'fit-below' }, reason);
   parent.append(
     element(
       'section',
@@ -16,12 +37,32 @@ export function createFitPanel(parent: HTMLElement, store: Store<RefinementState
       element('h2', {}, 'Does the example still fit?'),
       element('p', { class: 'fit-title' }, light, title),
       detail,
+      anew,
+      below,
     ),
   );
-  return watch(store, ['fit', 'plan'], ({ fit, plan }) => {
-    const reading = fitReading(fit, plan && planStory(plan));
-    light.dataset.light = reading.light;
-    setText(title, reading.title);
-    setText(detail, reading.detail);
+  const closeWork = createWork(below, store, {
+    isOwn: ({ share }) => share !== null,
+    cancel() {
+      actions.cancel();
+      anew.focus();
+    },
   });
+  const close = watch(
+    store,
+    ['fit', 'plan', 'phase', 'doing', 'motion', 'fabric', 'further'],
+    (state) => {
+      const reading = fitReading(state.fit, state.plan && planStory(state.plan));
+      light.dataset.light = reading.light;
+      setText(title, reading.title);
+      setText(detail, reading.detail);
+      anew.setAttribute('aria-disabled', String(!canPlanAnew(state)));
+      reason.hidden = typeof state.doing?.share === 'number';
+      setText(reason, anewSentence(state));
+    },
+  );
+  return () => {
+    close();
+    closeWork();
+  };
 }

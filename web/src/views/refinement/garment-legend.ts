@@ -5,6 +5,7 @@ import type { RefinementState } from '../../state/refinement-state';
 import { type Store, watch } from '../../state/store';
 import { element, setText } from '../element';
 import { digits, smallLength } from '../quantity';
+import { fromTo } from './garment-words';
 import { LEVEL_COLOURS, PATTERN_COLOURS } from './paints';
 
 function swatches(colours: readonly string[], words: readonly string[]): HTMLElement {
@@ -26,10 +27,10 @@ function levelWords({ plan }: RefinementState): string[] {
 
 function patternWords({ plan }: RefinementState): string[] {
   if (!plan) return [];
-  return planStory(plan).patterns.map(
-    ({ meanPerM, deviationPerM }, pattern) =>
-      `${pattern}: ${digits(meanPerM, 2)} ± ${digits(deviationPerM, 2)} 1/m`,
-  );
+  return planStory(plan).patterns.map(({ meansPerM, deviationsPerM }, pattern) => {
+    if (meansPerM.length > 1) return `${pattern}: ${fromTo(meansPerM)} 1/m`;
+    return `${pattern}: ${fromTo(meansPerM)} ± ${fromTo(deviationsPerM)} 1/m`;
+  });
 }
 
 export function createGarmentLegend(
@@ -60,7 +61,9 @@ export function createGarmentLegend(
       setText(title, 'Level of a face');
       keys.replaceChildren(swatches(LEVEL_COLOURS, levelWords(state)));
     } else if (colour === 'pattern') {
-      setText(title, 'Pattern: curvature, mean ± deviation');
+      const isOne = state.plan === null || state.plan.examples.length < 2;
+      const what = isOne ? 'curvature, mean ± deviation' : 'mean curvature in the examples';
+      setText(title, `Pattern: ${what}`);
       keys.replaceChildren(swatches(PATTERN_COLOURS, patternWords(state)));
     } else if (colour === 'curvature') {
       setText(title, 'Curvature now');

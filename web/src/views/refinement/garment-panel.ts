@@ -22,12 +22,12 @@ function check(title: string, change: (isOn: boolean) => void) {
 export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
   const notice = element('p', { class: 'caption' });
   const garment = choice(GARMENTS, (value) =>
-    store.set({ garment: value, fabric: usualFabric(value) }),
+    store.set({ garment: value, fabric: usualFabric(value), further: [] }),
   );
   const motion = choice(MOTIONS, (value) => store.set({ motion: value }));
   const fabric = choice(
     fabrics.map(({ name_en: name }) => ({ value: name, title: name })),
-    (value) => store.set({ fabric: value }),
+    (value) => store.set({ fabric: value, further: [] }),
   );
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
   const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
@@ -57,7 +57,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
   );
   return watch(
     store,
-    ['garment', 'motion', 'fabric', 'colour', 'edges', 'hanging', 'panes', 'plan'],
+    ['garment', 'motion', 'fabric', 'further', 'colour', 'edges', 'hanging', 'panes', 'plan'],
     (state) => {
       setText(notice, noticeSentence(state));
       garment.select(state.garment);

@@ -1,14 +1,17 @@
 // What the view of refinement says.
 import type { FitAnswer } from '../../sim/refinement-module';
-import type { PlanStory } from '../../state/plan-file';
+import { exampleName, GARMENTS } from '../../state/garments';
+import { type PlanFile, type PlanStory, planStory } from '../../state/plan-file';
 import {
+  canPlanAnew,
   type FrameSource,
   type GarmentPane,
+  isExample,
   PANES,
   type PaneId,
   type RefinementState,
 } from '../../state/refinement-state';
-import { milliseconds, percent, smallLength } from '../quantity';
+import { digits, milliseconds, percent, smallLength } from '../quantity';
 
 export const PANE_TITLES: Record<PaneId, string> = {
   coarse: 'Coarse',
@@ -44,17 +47,41 @@ export function errorWords(pane: PaneId, { errorM, source }: GarmentPane): strin
   return errorM === null ? '' : `${smallLength(errorM)} off fine`;
 }
 
+/** "skirt_fast_walk in silk" → "fast walk in silk". */
+function exampleWords(name: string): string {
+  const garment = GARMENTS.find(({ value }) => name.startsWith(`${value}_`));
+  return name.slice(garment ? garment.value.length + 1 : 0).replaceAll('_', ' ');
+}
+
+/** "example walk", "examples walk and squat". */
+export function examplesWords({ examples }: PlanStory): string {
+  const names = new Intl.ListFormat('en-GB').format(examples.map(exampleWords));
+  return `${examples.length > 1 ? 'examples' : 'example'} ${names}`;
+}
+
+/** Of several examples the least and the largest number. */
+export function fromTo(values: readonly number[]): string {
+  const least = digits(Math.min(...values), 2);
+  const most = digits(Math.max(...values), 2);
+  return least === most ? least : `${least}–${most}`;
+}
+
+function whatToDo({ garment, motion, fabric }: RefinementState, plan: PlanFile): string {
+  if (motion !== 'squat') return 'Compare the folds with those on the right.';
+  const own = exampleName(garment, motion, fabric);
+  if (plan.examples.some(({ name }) => name === own))
+    return 'Play, and watch the light below: now the plan knows where the knees bend the cloth.';
+  return 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.';
+}
+
 /** One sentence: what to notice. */
-export function noticeSentence({ panes, plan, motion }: RefinementState): string {
+export function noticeSentence(state: RefinementState): string {
+  const { panes, plan } = state;
   const { planned, fine } = panes;
   if (planned.nVertices === 0 || fine.nVertices === 0 || !plan)
     return 'One garment on one walking figure, on a coarse, a planned and a fine mesh.';
   const share = planned.nVertices / fine.nVertices;
-  const what =
-    motion === 'squat'
-      ? 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.'
-      : 'Compare the folds with those on the right.';
-  return `The middle mesh has ${percent(share)} of the fine one’s vertices: small faces only where the example walk bent the cloth. ${what}`;
+  return `The middle mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
 }
 
 export function ruleWords({ rule }: PlanStory): string {
@@ -71,7 +98,12 @@ export function storySentences(story: PlanStory): string {
     nForBalance === 0
       ? `${nSplits} faces were split, ${ruleWords(story)}; none only to keep neighbours within one level of each other.`
       : `${nSplits} faces were split: ${asked} ${ruleWords(story)}, the other ${nForBalance} only to keep neighbours within one level of each other.`;
-  return `The example walk sorted the coarse vertices into ${patterns.length} patterns of bending. ${splits} A split face asks for one less at each corner before it may be split again.`;
+  const sorted = `sorted the coarse vertices into ${patterns.length} patterns of bending`;
+  const origin =
+    story.examples.length > 1
+      ? `The ${examplesWords(story)} each ${sorted}; where they differ, the higher pattern counts.`
+      : `The ${examplesWords(story)} ${sorted}.`;
+  return `${origin} ${splits} A split face asks for one less at each corner before it may be split again.`;
 }
 
 export interface FitReading {
@@ -88,11 +120,12 @@ export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitR
       title: 'Not watched yet',
       detail: 'The light compares each frame with the example once the cloth moves.',
     };
-  const share = `${percent(fit.share)} of the faces bend more than their pattern did in the example; at most ${percent(fit.worst_share)} so far.`;
+  const examples = story.examples.length > 1 ? 'examples' : 'example';
+  const share = `${percent(fit.share)} of the faces bend more than their pattern did in the ${examples}; at most ${percent(fit.worst_share)} so far.`;
   if (fit.fires || fit.first_fired !== null)
     return {
       light: 'fires',
-      title: 'Does not fit the example',
+      title: `Does not fit the ${examples}`,
       detail: `${share} More than ${percent(LARGEST_SHARE)} for ${FRAMES_TO_FIRE} frames in a row: the mesh was planned for another kind of motion.`,
     };
   if (fit.share > LARGEST_SHARE)
@@ -101,7 +134,14 @@ export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitR
       title: 'Fits, but for now',
       detail: `${share} That has lasted ${fit.n_in_a_row} of ${FRAMES_TO_FIRE} frames.`,
     };
-  return { light: 'fits', title: 'Fits the example', detail: share };
+  return { light: 'fits', title: `Fits the ${examples}`, detail: share };
+}
+
+/** Below the button that plans anew: what it does, or why it does nothing now. */
+export function anewSentence(state: RefinementState): string {
+  if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: a minute or more.';
+  if (isExample(state)) return 'The plan is made of this motion already.';
+  return 'For a motion that does not fit, once the light says so.';
 }
 
 /** Where the frames come from, and who waits for whom. */

@@ -5,7 +5,7 @@ import { PANES, type PaneId, type RefinementState } from '../../state/refinement
 import { type Store, watch } from '../../state/store';
 import { element, setText } from '../element';
 import { digits, milliseconds, percent, smallLength } from '../quantity';
-import { PANE_TITLES, storySentences } from './garment-words';
+import { fromTo, PANE_TITLES, storySentences } from './garment-words';
 import { PATTERN_COLOURS } from './paints';
 
 function heading(...words: string[]): HTMLElement {
@@ -33,8 +33,8 @@ function patternTable({ plan }: RefinementState): HTMLElement {
       'tr',
       {},
       element('th', { scope: 'row' }, key, String(index)),
-      numberCell(digits(pattern.meanPerM, 2)),
-      numberCell(digits(pattern.deviationPerM, 2)),
+      numberCell(fromTo(pattern.meansPerM)),
+      numberCell(fromTo(pattern.deviationsPerM)),
       numberCell(pattern.limitPerM === null ? '–' : digits(pattern.limitPerM, 2)),
       numberCell(String(pattern.nVertices)),
     );

@@ -1,8 +1,6 @@
-// Says to a screen reader what happened to the cloth: events, not running numbers.
+// What a screen reader says of the view of fabrics.
 import { titleOf } from '../../state/fabric-choice';
 import type { FabricsState } from '../../state/fabrics-state';
-import type { Store } from '../../state/store';
-import { element, setText } from '../element';
 
 function isFound({ panes, isDragging }: FabricsState): boolean {
   return !isDragging && panes.every(({ status }) => status !== 'dragging' && status !== 'settling');
@@ -21,16 +19,4 @@ export function fabricsSentence(state: FabricsState, previous: FabricsState): st
     return `Found the shape of ${[names].flat().join(', ')}.`;
   }
   return null;
-}
-
-export function createFabricsAnnouncer(
-  parent: HTMLElement,
-  store: Store<FabricsState>,
-): () => void {
-  const region = element('p', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
-  parent.append(region);
-  return store.subscribe((state, previous) => {
-    const sentence = fabricsSentence(state, previous);
-    if (sentence !== null) setText(region, sentence);
-  });
 }

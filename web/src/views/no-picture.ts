@@ -1,0 +1,13 @@
+// What a view says where its picture cannot be drawn.
+import { element } from './element';
+
+export const PICTURE_LOST =
+  'The browser took the graphics away for a moment. Reload if the picture stays empty.';
+
+/** Puts a sentence in the canvas's place, and returns it; `rest` is what still works. */
+export function replaceCanvas(canvas: HTMLElement, rest: string): string {
+  const sentence = `This browser shows no WebGL 2, so the cloth cannot be drawn. ${rest} still work.`;
+  canvas.parentElement?.append(element('p', { class: 'plain' }, sentence));
+  canvas.remove();
+  return sentence;
+}

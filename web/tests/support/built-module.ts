@@ -1,0 +1,22 @@
+// The WebAssembly modules as they were built.
+import { existsSync, readFileSync } from 'node:fs';
+import type { RefinementModule } from '../../src/sim/refinement-module';
+import type { DeformModule, PleatModule, SweepModule } from '../../src/sim/wasm-module';
+
+interface Modules {
+  pleat: PleatModule;
+  sweep: SweepModule;
+  deform: DeformModule;
+  refinement: RefinementModule;
+}
+
+const fileOf = (name: string) => new URL(`../../src/wasm/${name}`, import.meta.url);
+
+export function isBuilt(name: keyof Modules): boolean {
+  return existsSync(fileOf(`${name}.wasm`));
+}
+
+export async function loadModule<Name extends keyof Modules>(name: Name): Promise<Modules[Name]> {
+  const { default: create } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
+  return create({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
+}
