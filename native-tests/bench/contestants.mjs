@@ -133,7 +133,7 @@ const compiled = {};
 
 /**
  * A module of its own for each run, so that memory and state are the run's alone: "pleat" has
- * Scene and Simulation, "sweep" has Experiment.
+ * Scene and Simulation, "sweep" has Experiment, "refinement" has GarmentRun.
  */
 export async function wasmModule(name = 'pleat') {
   if (!compiled[name]) {
@@ -150,7 +150,8 @@ export async function wasmModule(name = 'pleat') {
   });
 }
 
-function answer(text) {
+/** What a module's call answered; throws where it refused. */
+export function answer(text) {
   const envelope = JSON.parse(text);
   if (!envelope.ok) throw new Error(`${envelope.where}: ${envelope.what}`);
   return envelope;

@@ -5,6 +5,7 @@ import { goal, markdown, mean, median, short } from './bench-rows.mjs';
 export const kMostVertices = { skirt: 1 / 3, trousers: 1 / 4 };
 const kMostTime = 0.3;
 const kTimePerVertex = 1.15;
+const kFrameMs = 1e3 / 30; // [ms] that a frame shows
 
 /** A row of one run: times of frames of 1/30 s, errors against the first run. */
 export function runRow(label, run, { garment, fine, commit, duration }) {
@@ -33,6 +34,34 @@ export function runRow(label, run, { garment, fine, commit, duration }) {
     status: run.status,
     message: run.message,
     target: 'native',
+    commit,
+  };
+}
+
+/**
+ * A row of the same run, repeated, in one build. Errors are the native run's in both builds: they
+ * are told by runs in one process with the fine mesh.
+ */
+export function buildRow(target, runs, { garment, scene, errors, fine, commit, duration }) {
+  const [first] = runs;
+  const times = runs.map(({ frame_ms }) => median(frame_ms.length ? frame_ms : [Number.NaN]));
+  return {
+    label: `multi, ${target}`,
+    garment,
+    scene: scene.name,
+    method: scene.method,
+    n_vertices: first.n_vertices,
+    ms_per_frame: median(times),
+    spread_ms: Math.max(...times) - Math.min(...times),
+    contact_ms: median(runs.map((run) => run.contact_ms)),
+    n_runs: runs.length,
+    n_timed_frames: first.frame_ms.length,
+    errors,
+    errors_target: 'native',
+    reference: { id: fine, description: `the fine mesh's own run of ${duration} s` },
+    status: first.status,
+    message: first.message,
+    target,
     commit,
   };
 }
@@ -76,6 +105,41 @@ export function runTable(rows) {
     row.status,
   ]);
   return markdown(head, lines);
+}
+
+/** Both builds of one run; errors in WebAssembly are taken to be the native run's. */
+export function buildTable({ wasm, native }) {
+  const head = [
+    'target',
+    'vertices',
+    'ms/frame',
+    'spread',
+    'contact',
+    'of native',
+    'bend 1/m',
+    'surface mm',
+    'position mm',
+    'status',
+  ];
+  const lines = [wasm, native].map((row) => [
+    row.target,
+    row.n_vertices,
+    short(row.ms_per_frame),
+    short(row.spread_ms),
+    short(row.contact_ms),
+    short(row.ms_per_frame / native.ms_per_frame),
+    short(row.errors.bend_per_m ?? Number.NaN),
+    milli(row.errors.surface_m),
+    milli(row.errors.position_m),
+    row.status,
+  ]);
+  return markdown(head, lines);
+}
+
+/** A frame takes no longer than it shows; `scale` as of runParts. */
+export function wasmGoals(garment, wasm, scale) {
+  const name = `${garment}_multi_ms_per_frame_wasm`;
+  return [goal(name, wasm.ms_per_frame, 'at-most', kFrameMs * scale, [wasm])];
 }
 
 /** Frames until the example run and the plan have been saved again. */

@@ -1,7 +1,8 @@
 // ./pleat bench refinement (--help tells the options)
 // Garments refined where one example motion bends them, against uniform meshes and against
 // refinement in every frame: vertices, time and error on a motion that the example does not
-// contain; whether the monitor tells motions apart; and that no vertex ends inside of the body.
+// contain; whether the monitor tells motions apart; that no vertex ends inside of the body; and
+// what a frame costs in WebAssembly.
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -11,6 +12,8 @@ import { markdown, short } from './bench-rows.mjs';
 import { root } from './contestants.mjs';
 import { savingsFigure } from './refinement-figure.mjs';
 import {
+  buildRow,
+  buildTable,
   comparisonGoals,
   framesToPay,
   insideGoals,
@@ -19,8 +22,10 @@ import {
   runRow,
   runTable,
   shownLines,
+  wasmGoals,
 } from './refinement-goals.mjs';
 import { answer, garmentScene, uniformOfAbout } from './refinement-runs.mjs';
+import { bothBuilds, differences, kEarly, kTight } from './refinement-wasm.mjs';
 
 const kFineLevel = 2;
 const kDuration = 10; // [s], of which the second half is timed and compared
@@ -214,6 +219,46 @@ async function figure({ options }) {
   return { rows: [], goals: [], text: options.quick ? 'not drawn from short runs' : kFigureFile };
 }
 
+/** The planned mesh's errors on the test motion: of the garment's part, where that has run. */
+function multiErrors(garment, scene) {
+  if (measured[garment]) return measured[garment].rows[1].errors;
+  tell(`${garment}: test walk, fine and planned`);
+  const fine = { ...scene, ...uniform(kFineLevel) };
+  return answer('bench', 'together', fine, '--with', [scene], '--every', kErrorEvery).runs[1]
+    .errors;
+}
+
+/** The planned skirt on the test motion, in both builds. */
+async function wasm({ repeat, scale, options }) {
+  const garment = 'skirt';
+  const set = settings(options);
+  const { chosen } = plansOf(garment, set);
+  const scene = at(garmentScene(garment, 'fast_walk', set.method), set.duration, planned(chosen));
+  const about = {
+    garment,
+    scene,
+    errors: multiErrors(garment, scene),
+    fine: `${garment} fast walk, level ${kFineLevel}`,
+    commit,
+    duration: set.duration,
+  };
+  const runs = await bothBuilds(scene, repeat);
+  const apart = await differences(scene);
+  const rows = {
+    wasm: { ...buildRow('wasm', runs.wasm, about), largest_difference_from_native: apart },
+    native: buildRow('native', runs.native, about),
+  };
+  return {
+    rows: Object.values(rows),
+    goals: wasmGoals(garment, rows.wasm, scale),
+    text: `${garment}, frames of 1/30 s; errors are the native run's, against ${rows.native.reference.description}
+
+${buildTable(rows)}
+
+largest difference of both after ${kEarly} s: ${short(1e3 * apart.own_m)} mm, solved to ${kTight} ${short(1e3 * apart.tight_m)} mm`,
+  };
+}
+
 await runParts(
   'refinement',
   'garments refined where an example bends',
@@ -221,6 +266,7 @@ await runParts(
     skirt: (wanted) => garmentPart('skirt', wanted),
     trousers: (wanted) => garmentPart('trousers', wanted),
     figure,
+    wasm,
   },
   kMore,
 );

@@ -1,12 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import { savingsFigure, ticks } from '../../native-tests/bench/refinement-figure.mjs';
 import {
+  buildRow,
+  buildTable,
   comparisonGoals,
   framesToPay,
   insideGoals,
   monitorGoals,
   runRow,
   runTable,
+  wasmGoals,
 } from '../../native-tests/bench/refinement-goals.mjs';
 
 const run = {
@@ -92,6 +95,29 @@ describe('goals of refinement', () => {
     const plans = { example_s: 7, planning_s: 0.1 };
     expect(framesToPay(plans, fine, multi)).toBe(100);
     expect(framesToPay(plans, multi, fine)).toBeNaN();
+  });
+});
+
+describe('both builds', () => {
+  const settings = { ...about, scene: { name: 'skirt', method: {} }, errors: run.errors };
+  const built = (target, ...times) => {
+    const runs = times.map((frame_ms) => ({ ...run, frame_ms, contact_ms: 4 }));
+    return buildRow(target, runs, settings);
+  };
+
+  it('have the median of their runs and the same errors', () => {
+    const wasm = built('wasm', [30, 40, 50], [20], [60]);
+    expect(wasm).toMatchObject({ ms_per_frame: 40, spread_ms: 40, n_runs: 3, target: 'wasm' });
+    const table = buildTable({ wasm, native: built('native', [20]) });
+    expect(table.match(/\| wasm .*/)[0]).toMatch(/ 40 .* 2 .* 1 .* 10 .* 20 .* ok/);
+  });
+
+  it('hold a frame in WebAssembly to the time that it shows, on this machine', () => {
+    const verdict = (ms, scale) => lines(wasmGoals('skirt', built('wasm', ms), scale))[0];
+    expect(verdict([33], 1)).toBe('goal skirt_multi_ms_per_frame_wasm 33 at-most 33.3 ok');
+    expect(verdict([34], 1)).toBe('goal skirt_multi_ms_per_frame_wasm 34 at-most 33.3 short');
+    expect(verdict([34], 2)).toBe('goal skirt_multi_ms_per_frame_wasm 34 at-most 66.7 ok');
+    expect(verdict([], 1)).toBe('goal skirt_multi_ms_per_frame_wasm - at-most 33.3 short');
   });
 });
 

@@ -1,0 +1,76 @@
+// A garment on one mesh in WebAssembly, called as the page calls it, in turn with the native
+// command.
+import { tell } from './bench-parts.mjs';
+import { fabricsText, nativeRun, answer as opened, wasmModule } from './contestants.mjs';
+import { answerNow } from './refinement-runs.mjs';
+
+const kFrame = 1 / 30; // [s]
+const kNativeFrame = 1 / 60; // of nativeRun [s]
+const kNoSamples = 1_000_000; // frames from one to the next
+export const kEarly = 0.5; // [s], after which both builds are compared
+export const kTight = 1e-12; // tolerance of the solver, with which rounding does not grow
+
+/** Wall time of a run's contact so far [ms]. */
+const contactMs = (run) => opened(run.costs()).parts_ms.contact ?? 0;
+
+/** Frames of the second half are timed, as the native command does. */
+async function wasmTimes(scene) {
+  const module = await wasmModule('refinement');
+  const run = new module.GarmentRun(fabricsText());
+  const { n_vertices, step_s } = opened(run.load(JSON.stringify(scene), {}));
+  const stepsPerFrame = Math.round(kFrame / step_s);
+  const nFrames = Math.round(scene.duration_s / kFrame);
+  const found = { n_vertices, frame_ms: [], contact_ms: Number.NaN, status: 'ok', message: '' };
+  let contactBefore = 0;
+  for (let frame = 1; frame <= nFrames; ++frame) {
+    const isTimed = frame > nFrames / 2;
+    if (!isTimed) contactBefore = contactMs(run);
+    const begin = performance.now();
+    const code = run.step(stepsPerFrame);
+    const ms = performance.now() - begin;
+    const { status, message } = opened(run.status());
+    if (status !== 'ok') Object.assign(found, { status, message });
+    if (code !== 0) break;
+    if (isTimed) found.frame_ms.push(ms);
+  }
+  found.contact_ms = (contactMs(run) - contactBefore) / found.frame_ms.length;
+  run.delete();
+  return found;
+}
+
+function nativeTimes(scene) {
+  const [run] = answerNow('bench', 'together', scene, '--every', kNoSamples).runs;
+  return { ...run, contact_ms: run.parts_ms.contact };
+}
+
+/** Of any coordinate after kEarly [m]; NaN where a run did not come that far. */
+async function largestDifference(scene) {
+  const module = await wasmModule('refinement');
+  const run = new module.GarmentRun(fabricsText());
+  const { step_s } = opened(run.load(JSON.stringify(scene), {}));
+  const code = run.step(Math.round(kEarly / step_s));
+  const positions = Array.from(run.positions());
+  run.delete();
+  const [right] = nativeRun(scene, Math.round(kEarly / kNativeFrame), [kEarly]).samples;
+  if (code !== 0 || !right) return Number.NaN;
+  return Math.max(...positions.map((value, q) => Math.abs(value - right[q])));
+}
+
+/** How far both builds come apart: as the scene is, and with its equations solved to kTight. */
+export async function differences(scene) {
+  tell(`${scene.name}: wasm against native`);
+  const tight = { ...scene, method: { ...scene.method, tolerance: kTight } };
+  return { own_m: await largestDifference(scene), tight_m: await largestDifference(tight) };
+}
+
+/** Runs of one scene in both builds, round by round in turn. */
+export async function bothBuilds(scene, repeat) {
+  const found = { wasm: [], native: [] };
+  for (let round = 1; round <= repeat; ++round) {
+    tell(`round ${round} of ${repeat}: ${scene.name}, wasm`);
+    found.wasm.push(await wasmTimes(scene));
+    tell(`round ${round} of ${repeat}: ${scene.name}, native`);
+    found.native.push(nativeTimes(scene));
+  }
+  return found;
+}
