@@ -218,6 +218,13 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
   return earliest;
 }
 
+/// Of the bare solid.
+bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
+  SweptSolid bare = solid.swept;
+  shrink(bare, clearance(solid.radii, largest_face_radius_));
+  return gap(bare, place).distance >= 0;
+}
+
 // One solid acts at a time, the earliest first. With n its normal where the vertex meets it at the
 // share s of the substep, u the velocity and d the path relative to it, and t marking the part
 // across n:
@@ -226,18 +233,24 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
 // stays where it met the solid, to the bit. The new place lies on the tangent plane, never inside
 // of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
 // new one, in the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as
-// well; then it is clear of both.
+// well; then it is clear of both. Where solids leave it no place with its clearance, the middle of
+// the last two places is as far inside of either's, and may yet be outside of the solids
+// themselves.
 ContactStage::Touch ContactStage::resolve(VertexId vertex, const Vec3& position_begin,
                                           Vec3& position, Vec3& velocity) {
   Touch touch;
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
   if (!meeting.solid || !velocity.allFinite()) return touch;
   const Solid* before = nullptr;
+  Vec3 place_before = position;
   for (int n_meetings = 0; meeting.solid; ++n_meetings) {
     if (n_meetings == kMaxMeetings) {
       ++n_unresolved_;
+      const Vec3 middle = (place_before + position) / 2;
+      if (is_outside(*before, middle) && is_outside(*meeting.solid, middle)) position = middle;
       break;
     }
+    place_before = position;
     const Solid& solid = *meeting.solid;
     const Vec3& normal = meeting.impact.normal;
     const Vec3 path = tangential(relative_path(solid, position_begin, position), normal);

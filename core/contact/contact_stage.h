@@ -110,6 +110,7 @@ class ContactStage {
   template <class Shape, class Action>
   auto with_held(const Solid& solid, const Shape& shape, VertexId vertex,
                  const Action& action) const;
+  bool is_outside(const Solid& solid, const Vec3& place) const;
   Vec3 velocity_at(const Solid& solid, const Vec3& place) const;
   static Vec3 relative_path(const Solid& solid, const Vec3& begin, const Vec3& end);
   void make_budget();

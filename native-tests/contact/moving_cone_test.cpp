@@ -210,6 +210,28 @@ TEST_CASE("contact: of two limbs that close in, the last to act keeps the vertex
   CHECK((stage.n_unresolved() > 0) == (aside < 0.01));
 }
 
+TEST_CASE("contact: between limbs nearer than both clearances a vertex is outside of both",
+          "[contact]") {
+  const double aside = GENERATE(0.0, 1e-9);       // of the middle between the axes [m]
+  const double gap_end = GENERATE(0.004, 0.009);  // less than one clearance [m]
+  CAPTURE(aside, gap_end);
+  const double way = (0.5 - 2 * 0.08 - gap_end) / 2;
+  const RoundedCone limb_a{{0, -0.3, 0}, {0, 0.3, 0}, 0.08, 0.08};
+  const RoundedCone limb_b{{0.5, -0.3, 0}, {0.5, 0.3, 0}, 0.08, 0.08};
+  std::vector<Collider> limbs{cone_collider(limb_a, 0.3), cone_collider(limb_b, 0.3)};
+  limbs[0].motion = steady_motion({way, 0, 0});
+  limbs[1].motion = steady_motion({-way, 0, 0});
+  ContactStage stage(limbs, {0.01, {}});
+  Particle particle{{0.25, 0, aside}, {0, 0, 0}};
+  const double h = 1.0 / 60;
+  for (int k = 0; k < 60; ++k) {
+    step(stage, Vec3::Zero(), k * h, h, particle);
+    REQUIRE(height(limbs[0], particle.position, (k + 1) * h) >= 0);
+    REQUIRE(height(limbs[1], particle.position, (k + 1) * h) >= 0);
+  }
+  CHECK(stage.n_unresolved() > 0);
+}
+
 TEST_CASE("contact: every vertex keeps the clearance of its own faces", "[contact]") {
   const Collider collider = GENERATE(ball_collider({0, 0, 0}, 0.1, 0), cone_collider(limb(), 0));
   const Eigen::Vector3d face_radii(0.01, 0.03, 0);
