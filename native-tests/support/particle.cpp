@@ -81,7 +81,8 @@ RoundedCone random_cone(Random& random) {
 }
 
 double height(const Collider& collider, const Vec3& place, double time) {
-  return gap(swept(ContactStage::placed(collider, time), Clearance{}, Vec3::Zero()), place).distance;
+  return gap(swept(ContactStage::placed(collider, time), Clearance{}, Vec3::Zero()), place)
+      .distance;
 }
 
 bool step(ContactStage& stage, const Vec3& acceleration, double time, double h,
