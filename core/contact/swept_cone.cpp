@@ -157,7 +157,7 @@ ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, d
   const Vec3 path = cone.to_local * (end - begin - cone.shift);
   Gap here = local_gap(cone, start);
   const double height_begin = here.distance;
-  const ConeMeeting none{height_begin, std::nullopt};
+  ConeMeeting none{height_begin, std::nullopt};
   if (!start.allFinite() || !path.allFinite()) return none;
   const double met_below =
       kMeetingHeight * std::max(cone.axis.radius_at(0), cone.axis.radius_at(1));

@@ -66,11 +66,11 @@ Vec3 random_direction(Random& random) {
 }
 
 RoundedCone random_cone(Random& random) {
-  const double kLengths[] = {0, 1e-7, random.uniform(0, 0.1), random.uniform(0, 0.8)};
+  const double lengths[] = {0, 1e-7, random.uniform(0, 0.1), random.uniform(0, 0.8)};
   const Vec3 axis = random_direction(random);
   RoundedCone cone;
   cone.centre_a = random.uniform(0, 0.3) * random_direction(random);
-  cone.centre_b = cone.centre_a + kLengths[random.below(4)] * axis;
+  cone.centre_b = cone.centre_a + lengths[random.below(4)] * axis;
   cone.across = axis.unitOrthogonal();
   cone.radius_a = random.uniform(0.02, 0.4);
   cone.radius_b = random.below(3) == 0 ? cone.radius_a : random.uniform(0.02, 0.4);
