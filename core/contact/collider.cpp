@@ -1,6 +1,5 @@
 #include "core/contact/collider.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
