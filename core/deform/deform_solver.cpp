@@ -87,7 +87,7 @@ DeformSolver::DeformSolver(const TriangleMesh& mesh, EnergyForm form, const Defo
       bulges_(bulges(mesh, extent_)),
       positions_(mesh.rest_positions),
       is_held_(static_cast<std::size_t>(positions_.cols()), 0),
-      solver_(make_linear_solver(best_direct_solver(), 1)) {
+      solver_(make_linear_solver(best_direct_solver())) {
   set_weights(weights);
 }
 

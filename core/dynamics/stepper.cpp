@@ -127,13 +127,13 @@ void Stepper::place_solids(double time_begin, double time_end) {
   model_.contact->begin_substep(time_begin, time_end);
 }
 
-std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options, int block_size,
+std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
                                                    int max_iterations) {
   if (!is_available(options.solver))
     throw InputError("/method/solver",
                      std::string("expected a solver of this build, got ") + name(options.solver) +
                          ", whose source could not be had when it was built; take eigen");
-  return make_linear_solver(options.solver, block_size, {options.tolerance, max_iterations});
+  return make_linear_solver(options.solver, {options.tolerance, max_iterations});
 }
 
 void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) {

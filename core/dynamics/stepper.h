@@ -134,7 +134,7 @@ class Stepper {
 
   /// The solver that the options name; max_iterations is for cg. Throws InputError when this build
   /// has none.
-  static std::unique_ptr<LinearSolver> make_solver(const MethodOptions& options, int block_size,
+  static std::unique_ptr<LinearSolver> make_solver(const MethodOptions& options,
                                                    int max_iterations = 1);
 
   ClothModel& model_;

@@ -13,7 +13,7 @@ constexpr int kMaxIterations = 2000;  // of CG; reaching it is reported as not c
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       matrix_(model),
-      solver_(make_solver(options, 3, kMaxIterations)),
+      solver_(make_solver(options, kMaxIterations)),
       forces_(3, model.n_vertices()),
       velocity_changes_(Positions::Zero(3, model.n_vertices())),
       positions_begin_(3, model.n_vertices()) {

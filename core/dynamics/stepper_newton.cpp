@@ -54,7 +54,7 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
     throw InputError("/model/bending",
                      "expected quadratic, linear or none for newton, which solves no force that "
                      "jumps, got arc");
-  solver_ = make_solver(options, 3);
+  solver_ = make_solver(options);
   solver_->analyze(matrix_.lower());
   base_ = matrix_.lower();
   for (Positions* columns : {&loads_, &gradient_, &direction_, &trial_, &velocities_, &product_})

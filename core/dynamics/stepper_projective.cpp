@@ -27,7 +27,7 @@ bool damps_along_spring(const ClothModel& model) {
 
 StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
-      solver_(make_solver(checked(options), 1)),
+      solver_(make_solver(checked(options))),
       targets_(model.springs.size()),
       forces_(3, model.n_vertices()),
       predicted_(Positions::Zero(3, model.n_vertices())),

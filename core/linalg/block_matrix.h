@@ -6,51 +6,56 @@
 
 namespace pleat {
 
-/// Symmetric N x N block, its lower triangle row by row.
-template <int N>
-inline constexpr int kPackedSize = N*(N + 1) / 2;
+/// Symmetric 3 x 3 block, its lower triangle row by row: 00 10 11 20 21 22.
+inline constexpr int kPackedSize = 6;
+/// Any 3 x 3 block, row by row.
+inline constexpr int kBlockSize = 9;
 
 /// y = S x for a packed symmetric block.
-template <int N>
 inline void multiply_packed(const double* S, const double* x, double* y) {
-  if constexpr (N == 1) {
-    y[0] = S[0] * x[0];
-  } else {
-    static_assert(N == 3);
-    y[0] = S[0] * x[0] + S[1] * x[1] + S[3] * x[2];
-    y[1] = S[1] * x[0] + S[2] * x[1] + S[4] * x[2];
-    y[2] = S[3] * x[0] + S[4] * x[1] + S[5] * x[2];
-  }
+  y[0] = S[0] * x[0] + S[1] * x[1] + S[3] * x[2];
+  y[1] = S[1] * x[0] + S[2] * x[1] + S[4] * x[2];
+  y[2] = S[3] * x[0] + S[4] * x[1] + S[5] * x[2];
 }
 
-/// Symmetric matrix in N x N blocks, N = 1 or 3. Blocks below the diagonal are held once, row by
-/// row, and used twice, which halves the memory that a product has to read.
-template <int N>
+/// Symmetric matrix in 3 x 3 blocks, those below the diagonal held once, row by row. Its rows have
+/// an order of their own, in which neighbours are near each other (reverse Cuthill-McKee).
 class BlockMatrix {
  public:
-  /// Takes the pattern of the lower triangle; its size is a multiple of N. Entries that are missing
+  /// Takes the pattern of the lower triangle; its size is a multiple of 3. Entries that are missing
   /// in a block are zero.
   void analyze(const SparseMatrix& lower);
 
   /// Takes the values; the pattern is the one last analysed.
   void set_values(const SparseMatrix& lower);
 
-  /// y = A x. Returns x'A x. x and y do not overlap.
-  double multiply(const double* x, double* y) const;
+  /// From the order of the sparse matrix to that of the rows, and back; 3 n_rows() each.
+  void gather(const double* from, double* ordered) const;
+  void scatter(const double* ordered, double* to) const;
+
+  /// y = A x, both in the order of the rows. x and y do not overlap.
+  void multiply(const double* x, double* y) const;
 
   int n_rows() const { return n_rows_; }  ///< in blocks
-  const double* diagonal_block(int row) const { return values_.data() + row * kPackedSize<N>; }
+  const double* diagonal_block(int row) const { return values_.data() + row * kPackedSize; }
+  /// Index into the sparse matrix of the first entry of a row.
+  int source(int row) const { return 3 * source_rows_[static_cast<std::size_t>(row)]; }
+
+  /// The blocks below the diagonal are numbered row by row: those of a row end where those of the
+  /// next begin.
+  int begin(int row) const { return row_begins_[static_cast<std::size_t>(row)]; }
+  int column(int block) const { return columns_[static_cast<std::size_t>(block)]; }
+  const double* block(int block) const {
+    return values_.data() + n_rows_ * kPackedSize + block * kBlockSize;
+  }
 
  private:
   int n_rows_ = 0;
+  std::vector<int> source_rows_;   // of each row, in the sparse matrix's blocks
   std::vector<int> row_begins_;    // into columns_, one more than there are rows
-  std::vector<int> columns_;       // of each block below the diagonal, in blocks
+  std::vector<int> columns_;       // of each block below the diagonal
   std::vector<int> destinations_;  // into values_, for each entry of the sparse matrix
-  std::vector<double>
-      values_;  // packed diagonal blocks, then the others row by row (row-major inside)
+  std::vector<double> values_;     // packed diagonal blocks, then the others
 };
-
-extern template class BlockMatrix<1>;
-extern template class BlockMatrix<3>;
 
 }  // namespace pleat

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "core/base/check.h"
 #include "core/linalg/block_matrix.h"
 #include "core/linalg/finite_check.h"
+#include "core/linalg/incomplete_factor.h"
 
 namespace pleat {
 namespace {
@@ -20,67 +19,33 @@ constexpr double kTrustedTolerance = 1e-8;
 /// A fresh residual must be at most this share of the one before, else rounding has the last word.
 constexpr double kLeastProgress = 0.5;
 
-/// Inverse of a packed symmetric block through its Cholesky factor. False unless every pivot is
-/// positive.
-bool invert_packed(const double* S, double* inverse, std::integral_constant<int, 1>) {
-  inverse[0] = 1 / S[0];
-  return S[0] > 0;
+double norm(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
 }
 
-// With S = L L', the inverse is W'W for W = L^-1; packed order is 00 10 11 20 21 22.
-bool invert_packed(const double* S, double* inverse, std::integral_constant<int, 3>) {
-  if (!(S[0] > 0)) return false;
-  const double l00 = std::sqrt(S[0]);
-  const double l10 = S[1] / l00;
-  const double l20 = S[3] / l00;
-  const double pivot_1 = S[2] - l10 * l10;
-  if (!(pivot_1 > 0)) return false;
-  const double l11 = std::sqrt(pivot_1);
-  const double l21 = (S[4] - l20 * l10) / l11;
-  const double pivot_2 = S[5] - l20 * l20 - l21 * l21;
-  if (!(pivot_2 > 0)) return false;
-  const double l22 = std::sqrt(pivot_2);
-
-  const double w00 = 1 / l00;
-  const double w11 = 1 / l11;
-  const double w22 = 1 / l22;
-  const double w10 = -l10 * w00 * w11;
-  const double w21 = -l21 * w11 * w22;
-  const double w20 = -(l20 * w00 + l21 * w10) * w22;
-  inverse[0] = w00 * w00 + w10 * w10 + w20 * w20;
-  inverse[1] = w10 * w11 + w20 * w21;
-  inverse[2] = w11 * w11 + w21 * w21;
-  inverse[3] = w20 * w22;
-  inverse[4] = w21 * w22;
-  inverse[5] = w22 * w22;
-  return true;
-}
-
-template <int N>
+/// With the matrix A = L + D + L' and the pivots P of its incomplete factor, it iterates on
+/// W p = r for W = (P + L)^-1 A (P + L')^-1, in the metric of P; x moves along t = (P + L')^-1 p,
+/// and the residual of A x = b is (P + L) r.
 class ConjugateGradient final : public LinearSolver {
  public:
   explicit ConjugateGradient(const SolverOptions& options) : options_(options) {}
 
   void do_analyze(const SparseMatrix& lower) override {
     A_.analyze(lower);
-    const auto n = static_cast<std::size_t>(lower.rows());
-    inverses_.resize(static_cast<std::size_t>(A_.n_rows()) * kPackedSize<N>);
-    residual_.resize(n);
-    preconditioned_.resize(n);
-    direction_.resize(n);
-    image_.resize(n);
+    factor_.analyze();
+    for (std::vector<double>* vector : {&b_, &x_, &r_, &z_, &p_, &t_, &s_})
+      vector->resize(static_cast<std::size_t>(lower.rows()));
   }
 
   SolveReport do_factorize(const SparseMatrix& lower) override {
     A_.set_values(lower);
-    for (int row = 0; row < A_.n_rows(); ++row) {
-      double* inverse = inverses_.data() + row * kPackedSize<N>;
-      if (!invert_packed(A_.diagonal_block(row), inverse, std::integral_constant<int, N>())) {
-        return {SolveStatus::not_positive_definite, 0, 0,
-                "diagonal block of row " + std::to_string(row * N) + " is not positive definite"};
-      }
-    }
-    return {};
+    const int row = factor_.compute();
+    if (row < 0) return {};
+    return {
+        SolveStatus::not_positive_definite, 0, 0,
+        "diagonal block of row " + std::to_string(A_.source(row)) + " is not positive definite"};
   }
 
   SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
@@ -88,7 +53,10 @@ class ConjugateGradient final : public LinearSolver {
     if (auto report = report_not_finite(solution, "starting guess")) return *report;
     SolveReport total;
     for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
-      const SolveReport report = solve_column(rhs.col(column).data(), solution.col(column).data());
+      A_.gather(rhs.col(column).data(), b_.data());
+      A_.gather(solution.col(column).data(), x_.data());
+      const SolveReport report = solve_column();
+      A_.scatter(x_.data(), solution.col(column).data());
       total.iterations += report.iterations;
       total.relative_residual = std::max(total.relative_residual, report.relative_residual);
       if (!report.ok() && total.ok()) {
@@ -100,116 +68,106 @@ class ConjugateGradient final : public LinearSolver {
   }
 
  private:
-  double squared_norm(const double* values) const {
-    double sum = 0;
-    for (std::size_t k = 0; k < residual_.size(); ++k) sum += values[k] * values[k];
-    return sum;
+  /// r of b - A x, and no direction yet. Returns |b - A x|.
+  double start() {
+    A_.multiply(x_.data(), r_.data());
+    for (std::size_t k = 0; k < r_.size(); ++k) r_[k] = b_[k] - r_[k];
+    const double residual = norm(r_);
+    factor_.solve_lower(r_.data(), r_.data());
+    std::fill(p_.begin(), p_.end(), 0.0);
+    return residual;
   }
 
-  /// r = b - A x. Returns |r|^2.
-  double start_residual(const double* b, const double* x) {
-    A_.multiply(x, image_.data());
-    for (std::size_t k = 0; k < residual_.size(); ++k) residual_[k] = b[k] - image_[k];
-    return squared_norm(residual_.data());
+  void turn(double beta) {
+    for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = z_[k] + beta * p_[k];
+    std::fill(s_.begin(), s_.end(), 0.0);
   }
 
-  /// x += alpha p, r -= alpha A p, z = preconditioned r, all in one pass. Returns |r|^2 and r'z.
-  struct Norms {
-    double residual;
-    double preconditioned;
-  };
-  Norms advance(double alpha, double* x) {
-    Norms norms{0, 0};
-    for (int row = 0; row < A_.n_rows(); ++row) {
-      const int begin = row * N;
-      double* r = residual_.data() + begin;
-      double* z = preconditioned_.data() + begin;
-      for (int k = 0; k < N; ++k) {
-        x[begin + k] += alpha * direction_[static_cast<std::size_t>(begin + k)];
-        r[k] -= alpha * image_[static_cast<std::size_t>(begin + k)];
-      }
-      multiply_packed<N>(inverses_.data() + row * kPackedSize<N>, r, z);
-      for (int k = 0; k < N; ++k) {
-        norms.residual += r[k] * r[k];
-        norms.preconditioned += r[k] * z[k];
-      }
+  void advance(double alpha) {
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      x_[k] += alpha * t_[k];
+      r_[k] -= alpha * (t_[k] + s_[k]);
     }
-    return norms;
   }
 
-  SolveReport solve_column(const double* b, double* x) {
-    const std::size_t n = residual_.size();
-    const double b_squared = squared_norm(b);
-    if (b_squared == 0) {
-      std::fill(x, x + n, 0.0);
+  SolveReport solve_column() {
+    const double b_norm = norm(b_);
+    if (b_norm == 0) {
+      std::fill(x_.begin(), x_.end(), 0.0);
       return {};
     }
-    const double goal = options_.tolerance * options_.tolerance * b_squared;
-    const auto report = [&](SolveStatus status, int iterations, double r_squared,
-                            const char* message) {
-      return SolveReport{status, iterations, std::sqrt(r_squared / b_squared), message};
+    const double goal = options_.tolerance * b_norm;
+    double residual = start();
+    const auto report = [&](SolveStatus status, int iterations, const char* message) {
+      return SolveReport{status, iterations, residual / b_norm, message};
     };
 
-    double r_squared = start_residual(b, x);
-    double restart_squared = r_squared;
-    std::fill(direction_.begin(), direction_.end(), 0.0);
-    std::fill(image_.begin(), image_.end(), 0.0);
-    double r_z = advance(0, x).preconditioned;
+    if (residual > b_norm) {
+      std::fill(x_.begin(), x_.end(), 0.0);
+      residual = start();
+    }
+    double start_residual = residual;
+    double r_z = factor_.multiply_pivots(r_.data(), z_.data());
+    // |(P + L) r| takes half a product: it is looked at when |r|, in the metric of P, has fallen
+    // as far as it has to, and the ratio of both taken anew.
+    double ratio = residual / std::sqrt(r_z);
     double beta = 0;
     int iterations = 0;
-    while (!(r_squared <= goal)) {
+    while (!(residual <= goal)) {
       if (iterations == options_.max_iterations) {
-        return report(SolveStatus::not_converged, iterations, r_squared,
-                      "the iteration cap was reached");
+        residual = factor_.norm_of_lower_product(r_.data());
+        return report(SolveStatus::not_converged, iterations, "the iteration cap was reached");
       }
-      for (std::size_t k = 0; k < n; ++k) direction_[k] = preconditioned_[k] + beta * direction_[k];
-      const double curvature = A_.multiply(direction_.data(), image_.data());
-      if (!std::isfinite(curvature)) {
-        return report(SolveStatus::not_finite, iterations, r_squared,
-                      "a search direction is not finite");
-      }
+      turn(beta);
+      const double curvature = factor_.apply(p_.data(), t_.data(), s_.data());
+      if (!std::isfinite(curvature))
+        return report(SolveStatus::not_finite, iterations, "a search direction is not finite");
       if (curvature <= 0) {
-        return report(SolveStatus::not_positive_definite, iterations, r_squared,
+        return report(SolveStatus::not_positive_definite, iterations,
                       "a search direction has no positive curvature");
       }
-      const Norms norms = advance(r_z / curvature, x);
+      advance(r_z / curvature);
       ++iterations;
-      beta = norms.preconditioned / r_z;
-      r_z = norms.preconditioned;
-      r_squared = norms.residual;
-      if (r_squared > goal || options_.tolerance >= kTrustedTolerance) continue;
+      const double last_r_z = r_z;
+      r_z = factor_.multiply_pivots(r_.data(), z_.data());
+      beta = r_z / last_r_z;
+      residual = ratio * std::sqrt(r_z);
+      if (residual > goal) continue;
 
-      r_squared = start_residual(b, x);
-      if (r_squared <= goal) break;
-      if (r_squared > kLeastProgress * kLeastProgress * restart_squared) {
-        return report(SolveStatus::not_converged, iterations, r_squared,
-                      "rounding stops the residual");
-      }
-      restart_squared = r_squared;
-      std::fill(image_.begin(), image_.end(), 0.0);
-      r_z = advance(0, x).preconditioned;
+      residual = factor_.norm_of_lower_product(r_.data());
+      ratio = residual / std::sqrt(r_z);
+      if (residual > goal || options_.tolerance >= kTrustedTolerance) continue;
+
+      residual = start();
+      if (residual <= goal) break;
+      if (residual > kLeastProgress * start_residual)
+        return report(SolveStatus::not_converged, iterations, "rounding stops the residual");
+      start_residual = residual;
+      r_z = factor_.multiply_pivots(r_.data(), z_.data());
+      ratio = residual / std::sqrt(r_z);
       beta = 0;
     }
-    return report(SolveStatus::ok, iterations, r_squared, "");
+    return report(SolveStatus::ok, iterations, "");
   }
 
   SolverOptions options_;
-  BlockMatrix<N> A_;
-  std::vector<double> inverses_;        // packed, one per diagonal block
-  std::vector<double> residual_;        // r
-  std::vector<double> preconditioned_;  // z
-  std::vector<double> direction_;       // p
-  std::vector<double> image_;           // A p
+  BlockMatrix A_;
+  IncompleteFactor factor_{A_};
+  // In the order of the rows of A_.
+  std::vector<double> b_;
+  std::vector<double> x_;
+  std::vector<double> r_;
+  std::vector<double> z_;  // P r
+  std::vector<double> p_;
+  std::vector<double> t_;
+  std::vector<double> s_;  // W p - t
 };
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_conjugate_gradient(int block_size,
-                                                      const SolverOptions& options) {
-  PLEAT_CHECK(block_size == 1 || block_size == 3, "the block size must be 1 or 3");
+std::unique_ptr<LinearSolver> make_conjugate_gradient(const SolverOptions& options) {
   options.validate();
-  if (block_size == 1) return std::make_unique<ConjugateGradient<1>>(options);
-  return std::make_unique<ConjugateGradient<3>>(options);
+  return std::make_unique<ConjugateGradient>(options);
 }
 
 }  // namespace pleat

@@ -6,15 +6,15 @@
 
 namespace pleat {
 
-/// Conjugate gradients, preconditioned by the inverse of the diagonal blocks, one right-hand side
-/// after the other.
+/// Conjugate gradients on 3 x 3 blocks, preconditioned by an incomplete factor, one right-hand side
+/// after the other. The size of the matrix is a multiple of 3.
 ///
-/// Stops at |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the best
-/// x so far. The report's iterations are the sum over the right-hand sides, its residual is the
-/// largest. The residual is the updated one; below a tolerance of 1e-8 it is computed afresh before
-/// success is reported. A matrix that is not positive definite is noticed in a diagonal block by
-/// factorize, otherwise by solve once a direction p has p'Ap <= 0. Source: Hestenes & Stiefel,
-/// Methods of conjugate gradients for solving linear systems, J. Res. NBS 49, 1952.
-std::unique_ptr<LinearSolver> make_conjugate_gradient(int block_size, const SolverOptions& options);
+/// Stops at |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the last
+/// x. The report's iterations are the sum over the right-hand sides, its residual is the largest.
+/// The residual is the updated one; below a tolerance of 1e-8 it is computed afresh before success
+/// is reported. A matrix that is not positive definite is noticed in a diagonal block by factorize,
+/// otherwise by solve once a direction p has p'Ap <= 0. Source: Hestenes & Stiefel, Methods of
+/// conjugate gradients for solving linear systems, J. Res. NBS 49, 1952.
+std::unique_ptr<LinearSolver> make_conjugate_gradient(const SolverOptions& options);
 
 }  // namespace pleat

@@ -81,9 +81,7 @@ SolverKind best_direct_solver() {
   return is_available(SolverKind::cholmod) ? SolverKind::cholmod : SolverKind::eigen;
 }
 
-std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, int block_size,
-                                                 const SolverOptions& options) {
-  PLEAT_CHECK(block_size == 1 || block_size == 3, "the block size must be 1 or 3");
+std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, const SolverOptions& options) {
   options.validate();
   switch (kind) {
     case SolverKind::cholmod:
@@ -95,7 +93,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, int block_size
     case SolverKind::eigen:
       return make_eigen_solver();
     case SolverKind::cg:
-      return make_conjugate_gradient(block_size, options);
+      return make_conjugate_gradient(options);
   }
   PLEAT_CHECK(false, "this solver is not part of this build");
   return nullptr;

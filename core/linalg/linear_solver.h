@@ -25,7 +25,7 @@ class LinearSolver {
   SolveReport factorize(const SparseMatrix& lower);
 
   /// rhs       n x m right-hand sides
-  /// solution  n x m; an iterative solver starts from what it holds
+  /// solution  n x m; an iterative solver starts from what it holds, if that is better than zero
   SolveReport solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
                     Eigen::Ref<Eigen::MatrixXd> solution);
 
@@ -60,11 +60,9 @@ bool is_available(SolverKind kind);
 /// The direct solver to prefer: cholmod where there is one, else eigen.
 SolverKind best_direct_solver();
 
-/// block_size  unknowns per vertex, 1 or 3: cg preconditions by the inverse of these diagonal
-/// blocks and works on
-///             blocks; the direct solvers ignore it. n must be a multiple of it.
+/// cg works on 3 x 3 blocks: n must be a multiple of 3.
 /// Throws ContractError when the kind is not available.
-std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, int block_size,
+std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind,
                                                  const SolverOptions& options = {});
 
 }  // namespace pleat

@@ -20,36 +20,41 @@ MatrixXd random_columns(Eigen::Index rows, Eigen::Index columns, Random& random)
   return result;
 }
 
-SparseMatrix grid_system(int side, int block_size, std::uint64_t seed) {
+SparseMatrix graph_system(int n_vertices, const std::vector<std::array<int, 2>>& edges,
+                          std::uint64_t seed) {
   Random random(seed);
-  const int n = side * side;
-  MatrixXd A = 0.1 * MatrixXd::Identity(n * block_size, n * block_size);
-  const auto add_edge = [&](int a, int b) {
-    const MatrixXd half = random_columns(block_size, block_size, random);
+  MatrixXd A = 0.1 * MatrixXd::Identity(3 * n_vertices, 3 * n_vertices);
+  for (const auto& [a, b] : edges) {
+    const MatrixXd half = random_columns(3, 3, random);
     const MatrixXd stiffness = half * half.transpose();
-    A.block(a * block_size, a * block_size, block_size, block_size) += stiffness;
-    A.block(b * block_size, b * block_size, block_size, block_size) += stiffness;
-    A.block(a * block_size, b * block_size, block_size, block_size) -= stiffness;
-    A.block(b * block_size, a * block_size, block_size, block_size) -= stiffness;
-  };
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
-      if (column + 1 < side) add_edge(row * side + column, row * side + column + 1);
-      if (row + 1 < side) add_edge(row * side + column, (row + 1) * side + column);
-    }
+    A.block<3, 3>(3 * a, 3 * a) += stiffness;
+    A.block<3, 3>(3 * b, 3 * b) += stiffness;
+    A.block<3, 3>(3 * a, 3 * b) -= stiffness;
+    A.block<3, 3>(3 * b, 3 * a) -= stiffness;
   }
   return lower_of(A);
 }
 
-SparseMatrix random_system(int n_blocks, int block_size, std::uint64_t seed) {
+SparseMatrix grid_system(int side, std::uint64_t seed) {
+  std::vector<std::array<int, 2>> edges;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const int vertex = row * side + column;
+      if (column + 1 < side) edges.push_back({vertex, vertex + 1});
+      if (row + 1 < side) edges.push_back({vertex, vertex + side});
+    }
+  }
+  return graph_system(side * side, edges, seed);
+}
+
+SparseMatrix random_system(int n_blocks, std::uint64_t seed) {
   Random random(seed);
-  const int n = n_blocks * block_size;
+  const int n = 3 * n_blocks;
   MatrixXd R = MatrixXd::Zero(n, n);
   for (int row = 0; row < n_blocks; ++row) {
     for (int column = 0; column < n_blocks; ++column) {
       if (random.below(3) != 0) continue;
-      R.block(row * block_size, column * block_size, block_size, block_size) =
-          random_columns(block_size, block_size, random);
+      R.block<3, 3>(3 * row, 3 * column) = random_columns(3, 3, random);
     }
   }
   return lower_of(R * R.transpose() + MatrixXd::Identity(n, n));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/base/random.h"
 #include "core/linalg/sparse.h"
@@ -17,11 +19,15 @@ Eigen::MatrixXd full_of(const SparseMatrix& lower);
 /// Uniform in [-1, 1).
 Eigen::MatrixXd random_columns(Eigen::Index rows, Eigen::Index columns, Random& random);
 
-/// Five-point grid of side x side vertices with a random positive definite block on each edge and a
-/// multiple of the identity on the diagonal: the shape of an implicit cloth step.
-SparseMatrix grid_system(int side, int block_size, std::uint64_t seed);
+/// Five-point grid of side x side vertices with a random positive definite 3 x 3 block on each edge
+/// and a multiple of the identity on the diagonal: the shape of an implicit cloth step.
+SparseMatrix grid_system(int side, std::uint64_t seed);
 
-/// R R' + I with a third of the blocks of R present, none of them symmetric.
-SparseMatrix random_system(int n_blocks, int block_size, std::uint64_t seed);
+/// The same of any graph, its edges pairs of vertices.
+SparseMatrix graph_system(int n_vertices, const std::vector<std::array<int, 2>>& edges,
+                          std::uint64_t seed);
+
+/// R R' + I with a third of the 3 x 3 blocks of R present, none of them symmetric.
+SparseMatrix random_system(int n_blocks, std::uint64_t seed);
 
 }  // namespace pleat

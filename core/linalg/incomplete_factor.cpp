@@ -1,0 +1,157 @@
+#include "core/linalg/incomplete_factor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pleat {
+namespace {
+
+/// A pivot that keeps less of its block's trace has lost its digits, or nearly its definiteness.
+constexpr double kLeastPivot = 1e-3;
+
+/// y -= B x
+inline void subtract_product(const double* B, const double* x, double* y) {
+  y[0] -= B[0] * x[0] + B[1] * x[1] + B[2] * x[2];
+  y[1] -= B[3] * x[0] + B[4] * x[1] + B[5] * x[2];
+  y[2] -= B[6] * x[0] + B[7] * x[1] + B[8] * x[2];
+}
+
+/// y -= B' x
+inline void subtract_transposed_product(const double* B, const double* x, double* y) {
+  y[0] -= B[0] * x[0] + B[3] * x[1] + B[6] * x[2];
+  y[1] -= B[1] * x[0] + B[4] * x[1] + B[7] * x[2];
+  y[2] -= B[2] * x[0] + B[5] * x[1] + B[8] * x[2];
+}
+
+/// T -= B S B' for packed symmetric S and T.
+void subtract_congruent(const double* B, const double* S, double* T) {
+  for (int r = 0; r < 3; ++r) {
+    double row[3];  // of B S
+    multiply_packed(S, B + 3 * r, row);
+    for (int c = 0; c <= r; ++c)
+      T[r * (r + 1) / 2 + c] -= row[0] * B[3 * c] + row[1] * B[3 * c + 1] + row[2] * B[3 * c + 2];
+  }
+}
+
+double trace(const double* S) { return S[0] + S[2] + S[5]; }
+
+/// Inverse of a packed block through its Cholesky factor. False unless every Cholesky pivot is
+/// positive.
+bool invert_packed(const double* S, double* inverse) {
+  if (!(S[0] > 0)) return false;
+  const double l00 = std::sqrt(S[0]);
+  const double l10 = S[1] / l00;
+  const double l20 = S[3] / l00;
+  const double pivot_1 = S[2] - l10 * l10;
+  if (!(pivot_1 > 0)) return false;
+  const double l11 = std::sqrt(pivot_1);
+  const double l21 = (S[4] - l20 * l10) / l11;
+  const double pivot_2 = S[5] - l20 * l20 - l21 * l21;
+  if (!(pivot_2 > 0)) return false;
+  const double l22 = std::sqrt(pivot_2);
+
+  // With S = C C', the inverse is V'V for V = C^-1.
+  const double v00 = 1 / l00;
+  const double v11 = 1 / l11;
+  const double v22 = 1 / l22;
+  const double v10 = -l10 * v00 * v11;
+  const double v21 = -l21 * v11 * v22;
+  const double v20 = -(l20 * v00 + l21 * v10) * v22;
+  inverse[0] = v00 * v00 + v10 * v10 + v20 * v20;
+  inverse[1] = v10 * v11 + v20 * v21;
+  inverse[2] = v11 * v11 + v21 * v21;
+  inverse[3] = v20 * v22;
+  inverse[4] = v21 * v22;
+  inverse[5] = v22 * v22;
+  return true;
+}
+
+}  // namespace
+
+void IncompleteFactor::analyze() {
+  for (std::vector<double>* blocks : {&pivots_, &inverses_, &remainders_})
+    blocks->resize(static_cast<std::size_t>(A_.n_rows()) * kPackedSize);
+}
+
+int IncompleteFactor::compute() {
+  for (int row = 0; row < A_.n_rows(); ++row) {
+    const double* D = A_.diagonal_block(row);
+    double* P = pivots_.data() + row * kPackedSize;
+    double* P_inverse = inverses_.data() + row * kPackedSize;
+    if (!invert_packed(D, P_inverse)) return row;
+    std::copy_n(D, kPackedSize, P);
+    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
+      subtract_congruent(A_.block(k), inverse(A_.column(k)), P);
+    if (!(trace(P) > kLeastPivot * trace(D)) || !invert_packed(P, P_inverse)) {
+      std::copy_n(D, kPackedSize, P);
+      invert_packed(P, P_inverse);
+    }
+    for (int k = 0; k < kPackedSize; ++k) remainders_[row * kPackedSize + k] = D[k] - 2 * P[k];
+  }
+  return -1;
+}
+
+double IncompleteFactor::multiply_pivots(const double* r, double* z) const {
+  double product = 0;
+  for (int row = 0; row < A_.n_rows(); ++row) {
+    const double* r_row = r + 3 * row;
+    double* z_row = z + 3 * row;
+    multiply_packed(pivot(row), r_row, z_row);
+    product += r_row[0] * z_row[0] + r_row[1] * z_row[1] + r_row[2] * z_row[2];
+  }
+  return product;
+}
+
+void IncompleteFactor::solve_lower(const double* b, double* x) const {
+  for (int row = 0; row < A_.n_rows(); ++row) {
+    double rest[3] = {b[3 * row], b[3 * row + 1], b[3 * row + 2]};
+    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
+      subtract_product(A_.block(k), x + 3 * A_.column(k), rest);
+    multiply_packed(inverse(row), rest, x + 3 * row);
+  }
+}
+
+double IncompleteFactor::norm_of_lower_product(const double* r) const {
+  double squared = 0;
+  for (int row = 0; row < A_.n_rows(); ++row) {
+    double negative[3];
+    const double r_row[3] = {-r[3 * row], -r[3 * row + 1], -r[3 * row + 2]};
+    multiply_packed(pivot(row), r_row, negative);
+    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
+      subtract_product(A_.block(k), r + 3 * A_.column(k), negative);
+    squared += negative[0] * negative[0] + negative[1] * negative[1] + negative[2] * negative[2];
+  }
+  return std::sqrt(squared);
+}
+
+// s first gathers what later rows take from (P + L') t = p.
+double IncompleteFactor::apply(const double* p, double* t, double* s) const {
+  for (int row = A_.n_rows() - 1; row >= 0; --row) {
+    const double rest[3] = {p[3 * row] + s[3 * row], p[3 * row + 1] + s[3 * row + 1],
+                            p[3 * row + 2] + s[3 * row + 2]};
+    double t_row[3];
+    multiply_packed(inverse(row), rest, t_row);
+    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
+      subtract_transposed_product(A_.block(k), t_row, s + 3 * A_.column(k));
+    for (int k = 0; k < 3; ++k) t[3 * row + k] = t_row[k];
+  }
+  double product = 0;
+  for (int row = 0; row < A_.n_rows(); ++row) {
+    const double* p_row = p + 3 * row;
+    const double* t_row = t + 3 * row;
+    double rest[3];
+    multiply_packed(remainders_.data() + row * kPackedSize, t_row, rest);
+    for (int k = 0; k < 3; ++k) rest[k] += p_row[k];
+    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
+      subtract_product(A_.block(k), s + 3 * A_.column(k), rest);
+    double s_row[3];
+    multiply_packed(inverse(row), rest, s_row);
+    for (int k = 0; k < 3; ++k) {
+      s[3 * row + k] = s_row[k];
+      product += p_row[k] * (t_row[k] + s_row[k]);
+    }
+  }
+  return product;
+}
+
+}  // namespace pleat
