@@ -38,6 +38,7 @@ class BlockMatrix {
 
   int n_rows() const { return n_rows_; }  ///< in blocks
   const double* diagonal_block(int row) const { return values_.data() + row * kPackedSize; }
+  double* diagonal_block(int row) { return values_.data() + row * kPackedSize; }
   /// Index into the sparse matrix of the first entry of a row.
   int source(int row) const { return 3 * source_rows_[static_cast<std::size_t>(row)]; }
 
@@ -48,6 +49,7 @@ class BlockMatrix {
   const double* block(int block) const {
     return values_.data() + n_rows_ * kPackedSize + block * kBlockSize;
   }
+  double* block(int block) { return values_.data() + n_rows_ * kPackedSize + block * kBlockSize; }
 
  private:
   int n_rows_ = 0;

@@ -1,13 +1,20 @@
 #include "core/linalg/incomplete_factor.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "core/base/vec.h"
 
 namespace pleat {
 namespace {
 
-/// A pivot that keeps less of its block's trace has lost its digits, or nearly its definiteness.
-constexpr double kLeastPivot = 1e-3;
+/// A pivot that keeps less of its block's trace has lost its digits.
+constexpr double kLeastPivot = 1e-8;
+
+/// Share of the diagonal's trace from which on the positive part of a block counts: there bending
+/// stays below, and hanging vertices are above.
+constexpr double kLeastPositive = 0.01;
 
 /// y -= B x
 inline void subtract_product(const double* B, const double* x, double* y) {
@@ -21,6 +28,34 @@ inline void subtract_transposed_product(const double* B, const double* x, double
   y[0] -= B[0] * x[0] + B[3] * x[1] + B[6] * x[2];
   y[1] -= B[1] * x[0] + B[4] * x[1] + B[7] * x[2];
   y[2] -= B[2] * x[0] + B[5] * x[1] + B[8] * x[2];
+}
+
+/// Of a block's symmetric part, packed, if an eigenvalue is larger than `least`.
+bool has_positive_part(const double* B, double least, double* positive) {
+  const double half[3] = {(B[1] + B[3]) / 2, (B[2] + B[6]) / 2, (B[5] + B[7]) / 2};
+  // Sylvester: least - B is positive definite if its leading minors are positive.
+  const double a = least - B[0];
+  const double b = least - B[4];
+  const double c = least - B[8];
+  const double minor = a * b - half[0] * half[0];
+  const double determinant =
+      c * minor - a * half[2] * half[2] - b * half[1] * half[1] - 2 * half[0] * half[1] * half[2];
+  if (a > 0 && minor > 0 && determinant > 0) return false;
+  Mat3 symmetric;
+  symmetric << B[0], half[0], half[1], half[0], B[4], half[2], half[1], half[2], B[8];
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
+  symmetric = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+              eigen.eigenvectors().transpose();
+  for (int r = 0; r < 3; ++r)
+    for (int k = 0; k <= r; ++k) positive[r * (r + 1) / 2 + k] = symmetric(r, k);
+  return true;
+}
+
+/// B -= S for a packed symmetric S.
+void subtract_packed(const double* S, double* B) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      B[3 * r + c] -= r < c ? S[c * (c + 1) / 2 + r] : S[r * (r + 1) / 2 + c];
 }
 
 /// T -= B S B' for packed symmetric S and T.
@@ -68,20 +103,42 @@ bool invert_packed(const double* S, double* inverse) {
 
 }  // namespace
 
-void IncompleteFactor::analyze() {
+void IncompleteFactor::analyze(const SparseMatrix& lower) {
+  N_.analyze(lower);
   for (std::vector<double>* blocks : {&pivots_, &inverses_, &remainders_})
-    blocks->resize(static_cast<std::size_t>(A_.n_rows()) * kPackedSize);
+    blocks->resize(static_cast<std::size_t>(N_.n_rows()) * kPackedSize);
 }
 
-int IncompleteFactor::compute() {
-  for (int row = 0; row < A_.n_rows(); ++row) {
-    const double* D = A_.diagonal_block(row);
+void IncompleteFactor::lift_positive_parts() {
+  lifted_.clear();
+  Lifted part;
+  for (part.row = 0; part.row < N_.n_rows(); ++part.row) {
+    for (int k = N_.begin(part.row); k < N_.begin(part.row + 1); ++k) {
+      part.column = N_.column(k);
+      const double least = kLeastPositive * std::min(trace(N_.diagonal_block(part.row)),
+                                                     trace(N_.diagonal_block(part.column)));
+      if (has_positive_part(N_.block(k), least, part.positive.data())) {
+        subtract_packed(part.positive.data(), N_.block(k));
+        lifted_.push_back(part);
+      }
+    }
+  }
+  for (const Lifted& lifted : lifted_)
+    for (const int row : {lifted.row, lifted.column})
+      for (std::size_t i = 0; i < kPackedSize; ++i) N_.diagonal_block(row)[i] += lifted.positive[i];
+}
+
+int IncompleteFactor::compute(const SparseMatrix& lower) {
+  N_.set_values(lower);
+  lift_positive_parts();
+  for (int row = 0; row < N_.n_rows(); ++row) {
+    const double* D = N_.diagonal_block(row);
     double* P = pivots_.data() + row * kPackedSize;
     double* P_inverse = inverses_.data() + row * kPackedSize;
     if (!invert_packed(D, P_inverse)) return row;
     std::copy_n(D, kPackedSize, P);
-    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-      subtract_congruent(A_.block(k), inverse(A_.column(k)), P);
+    for (int k = N_.begin(row); k < N_.begin(row + 1); ++k)
+      subtract_congruent(N_.block(k), inverse(N_.column(k)), P);
     if (!(trace(P) > kLeastPivot * trace(D)) || !invert_packed(P, P_inverse)) {
       std::copy_n(D, kPackedSize, P);
       invert_packed(P, P_inverse);
@@ -91,9 +148,28 @@ int IncompleteFactor::compute() {
   return -1;
 }
 
+/// y -= E x
+void IncompleteFactor::subtract_lifted(const double* x, double* y) const {
+  for (const Lifted& lifted : lifted_) {
+    double stretch[3];
+    double force[3];
+    for (int k = 0; k < 3; ++k) stretch[k] = x[3 * lifted.row + k] - x[3 * lifted.column + k];
+    multiply_packed(lifted.positive.data(), stretch, force);
+    for (int k = 0; k < 3; ++k) {
+      y[3 * lifted.row + k] -= force[k];
+      y[3 * lifted.column + k] += force[k];
+    }
+  }
+}
+
+void IncompleteFactor::multiply(const double* x, double* y) const {
+  N_.multiply(x, y);
+  subtract_lifted(x, y);
+}
+
 double IncompleteFactor::multiply_pivots(const double* r, double* z) const {
   double product = 0;
-  for (int row = 0; row < A_.n_rows(); ++row) {
+  for (int row = 0; row < N_.n_rows(); ++row) {
     const double* r_row = r + 3 * row;
     double* z_row = z + 3 * row;
     multiply_packed(pivot(row), r_row, z_row);
@@ -103,47 +179,51 @@ double IncompleteFactor::multiply_pivots(const double* r, double* z) const {
 }
 
 void IncompleteFactor::solve_lower(const double* b, double* x) const {
-  for (int row = 0; row < A_.n_rows(); ++row) {
+  for (int row = 0; row < N_.n_rows(); ++row) {
     double rest[3] = {b[3 * row], b[3 * row + 1], b[3 * row + 2]};
-    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-      subtract_product(A_.block(k), x + 3 * A_.column(k), rest);
+    for (int k = N_.begin(row); k < N_.begin(row + 1); ++k)
+      subtract_product(N_.block(k), x + 3 * N_.column(k), rest);
     multiply_packed(inverse(row), rest, x + 3 * row);
   }
 }
 
 double IncompleteFactor::norm_of_lower_product(const double* r) const {
   double squared = 0;
-  for (int row = 0; row < A_.n_rows(); ++row) {
+  for (int row = 0; row < N_.n_rows(); ++row) {
     double negative[3];
     const double r_row[3] = {-r[3 * row], -r[3 * row + 1], -r[3 * row + 2]};
     multiply_packed(pivot(row), r_row, negative);
-    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-      subtract_product(A_.block(k), r + 3 * A_.column(k), negative);
+    for (int k = N_.begin(row); k < N_.begin(row + 1); ++k)
+      subtract_product(N_.block(k), r + 3 * N_.column(k), negative);
     squared += negative[0] * negative[0] + negative[1] * negative[1] + negative[2] * negative[2];
   }
   return std::sqrt(squared);
 }
 
-// s first gathers what later rows take from (P + L') t = p.
+// s first gathers what later rows take from (P + L') t = p, then is -E t until its row's turn.
 double IncompleteFactor::apply(const double* p, double* t, double* s) const {
-  for (int row = A_.n_rows() - 1; row >= 0; --row) {
+  for (int row = N_.n_rows() - 1; row >= 0; --row) {
     const double rest[3] = {p[3 * row] + s[3 * row], p[3 * row + 1] + s[3 * row + 1],
                             p[3 * row + 2] + s[3 * row + 2]};
     double t_row[3];
     multiply_packed(inverse(row), rest, t_row);
-    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-      subtract_transposed_product(A_.block(k), t_row, s + 3 * A_.column(k));
-    for (int k = 0; k < 3; ++k) t[3 * row + k] = t_row[k];
+    for (int k = N_.begin(row); k < N_.begin(row + 1); ++k)
+      subtract_transposed_product(N_.block(k), t_row, s + 3 * N_.column(k));
+    for (int k = 0; k < 3; ++k) {
+      t[3 * row + k] = t_row[k];
+      s[3 * row + k] = 0;
+    }
   }
+  subtract_lifted(t, s);
   double product = 0;
-  for (int row = 0; row < A_.n_rows(); ++row) {
+  for (int row = 0; row < N_.n_rows(); ++row) {
     const double* p_row = p + 3 * row;
     const double* t_row = t + 3 * row;
     double rest[3];
     multiply_packed(remainders_.data() + row * kPackedSize, t_row, rest);
-    for (int k = 0; k < 3; ++k) rest[k] += p_row[k];
-    for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-      subtract_product(A_.block(k), s + 3 * A_.column(k), rest);
+    for (int k = 0; k < 3; ++k) rest[k] += p_row[k] + s[3 * row + k];
+    for (int k = N_.begin(row); k < N_.begin(row + 1); ++k)
+      subtract_product(N_.block(k), s + 3 * N_.column(k), rest);
     double s_row[3];
     multiply_packed(inverse(row), rest, s_row);
     for (int k = 0; k < 3; ++k) {

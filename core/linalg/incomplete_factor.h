@@ -1,31 +1,41 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/linalg/block_matrix.h"
 
 namespace pleat {
 
-/// A symmetric positive definite A = L + D + L' seen through M = (P + L) P^-1 (P + L'), which has
-/// the same diagonal blocks: of P, P_i = D_i - sum_j L_ij P_j^-1 L_ij'. Of a tree, M is A.
+/// A symmetric positive definite A seen through an incomplete factor.
 ///
-/// The preconditioned matrix W = (P + L)^-1 A (P + L')^-1 takes no more work than A: with
-/// t = (P + L')^-1 p, W p = t + (P + L)^-1 (p + (D - 2 P) t). Vectors are in the order of the rows
-/// of A, three numbers each. Sources: Meijerink & van der Vorst, An iterative solution method for
-/// linear systems of which the coefficient matrix is a symmetric M-matrix, Mathematics of
-/// Computation 31, 1977; Eisenstat, Efficient implementation of a class of preconditioned conjugate
-/// gradient methods, SIAM J. Sci. Stat. Comput. 2, 1981.
+/// A = N - E, where N = L + D + L' has blocks below the diagonal without positive eigenvalues: a
+/// positive part B of the block of two vertices is moved to their diagonals, and E is the springs
+/// B between them. Parts below a hundredth of the diagonal's stay, as bending's do; vertices that
+/// hang leave larger ones between their parents.
+///
+/// M = (P + L) P^-1 (P + L') has N's diagonal blocks: P_i = D_i - sum_j L_ij P_j^-1 L_ij'. Of a
+/// tree, M is N. W = (P + L)^-1 A (P + L')^-1 takes no more work than A: with t = (P + L')^-1 p,
+/// W p = t + (P + L)^-1 (p + (D - 2 P) t - E t).
+///
+/// Vectors are in the order of the matrix's rows, three numbers each. Sources: Meijerink & van der
+/// Vorst, An iterative solution method for linear systems of which the coefficient matrix is a
+/// symmetric M-matrix, Mathematics of Computation 31, 1977; Eisenstat, Efficient implementation of
+/// a class of preconditioned conjugate gradient methods, SIAM J. Sci. Stat. Comput. 2, 1981.
 class IncompleteFactor {
  public:
-  /// A  outlives this.
-  explicit IncompleteFactor(const BlockMatrix& A) : A_(A) {}
+  /// Takes the pattern of a lower triangle.
+  void analyze(const SparseMatrix& lower);
 
-  /// For the present pattern of A.
-  void analyze();
+  /// Takes the values; the pattern is the one last analysed. Returns the first row whose diagonal
+  /// block is not positive definite, -1 if there is none. Where P_i is not, D_i takes its place.
+  int compute(const SparseMatrix& lower);
 
-  /// For the present values of A. Returns the first row whose diagonal block is not positive
-  /// definite, -1 if there is none. Where P_i is not, D_i takes its place.
-  int compute();
+  /// Order and size.
+  const BlockMatrix& rows() const { return N_; }
+
+  /// y = A x. x and y do not overlap.
+  void multiply(const double* x, double* y) const;
 
   /// z = P r. Returns r'z.
   double multiply_pivots(const double* r, double* z) const;
@@ -41,10 +51,18 @@ class IncompleteFactor {
   double apply(const double* p, double* t, double* s) const;
 
  private:
+  struct Lifted {
+    int row, column;
+    std::array<double, kPackedSize> positive;
+  };
+
+  void lift_positive_parts();
+  void subtract_lifted(const double* x, double* y) const;
   const double* pivot(int row) const { return pivots_.data() + row * kPackedSize; }
   const double* inverse(int row) const { return inverses_.data() + row * kPackedSize; }
 
-  const BlockMatrix& A_;
+  BlockMatrix N_;
+  std::vector<Lifted> lifted_;      // E
   std::vector<double> pivots_;      // P
   std::vector<double> inverses_;    // of P
   std::vector<double> remainders_;  // D - 2 P

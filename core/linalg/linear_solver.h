@@ -12,8 +12,8 @@ namespace pleat {
 ///
 /// Call `analyze` once per sparsity pattern, `factorize` once per set of values, `solve` as often
 /// as wanted. None of the three allocates in our code when called again with the same pattern and
-/// number of columns. Throws ContractError when the calls come in another order or sizes disagree;
-/// numeric trouble is reported.
+/// number of columns, but for a list of cg that may grow with the values. Throws ContractError when
+/// the calls come in another order or sizes disagree; numeric trouble is reported.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
