@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mesh/smooth_surface.h"
+
 namespace pleat {
 namespace {
 
@@ -23,6 +25,7 @@ RestCloth rest_mesh(const MeshCloth& base, int level) {
   RestCloth cloth;
   std::vector<std::array<VertexId, 2>> middles;
   cloth.mesh = subdivided(base.mesh, level, &middles);
+  cloth.start = cloth.mesh.rest_positions;
   const int n = base.mesh.n_vertices();
   for (const VertexGroup& group : base.groups) cloth.groups.push_back(refined(group, n, middles));
   if (base.texture_coordinates.cols() == 0) return cloth;
@@ -94,6 +97,7 @@ RestCloth rest_cloth(const Scene& scene, int level) {
   const auto& particles = std::get<InlineCloth>(scene.cloth);
   RestCloth cloth;
   cloth.mesh = {particles.positions, particles.triangles, {}};
+  cloth.start = particles.positions;
   return cloth;
 }
 
@@ -101,9 +105,12 @@ RestCloth rest_cloth(const Scene& scene, QuadMesh quads) {
   RestCloth cloth;
   cloth.mesh = quads.triangle_mesh();
   cloth.rest_coordinates = quads.rest_coordinates();
-  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
+  cloth.start = cloth.mesh.rest_positions;
+  if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth)) {
+    cloth.start = on_smooth_surface(*base_quads(scene), quads);
     for (const VertexGroup& group : garment->garment.groups)
       cloth.groups.push_back(refined(group, quads));
+  }
   cloth.quads = std::move(quads);
   return cloth;
 }

@@ -13,6 +13,7 @@ struct RestCloth {
   TriangleMesh mesh;                 ///< of any cloth; of particles without warp directions
   std::vector<VertexGroup> groups;   ///< of a mesh or garment
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: of a mesh, texture coordinates
+  Positions start;                   ///< where it begins [m]: at rest, a garment as it is round
 };
 
 /// The unrefined quads of a sheet or garment; none of other cloth.

@@ -19,7 +19,7 @@ Motion following(const std::shared_ptr<const MovingBody>& body, Bone bone) {
 /// parents.
 std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const ClothModel& model,
                             const std::shared_ptr<const MovingBody>& body) {
-  const Positions& positions = cloth.mesh.rest_positions;
+  const Positions& positions = cloth.start;
   std::vector<Pin> pins;
   std::vector<bool> taken(static_cast<std::size_t>(positions.cols()), false);
   for (const PinRule& rule : scene.pins) {
@@ -99,7 +99,7 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
 }  // namespace
 
 State scene_state(const Scene& scene, const RestCloth& cloth) {
-  const Positions& positions = cloth.mesh.rest_positions;
+  const Positions& positions = cloth.start;
   if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
     return {positions, particles->velocities};
   return {positions, scene.initial_velocity.replicate(1, positions.cols())};
