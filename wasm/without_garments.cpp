@@ -2,6 +2,7 @@
 // before the core's libraries, it keeps those out of what a visitor fetches. A scene that asks for
 // one is refused, so that nothing else here is ever reached.
 #include "core/base/check.h"
+#include "core/mesh/smooth_surface.h"
 #include "core/scene/figure_section.h"
 #include "core/scene/garment_section.h"
 #include "core/scene/plan_file.h"
@@ -30,6 +31,8 @@ RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource&, cons
 }
 Json json_plan(const RefinementPlan&) { unreachable(); }
 QuadMesh planned_mesh(const QuadMesh&, const RefinementPlan&) { unreachable(); }
+
+Positions on_smooth_surface(const QuadMesh&, const QuadMesh&) { unreachable(); }
 
 std::vector<BodyPart> mannequin(BodyBuild) { unreachable(); }
 std::vector<BodyPart> below_waist(std::vector<BodyPart>) { unreachable(); }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/linalg/cuthill_mckee.h"
+#include "core/linalg/king_ordering.h"
 
 namespace pleat {
 namespace {
@@ -46,7 +46,7 @@ void BlockMatrix::analyze(const SparseMatrix& lower) {
   PLEAT_CHECK(lower.rows() % 3 == 0, "the size of the matrix must be a multiple of 3");
   n_rows_ = static_cast<int>(lower.rows() / 3);
   const std::vector<std::vector<int>> neighbours = block_neighbours(lower);
-  source_rows_ = reverse_cuthill_mckee(neighbours);
+  source_rows_ = reverse_king_ordering(neighbours);
   std::vector<int> row_of(source_rows_.size());
   for (int row = 0; row < n_rows_; ++row)
     row_of[static_cast<std::size_t>(source_rows_[static_cast<std::size_t>(row)])] = row;

@@ -19,7 +19,7 @@ inline void multiply_packed(const double* S, const double* x, double* y) {
 }
 
 /// Symmetric matrix in 3 x 3 blocks, those below the diagonal held once, row by row. Its rows have
-/// an order of their own, in which neighbours are near each other (reverse Cuthill-McKee).
+/// an order of their own, in which neighbours are near each other (reverse King order).
 class BlockMatrix {
  public:
   /// Takes the pattern of the lower triangle; its size is a multiple of 3. Entries that are missing

@@ -1,10 +1,9 @@
 #include "core/linalg/incomplete_factor.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/vec.h"
+#include "core/linalg/positive_part.h"
 
 namespace pleat {
 namespace {
@@ -41,13 +40,7 @@ bool has_positive_part(const double* B, double least, double* positive) {
   const double determinant =
       c * minor - a * half[2] * half[2] - b * half[1] * half[1] - 2 * half[0] * half[1] * half[2];
   if (a > 0 && minor > 0 && determinant > 0) return false;
-  Mat3 symmetric;
-  symmetric << B[0], half[0], half[1], half[0], B[4], half[2], half[1], half[2], B[8];
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
-  symmetric = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-              eigen.eigenvectors().transpose();
-  for (int r = 0; r < 3; ++r)
-    for (int k = 0; k <= r; ++k) positive[r * (r + 1) / 2 + k] = symmetric(r, k);
+  positive_part(B, positive);
   return true;
 }
 
