@@ -90,6 +90,7 @@ void BlockMatrix::analyze(const SparseMatrix& lower) {
 }
 
 void BlockMatrix::set_values(const SparseMatrix& lower) {
+  std::fill(values_.begin(), values_.end(), 0.0);  // blocks may have been changed in place
   const double* source = lower.valuePtr();
   for (std::size_t k = 0; k < destinations_.size(); ++k)
     values_[static_cast<std::size_t>(destinations_[k])] = source[k];

@@ -111,16 +111,14 @@ class ConjugateGradient final : public LinearSolver {
     };
 
     start();
-    if (residual_ > b_norm) {
+    if (!(residual_ <= b_norm)) {
       std::fill(x_.begin(), x_.end(), 0.0);
       start();
     }
     double start_residual = residual_;
     while (!(residual_ <= goal)) {
-      if (iterations == options_.max_iterations) {
-        residual_ = factor_.norm_of_lower_product(r_.data());
+      if (iterations == options_.max_iterations)
         return report(SolveStatus::not_converged, "the iteration cap was reached");
-      }
       turn();
       const double curvature = factor_.apply(p_.data(), t_.data(), s_.data());
       if (!std::isfinite(curvature))
@@ -135,7 +133,8 @@ class ConjugateGradient final : public LinearSolver {
       // |(P + L) r| takes half a product: it is looked at now and then, and when |r|, in the metric
       // of P, has fallen as far as it has to by the ratio that both had last.
       residual_ = ratio_ * std::sqrt(r_z_);
-      if (residual_ > goal && iterations % kLookEvery != 0) continue;
+      const bool is_last = iterations == options_.max_iterations;
+      if (residual_ > goal && iterations % kLookEvery != 0 && !is_last) continue;
       residual_ = factor_.norm_of_lower_product(r_.data());
       ratio_ = residual_ / std::sqrt(r_z_);
       if (residual_ > goal || options_.tolerance >= kTrustedTolerance) continue;
@@ -160,7 +159,7 @@ class ConjugateGradient final : public LinearSolver {
   std::vector<double> s_;  // W p - t
   double residual_ = 0;    // |b - A x|, as far as it is known
   double r_z_ = 0;         // r'z
-  double ratio_ = 0;       // of the residual to the root of r'z
+  double ratio_ = 0;       // of the residual to the root of r'z, when both were last known
   double beta_ = 0;
 };
 

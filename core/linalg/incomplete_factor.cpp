@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "core/linalg/positive_part.h"
 
 namespace pleat {
 namespace {
 
-/// A pivot that keeps less of its block's trace has lost its digits.
+/// A pivot that keeps less of its block's trace has lost its digits in all directions.
 constexpr double kLeastPivot = 1e-8;
 
-/// Share of the diagonal's trace from which on the positive part of a block counts: there bending
-/// stays below, and hanging vertices are above.
+/// Share of the diagonal's trace from which on the positive part of a block counts: smaller ones,
+/// as bending's are, cost few pivots.
 constexpr double kLeastPositive = 0.01;
 
 /// y -= B x
@@ -29,8 +30,8 @@ inline void subtract_transposed_product(const double* B, const double* x, double
   y[2] -= B[2] * x[0] + B[5] * x[1] + B[8] * x[2];
 }
 
-/// Of a block's symmetric part, packed, if an eigenvalue is larger than `least`.
-bool has_positive_part(const double* B, double least, double* positive) {
+/// True when an eigenvalue of a block's symmetric part is `least` or more.
+bool reaches(const double* B, double least) {
   const double half[3] = {(B[1] + B[3]) / 2, (B[2] + B[6]) / 2, (B[5] + B[7]) / 2};
   // Sylvester: least - B is positive definite if its leading minors are positive.
   const double a = least - B[0];
@@ -39,9 +40,7 @@ bool has_positive_part(const double* B, double least, double* positive) {
   const double minor = a * b - half[0] * half[0];
   const double determinant =
       c * minor - a * half[2] * half[2] - b * half[1] * half[1] - 2 * half[0] * half[1] * half[2];
-  if (a > 0 && minor > 0 && determinant > 0) return false;
-  positive_part(B, positive);
-  return true;
+  return !(a > 0 && minor > 0 && determinant > 0);
 }
 
 /// B -= S for a packed symmetric S.
@@ -110,10 +109,10 @@ void IncompleteFactor::lift_positive_parts() {
       part.column = N_.column(k);
       const double least = kLeastPositive * std::min(trace(N_.diagonal_block(part.row)),
                                                      trace(N_.diagonal_block(part.column)));
-      if (has_positive_part(N_.block(k), least, part.positive.data())) {
-        subtract_packed(part.positive.data(), N_.block(k));
-        lifted_.push_back(part);
-      }
+      if (!reaches(N_.block(k), least)) continue;
+      part.positive = positive_part(N_.block(k));
+      subtract_packed(part.positive.data(), N_.block(k));
+      lifted_.push_back(part);
     }
   }
   for (const Lifted& lifted : lifted_)
@@ -123,12 +122,13 @@ void IncompleteFactor::lift_positive_parts() {
 
 int IncompleteFactor::compute(const SparseMatrix& lower) {
   N_.set_values(lower);
+  for (int row = 0; row < N_.n_rows(); ++row)
+    if (!invert_packed(N_.diagonal_block(row), inverses_.data() + row * kPackedSize)) return row;
   lift_positive_parts();
   for (int row = 0; row < N_.n_rows(); ++row) {
     const double* D = N_.diagonal_block(row);
     double* P = pivots_.data() + row * kPackedSize;
     double* P_inverse = inverses_.data() + row * kPackedSize;
-    if (!invert_packed(D, P_inverse)) return row;
     std::copy_n(D, kPackedSize, P);
     for (int k = N_.begin(row); k < N_.begin(row + 1); ++k)
       subtract_congruent(N_.block(k), inverse(N_.column(k)), P);

@@ -9,14 +9,14 @@ namespace pleat {
 
 /// A symmetric positive definite A seen through an incomplete factor.
 ///
-/// A = N - E, where N = L + D + L' has blocks below the diagonal without positive eigenvalues: a
-/// positive part B of the block of two vertices is moved to their diagonals, and E is the springs
-/// B between them. Parts below a hundredth of the diagonal's stay, as bending's do; vertices that
-/// hang leave larger ones between their parents.
+/// A = N - E, where of the blocks below the diagonal of N = L + D + L' no symmetric part has an
+/// eigenvalue above a hundredth of the smaller of both vertices' diagonal traces: larger positive
+/// parts are moved to these diagonals, and E is the springs that they are. Vertices that hang leave
+/// such between their parents.
 ///
 /// M = (P + L) P^-1 (P + L') has N's diagonal blocks: P_i = D_i - sum_j L_ij P_j^-1 L_ij'. Of a
-/// tree, M is N. W = (P + L)^-1 A (P + L')^-1 takes no more work than A: with t = (P + L')^-1 p,
-/// W p = t + (P + L)^-1 (p + (D - 2 P) t - E t).
+/// tree, in this order, M is N. W = (P + L)^-1 A (P + L')^-1 takes no more work than A: with t = (P
+/// + L')^-1 p, W p = t + (P + L)^-1 (p + (D - 2 P) t - E t).
 ///
 /// Vectors are in the order of the matrix's rows, three numbers each. Sources: Meijerink & van der
 /// Vorst, An iterative solution method for linear systems of which the coefficient matrix is a

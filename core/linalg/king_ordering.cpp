@@ -1,6 +1,8 @@
 #include "core/linalg/king_ordering.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace pleat {
 namespace {
@@ -13,12 +15,12 @@ class KingOrdering {
       n_unreached_.push_back(static_cast<int>(nodes.size()));
   }
 
-  std::vector<int> order() {
+  std::vector<int> order() && {
     const int n = static_cast<int>(neighbours_.size());
     for (int node = 0; node < n; ++node)
       if (reached_[place(node)] != kTaken) take_component(last_from(last_from(node)));
     std::reverse(order_.begin(), order_.end());
-    return order_;
+    return std::move(order_);
   }
 
  private:

@@ -6,13 +6,12 @@
 
 namespace pleat {
 
-void positive_part(const double* block, double* positive) {
+std::array<double, kPackedSize> positive_part(const double* block) {
   const Eigen::Map<const Mat3> B(block);  // transposed, which is as good
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen((B + B.transpose()) / 2);
   const Mat3 part = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
                     eigen.eigenvectors().transpose();
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c <= r; ++c) *positive++ = part(r, c);
+  return {part(0, 0), part(1, 0), part(1, 1), part(2, 0), part(2, 1), part(2, 2)};
 }
 
 }  // namespace pleat

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+
+#include "core/linalg/block_matrix.h"
+
 namespace pleat {
 
-/// Of a 3 x 3 block's symmetric part: without its negative eigenvalues.
-/// block     row by row
-/// positive  packed, as in block_matrix.h
-void positive_part(const double* block, double* positive);
+/// Of a 3 x 3 block's symmetric part: without its negative eigenvalues, packed.
+/// block  row by row
+std::array<double, kPackedSize> positive_part(const double* block);
 
 }  // namespace pleat

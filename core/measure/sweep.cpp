@@ -94,7 +94,7 @@ double substep_cost(const MethodOptions& method) {
     case StepperKind::newton:
       return 400;  // some three rounds of ten solves with a kept factor
     case StepperKind::implicit_euler:
-      if (method.solver == SolverKind::cg) return 80;  // some ten products with a 3x3-block matrix
+      if (method.solver == SolverKind::cg) return 80;  // some ten steps with a 3x3-block matrix
       return 300;                                      // a factorisation
     case StepperKind::projective:
       return 10 * method.iterations;  // a kept factor's two triangular solves a round

@@ -6,17 +6,25 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/check.h"
 #include "core/mesh/mesh_lines.h"
 
 namespace pleat {
 namespace {
 
+/// Lines that turn by more than 60 degrees end there, as between a garment's legs.
+constexpr double kLeastCosine = 0.5;
+
 /// From which vertex a line comes to an edge, by the edge's ends in order.
 using LinesBefore = std::map<std::pair<int, int>, VertexId>;
 
 LinesBefore lines_before(const QuadMesh& base) {
+  const Positions& x = base.rest_positions();
   LinesBefore before;
   for (const LineChord& chord : line_chords(base, thread_edges(base))) {
+    const Vec3 back = x.col(chord.middle) - x.col(chord.before);
+    const Vec3 ahead = x.col(chord.after) - x.col(chord.middle);
+    if (back.dot(ahead) < kLeastCosine * back.norm() * ahead.norm()) continue;
     before[{chord.middle.value, chord.after.value}] = chord.before;
     before[{chord.middle.value, chord.before.value}] = chord.after;
   }
@@ -43,7 +51,7 @@ class SmoothSurface {
  private:
   Vec3 position(VertexId vertex) const { return base_.rest_positions().col(vertex); }
 
-  /// Times the edge's length; none where a line begins with the edge.
+  /// As long as the edge; none where a line begins with the edge.
   std::optional<Vec3> tangent(VertexId a, VertexId b) const {
     const auto found = before_.find({a.value, b.value});
     if (found == before_.end()) return std::nullopt;
@@ -51,7 +59,8 @@ class SmoothSurface {
     const Vec3 ahead = position(b) - position(a);
     const double l = back.norm();
     const double m = ahead.norm();
-    return (m * m * back + l * l * ahead) / (l * (l + m));
+    // The circle through three points has the tangent back / l^2 + ahead / m^2 in the middle one.
+    return m * (m * m * back + l * l * ahead).normalized();
   }
 
   Vec3 on_edge(VertexId a, VertexId b, double s) const {
@@ -74,8 +83,11 @@ using CornerPlaces = std::array<Eigen::Vector2d, 4>;
 
 void place_corners(const QuadMesh& mesh, const QuadFace& face, const CornerPlaces& places,
                    const SmoothSurface& surface, const QuadFace& root, Positions& positions) {
-  for (std::size_t k = 0; k < 4; ++k) positions.col(face.corners[k]) = surface.at(root, places[k]);
-  if (face.active()) return;
+  if (face.active()) {
+    for (std::size_t k = 0; k < 4; ++k)
+      positions.col(face.corners[k]) = surface.at(root, places[k]);
+    return;
+  }
   for (std::size_t k = 0; k < 4; ++k) {
     CornerPlaces child;
     for (std::size_t j = 0; j < 4; ++j) child[j] = (places[k] + places[j]) / 2;
@@ -86,6 +98,9 @@ void place_corners(const QuadMesh& mesh, const QuadFace& face, const CornerPlace
 }  // namespace
 
 Positions on_smooth_surface(const QuadMesh& base, const QuadMesh& refined) {
+  PLEAT_CHECK(static_cast<int>(base.faces().size()) == refined.n_base_faces() &&
+                  base.n_vertices() <= refined.n_vertices(),
+              "a mesh refines its own base");
   const SmoothSurface surface(base);
   Positions positions = refined.rest_positions();
   const CornerPlaces square = {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(1, 1),

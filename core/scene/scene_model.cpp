@@ -69,12 +69,12 @@ double longest_edge(const Positions& positions, const std::array<VertexId, 4>& c
 
 /// Of the largest face around each vertex [m]: of a garment half of the longest edge of quads,
 /// whose threads run along limbs and around them; of other cloth a triangle's circumradius. A
-/// hanging vertex is held off by its parents alone, in the middle of an edge twice as long, which
-/// may be stretched.
+/// hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
+/// which may be stretched.
 Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
   const Positions& positions = cloth.mesh.rest_positions;
   Eigen::VectorXd radii = Eigen::VectorXd::Zero(positions.cols());
-  constexpr double kStretched = 1.1;  // beyond the largest of a walk at double speed
+  constexpr double kStretched = 1.1;  // stretched more, its middle may be inside of a solid
   const auto add_face = [&](const auto& corners, double radius) {
     const bool has_hanging =
         std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return model.hangs(v); });

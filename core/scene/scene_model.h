@@ -13,7 +13,8 @@ namespace pleat {
 /// Throws InputError for a fabric whose shear the cells cannot carry.
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth);
 
-/// The state at time 0: the rest shape with the initial velocity, or as the inline particles say.
+/// The state at time 0: where the cloth starts, with the initial velocity, or as the inline
+/// particles say.
 State scene_state(const Scene& scene, const RestCloth& cloth);
 
 /// What scene_model built, and what it left out because the scene does not ask for it.

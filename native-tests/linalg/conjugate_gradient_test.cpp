@@ -42,6 +42,23 @@ TEST_CASE("linalg: cg reports its cap and the residual it stopped at", "[linalg]
   CHECK(residual > 1e-9);
 }
 
+TEST_CASE("linalg: cg may meet its tolerance with its last iteration", "[linalg]") {
+  const SparseMatrix lower = grid_system(9, 4);
+  Random random(3);
+  const MatrixXd rhs = random_columns(lower.rows(), 1, random);
+  const auto solve = [&](int max_iterations) {
+    const auto solver = make_conjugate_gradient({1e-3, max_iterations});
+    solver->analyze(lower);
+    REQUIRE(solver->factorize(lower).ok());
+    MatrixXd x = MatrixXd::Zero(lower.rows(), 1);
+    return solver->solve(rhs, x);
+  };
+  const int enough = solve(1000).iterations;
+  REQUIRE(enough > 1);
+  CHECK(solve(enough).ok());
+  CHECK(solve(1).status == SolveStatus::not_converged);
+}
+
 TEST_CASE("linalg: cg keeps its promise about the residual", "[linalg]") {
   const double tolerance = GENERATE(1e-1, 1e-3, 1e-6, 1e-10, 1e-13);
   CAPTURE(tolerance);

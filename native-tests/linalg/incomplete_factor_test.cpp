@@ -135,4 +135,32 @@ TEST_CASE("linalg: a pivot that is lost is the diagonal's block again", "[linalg
   check_against_definition(f);
 }
 
+TEST_CASE("linalg: an incomplete factor of new values knows nothing of the old ones", "[linalg]") {
+  MatrixXd A = 3 * MatrixXd::Identity(6, 6);
+  A(0, 4) = A(4, 0) = A(1, 3) = A(3, 1) = 1;  // blocks with holes in the pattern
+  IncompleteFactor factor;
+  factor.analyze(lower_of(A));
+  Random random(2);
+  const VectorXd x = random_columns(6, 1, random);
+  for (int time = 0; time < 3; ++time) {
+    REQUIRE(factor.compute(lower_of(A)) == -1);
+    VectorXd ordered(6);
+    VectorXd image(6);
+    VectorXd found(6);
+    factor.rows().gather(x.data(), ordered.data());
+    factor.multiply(ordered.data(), image.data());
+    factor.rows().scatter(image.data(), found.data());
+    CHECK(relative_error(found, A * x) < 1e-14);
+  }
+}
+
+TEST_CASE("linalg: what is lifted hides no diagonal block that is not definite", "[linalg]") {
+  MatrixXd A = MatrixXd::Identity(6, 6);
+  A(0, 0) = -0.5;
+  A(3, 0) = A(0, 3) = 1;
+  IncompleteFactor factor;
+  factor.analyze(lower_of(A));
+  CHECK(factor.compute(lower_of(A)) >= 0);
+}
+
 }  // namespace pleat

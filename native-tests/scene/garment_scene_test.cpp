@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/mesh/mesh_lines.h"
 #include "core/scene/plan_file.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulation.h"
@@ -64,6 +66,20 @@ TEST_CASE("garment scene: the waist follows the pelvis and all else is free", "[
     CHECK((simulation.state().positions.col(pin.vertex) - pelvis * begin).norm() < 1e-6);
   }
   CHECK(simulation.model().contact->colliders().size() == 9);  // hips, and four to a leg
+}
+
+TEST_CASE("garment scene: threads are hardly stretched where a garment begins", "[scene]") {
+  const std::string garment = GENERATE(from_range(std::begin(kGarments), std::end(kGarments)));
+  const int level = GENERATE(0, 1, 2);
+  const RestCloth cloth = rest_cloth(garment_scene(garment + "_walk"), level);
+  const ThreadEdges threads = thread_edges(*cloth.quads);
+  double largest = 0;
+  for (const ThreadEdge& edge : threads.edges) {
+    const double length = (cloth.start.col(edge.to) - cloth.start.col(edge.from)).norm();
+    largest = std::max(largest, std::abs(length / edge.length - 1));
+  }
+  CAPTURE(garment, level);
+  CHECK(largest < (garment == "skirt" ? 0.0025 : 0.07));
 }
 
 TEST_CASE("garment scene: a planned mesh keeps the mass and pins no hanging vertex", "[scene]") {
