@@ -139,7 +139,7 @@ export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitR
 
 /** Below the button that plans anew: what it does, or why it does nothing now. */
 export function anewSentence(state: RefinementState): string {
-  if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: a minute or more.';
+  if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: half a minute or so.';
   if (isExample(state)) return 'The plan is made of this motion already.';
   return 'For a motion that does not fit, once the light says so.';
 }
