@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "core/base/check.h"
-#include "core/scene/json_text.h"
-#include "core/scene/nearest_word.h"
+#include "core/files/json_text.h"
+#include "core/files/nearest_word.h"
 
 namespace pleat {
 namespace {

@@ -8,12 +8,12 @@
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
-#include "core/measure/chain_reference.h"
-#include "core/measure/closed_form_reference.h"
-#include "core/measure/core_version.h"
-#include "core/measure/platform.h"
-#include "core/measure/sampled_run.h"
+#include "core/base/core_version.h"
+#include "core/reference/chain_reference.h"
+#include "core/reference/closed_form_reference.h"
+#include "core/run/sampled_run.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {

@@ -3,11 +3,11 @@
 #include "cli/commands.h"
 #include "cli/deform_input.h"
 #include "cli/scene_input.h"
-#include "core/measure/core_version.h"
-#include "core/measure/deform_cost.h"
-#include "core/measure/platform.h"
-#include "core/measure/surface_distance.h"
-#include "core/scene/json_text.h"
+#include "core/base/core_version.h"
+#include "core/error/surface_distance.h"
+#include "core/files/json_text.h"
+#include "core/sweep/deform_cost.h"
+#include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {

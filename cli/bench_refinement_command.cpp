@@ -4,12 +4,12 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
-#include "core/measure/core_version.h"
-#include "core/measure/plan_maker.h"
-#include "core/measure/platform.h"
-#include "core/measure/side_by_side.h"
+#include "core/base/core_version.h"
+#include "core/error/side_by_side.h"
+#include "core/files/plan_file.h"
+#include "core/run/plan_maker.h"
 #include "core/scene/method_section.h"
-#include "core/scene/plan_file.h"
+#include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {

@@ -5,9 +5,9 @@
 #include "cli/commands.h"
 #include "cli/deform_input.h"
 #include "cli/scene_input.h"
+#include "core/base/core_version.h"
 #include "core/deform/deform_solver.h"
-#include "core/measure/core_version.h"
-#include "core/scene/obj_file.h"
+#include "core/files/obj_file.h"
 
 namespace pleat {
 namespace {

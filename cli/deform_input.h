@@ -6,8 +6,8 @@
 
 #include "cli/arguments.h"
 #include "core/base/check.h"
+#include "core/files/json_text.h"
 #include "core/scene/deform_scene.h"
-#include "core/scene/json_text.h"
 
 namespace pleat {
 

@@ -5,8 +5,8 @@
 
 #include "cli/commands.h"
 #include "core/base/check.h"
-#include "core/measure/core_version.h"
-#include "core/scene/json_text.h"
+#include "core/base/core_version.h"
+#include "core/files/json_text.h"
 
 namespace pleat {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "core/scene/json_text.h"
+#include "core/files/json_text.h"
 
 namespace pleat {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/measure/stage_timer.h"
-#include "core/scene/simulation.h"
+#include "core/run/simulation.h"
+#include "core/run/stage_timer.h"
 
 namespace pleat {
 

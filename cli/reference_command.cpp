@@ -6,8 +6,8 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
-#include "core/measure/sweep_reference.h"
 #include "core/scene/scene_file.h"
+#include "core/sweep/sweep_reference.h"
 
 namespace pleat {
 namespace {

@@ -1,6 +1,6 @@
 #include "cli/reference_folder.h"
 
-#include "core/scene/whole_file.h"
+#include "core/files/whole_file.h"
 
 namespace pleat {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/measure/reference.h"
+#include "core/reference/reference.h"
 
 namespace pleat {
 

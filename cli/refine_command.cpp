@@ -7,8 +7,8 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
-#include "core/measure/plan_maker.h"
-#include "core/scene/plan_file.h"
+#include "core/files/plan_file.h"
+#include "core/run/plan_maker.h"
 
 namespace pleat {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/files/json_reader.h"
 #include "core/scene/cloth_section.h"
-#include "core/scene/json_reader.h"
 
 namespace pleat {
 namespace {

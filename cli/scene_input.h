@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "core/files/whole_file.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_override.h"
-#include "core/scene/whole_file.h"
 
 namespace pleat {
 

@@ -11,8 +11,8 @@
 #include "cli/sweep_folder.h"
 #include "cli/sweep_input.h"
 #include "core/base/check.h"
-#include "core/measure/core_version.h"
-#include "core/measure/sweep.h"
+#include "core/base/core_version.h"
+#include "core/sweep/sweep.h"
 
 namespace pleat {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <set>
 
-#include "core/measure/front_figure.h"
-#include "core/scene/json_text.h"
-#include "core/scene/whole_file.h"
+#include "core/files/json_text.h"
+#include "core/files/whole_file.h"
+#include "core/sweep/front_figure.h"
 
 namespace pleat {
 namespace {

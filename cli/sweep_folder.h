@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/measure/sweep.h"
+#include "core/sweep/sweep.h"
 
 namespace pleat {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/scene_input.h"
-#include "core/measure/sweep_plan.h"
+#include "core/sweep/sweep_plan.h"
 
 namespace pleat {
 

@@ -10,7 +10,7 @@ endforeach()
 string(SHA256 version "${hashes}")
 string(SUBSTRING ${version} 0 16 version)
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[
-#include "core/measure/core_version.h"
+#include "core/base/core_version.h"
 
 namespace pleat {
 

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/measure/error_norms.h"
-#include "core/measure/reference_track.h"
-#include "core/measure/stage_timer.h"
-#include "core/scene/obj_file.h"
+#include "core/files/obj_file.h"
+#include "core/model/stretch.h"
+#include "core/reference/reference_track.h"
+#include "core/run/simulation.h"
+#include "core/run/stage_timer.h"
 #include "core/scene/scene_file.h"
-#include "core/scene/simulation.h"
 #include "wasm/envelope.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/files/plan_file.h"
 #include "core/refinement/fit_monitor.h"
-#include "core/scene/plan_file.h"
 #include "core/scene/rest_cloth.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"

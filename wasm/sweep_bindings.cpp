@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/measure/core_version.h"
-#include "core/measure/sweep.h"
+#include "core/base/core_version.h"
 #include "core/scene/scene_file.h"
+#include "core/sweep/sweep.h"
 #include "wasm/envelope.h"
 
 namespace {

@@ -2,10 +2,10 @@
 // before the core's libraries, it keeps those out of what a visitor fetches. A scene that asks for
 // one is refused, so that nothing else here is ever reached.
 #include "core/base/check.h"
+#include "core/files/plan_file.h"
 #include "core/mesh/smooth_surface.h"
 #include "core/scene/figure_section.h"
 #include "core/scene/garment_section.h"
-#include "core/scene/plan_file.h"
 #include "core/scene/plan_section.h"
 
 namespace pleat {

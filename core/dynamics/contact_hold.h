@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/contact/contact_stage.h"
-#include "core/dynamics/state.h"
-#include "core/dynamics/system_matrix.h"
+#include "core/model/state.h"
+#include "core/model/system_matrix.h"
 
 namespace pleat {
 

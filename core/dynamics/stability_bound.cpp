@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/base/check.h"
-#include "core/dynamics/hanging_vertices.h"
 #include "core/fabric/taut_springs.h"
+#include "core/model/hanging_vertices.h"
 
 namespace pleat {
 namespace {

@@ -3,14 +3,14 @@
 #include <cstdio>
 
 #include "core/base/check.h"
-#include "core/dynamics/elasticity.h"
-#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/stepper_explicit.h"
 #include "core/dynamics/stepper_implicit.h"
 #include "core/dynamics/stepper_newton.h"
 #include "core/dynamics/stepper_projective.h"
 #include "core/dynamics/stepper_rk4.h"
-#include "core/dynamics/stepper_xpbd.h"
+#include "core/dynamics/xpbd/stepper_xpbd.h"
+#include "core/model/elasticity.h"
+#include "core/model/hanging_vertices.h"
 
 namespace pleat {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/base/stage_observer.h"
-#include "core/dynamics/cloth_model.h"
-#include "core/dynamics/state.h"
 #include "core/linalg/linear_solver.h"
+#include "core/model/cloth_model.h"
+#include "core/model/state.h"
 
 namespace pleat {
 

@@ -1,8 +1,8 @@
 #include "core/dynamics/stepper_explicit.h"
 
-#include "core/dynamics/elasticity.h"
-#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/stability_bound.h"
+#include "core/model/elasticity.h"
+#include "core/model/hanging_vertices.h"
 
 namespace pleat {
 

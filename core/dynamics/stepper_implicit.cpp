@@ -1,7 +1,7 @@
 #include "core/dynamics/stepper_implicit.h"
 
 #include "core/base/check.h"
-#include "core/dynamics/elasticity.h"
+#include "core/model/elasticity.h"
 
 namespace pleat {
 namespace {

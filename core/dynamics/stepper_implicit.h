@@ -2,7 +2,7 @@
 
 #include "core/dynamics/contact_hold.h"
 #include "core/dynamics/stepper.h"
-#include "core/dynamics/system_matrix.h"
+#include "core/model/system_matrix.h"
 
 namespace pleat {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/random.h"
-#include "core/dynamics/hanging_vertices.h"
+#include "core/model/hanging_vertices.h"
 
 namespace pleat {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/dynamics/stepper.h"
-#include "core/dynamics/system_matrix.h"
+#include "core/model/system_matrix.h"
 
 namespace pleat {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/dynamics/elasticity.h"
-#include "core/dynamics/hanging_vertices.h"
+#include "core/model/elasticity.h"
+#include "core/model/hanging_vertices.h"
 
 namespace pleat {
 namespace {

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/base/ids.h"
 #include "core/base/vec.h"
 
 namespace pleat {
+
+/// More vertices or particles are refused: their matrices would not fit into a browser's memory.
+constexpr std::int64_t kMaxVertices = 1000000;
 
 using Triangle = std::array<VertexId, 3>;
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/figure/moving_body.h"
-#include "core/scene/json_reader.h"
+#include "core/files/json_reader.h"
 
 namespace pleat {
 

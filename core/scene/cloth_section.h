@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/scene/file_source.h"
-#include "core/scene/json_reader.h"
+#include "core/files/file_source.h"
+#include "core/files/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {

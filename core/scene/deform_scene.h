@@ -7,10 +7,10 @@
 
 #include "core/deform/deform_energy.h"
 #include "core/deform/measure_fit.h"
+#include "core/files/fabric_file.h"
+#include "core/files/file_source.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/mesh/vertex_group.h"
-#include "core/scene/fabric_file.h"
-#include "core/scene/file_source.h"
 
 namespace pleat {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/scene/fabric_file.h"
-#include "core/scene/json_reader.h"
+#include "core/files/fabric_file.h"
+#include "core/files/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {

@@ -1,6 +1,6 @@
 #include "core/scene/figure_section.h"
 
-#include "core/scene/motion_file.h"
+#include "core/files/motion_file.h"
 
 namespace pleat {
 namespace {

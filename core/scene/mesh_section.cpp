@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/files/obj_file.h"
 #include "core/mesh/mesh_fault.h"
-#include "core/scene/obj_file.h"
 #include "core/scene/vertex_arrays.h"
 
 namespace pleat {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "core/scene/file_source.h"
-#include "core/scene/json_reader.h"
+#include "core/files/file_source.h"
+#include "core/files/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {

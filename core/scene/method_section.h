@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/json_reader.h"
+#include "core/files/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {

@@ -1,7 +1,7 @@
 #include "core/scene/plan_section.h"
 
 #include "core/base/check.h"
-#include "core/scene/plan_file.h"
+#include "core/files/plan_file.h"
 #include "core/scene/rest_cloth.h"
 
 namespace pleat {

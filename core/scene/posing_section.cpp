@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "core/files/motion_file.h"
 #include "core/scene/bone_word.h"
-#include "core/scene/motion_file.h"
 
 namespace pleat {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/figure/moving_body.h"
-#include "core/scene/file_source.h"
-#include "core/scene/json_reader.h"
+#include "core/files/file_source.h"
+#include "core/files/json_reader.h"
 
 namespace pleat {
 

@@ -6,20 +6,18 @@
 #include <variant>
 #include <vector>
 
-#include "core/dynamics/cloth_model.h"
 #include "core/dynamics/stepper.h"
 #include "core/fabric/fabric.h"
 #include "core/figure/garment_patterns.h"
 #include "core/figure/mannequin.h"
+#include "core/files/frame_format.h"
 #include "core/mesh/quad_mesh.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/mesh/vertex_group.h"
+#include "core/model/cloth_model.h"
 #include "core/refinement/refinement_plan.h"
 
 namespace pleat {
-
-/// More vertices or particles are refused: their matrices would not fit into a browser's memory.
-constexpr std::int64_t kMaxVertices = 1000000;
 
 /// Particles and springs written out in the scene: textbook systems (pendulum, chain) are scenes
 /// too.
@@ -108,8 +106,6 @@ struct ModelOptions {
   double torsion = 1;       ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
   double stiffness_exponent = 0;  ///< springs of faces of level l are 2^(this l) times as stiff
 };
-
-enum class FrameFormat { none, obj, ply, binary };
 
 struct RecordOptions {
   double every = 1.0 / 60;  ///< [s], positive, rounded to whole steps

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/fabric_file.h"
-#include "core/scene/file_source.h"
+#include "core/files/fabric_file.h"
+#include "core/files/file_source.h"
 #include "core/scene/scene.h"
 
 namespace pleat {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "core/scene/json_text.h"
+#include "core/files/json_text.h"
 
 namespace pleat {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/ids.h"
-#include "core/scene/json_reader.h"
+#include "core/files/json_reader.h"
 
 namespace pleat {
 

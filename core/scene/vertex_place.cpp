@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "core/base/check.h"
-#include "core/scene/nearest_word.h"
+#include "core/files/nearest_word.h"
 #include "core/scene/vertex_arrays.h"
 
 namespace pleat {

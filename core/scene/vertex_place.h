@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "core/files/json_reader.h"
 #include "core/mesh/vertex_group.h"
-#include "core/scene/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/measure/bench_row.h"
-#include "core/measure/reference.h"
-#include "core/scene/frame_file.h"
-#include "core/scene/json_text.h"
-#include "core/scene/matrix_file.h"
+#include "core/files/frame_file.h"
+#include "core/files/json_text.h"
+#include "core/files/matrix_file.h"
+#include "core/reference/reference.h"
+#include "core/sweep/bench_row.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/pleat_command.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/json_text.h"
-#include "core/scene/obj_file.h"
+#include "core/files/json_text.h"
+#include "core/files/obj_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/pleat_command.h"
 

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/dynamics/carry_over.h"
-#include "core/dynamics/hanging_vertices.h"
 #include "core/dynamics/stability_bound.h"
 #include "core/dynamics/stepper.h"
-#include "core/dynamics/system_matrix.h"
-#include "core/measure/energy_ledger.h"
+#include "core/model/energy_ledger.h"
+#include "core/model/hanging_vertices.h"
+#include "core/model/system_matrix.h"
+#include "core/run/carry_over.h"
 #include "native-tests/support/allocation_count.h"
 #include "native-tests/support/finite_difference.h"
 #include "native-tests/support/graded_sheets.h"

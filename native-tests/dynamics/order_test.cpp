@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/dynamics/elasticity.h"
 #include "core/dynamics/stepper.h"
+#include "core/model/elasticity.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

@@ -7,7 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stability_bound.h"
-#include "core/dynamics/system_matrix.h"
+#include "core/model/system_matrix.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/dynamics/elasticity.h"
+#include "core/model/elasticity.h"
 #include "native-tests/support/analytic.h"
 #include "native-tests/support/models.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/dynamics/system_matrix.h"
+#include "core/model/system_matrix.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

@@ -3,9 +3,9 @@
 #include <set>
 
 #include "core/base/random.h"
-#include "core/dynamics/elasticity.h"
 #include "core/fabric/spring_lattice.h"
 #include "core/mesh/mesh_lines.h"
+#include "core/model/elasticity.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/dynamics/elasticity.h"
+#include "core/model/elasticity.h"
 #include "native-tests/support/finite_difference.h"
 #include "native-tests/support/models.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/dynamics/elasticity.h"
-#include "core/dynamics/system_matrix.h"
+#include "core/model/elasticity.h"
+#include "core/model/system_matrix.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

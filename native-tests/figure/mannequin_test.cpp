@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/figure/body_section.h"
-#include "core/scene/motion_file.h"
+#include "core/files/motion_file.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {

@@ -8,7 +8,7 @@
 
 #include "core/base/check.h"
 #include "core/base/motion.h"
-#include "core/scene/motion_file.h"
+#include "core/files/motion_file.h"
 #include "native-tests/support/analytic.h"
 #include "native-tests/support/assets.h"
 

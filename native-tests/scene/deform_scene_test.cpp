@@ -9,7 +9,7 @@
 #include "core/deform/deform_solver.h"
 #include "core/deform/fabric_weights.h"
 #include "core/figure/moving_body.h"
-#include "core/scene/motion_file.h"
+#include "core/files/motion_file.h"
 #include "core/scene/vertex_place.h"
 #include "native-tests/support/assets.h"
 

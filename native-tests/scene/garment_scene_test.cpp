@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/files/plan_file.h"
 #include "core/mesh/mesh_lines.h"
-#include "core/scene/plan_file.h"
+#include "core/run/simulation.h"
 #include "core/scene/scene_file.h"
-#include "core/scene/simulation.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/graded_sheets.h"
 

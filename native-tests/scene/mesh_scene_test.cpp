@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/files/frame_file.h"
+#include "core/files/obj_file.h"
+#include "core/run/simulation.h"
 #include "core/scene/cloth_section.h"
-#include "core/scene/frame_file.h"
-#include "core/scene/obj_file.h"
 #include "core/scene/scene_file.h"
-#include "core/scene/simulation.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/motion_file.h"
+#include "core/files/motion_file.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {

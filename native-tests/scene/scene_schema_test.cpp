@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/files/plan_file.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/plan_file.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "core/scene/obj_file.h"
+#include "core/files/obj_file.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/scene/fabric_file.h"
+#include "core/files/fabric_file.h"
 
 namespace pleat {
 

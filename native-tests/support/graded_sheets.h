@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/dynamics/cloth_model.h"
+#include "core/model/cloth_model.h"
 #include "core/refinement/refinement_plan.h"
 #include "native-tests/support/meshes.h"
 

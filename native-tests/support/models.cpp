@@ -1,7 +1,7 @@
 #include "native-tests/support/models.h"
 
 #include "core/fabric/taut_springs.h"
-#include "core/scene/elastic_model.h"
+#include "core/run/elastic_model.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/cloth_model.h"
-#include "core/dynamics/state.h"
 #include "core/dynamics/stepper.h"
 #include "core/linalg/sparse.h"
+#include "core/model/cloth_model.h"
+#include "core/model/state.h"
 #include "core/scene/scene.h"
 #include "native-tests/support/meshes.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/dynamics/cloth_model.h"
-#include "core/dynamics/state.h"
+#include "core/model/cloth_model.h"
+#include "core/model/state.h"
 
 namespace pleat {
 

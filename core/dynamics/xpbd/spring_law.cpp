@@ -1,0 +1,37 @@
+#include "core/dynamics/xpbd/spring_law.h"
+
+#include <algorithm>
+
+namespace pleat {
+
+std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
+  std::vector<int> active;
+  for (std::size_t s = 0; s < model.springs.size(); ++s) {
+    const Spring& spring = model.springs[s];
+    if (spring.stiffness > 0 || (law != SpringLaw::rigid && spring.damping > 0))
+      active.push_back(static_cast<int>(s));
+  }
+  return active;
+}
+
+void SpringBlock::set_lane(std::size_t lane, const Spring& spring, SpringLaw law, double h,
+                           double mean_mass) {
+  const double length = spring.rest_length;
+  if (law == SpringLaw::rigid) {
+    rest[lane] = std::max(static_cast<float>(length * length), kTinySquare);
+    denominator_share[lane] = kRigidCompliance;
+    return;
+  }
+  // k/2 (l - L)^2 + c/(2h) (l - l_begin)^2 is one spring of stiffness k + c/h about a length
+  // between L and l_begin.
+  const double damper = law == SpringLaw::elastic ? 0 : spring.damping / h;  // [N/m]
+  const double stiffness = spring.stiffness + damper;
+  rest[lane] = static_cast<float>(length);
+  compliance[lane] = static_cast<float>(mean_mass / (stiffness * h * h));
+  denominator_share[lane] = compliance[lane] + kRigidCompliance;
+  damper_share[lane] = static_cast<float>(damper / stiffness);
+  if (law == SpringLaw::damped_isotropic && damper > 0)
+    across_compliance[lane] = static_cast<float>(mean_mass / (damper * h * h));
+}
+
+}  // namespace pleat

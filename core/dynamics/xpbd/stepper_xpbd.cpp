@@ -1,0 +1,229 @@
+#include "core/dynamics/xpbd/stepper_xpbd.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/xpbd/simd4.h"
+#include "core/model/hanging_vertices.h"
+
+namespace pleat {
+namespace {
+
+/// Arrays begin an odd number of cache lines apart: at a multiple of 4096 bytes a load would wait
+/// for stores to the other arrays.
+std::size_t pitch_for(int n_slots) {
+  constexpr std::size_t kFloatsPerLine = 16;
+  const std::size_t lines =
+      (static_cast<std::size_t>(n_slots) + kFloatsPerLine - 1) / kFloatsPerLine;
+  return (lines | 1) * kFloatsPerLine;
+}
+
+SpringLaw spring_law(const ClothModel& model, const MethodOptions& options) {
+  if (options.constraints == Constraints::rigid) return SpringLaw::rigid;
+  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
+                                  [](const Spring& spring) { return spring.damping > 0; });
+  if (!damped) return SpringLaw::elastic;
+  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
+                                                                : SpringLaw::damped;
+}
+
+double step_of(const MethodOptions& options) { return options.step / options.substeps; }
+
+}  // namespace
+
+StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
+    : Stepper(model, options, options.substeps, ContactMemory::none),
+      layout_(lane_layout(model)),
+      springs_(model, layout_, spring_law(model, options), step_of(options)),
+      bends_(model, layout_, step_of(options)),
+      hanging_(model, layout_, spring_law(model, options), step_of(options)),
+      mean_mass_(model.masses.mean()),
+      pitch_(pitch_for(layout_.n_slots)),
+      data_(pitch_ * kArrays, 0.0f) {
+  const double h = step_of(options);
+  for (int k = 0; k < 3; ++k)
+    fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
+  if (model.air) forces_.resize(3, model.n_vertices());
+  refresh();
+}
+
+void StepperXpbd::refresh() {
+  float* const inverse_masses = array(inverse_mass);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    inverse_masses[slot_of(VertexId(i))] =
+        model_.hangs(VertexId(i)) ? 0 : static_cast<float>(mean_mass_ / model_.masses[i]);
+  for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
+  pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
+  refresh_rest_lengths();
+}
+
+void StepperXpbd::refresh_rest_lengths() {
+  springs_.refresh_rest_lengths(model_);
+  hanging_.refresh_rest_lengths(model_);
+}
+
+LaneView StepperXpbd::view() {
+  return {{array(move), array(move + 1), array(move + 2)},
+          {array(begin), array(begin + 1), array(begin + 2)},
+          array(inverse_mass)};
+}
+
+int StepperXpbd::slot_of(VertexId vertex) const {
+  return layout_.places[static_cast<std::size_t>(vertex)].slot;
+}
+
+Vec3 StepperXpbd::position_of(int slot) {
+  Vec3 position = origin_;
+  for (int k = 0; k < 3; ++k)
+    position[k] += static_cast<double>(array(begin + k)[slot]) + array(move + k)[slot];
+  return position;
+}
+
+Vec3 StepperXpbd::velocity_of(int slot, double h) {
+  Vec3 velocity;
+  for (int k = 0; k < 3; ++k)
+    velocity[k] = (static_cast<double>(array(move + k)[slot]) - array(rounded_off + k)[slot]) / h;
+  return velocity;
+}
+
+void StepperXpbd::set_motion(int slot, const Vec3& position, const Vec3& velocity, double h) {
+  for (int k = 0; k < 3; ++k) {
+    const double local = position[k] - origin_[k];
+    const auto rounded = static_cast<float>(local);
+    const auto rest = static_cast<float>(local - rounded);
+    array(begin + k)[slot] = rounded;
+    array(move + k)[slot] = rest;
+    array(rounded_off + k)[slot] = static_cast<float>(rest - h * velocity[k]);
+  }
+}
+
+void StepperXpbd::load(const State& state) {
+  const StageScope scope(observer_, Stage::convert);
+  const double h = step_of(options());
+  origin_ = 0.5 * (state.positions.rowwise().minCoeff() + state.positions.rowwise().maxCoeff());
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    set_motion(slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
+  substeps_left_ = substeps();
+}
+
+// begin' = begin + move is rounded; begin' - begin is not, for the two are near each other. So
+// rounded_off' is exactly what the rounding took away, and goes into the next move.
+void StepperXpbd::predict() {
+  const float* const inverse_masses = array(inverse_mass);
+  for (int k = 0; k < 3; ++k) {
+    float* const begins = array(begin + k);
+    float* const moves = array(move + k);
+    float* const rests = array(rounded_off + k);
+    const Float4 fall = Float4::all(fall_[static_cast<std::size_t>(k)]);
+    for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
+      const Float4 from = Float4::load(begins + slot);
+      const Float4 moved = Float4::load(moves + slot);
+      const Float4 goes_on = moved - Float4::load(rests + slot) +
+                             where_positive(Float4::load(inverse_masses + slot), fall);
+      const Float4 to = from + moved;
+      const Float4 rest = moved - (to - from);
+      to.store(begins + slot);
+      rest.store(rests + slot);
+      (rest + goes_on).store(moves + slot);
+    }
+  }
+}
+
+void StepperXpbd::place_pins(double time_end, double h) {
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    const Pin& pin = model_.pins[p];
+    const Vec3 place = pin.position(time_end);
+    const int slot = slot_of(pin.vertex);
+    for (int k = 0; k < 3; ++k)
+      array(move + k)[slot] = static_cast<float>(place[k] - origin_[k] - array(begin + k)[slot]);
+    if (substeps_left_ == 1)
+      pin_velocities_.col(static_cast<Eigen::Index>(p)) = (place - pin.position(time_end - h)) / h;
+  }
+}
+
+void StepperXpbd::add_air_drag(State& state, double h) {
+  const StageScope scope(observer_, Stage::forces);
+  copy_to(state, h);
+  forces_.setZero();
+  model_.air->add_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
+                         forces_);
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    if (model_.hangs(VertexId(i))) continue;
+    const int slot = slot_of(VertexId(i));
+    for (int k = 0; k < 3; ++k)
+      array(rounded_off + k)[slot] -= static_cast<float>(h * h / model_.masses[i] * forces_(k, i));
+  }
+}
+
+void StepperXpbd::correct_for_contact(State& state, double h) {
+  const StageScope scope(observer_, Stage::contact);
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    Vec3 position = position_of(slot);
+    Vec3 velocity = velocity_of(slot, h);
+    if (array(inverse_mass)[slot] > 0 &&
+        model_.contact->resolve(VertexId(i), state.positions.col(i), position, velocity))
+      set_motion(slot, position, velocity, h);
+    state.positions.col(i) = position;
+  }
+}
+
+void StepperXpbd::copy_to(State& state, double h) {
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    state.positions.col(i) = position_of(slot);
+    state.velocities.col(i) = velocity_of(slot, h);
+  }
+  place_between_parents(model_.hanging, state);
+}
+
+void StepperXpbd::sweep() {
+  const LaneView v = view();
+  bends_.first_sweep(v);
+  springs_.first_sweep(v);
+  hanging_.first_sweep(v);
+  for (int sweep = 1; sweep < options().iterations; ++sweep) {
+    bends_.next_sweep(v);
+    springs_.next_sweep(v);
+    hanging_.next_sweep(v);
+  }
+}
+
+SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
+  if (model_.air) add_air_drag(state, h);
+  {
+    const StageScope scope(observer_, Stage::solve);
+    predict();
+    place_pins(time_end, h);
+    const LaneView v = view();
+    const bool is_last = substeps_left_ == 1;
+    if (is_last)
+      residual_begin_ = std::sqrt(springs_.squared_residual_before_sweeps(v) +
+                                  bends_.squared_residual_before_sweeps(v) +
+                                  hanging_.squared_residual_before_sweeps(v));
+    sweep();
+    if (is_last)
+      residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
+                                hanging_.squared_residual(v));
+  }
+  if (model_.contact) correct_for_contact(state, h);
+  --substeps_left_;
+  time_end_ = time_end;
+  SolveReport report;
+  report.iterations = options().iterations;
+  return report;
+}
+
+void StepperXpbd::store(State& state, SolveReport& report) {
+  const StageScope scope(observer_, Stage::convert);
+  copy_to(state, step_of(options()));
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    state.positions.col(model_.pins[p].vertex.value) = model_.pins[p].position(time_end_);
+    state.velocities.col(model_.pins[p].vertex.value) =
+        pin_velocities_.col(static_cast<Eigen::Index>(p));
+  }
+  place_between_parents(model_.hanging, state);
+  report.relative_residual = residual_begin_ > 0 ? residual_end_ / residual_begin_ : 0;
+}
+
+}  // namespace pleat

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "core/dynamics/stepper.h"
+#include "core/dynamics/xpbd/bend_program.h"
+#include "core/dynamics/xpbd/hanging_program.h"
+#include "core/dynamics/xpbd/spring_program.h"
+
+namespace pleat {
+
+/// Small steps of extended position-based dynamics: per substep the vertices move freely, then each
+/// constraint in turn is projected, and what the projections moved changes the velocities. Inside,
+/// single precision about a local origin, four constraints at a time; positions carry what single
+/// precision rounds off, and velocities are summed from corrections, so that slow motion is not
+/// lost and gravity is not rounded however small the substep. Hanging vertices have no motion of
+/// their own: what pulls at one moves its parents.
+///
+/// Source: Macklin et al., Small steps in physics simulation, SCA 2019; docs/methods/xpbd.md.
+class StepperXpbd final : public Stepper {
+ public:
+  StepperXpbd(ClothModel& model, const MethodOptions& options);
+
+  void refresh() override;
+  void refresh_rest_lengths() override;
+
+ protected:
+  void load(const State& state) override;
+  SolveReport substep(State& state, double time_end, double h) override;
+  void store(State& state, SolveReport& report) override;
+
+ private:
+  /// What the arrays hold per slot, each as one array after the other.
+  ///
+  /// A vertex is at begin + move. Single precision rounds a begin; what it rounds off is
+  /// `rounded_off` and is contained in the move, so that move - rounded_off is the velocity times
+  /// h.
+  enum Array { begin, move = 3, rounded_off = 6, inverse_mass = 9, kArrays };
+
+  float* array(int which) { return data_.data() + static_cast<std::size_t>(which) * pitch_; }
+  LaneView view();
+  int slot_of(VertexId vertex) const;
+  void copy_to(State& state, double h);
+  Vec3 position_of(int slot);
+  Vec3 velocity_of(int slot, double h);
+  void set_motion(int slot, const Vec3& position, const Vec3& velocity, double h);
+  /// Makes the end of a substep the begin of the next, which goes on at the same velocity, and
+  /// lets gravity act.
+  void predict();
+  void place_pins(double time_end, double h);
+  void sweep();
+  void add_air_drag(State& state, double h);
+  void correct_for_contact(State& state, double h);
+
+  LaneLayout layout_;
+  SpringProgram springs_;
+  BendProgram bends_;
+  HangingProgram hanging_;
+  double mean_mass_;             // [kg]
+  std::size_t pitch_;            // floats from one array to the next
+  std::vector<float> data_;      // see Array
+  Vec3 origin_{0, 0, 0};         // of the positions [m]
+  std::array<float, 3> fall_{};  // gravity h^2 [m]
+  int substeps_left_ = 0;
+  double residual_begin_ = 0, residual_end_ = 0;  // of the last substep [m]
+  Positions pin_velocities_;                      // one column per pin [m/s]
+  double time_end_ = 0;                           // of the last substep [s]
+  Positions forces_;                              // of the air [N]
+};
+
+}  // namespace pleat

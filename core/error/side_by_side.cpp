@@ -1,0 +1,232 @@
+#include "core/error/side_by_side.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/refinement/mesh_match.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a frame
+
+bool is_whole(double ratio) { return std::abs(ratio - std::round(ratio)) < kRounding * ratio; }
+
+int steps_of_frame(const Scene& scene, double frame_time) {
+  const double ratio = frame_time / scene.method.step;
+  if (ratio < 0.5 || !is_whole(ratio))
+    throw InputError("/method/step_s", "expected a whole part of a frame of " +
+                                           std::to_string(frame_time) + " s, got " +
+                                           std::to_string(scene.method.step));
+  return static_cast<int>(std::lround(ratio));
+}
+
+/// A simulation or an adaptive run, for those who only watch it.
+class Cloth {
+ public:
+  explicit Cloth(const Contestant& contestant) {
+    if (contestant.adaptive)
+      adaptive_ = std::make_unique<AdaptiveRun>(contestant.scene, *contestant.adaptive);
+    else
+      fixed_ = std::make_unique<Simulation>(contestant.scene);
+  }
+
+  bool is_adaptive() const { return adaptive_ != nullptr; }
+  void adapt() { adaptive_->adapt(); }
+  SolveReport step() { return adaptive_ ? adaptive_->step() : fixed_->step(); }
+  const QuadMesh* mesh() const { return adaptive_ ? &adaptive_->mesh() : fixed_->mesh(); }
+  const State& state() const { return adaptive_ ? adaptive_->state() : fixed_->state(); }
+  const ClothModel& model() const { return adaptive_ ? adaptive_->model() : fixed_->model(); }
+  double time() const { return adaptive_ ? adaptive_->time() : fixed_->time(); }
+  const std::vector<GaugeEdge>& gauge() const {
+    return adaptive_ ? adaptive_->gauge() : fixed_->gauge();
+  }
+  void observe(StageObserver* observer) {
+    adaptive_ ? adaptive_->observe(observer) : fixed_->observe(observer);
+  }
+
+ private:
+  std::unique_ptr<Simulation> fixed_;
+  std::unique_ptr<AdaptiveRun> adaptive_;
+};
+
+Positions unpinned_columns(const ClothModel& model, const Positions& columns) {
+  std::vector<bool> is_pinned(static_cast<std::size_t>(columns.cols()), false);
+  for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
+  Positions rest(3, columns.cols() - static_cast<Eigen::Index>(model.pins.size()));
+  Eigen::Index next = 0;
+  for (Eigen::Index v = 0; v < columns.cols(); ++v)
+    if (!is_pinned[static_cast<std::size_t>(v)]) rest.col(next++) = columns.col(v);
+  return rest;
+}
+
+/// RunComparison::errors of one time after another, averaged.
+RunErrors mean_errors(const RunComparison& comparison, std::span<const Sample> run,
+                      std::span<const Sample> reference) {
+  RunErrors mean{0, 0, 0, 0, 0};
+  const auto n = static_cast<double>(run.size());
+  for (std::size_t s = 0; s < run.size(); ++s) {
+    const RunErrors now = comparison.errors(run.subspan(s, 1), reference.subspan(s, 1));
+    mean.position += now.position / n;
+    mean.surface_rms += now.surface_rms / n;
+    mean.surface_95 += now.surface_95 / n;
+    mean.bend_distribution += now.bend_distribution / n;
+    mean.bend_regions += now.bend_regions / n;
+  }
+  return mean;
+}
+
+}  // namespace
+
+int FrameOptions::n_frames() const { return static_cast<int>(std::lround(duration / frame_time)); }
+
+void FrameOptions::validate() const {
+  if (!(frame_time > 0) || !(duration >= 2 * frame_time) || !is_whole(duration / frame_time))
+    throw InputError("duration", "expected a whole number of frames, at least two, of " +
+                                     std::to_string(frame_time) + " s, got " +
+                                     std::to_string(duration) + " s");
+  if (!(begin >= 0) || !(begin <= duration - 2 * frame_time))
+    throw InputError(
+        "begin of what is measured",
+        "expected a time from 0 to two frames before the end, got " + std::to_string(begin) + " s");
+  if (error_every < 1)
+    throw InputError("frames between errors",
+                     "expected a number of at least 1, got " + std::to_string(error_every));
+}
+
+void Insides::add(const Penetration& frame) {
+  n_frames += frame.n_inside > 0 ? 1 : 0;
+  most = std::max(most, frame.n_inside);
+  deepest = std::max(deepest, frame.depth);
+}
+
+struct SideBySide::Run {
+  Run(const Contestant& contestant, const FrameOptions& options)
+      : entry(contestant),
+        cloth(contestant),
+        n_steps(steps_of_frame(contestant.scene, options.frame_time)) {
+    cloth.observe(&timer);
+    const std::optional<RefinementPlan>& plan = contestant.scene.plan;
+    if (!contestant.adaptive && plan && !plan->curvature_limits.empty()) {
+      monitor.emplace(*cloth.mesh(), *plan);
+      result.fit.emplace();
+    }
+  }
+
+  void go(bool is_timed);
+  void look(bool is_compared, bool is_monitored, const QuadMesh* reference_mesh);
+  void keep_sample(const QuadMesh* reference_mesh);
+  ContestantResult summary() const;
+
+  Contestant entry;
+  Cloth cloth;
+  int n_steps;  // of a frame
+  StageTimer timer;
+  std::optional<FitMonitor> monitor;
+  std::vector<Sample> samples;
+  double n_vertices_sum = 0;  // over frames
+  ContestantResult result;
+};
+
+void SideBySide::Run::go(bool is_timed) {
+  if (!is_timed) timer.clear();
+  const Stopwatch watch;
+  if (cloth.is_adaptive()) {
+    cloth.adapt();
+    if (is_timed) result.refinement_ms.push_back(1e3 * watch.elapsed());
+  }
+  for (int step = 0; step < n_steps && !result.report.ends_run(); ++step) {
+    SolveReport report = cloth.step();
+    result.report.iterations += report.iterations;
+    result.report.relative_residual =
+        std::max(result.report.relative_residual, report.relative_residual);
+    if (report.ok()) continue;
+    result.report.status = report.status;
+    result.report.message = std::move(report.message);
+  }
+  if (is_timed) result.frame_ms.push_back(1e3 * watch.elapsed());
+}
+
+void SideBySide::Run::keep_sample(const QuadMesh* reference_mesh) {
+  const Positions& own = cloth.state().positions;
+  Sample sample{cloth.time(), own, stretch(cloth.gauge(), own)};
+  if (cloth.is_adaptive()) sample.positions = on_finer_mesh(own, *cloth.mesh(), *reference_mesh);
+  samples.push_back(std::move(sample));
+}
+
+void SideBySide::Run::look(bool is_compared, bool is_monitored, const QuadMesh* reference_mesh) {
+  const State& state = cloth.state();
+  ++result.n_frames;
+  n_vertices_sum += cloth.model().n_vertices();
+  result.largest_stretch =
+      std::max(result.largest_stretch, stretch(cloth.gauge(), state.positions).largest);
+  if (const auto& contact = cloth.model().contact) {
+    result.all_inside.add(contact->penetration(state.positions, cloth.time()));
+    const Positions unpinned = unpinned_columns(cloth.model(), state.positions);
+    result.unpinned_inside.add(contact->penetration(unpinned, cloth.time()));
+  }
+  if (monitor && is_monitored) {
+    result.fit->last = monitor->look(state.positions);
+    result.fit->outside += result.fit->last.share;
+  }
+  if (is_compared) keep_sample(reference_mesh);
+}
+
+ContestantResult SideBySide::Run::summary() const {
+  ContestantResult all = result;
+  const auto n_timed = static_cast<double>(std::max<std::size_t>(1, all.frame_ms.size()));
+  for (int s = 0; s < kStageCount; ++s)
+    all.parts_ms[static_cast<std::size_t>(s)] = 1e3 * timer.total(static_cast<Stage>(s)) / n_timed;
+  for (const Sample& sample : samples)
+    all.rms_stretch += sample.stretch.rms / static_cast<double>(samples.size());
+  if (all.fit && all.fit->last.n_frames > 0) all.fit->outside /= all.fit->last.n_frames;
+  all.n_vertices = static_cast<int>(std::lround(n_vertices_sum / std::max(1, all.n_frames)));
+  return all;
+}
+
+SideBySide::SideBySide(const std::vector<Contestant>& contestants, const FrameOptions& options)
+    : options_(options) {
+  PLEAT_CHECK(!contestants.empty(), "runs side by side are at least one");
+  options_.validate();
+  for (const Contestant& contestant : contestants)
+    runs_.push_back(std::make_unique<Run>(contestant, options_));
+  for (const auto& run : runs_)
+    if (run->cloth.mesh() == nullptr)
+      throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
+}
+
+SideBySide::~SideBySide() = default;
+
+void SideBySide::advance() {
+  if (done()) return;
+  ++frame_;
+  const double time = frame_ * options_.frame_time;
+  const double rounding = kRounding * options_.frame_time;
+  const bool is_timed = time > options_.begin + rounding;
+  const int n_left = options_.n_frames() - frame_;
+  const bool is_compared = is_timed && n_left % options_.error_every == 0;
+  for (const auto& run : runs_) {
+    if (run->result.report.ends_run()) continue;
+    run->go(is_timed);
+    if (run->result.report.ends_run()) continue;
+    run->look(is_compared, time > options_.settled + rounding, runs_.front()->cloth.mesh());
+  }
+}
+
+std::vector<ContestantResult> SideBySide::results() const {
+  PLEAT_CHECK(done(), "results are of whole runs");
+  const Run& reference = *runs_.front();
+  std::vector<ContestantResult> results;
+  for (const auto& run : runs_) {
+    results.push_back(run->summary());
+    if (run->samples.size() != reference.samples.size() || run->samples.empty()) continue;
+    const Scene& scene = run->cloth.is_adaptive() ? reference.entry.scene : run->entry.scene;
+    const RunComparison comparison(scene, reference.entry.scene);
+    results.back().errors = mean_errors(comparison, run->samples, reference.samples);
+    results.back().bend_over_time = comparison.bend_over_time(run->samples, reference.samples);
+  }
+  return results;
+}
+
+}  // namespace pleat

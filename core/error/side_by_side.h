@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error/run_comparison.h"
+#include "core/refinement/fit_monitor.h"
+#include "core/run/adaptive_run.h"
+
+namespace pleat {
+
+/// One of several runs of a cloth.
+struct Contestant {
+  Scene scene;
+  std::optional<DynamicOptions> adaptive;  ///< its mesh follows its shape, frame by frame
+};
+
+struct FrameOptions {
+  double frame_time = 1.0 / 30;  ///< [s], a whole number of every scene's steps
+  double duration = 10;          ///< [s]
+  double begin = 5;              ///< of what is timed and compared [s]
+  double settled = 2;            ///< when the monitors begin to look [s]
+  int error_every = 5;           ///< frames from one that is compared to the next
+
+  int n_frames() const;
+  /// Throws InputError naming the value that is out of range or no whole number of frames.
+  void validate() const;
+};
+
+/// How a run on a plan's mesh fitted the plan's examples.
+struct FitSummary {
+  double outside = 0;  ///< mean share of the faces that bend beyond their pattern's limit
+  FitReport last;
+};
+
+/// Vertices inside of solids, over frames.
+struct Insides {
+  int n_frames = 0;    ///< with any
+  int most = 0;        ///< in one frame
+  double deepest = 0;  ///< [m]
+
+  void add(const Penetration& frame);
+};
+
+/// What a run showed; times are of frames from FrameOptions::begin on.
+struct ContestantResult {
+  int n_vertices = 0;  ///< of an adaptive mesh the mean over all frames
+  SolveReport report;  ///< ok, or what ended the run; residual the largest, iterations the sum
+  int n_frames = 0;    ///< whole ones
+  std::vector<double> frame_ms;                 ///< by the clock, refinement included
+  std::array<double, kStageCount> parts_ms{};   ///< of a frame, mean
+  std::vector<double> refinement_ms;            ///< of each frame; empty unless adaptive
+  RunErrors errors;                             ///< against the first contestant, means over times
+  double bend_over_time = RunErrors::kUnknown;  ///< see RunComparison [1/m]
+  double rms_stretch = 0;                       ///< mean over the frames that are compared
+  double largest_stretch = 0;                   ///< of all frames
+  Insides all_inside;                           ///< of all frames
+  Insides unpinned_inside;                      ///< of the vertices that no pin takes along
+  std::optional<FitSummary> fit;                ///< on a mesh of a plan with limits
+};
+
+/// Runs that take turns frame by frame, so that a change of the machine's speed meets all alike.
+/// The first one is what the errors of all are measured against. Looking is outside the clock.
+class SideBySide {
+ public:
+  /// contestants  at least one, of one garment or sheet; an adaptive one's base is the first one's
+  ///              and its levels are not finer
+  /// Throws InputError when a scene's method cannot run on it or its step does not divide a frame.
+  SideBySide(const std::vector<Contestant>& contestants, const FrameOptions& options);
+  ~SideBySide();
+
+  /// One frame of every run that has not ended.
+  void advance();
+  bool done() const { return frame_ == options_.n_frames(); }
+  double progress() const { return static_cast<double>(frame_) / options_.n_frames(); }
+
+  /// Once done. Errors are NaN for runs that ended early and where the first one did.
+  std::vector<ContestantResult> results() const;
+
+ private:
+  struct Run;
+
+  FrameOptions options_;
+  std::vector<std::unique_ptr<Run>> runs_;
+  int frame_ = 0;
+};
+
+}  // namespace pleat

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/vec.h"
+#include "core/files/json_text.h"
+
+namespace pleat {
+
+/// No quantity of a scene is larger in SI units; squares and products of two stay finite.
+constexpr double kLargestNumber = 1e12;
+
+/// Which numbers a key takes.
+struct NumberRange {
+  enum class Ends { included, low_excluded, excluded };
+  double low = -kLargestNumber;
+  double high = kLargestNumber;
+  Ends ends = Ends::included;
+};
+constexpr NumberRange kAnyNumber{};
+constexpr NumberRange kNotNegative{0, kLargestNumber, NumberRange::Ends::included};
+constexpr NumberRange kPositive{0, kLargestNumber, NumberRange::Ends::low_excluded};
+
+/// A word of the file format and what it stands for.
+template <class Value>
+struct Word {
+  const char* text;
+  Value value;
+};
+
+/// The word for a value; every value of the enumeration has one.
+template <class Value, std::size_t n>
+const char* word_for(const std::array<Word<Value>, n>& words, Value value) {
+  for (const Word<Value>& word : words)
+    if (word.value == value) return word.text;
+  return "";
+}
+
+/// A place in a parsed JSON document that knows its JSON pointer. Everything that is not as asked
+/// for throws InputError{pointer, "expected ..., got ..."}. The document outlives its readers.
+class JsonReader {
+ public:
+  explicit JsonReader(const Json& document) : JsonReader(document, "") {}
+
+  const std::string& pointer() const { return pointer_; }
+
+  /// Refuses anything but an object with no other keys than these.
+  void allow_keys(std::span<const char* const> keys) const;
+  void allow_keys(std::initializer_list<const char*> keys) const {
+    allow_keys(std::span<const char* const>(keys.begin(), keys.size()));
+  }
+  /// The value of a key that has to be there.
+  JsonReader at(const char* key) const;
+  /// Nothing when the key is absent.
+  std::optional<JsonReader> find(const char* key) const;
+  /// The one of `keys` that is there, the index into `keys`; an error unless it is exactly one.
+  std::size_t only_one_of(std::initializer_list<const char*> keys) const;
+
+  double number(const NumberRange& range = kAnyNumber) const;
+  std::int64_t integer(std::int64_t low, std::int64_t high) const;
+  bool boolean() const;
+  const std::string& text() const;
+  bool is_text() const { return json_->is_string(); }
+  bool is_array() const { return json_->is_array(); }
+  bool is_null() const { return json_->is_null(); }
+  Vec3 vec3() const;
+  /// Of length one, whatever length is given (not zero).
+  Vec3 direction() const;
+  std::vector<JsonReader> elements() const;
+  /// Of an array that has to have this many.
+  std::vector<JsonReader> elements(std::size_t n) const;
+  /// Of an object, with their keys in the order of the file.
+  std::vector<std::pair<std::string, JsonReader>> members() const;
+
+  template <class Value, std::size_t n>
+  Value word(const std::array<Word<Value>, n>& words) const {
+    std::string expected = "one of";
+    for (const Word<Value>& candidate : words) {
+      if (json_->is_string() && text() == candidate.text) return candidate.value;
+      expected += (&candidate == words.data() ? " \"" : ", \"") + std::string(candidate.text) + '"';
+    }
+    fail(expected);
+  }
+
+  /// Throws InputError "expected <expected>, got <this value>".
+  [[noreturn]] void fail(const std::string& expected) const;
+
+ private:
+  JsonReader(const Json& json, std::string pointer) : json_(&json), pointer_(std::move(pointer)) {}
+
+  const Json* json_;
+  std::string pointer_;
+};
+
+/// A vector as the array of numbers that JsonReader::vec3 reads.
+Json json_vec3(const Vec3& v);
+
+}  // namespace pleat

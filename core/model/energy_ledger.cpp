@@ -1,0 +1,119 @@
+#include "core/model/energy_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/model/elasticity.h"
+#include "core/model/hanging_vertices.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kTouchDistance =
+    1e-6;  // [m]: contact puts vertices on the surface to rounding, so this is generous
+
+double kinetic_energy(const Eigen::VectorXd& masses, const Positions& velocities) {
+  return 0.5 * masses.dot(velocities.colwise().squaredNorm().transpose());
+}
+
+/// The part of an impulse that a solid can give: it pushes, and rubs at most `friction` times as
+/// much.
+Vec3 coulomb_part(const Vec3& impulse, const Vec3& normal, double friction) {
+  const double push = std::max(0.0, normal.dot(impulse));
+  const Vec3 rub = impulse - normal.dot(impulse) * normal;
+  const double size = rub.norm();
+  const double share = size > friction * push ? friction * push / size : 1;
+  return push * normal + share * rub;
+}
+
+}  // namespace
+
+EnergyLedger::EnergyLedger(const ClothModel& model, const State& state)
+    : model_(model),
+      air_(model.air),
+      is_pinned_(static_cast<std::size_t>(model.n_vertices())),
+      first_energy_(total_energy(model, state)),
+      energy_(first_energy_),
+      largest_kinetic_energy_(kinetic_energy(model.masses, state.velocities)) {
+  for (Loads* loads : {&begin_, &end_}) loads->forces.resize(3, model.n_vertices());
+  part_.resize(3, model.n_vertices());
+}
+
+void EnergyLedger::evaluate(const State& state, Loads& loads) {
+  const auto& v = state.velocities;
+  loads.forces.setZero();
+  add_elastic_forces(model_, state.positions, loads.forces);
+  add_gravity(model_, loads.forces);
+  part_.setZero();
+  add_damping_forces(model_, state.positions, v, part_);
+  loads.damping_power = part_.cwiseProduct(v).sum();
+  loads.forces += part_;
+  loads.air_power = 0;
+  if (air_) {
+    part_.setZero();
+    air_->add_forces(state.positions, v, model_.masses, model_.hanging, 0, part_);
+    loads.air_power = part_.cwiseProduct(v).sum();
+    loads.forces += part_;
+  }
+  pull_to_parents(model_.hanging, loads.forces);
+}
+
+/// m (v_end - v_begin) - h f with the mean force of both ends: what a pin or a solid must have
+/// added [N s].
+Vec3 EnergyLedger::missing_impulse(VertexId vertex, const State& begin, const State& end,
+                                   double step) const {
+  return model_.masses[vertex] * (end.velocities.col(vertex) - begin.velocities.col(vertex)) -
+         step / 2 * (begin_.forces.col(vertex) + end_.forces.col(vertex));
+}
+
+void EnergyLedger::record_contact(const State& begin, const State& end, double time_end,
+                                  double step) {
+  const ContactStage& contact = *model_.contact;
+  for (const Collider& collider : contact.colliders()) {
+    const SweptSolid solid =
+        swept(ContactStage::placed(collider, time_end), Clearance{}, Vec3::Zero());
+    for (Eigen::Index i = 0; i < end.positions.cols(); ++i) {
+      if (is_pinned_[static_cast<std::size_t>(i)]) continue;
+      const Clearance clearance = contact.clearance(collider, VertexId(i));
+      const double reach = std::max(clearance.at_a, clearance.at_b) + kTouchDistance;
+      const Gap point = gap(solid, end.positions.col(i));
+      if (point.distance > reach) continue;
+      const Vec3 impulse = coulomb_part(missing_impulse(VertexId(i), begin, end, step),
+                                        point.normal, collider.friction);
+      works_.contact += impulse.dot(begin.velocities.col(i) + end.velocities.col(i)) / 2;
+    }
+  }
+}
+
+void EnergyLedger::record(const State& begin, const State& end, double time_end, double step) {
+  PLEAT_CHECK(step > 0, "a step is positive");
+  PLEAT_CHECK(
+      begin.positions.cols() == model_.n_vertices() && end.positions.cols() == model_.n_vertices(),
+      "a ledger keeps its number of vertices");
+  evaluate(begin, begin_);
+  evaluate(end, end_);
+  works_.damping += step / 2 * (begin_.damping_power + end_.damping_power);
+  works_.air += step / 2 * (begin_.air_power + end_.air_power);
+  std::fill(is_pinned_.begin(), is_pinned_.end(), char{0});
+  for (const Pin& pin : model_.pins) {
+    is_pinned_[static_cast<std::size_t>(pin.vertex.value)] = 1;
+    works_.pins += missing_impulse(pin.vertex, begin, end, step)
+                       .dot(begin.velocities.col(pin.vertex) + end.velocities.col(pin.vertex)) /
+                   2;
+  }
+  if (model_.contact) record_contact(begin, end, time_end, step);
+  energy_ = total_energy(model_, end);
+  largest_kinetic_energy_ =
+      std::max(largest_kinetic_energy_, kinetic_energy(model_.masses, end.velocities));
+}
+
+double EnergyLedger::drift() const {
+  return energy_ - first_energy_ - works_.damping - works_.air - works_.pins - works_.contact;
+}
+
+double EnergyLedger::relative_drift() const {
+  return largest_kinetic_energy_ > 0 ? std::abs(drift()) / largest_kinetic_energy_ : 0;
+}
+
+}  // namespace pleat

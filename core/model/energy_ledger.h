@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+
+#include "core/model/cloth_model.h"
+#include "core/model/state.h"
+
+namespace pleat {
+
+/// Where the energy of a moving cloth goes, from states before and after each step alone: it shares
+/// nothing with the steppers but the laws of force. What no force explains is the method's own gain
+/// or loss.
+///
+/// The powers of damping, air, pins and contact are integrated by the trapezoid rule over each
+/// step, so that for a consistent method the drift over a fixed time falls at least in proportion
+/// to the step, except where motion jumps.
+class EnergyLedger {
+ public:
+  /// Works done on the cloth since the beginning [J].
+  struct Works {
+    double damping = 0;
+    double air = 0;
+    double pins = 0;
+    double contact = 0;
+  };
+
+  /// model  outlives the ledger; its pins and colliders may move as their motions say.
+  /// state  at the beginning.
+  EnergyLedger(const ClothModel& model, const State& state);
+
+  /// time_end  of the step [s];  step  its length [s], positive.
+  void record(const State& begin, const State& end, double time_end, double step);
+
+  const Works& works() const { return works_; }
+  double energy() const { return energy_; }  ///< elastic, kinetic and gravitational [J]
+  double drift() const;                      ///< change of the energy minus the works [J]
+  /// |drift| over the largest kinetic energy seen, 0 while nothing moved.
+  double relative_drift() const;
+
+ private:
+  /// Forces of springs, dampers, weight and air [N], and the powers of the last but one and of air
+  /// [W].
+  struct Loads {
+    Positions forces;
+    double damping_power = 0;
+    double air_power = 0;
+  };
+
+  void evaluate(const State& state, Loads& loads);
+  Vec3 missing_impulse(VertexId vertex, const State& begin, const State& end, double step) const;
+  void record_contact(const State& begin, const State& end, double time_end, double step);
+
+  const ClothModel& model_;
+  std::optional<AirDrag> air_;
+  Loads begin_;
+  Loads end_;
+  Positions part_;  // force of one kind [N]
+  std::vector<char> is_pinned_;
+  Works works_;
+  double first_energy_;
+  double energy_;
+  double largest_kinetic_energy_ = 0;
+};
+
+}  // namespace pleat

@@ -1,0 +1,195 @@
+#include "core/reference/reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+
+#include "core/base/check.h"
+#include "core/base/core_version.h"
+#include "core/files/json_reader.h"
+#include "core/scene/scene_file.h"
+
+namespace pleat {
+namespace {
+
+std::uint64_t fnv_1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return hash;
+}
+
+/// The scene without what moves no vertex; a library's fabric as its numbers, which may change.
+Scene moving_part(Scene scene) {
+  const Scene unset;
+  scene.name = unset.name;
+  scene.caption = unset.caption;
+  scene.duration = unset.duration;
+  scene.record = unset.record;
+  scene.fabric_is_named = false;
+  return scene;
+}
+
+constexpr std::array<Word<Precision>, 2> kPrecisions{
+    {{"float64", Precision::float64}, {"float32", Precision::float32}}};
+
+/// JSON has no NaN.
+Json number_or_null(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
+
+double read_number_or_nan(const JsonReader& reader) {
+  return reader.is_null() ? std::numeric_limits<double>::quiet_NaN() : reader.number(kNotNegative);
+}
+
+Json header_json(const Reference& reference, Precision precision) {
+  Json samples = Json::array();
+  for (const Sample& sample : reference.samples)
+    samples.push_back(Json{{"time_s", sample.time},
+                           {"n_vertices", sample.positions.cols()},
+                           {"rms_stretch", sample.stretch.rms},
+                           {"largest_stretch", sample.stretch.largest},
+                           {"uncertainty_m", number_or_null(sample.uncertainty)}});
+  Json json = json_label(reference.label);
+  json["content"] = reference.content;
+  json["precision"] = word_for(kPrecisions, precision);
+  json["samples"] = samples;
+  return json;
+}
+
+template <class Number>
+void append_positions(const Positions& positions, std::string& bytes) {
+  const Eigen::Matrix<Number, 3, Eigen::Dynamic> numbers = positions.cast<Number>();
+  bytes.append(reinterpret_cast<const char*>(numbers.data()),
+               static_cast<std::size_t>(numbers.size()) * sizeof(Number));
+}
+
+/// Fills the positions from bytes that are there.
+template <class Number>
+void take_positions(const char* bytes, Positions& positions) {
+  Eigen::Matrix<Number, 3, Eigen::Dynamic> numbers(3, positions.cols());
+  std::memcpy(numbers.data(), bytes, static_cast<std::size_t>(numbers.size()) * sizeof(Number));
+  positions = numbers.template cast<double>();
+}
+
+std::size_t size_of(Precision precision) {
+  return precision == Precision::float64 ? sizeof(double) : sizeof(float);
+}
+
+/// n_bytes  that follow the header: what they cannot fill is not allocated
+Reference read_header(const JsonReader& header, std::size_t n_bytes, Precision precision) {
+  constexpr std::int64_t kMostVertices = 100'000'000;
+  auto n_left = static_cast<std::int64_t>(n_bytes / (3 * size_of(precision)));  // vertices
+  header.allow_keys(
+      {"id", "description", "converged", "uncertainty_m", "content", "precision", "samples"});
+  Reference reference;
+  reference.content = header.at("content").text();
+  reference.label = read_label(header);
+  for (const JsonReader& entry : header.at("samples").elements()) {
+    Sample sample{entry.at("time_s").number(kPositive), {}, {}};
+    const std::int64_t n_vertices = entry.at("n_vertices").integer(1, kMostVertices);
+    if (n_vertices > n_left) throw InputError("", "the reference's positions are cut short");
+    n_left -= n_vertices;
+    sample.positions.resize(3, n_vertices);
+    sample.stretch = {entry.at("rms_stretch").number(kNotNegative),
+                      entry.at("largest_stretch").number(kNotNegative)};
+    sample.uncertainty = read_number_or_nan(entry.at("uncertainty_m"));
+    reference.samples.push_back(std::move(sample));
+  }
+  return reference;
+}
+
+}  // namespace
+
+Json json_label(const ReferenceLabel& label) {
+  return {{"id", label.id},
+          {"description", label.description},
+          {"converged", label.converged},
+          {"uncertainty_m", number_or_null(label.uncertainty)}};
+}
+
+ReferenceLabel read_label(const JsonReader& reader) {
+  ReferenceLabel label{reader.at("id").text(), reader.at("description").text(),
+                       reader.at("converged").boolean()};
+  if (label.id.empty()) reader.at("id").fail("the id of what errors are measured against");
+  label.uncertainty = read_number_or_nan(reader.at("uncertainty_m"));
+  return label;
+}
+
+std::string step_phrase(double step) {
+  constexpr double kRounding = 1e-9;  // relative; what 1/n written in 15 digits has
+  const double per_second = 1 / step;
+  const bool is_whole_part = std::abs(std::round(per_second) - per_second) < kRounding * per_second;
+  char text[32];
+  if (is_whole_part && per_second > 0.5)
+    std::snprintf(text, sizeof text, "1/%.0f s", per_second);
+  else
+    std::snprintf(text, sizeof text, "%.3g s", step);
+  return text;
+}
+
+std::string content_hash(std::string_view bytes) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  const std::uint64_t hash = fnv_1a(bytes);
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash >> shift) & 0xF];
+  return text;
+}
+
+std::string content_id(const Scene& scene) {
+  Json content = parse_json(write_scene(moving_part(scene)));
+  content.erase("refinement");
+  content.erase("method");
+  return content_hash(content.dump());
+}
+
+std::string reference_id(std::string_view prefix, const Scene& scene,
+                         std::span<const double> times) {
+  std::string content = core_version();
+  content.append("\n").append(write_scene(moving_part(scene)));
+  for (const double time : times) content.append("\n").append(Json(time).dump());
+  return std::string(prefix) + "-" + content_hash(content);
+}
+
+std::optional<Reference> MemoryReferenceStore::find(const std::string& id) {
+  const auto place = references_.find(id);
+  if (place == references_.end()) return std::nullopt;
+  return place->second;
+}
+
+void MemoryReferenceStore::keep(const Reference& reference) {
+  references_[reference.label.id] = reference;
+}
+
+std::string write_reference(const Reference& reference, Precision precision) {
+  std::string bytes = header_json(reference, precision).dump() + "\n";
+  for (const Sample& sample : reference.samples) {
+    if (precision == Precision::float64)
+      append_positions<double>(sample.positions, bytes);
+    else
+      append_positions<float>(sample.positions, bytes);
+  }
+  return bytes;
+}
+
+Reference read_reference(std::string_view bytes) {
+  const std::size_t line = std::min(bytes.find('\n'), bytes.size());
+  std::size_t at = std::min(line + 1, bytes.size());
+  const Json json = parse_json(bytes.substr(0, line));
+  const JsonReader header(json);
+  const Precision precision = header.at("precision").word(kPrecisions);
+  Reference reference = read_header(header, bytes.size() - at, precision);
+  for (Sample& sample : reference.samples) {
+    if (precision == Precision::float64)
+      take_positions<double>(bytes.data() + at, sample.positions);
+    else
+      take_positions<float>(bytes.data() + at, sample.positions);
+    if (!sample.positions.allFinite())
+      throw InputError("", "expected finite positions in the reference, got others");
+    at += static_cast<std::size_t>(sample.positions.size()) * size_of(precision);
+  }
+  if (at != bytes.size()) throw InputError("", "the reference has bytes after its positions");
+  return reference;
+}
+
+}  // namespace pleat

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/files/json_reader.h"
+#include "core/run/sampled_run.h"
+
+namespace pleat {
+
+/// What an error is measured against.
+struct ReferenceLabel {
+  std::string id;           ///< names the content; never empty
+  std::string description;  ///< a phrase for people
+  /// Halving its step, or its mesh where that is part of the error, changes it by less than a
+  /// quarter of the errors shown.
+  bool converged = false;
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< by how much [m]; NaN: unknown
+};
+
+/// {"id", "description", "converged", "uncertainty_m": a number or null}.
+Json json_label(const ReferenceLabel& label);
+/// Reads these keys of an object, which may have others. Throws InputError, for an empty id too.
+ReferenceLabel read_label(const JsonReader& reader);
+
+/// A step [s] for such phrases: "1/960 s" where it is a whole part of a second, else "0.35 s".
+std::string step_phrase(double step);
+
+/// Positions at given times that are taken for right.
+struct Reference {
+  ReferenceLabel label;
+  std::vector<Sample> samples;
+  std::string content{};  ///< content_id of the scene, or empty
+};
+
+/// Sixteen hexadecimal digits of 64-bit FNV-1a.
+std::string content_hash(std::string_view bytes);
+
+/// Names what a reference is of: cloth, fabric, model, pins and world, whatever the level, the
+/// method and how long it runs. The core's version is no part of it, so that references can be
+/// shipped; a test makes the begin of each anew.
+std::string content_id(const Scene& scene);
+
+/// Id of a run of this scene at these times [s] by this version of the core: another scene, method,
+/// number of its fabric or core has another one; another name, caption, duration or way to record
+/// frames has not. `prefix` says what made it.
+std::string reference_id(std::string_view prefix, const Scene& scene,
+                         std::span<const double> times);
+
+/// Keeps references by id.
+class ReferenceStore {
+ public:
+  virtual ~ReferenceStore() = default;
+  virtual std::optional<Reference> find(const std::string& id) = 0;
+  virtual void keep(const Reference& reference) = 0;
+};
+
+/// Keeps them as long as it lives.
+class MemoryReferenceStore : public ReferenceStore {
+ public:
+  std::optional<Reference> find(const std::string& id) override;
+  void keep(const Reference& reference) override;
+
+ private:
+  std::map<std::string, Reference> references_;
+};
+
+enum class Precision { float64, float32 };
+
+/// One line of JSON with everything but positions, then those as little-endian floats of the given
+/// precision, x y z of each vertex, sample after sample.
+std::string write_reference(const Reference& reference, Precision precision = Precision::float64);
+
+/// Throws InputError for bytes that write_reference did not write.
+Reference read_reference(std::string_view bytes);
+
+}  // namespace pleat

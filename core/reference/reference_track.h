@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/reference/reference.h"
+#include "core/run/simulation.h"
+
+namespace pleat {
+
+/// A reference that a running simulation is compared with.
+class ReferenceTrack {
+ public:
+  /// Throws InputError without samples.
+  explicit ReferenceTrack(Reference reference);
+
+  /// True for a scene of the same content, whatever its level and method.
+  bool is_of(const Scene& scene) const { return reference_.content == content_id(scene); }
+  const ReferenceLabel& label() const { return reference_.label; }
+  double end() const { return reference_.samples.back().time; }  ///< [s]
+
+  struct Distance {
+    double rms = 0;          ///< over material points, by area [m]
+    double uncertainty = 0;  ///< of the reference then [m]; NaN: unknown
+  };
+
+  /// From the simulation's present state to the reference at its time; nothing beyond its end.
+  /// Between samples the reference goes straight. A sheet that is finer than it is compared with
+  /// it along its mesh lines, another mesh at the vertices that both have.
+  ///
+  /// simulation  whose scene `is_of` accepts
+  std::optional<Distance> distance(const Simulation& simulation);
+
+  /// Of each vertex, as `distance` found them [m]; 0 where the reference has none.
+  const std::vector<float>& distances() const { return distances_; }
+
+ private:
+  std::size_t sample_after(double time) const;
+
+  Reference reference_;
+  std::vector<float> distances_;
+};
+
+}  // namespace pleat

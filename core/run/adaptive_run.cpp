@@ -1,0 +1,57 @@
+#include "core/run/adaptive_run.h"
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+QuadMesh quads_of(const Scene& scene) {
+  std::optional<QuadMesh> base = base_quads(scene);
+  if (!base)
+    throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
+  return *std::move(base);
+}
+
+}  // namespace
+
+AdaptiveRun::AdaptiveRun(const Scene& scene, const DynamicOptions& options)
+    : scene_(scene), base_(quads_of(scene)), refinement_(base_, options) {
+  build(rest_cloth(scene_, base_));
+  state_ = scene_state(scene_, cloth_);
+  for (const Pin& pin : model_->pins) state_.positions.col(pin.vertex) = pin.position(0);
+}
+
+void AdaptiveRun::build(RestCloth cloth) {
+  stepper_.reset();  // it refers to the model
+  cloth_ = std::move(cloth);
+  model_ = std::make_unique<ClothModel>(scene_model(scene_, cloth_));
+  gauge_ = gauge_edges(mesh());
+  stepper_ = make_stepper(*model_, scene_.method);
+  stepper_->observe(observer_);
+}
+
+bool AdaptiveRun::adapt() {
+  DynamicRefinement::Result adapted =
+      refinement_.adapted({mesh(), std::move(state_.positions), std::move(state_.velocities)});
+  state_ = {std::move(adapted.state.positions), std::move(adapted.state.velocities)};
+  if (adapted.n_split == 0 && adapted.n_merged == 0) return false;
+  build(rest_cloth(scene_, std::move(adapted.state.mesh)));
+  return true;
+}
+
+SolveReport AdaptiveRun::step() {
+  SolveReport report = stepper_->advance(state_, time());
+  if (!report.ends_run()) ++n_steps_;
+  return report;
+}
+
+void AdaptiveRun::set_options(const DynamicOptions& options) {
+  refinement_ = DynamicRefinement(base_, options);
+}
+
+void AdaptiveRun::observe(StageObserver* observer) {
+  observer_ = observer;
+  stepper_->observe(observer);
+}
+
+}  // namespace pleat

@@ -1,0 +1,74 @@
+#include "core/run/elastic_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fabric/fitted_bending.h"
+#include "core/fabric/taut_springs.h"
+
+namespace pleat {
+namespace {
+
+BendingLaw lattice_law(BendingModel bending) {
+  switch (bending) {
+    case BendingModel::quadratic:
+      return BendingLaw::quadratic;
+    case BendingModel::arc:
+      return BendingLaw::arc;
+    case BendingModel::linear:
+      return BendingLaw::linear;
+    default:
+      return BendingLaw::none;
+  }
+}
+
+void drop_shear(std::vector<Spring>& springs) {
+  const auto is_shear = [](const Spring& spring) { return spring.kind == SpringKind::shear; };
+  springs.erase(std::remove_if(springs.begin(), springs.end(), is_shear), springs.end());
+}
+
+void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
+  SpringLattice lattice = spring_lattice(quads, scene.fabric, lattice_law(scene.model.bending),
+                                         scene.model.stiffness_exponent);
+  if (!scene.model.shear) drop_shear(lattice.springs);
+  if (scene.model.strain_limit > 0)
+    model.taut_springs = taut_springs(lattice.springs, scene.model.strain_limit);
+  model.springs = std::move(lattice.springs);
+  model.bends = std::move(lattice.bends);
+  model.chord_bends = std::move(lattice.chord_bends);
+  model.hanging = quads.hanging_vertices();
+}
+
+void add_particles(ClothModel& model, const Scene& scene, const InlineCloth& particles) {
+  model.masses = particles.masses;
+  model.springs = particles.springs;
+  if (scene.model.bending == BendingModel::quadratic) model.bends = particles.bends;
+}
+
+void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mesh) {
+  const FabricConstants& fabric = scene.fabric;
+  model.membrane = {membrane_law(fabric), membrane_elements(mesh)};
+  model.membrane.law.strain_limit = scene.model.strain_limit;
+  model.membrane_relaxation = 2 * fabric.damping_ratio / kReferenceFrequency;
+  const double mean_rigidity = std::sqrt(fabric.bend_warp * fabric.bend_weft);
+  if (fabric.bend_warp == 0 && fabric.bend_weft == 0) return;
+  if (scene.model.bending == BendingModel::fitted)
+    model.fitted_bending = fitted_bending(mesh, fabric.bend_warp, fabric.bend_weft,
+                                          scene.model.torsion * mean_rigidity);
+  if (scene.model.bending == BendingModel::hinge) model.hinges = hinges(mesh, mean_rigidity);
+}
+
+}  // namespace
+
+void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth) {
+  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+    return add_particles(model, scene, *particles);
+  // A quarter of each quad or a third of each triangle at every corner.
+  model.masses = scene.fabric.areal_density * rest_areas(scene, cloth);
+  if (scene.model.elasticity == Elasticity::springs)
+    add_springs(model, scene, *cloth.quads);
+  else
+    add_membrane(model, scene, cloth.mesh);
+}
+
+}  // namespace pleat

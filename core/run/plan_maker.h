@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/refinement/refinement_plan.h"
+#include "core/run/sampled_run.h"
+
+namespace pleat {
+
+/// Which frames of an example are analysed, and how a plan is made of them.
+struct PlanRecipe {
+  double frame_time = 1.0 / 30;  ///< [s], positive
+  double begin = 0;              ///< frames before are of the cloth finding its shape [s]
+  PatternOptions patterns;
+  PlanOptions plan;
+};
+
+/// What a plan cost.
+struct PlanCost {
+  double example_seconds = 0;   ///< of running the examples on the fine mesh, by the clock
+  double planning_seconds = 0;  ///< of features, patterns, plan and limits
+  double megabytes = 0;         ///< of the frames that were kept
+  int n_frames = 0;             ///< of all examples
+  double frame_time = 0;        ///< [s]
+};
+
+/// When cloth has settled into the scene's motion [s]: a while after a figure moves as it will.
+double settled_time(const Scene& scene);
+
+/// Runs examples on their fine mesh and plans from what is seen there, in slices.
+class PlanMaker {
+ public:
+  /// examples  scenes of one garment or sheet refined uniformly, to the same level of at least 1
+  /// Throws InputError when an example is none of these, has fewer than two frames or cannot run,
+  /// and for a recipe out of range.
+  PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe);
+
+  bool done() const { return done_; }
+  /// Runs until done or `budget` [s] is spent, at least a step. Throws InputError for an example
+  /// whose numbers end the run, and as refinement_plan and bend_patterns do.
+  void advance(double budget);
+  double progress() const;  ///< in [0, 1]
+
+  const RefinementPlan& plan() const { return plan_; }  ///< once done
+  const PlanCost& cost() const { return cost_; }
+
+  /// Another plan from the same frames, once done. Throws InputError as refinement_plan does.
+  RefinementPlan plan_for(const PlanOptions& options) const;
+
+ private:
+  void begin_example();
+  void end_example();
+
+  std::vector<Scene> scenes_;
+  PlanRecipe recipe_;
+  QuadMesh base_;
+  QuadMesh fine_;
+  std::unique_ptr<SampledRun> run_;
+  std::vector<BendExample> examples_;
+  std::vector<Positions> frames_;  // of all examples
+  RefinementPlan plan_;
+  PlanCost cost_;
+  bool done_ = false;
+};
+
+}  // namespace pleat

@@ -1,0 +1,100 @@
+#include "core/run/sampled_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kTimeTolerance =
+    1e-9;  // of a step: sample times that differ less from its end are at its end
+
+/// Cubic Hermite interpolation between two states `step` [s] apart; share in [0, 1].
+Positions interpolated(const State& begin, const State& end, double step, double share) {
+  const double s = share;
+  const double s2 = s * s;
+  const double s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * begin.positions + (s3 - 2 * s2 + s) * step * begin.velocities +
+         (3 * s2 - 2 * s3) * end.positions + (s3 - s2) * step * end.velocities;
+}
+
+}  // namespace
+
+SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts parts)
+    : simulation_(scene), times_(std::move(times)) {
+  PLEAT_CHECK(!times_.empty() && times_.front() > 0 && std::is_sorted(times_.begin(), times_.end()),
+              "sample times are positive and ascend");
+  if (parts == Parts::untimed) return;
+  simulation_.observe(&parts_);
+  ledger_.emplace(simulation_.model(), simulation_.state());
+}
+
+double SampledRun::relative_drift() const {
+  return ledger_ ? ledger_->relative_drift() : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool SampledRun::failed() const { return report_.ends_run(); }
+
+bool SampledRun::sample_is_due() const {
+  const double step = simulation_.scene().method.step;
+  return samples_.size() < times_.size() &&
+         times_[samples_.size()] <= simulation_.time() + step * (1 + kTimeTolerance);
+}
+
+void SampledRun::take_samples(const State& begin, double time_begin) {
+  const double step = simulation_.scene().method.step;
+  const State& end = simulation_.state();
+  while (samples_.size() < times_.size()) {
+    const double time = times_[samples_.size()];
+    const double share = (time - time_begin) / step;
+    if (share > 1 + kTimeTolerance) return;
+    Sample sample{time, {}, {}};
+    sample.positions =
+        share > 1 - kTimeTolerance ? end.positions : interpolated(begin, end, step, share);
+    sample.stretch = stretch(simulation_.gauge(), sample.positions);
+    samples_.push_back(std::move(sample));
+  }
+}
+
+void SampledRun::step() {
+  const double time_begin = simulation_.time();
+  const bool sampling = sample_is_due();
+  if (sampling || ledger_) begin_ = simulation_.state();
+  const bool timed = simulation_.n_steps() > 0;
+  const Stopwatch watch;
+  SolveReport report = simulation_.step();
+  if (timed) {
+    timed_seconds_ += watch.elapsed();
+    timed_duration_ += simulation_.scene().method.step;
+  } else {
+    parts_.clear();
+  }
+  report_.iterations += report.iterations;
+  report_.relative_residual = std::max(report_.relative_residual, report.relative_residual);
+  if (!report.ok()) {
+    report_.status = report.status;
+    report_.message = std::move(report.message);
+  }
+  if (failed()) return;
+  if (sampling) take_samples(begin_, time_begin);
+  if (ledger_)
+    ledger_->record(begin_, simulation_.state(), simulation_.time(),
+                    simulation_.scene().method.step);
+}
+
+void SampledRun::advance(double budget) {
+  const Stopwatch watch;
+  while (!done()) {
+    step();
+    if (watch.elapsed() >= budget) return;
+  }
+}
+
+double SampledRun::progress() const {
+  return done() ? 1 : std::min(1.0, simulation_.time() / times_.back());
+}
+
+}  // namespace pleat

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/model/energy_ledger.h"
+#include "core/model/stretch.h"
+#include "core/run/simulation.h"
+#include "core/run/stage_timer.h"
+
+namespace pleat {
+
+/// What a run looked like at one time.
+struct Sample {
+  double time;          ///< [s]
+  Positions positions;  ///< [m]
+  Stretch stretch;
+  /// Of a reference whose step or mesh was halved: how far that moved it, RMS [m]; else NaN.
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A scene run from its beginning through given times, in slices.
+///
+/// Where a sample time lies inside a step, positions come from the cubic through both ends'
+/// positions and velocities, whose error is of fourth order in the step. Sampling is outside the
+/// clock, and so is the first step, in which steppers build what they keep.
+class SampledRun {
+ public:
+  /// Timing the parts of a step costs time itself, and accounting for the energy costs memory and
+  /// caches.
+  enum class Parts { untimed, timed_with_ledger };
+
+  /// times  [s], positive, ascending, at least one.
+  /// Throws InputError when the scene's method cannot run on it.
+  SampledRun(const Scene& scene, std::vector<double> times, Parts parts);
+  SampledRun(const SampledRun&) = delete;
+  SampledRun& operator=(const SampledRun&) = delete;
+
+  /// True at the last sample, or when the numbers ended the run before.
+  bool done() const { return failed() || samples_.size() == times_.size(); }
+  bool failed() const;
+
+  /// Steps until done or until `budget` [s] is spent, at least once.
+  void advance(double budget);
+
+  double progress() const;  ///< share of the steps done, in [0, 1]
+  const Simulation& simulation() const { return simulation_; }
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<Sample>& samples() const { return samples_; }
+  /// ok, or what ended the run, or not_converged when that ever happened. Its residual is the
+  /// largest of all steps, its iterations their sum.
+  const SolveReport& report() const { return report_; }
+  double timed_seconds() const { return timed_seconds_; }    ///< by the clock
+  double timed_duration() const { return timed_duration_; }  ///< simulated meanwhile [s]
+  const StageTimer& parts() const { return parts_; }  ///< over the same steps; zero when untimed
+  /// See EnergyLedger; NaN when untimed.
+  double relative_drift() const;
+
+ private:
+  void step();
+  void take_samples(const State& begin, double time_begin);
+  bool sample_is_due() const;
+
+  Simulation simulation_;
+  std::vector<double> times_;
+  std::vector<Sample> samples_;
+  State begin_;
+  SolveReport report_;
+  StageTimer parts_;
+  std::optional<EnergyLedger> ledger_;
+  double timed_seconds_ = 0;
+  double timed_duration_ = 0;
+};
+
+}  // namespace pleat

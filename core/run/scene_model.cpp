@@ -1,0 +1,153 @@
+#include "core/run/scene_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/run/elastic_model.h"
+
+namespace pleat {
+namespace {
+
+Motion following(const std::shared_ptr<const MovingBody>& body, Bone bone) {
+  Motion motion;
+  motion.kind = Motion::Kind::follow;
+  motion.frame = bone_frame(body, bone);
+  return motion;
+}
+
+/// A later rule does not pin again what an earlier one holds, and hanging vertices follow their
+/// parents.
+std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const ClothModel& model,
+                            const std::shared_ptr<const MovingBody>& body) {
+  const Positions& positions = cloth.start;
+  std::vector<Pin> pins;
+  std::vector<bool> taken(static_cast<std::size_t>(positions.cols()), false);
+  for (const PinRule& rule : scene.pins) {
+    const Motion motion = rule.bone ? following(body, *rule.bone) : rule.motion;
+    for (const VertexId v : pinned_vertices(rule, scene, cloth)) {
+      if (taken[v] || model.hangs(v)) continue;
+      taken[v] = true;
+      pins.push_back({v, positions.col(v), motion});
+    }
+  }
+  return pins;
+}
+
+/// Those that the scene's cloth meets: garments are of the lower body.
+std::vector<BodyPart> body_parts(const Scene& scene) {
+  std::vector<BodyPart> parts = mannequin(scene.figure->build);
+  return std::holds_alternative<GarmentCloth>(scene.cloth) ? below_waist(std::move(parts)) : parts;
+}
+
+/// The scene's own solids, then the figure's.
+std::vector<Collider> scene_colliders(const Scene& scene,
+                                      const std::shared_ptr<const MovingBody>& body) {
+  std::vector<Collider> colliders = scene.colliders;
+  if (!scene.figure) return colliders;
+  const double friction = scene.figure->friction.value_or(scene.fabric.friction_solid);
+  for (const BodyPart& part : body_parts(scene))
+    colliders.push_back(Collider{part.shape, following(body, part.bone), friction});
+  return colliders;
+}
+
+/// 0 without area [m].
+double circumradius(const Positions& positions, const Triangle& t) {
+  const Vec3 a = positions.col(t[1]) - positions.col(t[0]);
+  const Vec3 b = positions.col(t[2]) - positions.col(t[0]);
+  const double doubled_area = a.cross(b).norm();
+  if (doubled_area == 0) return 0;
+  return a.norm() * b.norm() * (a - b).norm() / (2 * doubled_area);
+}
+
+double longest_edge(const Positions& positions, const std::array<VertexId, 4>& corners) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    longest =
+        std::max(longest, (positions.col(corners[k]) - positions.col(corners[(k + 1) % 4])).norm());
+  return longest;
+}
+
+/// Of the largest face around each vertex [m]: of a garment half of the longest edge of quads,
+/// whose threads run along limbs and around them; of other cloth a triangle's circumradius. A
+/// hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
+/// which may be stretched.
+Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
+  const Positions& positions = cloth.mesh.rest_positions;
+  Eigen::VectorXd radii = Eigen::VectorXd::Zero(positions.cols());
+  constexpr double kStretched = 1.1;  // stretched more, its middle may be inside of a solid
+  const auto add_face = [&](const auto& corners, double radius) {
+    const bool has_hanging =
+        std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return model.hangs(v); });
+    for (const VertexId v : corners)
+      radii[v] = std::max(radii[v], (has_hanging ? 2 * kStretched : 1) * radius);
+  };
+  if (std::holds_alternative<GarmentCloth>(scene.cloth)) {
+    for (const QuadFace& face : cloth.quads->faces())
+      if (face.active()) add_face(face.corners, longest_edge(positions, face.corners) / 2);
+  } else {
+    for (const Triangle& t : cloth.mesh.triangles) add_face(t, circumradius(positions, t));
+  }
+  // Where a mesh is uniform, so is this: its faces differ by rounding, far below kSame. On a rough
+  // mesh that adds as little to the clearance.
+  constexpr double kSame = 1e-9;  // relative
+  const double largest = radii.maxCoeff();
+  for (double& radius : radii)
+    if (radius > (1 - kSame) * largest) radius = largest;
+  return radii;
+}
+
+}  // namespace
+
+State scene_state(const Scene& scene, const RestCloth& cloth) {
+  const Positions& positions = cloth.start;
+  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+    return {positions, particles->velocities};
+  return {positions, scene.initial_velocity.replicate(1, positions.cols())};
+}
+
+ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
+  ClothModel model;
+  std::shared_ptr<const MovingBody> body;
+  if (scene.figure)
+    body = std::make_shared<MovingBody>(scene.figure->motion, scene.figure->playback);
+  add_elasticity(model, scene, cloth);
+  model.rest_coordinates = cloth.rest_coordinates;
+  model.damping_direction = scene.model.damping_direction;
+  model.gravity = scene.gravity;
+  model.pins = scene_pins(scene, cloth, model, body);
+  // A sheet's quads are split both ways, so that drag is shared among corners as mass is.
+  if (scene.air && cloth.quads)
+    model.air.emplace(cloth.quads->crossed_triangles(), *scene.air, model.n_vertices(), 0.5);
+  else if (scene.air && !cloth.mesh.triangles.empty())
+    model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
+  if (std::vector<Collider> colliders = scene_colliders(scene, body); !colliders.empty()) {
+    const ContactOptions options{scene.fabric.thickness / 2, face_radii(scene, cloth, model)};
+    model.contact.emplace(std::move(colliders), options);
+  }
+  return model;
+}
+
+BuildReport build_report(const ClothModel& model) {
+  BuildReport report;
+  const auto note = [&report](bool built, const char* part) {
+    (built ? report.built : report.left_out).emplace_back(part);
+  };
+  const bool has_dampers = std::any_of(model.springs.begin(), model.springs.end(),
+                                       [](const Spring& s) { return s.damping > 0; });
+  const bool has_membrane = !model.membrane.elements.empty();
+  note(!model.springs.empty(), "springs");
+  note(has_membrane, "membrane");
+  note(has_dampers || (has_membrane && model.membrane_relaxation > 0), "dampers");
+  note(!model.taut_springs.empty() || (has_membrane && model.membrane.law.strain_limit > 0),
+       "strain limit");
+  note(!model.bends.empty() || !model.chord_bends.empty() || !model.hinges.empty() ||
+           model.has_fitted_bending(),
+       "bending");
+  note(!model.gravity.isZero(), "gravity");
+  note(!model.pins.empty(), "pins");
+  note(model.air.has_value(), "air drag");
+  note(model.contact.has_value(), "contact");
+  return report;
+}
+
+}  // namespace pleat

@@ -1,0 +1,150 @@
+#include "core/run/simulation.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+
+namespace pleat {
+namespace {
+
+std::vector<GaugeEdge> cloth_gauge(const Scene& scene, const RestCloth& cloth) {
+  if (cloth.quads) return gauge_edges(*cloth.quads);
+  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+    return gauge_edges(particles->springs);
+  return gauge_edges(cloth.mesh);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene)
+    : scene_(scene),
+      cloth_(rest_cloth(scene)),
+      model_(scene_model(scene, cloth_)),
+      gauge_(cloth_gauge(scene, cloth_)) {
+  start();
+}
+
+/// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.
+void Simulation::start() {
+  state_ = scene_state(scene_, cloth_);
+  if (start_positions_) state_.positions = *start_positions_;
+  time_begin_ = 0;
+  n_steps_ = 0;
+  ended_ = {};
+  for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(0);
+  stepper_ = make_stepper(model_, scene_.method);
+  stepper_->observe(observer_);
+}
+
+void Simulation::observe(StageObserver* observer) {
+  observer_ = observer;
+  stepper_->observe(observer);
+}
+
+void Simulation::reset() {
+  release_grab();
+  end_transition();
+  start();
+}
+
+void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
+  if (positions.cols() != model_.n_vertices() || !positions.allFinite())
+    throw InputError("", "expected a finite place for each of " +
+                             std::to_string(model_.n_vertices()) + " vertices, got " +
+                             std::to_string(positions.cols()) + " places");
+  release_grab();
+  end_transition();
+  start_positions_ = positions;
+  for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
+  start();
+}
+
+SolveReport Simulation::step() {
+  if (ended_.ends_run()) return ended_;
+  if (grab_) place_grab_pins();
+  if (transition_) {
+    const double since = time() - time_begin_;
+    if (since < kTransitionTime)
+      transition_->apply(since, model_, *stepper_);
+    else
+      end_transition();
+  }
+  ended_ = stepper_->advance(state_, time());
+  if (!ended_.ends_run()) ++n_steps_;
+  return ended_;
+}
+
+void Simulation::carry_over(const Simulation& old) {
+  const auto* shape = std::get_if<SheetShape>(&scene_.cloth);
+  const auto* old_shape = std::get_if<SheetShape>(&old.scene_.cloth);
+  PLEAT_CHECK(
+      shape && old_shape && shape->columns == old_shape->columns && shape->rows == old_shape->rows,
+      "motion is carried over between refinements of one sheet");
+  end_transition();
+  const MovingSheet from{*old.cloth_.quads, old.model_, old.state_};
+  state_ = carried_state(from, *cloth_.quads);
+  const MovingSheet to{*cloth_.quads, model_, state_};
+  transition_.emplace(from, to);
+  stepper_->start_from_contact_forces(carried_forces(old.stepper_->contact_forces(), from, to));
+  time_begin_ = old.time();
+  n_steps_ = 0;
+  if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {
+    grab(old.grab_->vertex);
+    move_grab(old.grab_->target);
+  }
+}
+
+void Simulation::end_transition() {
+  if (!transition_) return;
+  transition_->apply(kTransitionTime, model_, *stepper_);
+  transition_.reset();
+}
+
+void Simulation::grab(VertexId vertex) {
+  PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
+  release_grab();
+  std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
+  for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
+  grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
+  const bool is_one_piece = !std::holds_alternative<InlineCloth>(scene_.cloth);
+  const double radius = is_one_piece ? kHandRadius * rest_diagonal(scene_) : 0;
+  const Positions& rest = rest_positions();
+  std::vector<bool> in_hand(pinned.size(), false);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    in_hand[static_cast<std::size_t>(i)] = (rest.col(i) - rest.col(vertex)).norm() <= radius;
+  for (const HangingVertex& h : model_.hanging)
+    for (const VertexId parent : h.parents)
+      if (h.vertex == vertex) in_hand[parent] = true;
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    if (in_hand[place] && !pinned[place] && !model_.hangs(VertexId(i)))
+      model_.pins.push_back({VertexId(i), state_.positions.col(i), {}});
+  }
+  stepper_->refresh();
+}
+
+void Simulation::move_grab(const Vec3& target) {
+  PLEAT_CHECK(grab_.has_value(), "a hand holds the cloth");
+  if (target.allFinite()) grab_->target = target;
+}
+
+void Simulation::release_grab() {
+  if (!grab_) return;
+  model_.pins.resize(grab_->first_pin);
+  grab_.reset();
+  stepper_->refresh();
+}
+
+/// The hand's pins go to the target at constant speed during the coming step, so that substeps do
+/// not see a jump.
+void Simulation::place_grab_pins() {
+  if (grab_->first_pin == model_.pins.size()) return;  // only pinned vertices in the hand
+  const Vec3 offset = grab_->target - state_.positions.col(grab_->vertex);
+  for (std::size_t p = grab_->first_pin; p < model_.pins.size(); ++p) {
+    Pin& pin = model_.pins[p];
+    pin.place = state_.positions.col(pin.vertex);
+    pin.motion = {Motion::Kind::move, offset, time(), time() + scene_.method.step, 0};
+  }
+}
+
+}  // namespace pleat

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/stretch.h"
+#include "core/run/scene_model.h"
+#include "core/run/transition.h"
+#include "core/scene/scene.h"
+
+namespace pleat {
+
+/// A scene in motion.
+class Simulation {
+ public:
+  /// Throws InputError when the scene's method cannot run on it.
+  explicit Simulation(const Scene& scene);
+
+  /// One step of scene.method.step. After a report that is not ok or not_converged the state is the
+  /// last finite one and further steps return the same report.
+  SolveReport step();
+  void reset();
+
+  /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
+  /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
+  void start_from(const Eigen::Ref<const Positions>& positions);
+
+  /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
+  /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
+  /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
+  /// shake the cloth. Throws ContractError unless both are sheets with the same base mesh.
+  void carry_over(const Simulation& old);
+
+  /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
+  /// particles, only the vertex itself) of `vertex` and moves them together; of one that hangs,
+  /// the parents. One hand at a time.
+  void grab(VertexId vertex);
+  bool is_grabbed() const { return grab_.has_value(); }
+  /// Where the grabbed vertex shall be at the end of the next step [m].
+  void move_grab(const Vec3& target);
+  void release_grab();
+
+  const Scene& scene() const { return scene_; }
+  /// For kTransitionTime after carry_over it is on its way to the scene's own.
+  const ClothModel& model() const { return model_; }
+  /// What stretch is measured by.
+  const std::vector<GaugeEdge>& gauge() const { return gauge_; }
+  const State& state() const { return state_; }
+  const QuadMesh* mesh() const { return cloth_.quads ? &*cloth_.quads : nullptr; }  ///< of a sheet
+  const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
+  /// Where the scene starts [m].
+  const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
+  /// Of each vertex [m^2]; particles count by their mass.
+  Eigen::VectorXd rest_areas() const { return pleat::rest_areas(scene_, cloth_); }
+  std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
+  double time() const {
+    return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
+  }  ///< [s]
+  int substeps() const { return stepper_->substeps(); }
+  void observe(StageObserver* observer);
+
+ private:
+  struct Grab {
+    VertexId vertex;
+    std::size_t first_pin;  // its pins are the last of model_.pins
+    Vec3 target;            // of `vertex` at the end of the next step [m]
+  };
+
+  void start();
+  void place_grab_pins();
+  void end_transition();
+
+  Scene scene_;
+  RestCloth cloth_;
+  ClothModel model_;
+  const std::vector<GaugeEdge> gauge_;
+  std::optional<Positions> start_positions_;  // when not those of the scene [m]
+  State state_;
+  std::unique_ptr<Stepper> stepper_;
+  StageObserver* observer_ = nullptr;
+  double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
+  std::int64_t n_steps_ = 0;
+  std::optional<Grab> grab_;
+  std::optional<Transition> transition_;
+  SolveReport ended_;
+};
+
+constexpr double kHandRadius = 0.03;  ///< of the rest diagonal
+
+}  // namespace pleat

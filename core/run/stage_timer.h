@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+
+#include "core/base/stage_observer.h"
+
+namespace pleat {
+
+/// A clock that only moves forward [s]. In a browser its ticks may be as coarse as 0.1 ms.
+class Stopwatch {
+ public:
+  Stopwatch();
+  /// Seconds since this watch was made.
+  double elapsed() const;
+
+ private:
+  double begin_;
+};
+
+/// Adds up the time spent in each part of a step. A part inside another counts for itself alone.
+class StageTimer : public StageObserver {
+ public:
+  void begin(Stage stage) override;
+  void end(Stage stage) override;
+
+  double total(Stage stage) const { return totals_[static_cast<std::size_t>(stage)]; }  ///< [s]
+  void clear() { totals_.fill(0); }
+
+ private:
+  static constexpr std::size_t kMaxDepth = 4;
+
+  void charge_running();
+
+  Stopwatch watch_;
+  double last_ = 0;  // when the running part began or was resumed [s]
+  std::array<double, kStageCount> totals_{};
+  std::array<Stage, kMaxDepth> running_{};
+  std::size_t depth_ = 0;
+};
+
+}  // namespace pleat

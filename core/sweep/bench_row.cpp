@@ -1,0 +1,249 @@
+#include "core/sweep/bench_row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "core/base/check.h"
+#include "core/scene/method_section.h"
+#include "core/sweep/pareto.h"
+
+namespace pleat {
+namespace {
+
+/// The numbers of a row and their keys, for writing and reading alike.
+struct NumberField {
+  const char* key;
+  double BenchRow::*value;
+};
+constexpr NumberField kNumberFields[] = {
+    {"ms_per_frame", &BenchRow::ms_per_frame},
+    {"spread_ms", &BenchRow::spread_ms},
+    {"position_error_m", &BenchRow::position_error},
+    {"position_error_percent", &BenchRow::position_error_percent},
+    {"surface_error_m", &BenchRow::surface_error},
+    {"surface_error_95_m", &BenchRow::surface_error_95},
+    {"bend_error_per_m", &BenchRow::bend_error},
+    {"bend_error_of_regions_per_m", &BenchRow::bend_error_of_regions},
+    {"rms_stretch", &BenchRow::rms_stretch},
+    {"largest_stretch", &BenchRow::largest_stretch},
+    {"rms_stretch_error", &BenchRow::rms_stretch_error},
+    {"largest_stretch_error", &BenchRow::largest_stretch_error},
+    {"residual", &BenchRow::residual},
+    {"iterations_per_step", &BenchRow::iterations_per_step},
+    {"energy_drift", &BenchRow::energy_drift},
+};
+
+struct CountField {
+  const char* key;
+  int BenchRow::*value;
+};
+constexpr CountField kCountFields[] = {{"level", &BenchRow::level},
+                                       {"n_vertices", &BenchRow::n_vertices},
+                                       {"n_substeps", &BenchRow::n_substeps},
+                                       {"n_runs", &BenchRow::n_runs},
+                                       {"n_unresolved_contacts", &BenchRow::n_unresolved_contacts}};
+
+struct TextField {
+  const char* key;
+  std::string BenchRow::*value;
+};
+constexpr TextField kTextFields[] = {{"scene", &BenchRow::scene},
+                                     {"status", &BenchRow::status},
+                                     {"message", &BenchRow::message},
+                                     {"target", &BenchRow::target},
+                                     {"commit", &BenchRow::commit}};
+
+struct ObjectField {
+  const char* key;
+  Json BenchRow::*value;
+};
+constexpr ObjectField kObjectFields[] = {
+    {"setting", &BenchRow::setting}, {"fabric", &BenchRow::fabric}, {"model", &BenchRow::model}};
+
+/// The numbers in a table, times what turns them into the title's unit.
+struct NumberColumn {
+  const char* title;
+  double BenchRow::*value;
+  double factor;
+};
+constexpr NumberColumn kNumberColumns[] = {
+    {"ms per frame", &BenchRow::ms_per_frame, 1},
+    {"spread", &BenchRow::spread_ms, 1},
+    {"position error mm", &BenchRow::position_error, 1e3},
+    {"%", &BenchRow::position_error_percent, 1},
+    {"rms stretch %", &BenchRow::rms_stretch, 1e2},
+    {"largest %", &BenchRow::largest_stretch, 1e2},
+    {"residual", &BenchRow::residual, 1},
+};
+
+/// JSON has no NaN.
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// A number with three significant digits, or a dash.
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string method_phrase(const BenchRow& row) {
+  const MethodOptions& method = row.method;
+  std::string text = name(method.stepper);
+  if (method.stepper == StepperKind::implicit_euler || method.stepper == StepperKind::projective)
+    text += std::string(" ") + name(method.solver);
+  text += ", " + step_phrase(method.step);
+  if (row.n_substeps > 0) text += " x " + std::to_string(row.n_substeps);
+  if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
+  return text;
+}
+
+/// True for what a phrase and a table say in words of their own.
+bool is_told(const std::string& pointer) {
+  return pointer == "/method" || pointer == "/refinement/level";
+}
+
+/// Pointers whose value is not the same in all rows, in the order in which they appear.
+std::vector<std::string> varying_pointers(std::span<const BenchRow> rows) {
+  std::vector<std::string> varying;
+  std::set<std::string> known;
+  for (const BenchRow& row : rows)
+    for (const auto& change : row.setting.items()) {
+      const std::string& pointer = change.key();
+      if (is_told(pointer) || !known.insert(pointer).second) continue;
+      const auto differs = [&](const BenchRow& other) {
+        return !other.setting.contains(pointer) || other.setting[pointer] != change.value();
+      };
+      if (std::any_of(rows.begin(), rows.end(), differs)) varying.push_back(pointer);
+    }
+  return varying;
+}
+
+/// Of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : printable(text)) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped + " | ";
+}
+
+std::string value_text(const Json& value) {
+  return cut(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+std::string value_cell(const BenchRow& row, const std::string& pointer) {
+  const auto value = row.setting.find(pointer);
+  return cell(value == row.setting.end() ? "" : value_text(*value));
+}
+
+std::string table_head(const std::vector<std::string>& pointers) {
+  std::string head = "| front | method | level | ";
+  for (const std::string& pointer : pointers) head += cell(cut(pointer));
+  head += "vertices | ";
+  for (const NumberColumn& column : kNumberColumns) head += cell(column.title);
+  head += "status |\n|";
+  const std::size_t n_columns = 5 + pointers.size() + std::size(kNumberColumns);
+  for (std::size_t c = 0; c < n_columns; ++c) head += "---|";
+  return head + "\n";
+}
+
+std::string table_line(const BenchRow& row, bool is_on_front,
+                       const std::vector<std::string>& pointers) {
+  std::string line = "| " + cell(is_on_front ? "*" : "") + cell(method_phrase(row)) +
+                     cell(std::to_string(row.level));
+  for (const std::string& pointer : pointers) line += value_cell(row, pointer);
+  line += cell(std::to_string(row.n_vertices));
+  for (const NumberColumn& column : kNumberColumns)
+    line += cell(short_number(column.factor * row.*column.value));
+  return line + row.status + " |\n";
+}
+
+std::string remarks_on(const BenchRow& row) {
+  const std::string which = printable(setting_phrase(row)) + ": ";
+  std::string remarks;
+  if (!row.message.empty()) remarks += which + row.status + ", " + printable(row.message) + "\n";
+  if (row.n_unresolved_contacts > 0)
+    remarks += which + std::to_string(row.n_unresolved_contacts) +
+               " times solids left a vertex no place outside of them\n";
+  return remarks;
+}
+
+}  // namespace
+
+BenchRow::BenchRow(ReferenceLabel against) : reference(std::move(against)) {
+  PLEAT_CHECK(!reference.id.empty(), "no error, no row: a row names what it is measured against");
+}
+
+std::string write_bench_row(const BenchRow& row) {
+  Json json;
+  for (const TextField& field : kTextFields) json[field.key] = row.*field.value;
+  for (const ObjectField& field : kObjectFields) json[field.key] = row.*field.value;
+  for (const CountField& field : kCountFields) json[field.key] = row.*field.value;
+  json["method"] = json_method(row.method);
+  for (const NumberField& field : kNumberFields) json[field.key] = number_json(row.*field.value);
+  json["ms_per_simulated_second"] = number_json(row.ms_per_simulated_second());
+  for (int s = 0; s < kStageCount; ++s)
+    json["parts_ms"][name(static_cast<Stage>(s))] = row.parts_ms[static_cast<std::size_t>(s)];
+  json["reference"] = json_label(row.reference);
+  json["process_peak_memory_bytes"] =
+      row.process_peak_memory ? Json(*row.process_peak_memory) : Json(nullptr);
+  return json.dump();
+}
+
+BenchRow read_bench_row(std::string_view json_text) {
+  constexpr std::int64_t kMostCounted = 1'000'000'000;
+  const Json json = parse_json(json_text);
+  const JsonReader reader(json);
+  BenchRow row(read_label(reader.at("reference")));
+  for (const TextField& field : kTextFields) row.*field.value = reader.at(field.key).text();
+  for (const ObjectField& field : kObjectFields) {
+    reader.at(field.key).members();
+    row.*field.value = json.at(field.key);
+  }
+  for (const CountField& field : kCountFields)
+    row.*field.value = static_cast<int>(reader.at(field.key).integer(0, kMostCounted));
+  read_method(reader.at("method"), row.method);
+  for (const NumberField& field : kNumberFields) {
+    const JsonReader value = reader.at(field.key);
+    row.*field.value = json.at(field.key).is_null() ? BenchRow::kUnknown : value.number();
+  }
+  const JsonReader parts = reader.at("parts_ms");
+  for (int s = 0; s < kStageCount; ++s)
+    row.parts_ms[static_cast<std::size_t>(s)] =
+        parts.at(name(static_cast<Stage>(s))).number(kNotNegative);
+  const JsonReader memory = reader.at("process_peak_memory_bytes");
+  if (!json.at("process_peak_memory_bytes").is_null())
+    row.process_peak_memory = memory.integer(0, std::int64_t{1} << 53);
+  return row;
+}
+
+std::vector<std::size_t> front_of(std::span<const BenchRow> rows) {
+  std::vector<CostAndError> points;
+  for (const BenchRow& row : rows)
+    points.push_back(row.finished() ? CostAndError{row.ms_per_frame, row.position_error}
+                                    : CostAndError{BenchRow::kUnknown, BenchRow::kUnknown});
+  return pareto_front(points);
+}
+
+std::string setting_phrase(const BenchRow& row) {
+  std::string phrase = method_phrase(row) + ", level " + std::to_string(row.level);
+  for (const auto& change : row.setting.items())
+    if (!is_told(change.key())) phrase += ", " + change.key() + " " + value_text(change.value());
+  return phrase;
+}
+
+std::string markdown_table(std::span<const BenchRow> rows) {
+  const std::vector<std::string> pointers = varying_pointers(rows);
+  std::vector<bool> on_front(rows.size(), false);
+  for (const std::size_t i : front_of(rows)) on_front[i] = true;
+  std::string table = table_head(pointers);
+  std::string remarks;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    table += table_line(rows[i], on_front[i], pointers);
+    remarks += remarks_on(rows[i]);
+  }
+  return remarks.empty() ? table : table + "\n" + remarks;
+}
+
+}  // namespace pleat

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/files/json_text.h"
+#include "core/reference/reference.h"
+
+namespace pleat {
+
+/// One setting measured: what it costs and how wrong it is, never one without the other. A setting
+/// that failed is a row with its status; what could not be measured is NaN, in JSON null.
+struct BenchRow {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  /// Throws ContractError without a reference id.
+  explicit BenchRow(ReferenceLabel against);
+
+  std::string scene;
+  Json setting = Json::object();  ///< what it changes in its plan's scene: {pointer: value}
+  Json fabric = Json::object();   ///< as a scene has it, and so the next
+  Json model = Json::object();
+  MethodOptions method;
+  int level = 0;
+  int n_vertices = 0;
+  int n_substeps = 0;             ///< of a step, as run
+  int n_unresolved_contacts = 0;  ///< see ContactStage::n_unresolved
+
+  double ms_per_frame = kUnknown;  ///< wall time per simulated 1/60 s, median of the runs [ms]
+  double spread_ms = kUnknown;     ///< of ms_per_frame, slowest minus quickest run [ms]
+  int n_runs = 0;  ///< timed; each from a state built anew, its first step not counted
+  std::array<double, kStageCount> parts_ms{};  ///< per frame, from a run of its own [ms]
+
+  double position_error = kUnknown;          ///< RMS over the cloth and the sample times [m]
+  double position_error_percent = kUnknown;  ///< of the rest diagonal
+  double surface_error = kUnknown;           ///< see RunErrors, as are the next three [m]
+  double surface_error_95 = kUnknown;        ///< [m]
+  double bend_error = kUnknown;              ///< of the distribution of curvature [1/m]
+  double bend_error_of_regions = kUnknown;   ///< [1/m]
+  double rms_stretch = kUnknown;             ///< over structural springs and sample times
+  double largest_stretch = kUnknown;
+  double rms_stretch_error = kUnknown;  ///< minus the reference's
+  double largest_stretch_error = kUnknown;
+  double residual = kUnknown;  ///< of the steps' own equations, the largest
+  double iterations_per_step = kUnknown;
+  double energy_drift = kUnknown;  ///< what no force explains, of the largest kinetic energy
+
+  ReferenceLabel reference;
+  std::string status = "ok";  ///< or the name of a SolveStatus, or "refused"
+  std::string message;
+  std::string target;                               ///< "native" or "wasm"
+  std::string commit;                               ///< what was measured
+  std::optional<std::int64_t> process_peak_memory;  ///< [bytes], where the platform tells
+
+  /// False for a run that was refused or ended early: such a row is on no front.
+  bool finished() const { return status == "ok" || status == "not_converged"; }
+  double ms_per_simulated_second() const { return 60 * ms_per_frame; }
+};
+
+/// One line of JSON without its end of line.
+std::string write_bench_row(const BenchRow& row);
+
+/// Throws InputError with the JSON pointer; a row without a reference id is refused.
+BenchRow read_bench_row(std::string_view json_text);
+
+/// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
+std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
+
+/// A row's setting for people: method, level, and what else it changes.
+std::string setting_phrase(const BenchRow& row);
+
+/// Rows as a Markdown table, those on the front marked, with a column for each pointer that varies;
+/// below it, what a row's status means.
+std::string markdown_table(std::span<const BenchRow> rows);
+
+}  // namespace pleat

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "core/deform/deform_solver.h"
+#include "core/run/stage_timer.h"
+#include "core/scene/deform_scene.h"
+
+namespace pleat {
+
+/// What the least energy of a scene costs here, from its mesh to the end.
+struct DeformCost {
+  double total_ms = 0;
+  double build_ms = 0;     ///< energy, pattern and symbolic factor, part of the total
+  double assembly_ms = 0;  ///< of one linearisation: matrix values
+  double factor_ms = 0;    ///< of one linearisation: numeric factor
+  double solve_ms = 0;     ///< of one step: back-solve and corrections
+  int n_linearisations = 0;
+  int n_steps = 0;
+  double energy = 0;
+  DeformTerms terms;
+  SolveReport report;
+};
+
+DeformCost deform_cost(const DeformScene& scene);
+
+/// A hand that takes all handles from rest to their targets in equal moves, with the shape kept up
+/// by DeformSolver::follow.
+struct DragCost {
+  std::vector<double> update_ms;  ///< of each move
+  /// Energy after each move over the least found for the same places, minus one.
+  std::vector<double> excess;
+};
+
+DragCost drag_cost(const DeformScene& scene, int n_moves);
+
+}  // namespace pleat

@@ -1,0 +1,224 @@
+#include "core/sweep/sweep_plan.h"
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/base/check.h"
+#include "core/files/json_reader.h"
+#include "core/reference/reference.h"
+#include "core/scene/cloth_section.h"
+#include "core/scene/scene_override.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kMaxRepeats = 1000;
+constexpr const char* kDuration = "/duration_s";  // in the scene as in the plan
+constexpr std::array<Word<ReferenceKind>, 5> kReferenceWords = {
+    {{"finest", ReferenceKind::finest},
+     {"rigid_chain", ReferenceKind::rigid_chain},
+     {"newton", ReferenceKind::newton},
+     {"same_mesh", ReferenceKind::same_mesh},
+     {"closed_form", ReferenceKind::closed_form}}};
+
+/// A value for the scene and the place in the plan that it stands at.
+struct PlannedChange {
+  SceneOverride change;
+  std::string where;
+};
+using PlannedChanges = std::vector<PlannedChange>;
+
+Json changed_scene(Json scene, const Json& changes) {
+  std::vector<SceneOverride> overrides;
+  for (const auto& change : changes.items()) overrides.push_back({change.key(), change.value()});
+  override_scene(scene, overrides);
+  return scene;
+}
+
+/// True when one of two pointers leads into what the other one leads to.
+bool overlap(const std::string& a, const std::string& b) {
+  const std::string& shorter = a.size() < b.size() ? a : b;
+  const std::string& longer = a.size() < b.size() ? b : a;
+  return longer.rfind(shorter, 0) == 0 &&
+         (longer.size() == shorter.size() || longer[shorter.size()] == '/');
+}
+
+/// An error in a setting's scene, told at the change of the plan that it comes from: one that leads
+/// there, else the last one.
+[[noreturn]] void throw_at_change(const InputError& error, const PlannedChanges& changes) {
+  const PlannedChange* nearest = nullptr;
+  for (const PlannedChange& planned : changes)
+    if (overlap(planned.change.pointer, error.where()) &&
+        (nearest == nullptr || planned.change.pointer.size() > nearest->change.pointer.size()))
+      nearest = &planned;
+  if (nearest == nullptr) nearest = &changes.back();
+  throw InputError(nearest->where, "in the scene, " + error.where() + ": " + error.what());
+}
+
+/// The one list of changes that a member of the plan's "settings" is.
+PlannedChanges read_setting(const JsonReader& reader, const Json& json) {
+  PlannedChanges changes;
+  for (const auto& [pointer, value] : reader.members())
+    changes.push_back({{pointer, json.at(pointer)}, value.pointer()});
+  return changes;
+}
+
+std::vector<PlannedChanges> read_settings(const JsonReader& reader, const Json& json) {
+  std::vector<PlannedChanges> settings;
+  for (const JsonReader& entry : reader.elements())
+    settings.push_back(read_setting(entry, json[settings.size()]));
+  if (settings.empty()) reader.fail("at least one setting");
+  return settings;
+}
+
+[[noreturn]] void throw_too_many(const std::string& where) {
+  throw InputError(where,
+                   "expected at most " + std::to_string(kMaxSettings) + " settings, got more");
+}
+
+/// Every setting of `outer` with each of the values, which change first.
+std::vector<PlannedChanges> times_values(const std::vector<PlannedChanges>& outer,
+                                         const std::string& pointer, const JsonReader& values,
+                                         const Json& json) {
+  const std::vector<JsonReader> elements = values.elements();
+  if (elements.empty()) values.fail("at least one value");
+  if (outer.size() * elements.size() > kMaxSettings) throw_too_many("/grid");
+  std::set<std::string> known;
+  for (std::size_t v = 0; v < elements.size(); ++v)
+    if (!known.insert(json[v].dump()).second)
+      throw InputError(elements[v].pointer(),
+                       "expected each value once, got " + abbreviated(json[v]) + " twice");
+  std::vector<PlannedChanges> product;
+  for (const PlannedChanges& changes : outer)
+    for (std::size_t v = 0; v < elements.size(); ++v) {
+      product.push_back(changes);
+      product.back().push_back({{pointer, json[v]}, elements[v].pointer()});
+    }
+  return product;
+}
+
+std::vector<PlannedChanges> read_grid(const JsonReader& reader, const Json& json) {
+  std::vector<PlannedChanges> grid(1);
+  for (const auto& [pointer, values] : reader.members())
+    grid = times_values(grid, pointer, values, json.at(pointer));
+  return grid;
+}
+
+std::vector<PlannedChanges> combined(const std::vector<PlannedChanges>& grid,
+                                     const std::vector<PlannedChanges>& settings) {
+  if (grid.size() * settings.size() > kMaxSettings) throw_too_many("/settings");
+  std::vector<PlannedChanges> all;
+  for (const PlannedChanges& point : grid)
+    for (const PlannedChanges& setting : settings) {
+      all.push_back(point);
+      all.back().insert(all.back().end(), setting.begin(), setting.end());
+    }
+  return all;
+}
+
+Json changes_json(const PlannedChanges& changes) {
+  Json json = Json::object();
+  for (const PlannedChange& planned : changes) {
+    if (planned.change.pointer == kDuration)
+      throw InputError(planned.where,
+                       "expected a change of anything but the duration, which all settings share");
+    if (!json.emplace(planned.change.pointer, Json(planned.change.value)).second)
+      throw InputError(planned.where, "expected a pointer that the grid does not have, got " +
+                                          abbreviated(Json(planned.change.pointer)));
+  }
+  return json;
+}
+
+/// What all settings share that differ in level and method alone.
+std::string family_of(Json scene) {
+  scene.erase("method");
+  scene.erase("refinement");
+  return content_hash(scene.dump());
+}
+
+SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) {
+  SweepSetting setting;
+  setting.changes = changes_json(planned);
+  try {
+    const Json json = changed_scene(plan.scene, setting.changes);
+    const Scene scene = plan.read(json.dump());
+    setting.level = scene.level;
+    setting.method = scene.method;
+    setting.family = family_of(json);
+    setting.n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
+  } catch (const InputError& error) {
+    if (planned.empty()) throw InputError("/scene" + error.where(), error.what());
+    throw_at_change(error, planned);
+  }
+  return setting;
+}
+
+/// The scene's own faults, before any setting's.
+void read_plan_scene(const JsonReader& reader, SweepPlan& plan) {
+  const auto duration = reader.find("duration_s");
+  if (duration && plan.scene.is_object()) plan.scene["duration_s"] = duration->number(kPositive);
+  try {
+    const Scene scene = plan.read(plan.scene.dump());
+    plan.name = scene.name;
+    plan.duration = scene.duration;
+  } catch (const InputError& error) {
+    const bool is_plans_own = duration && error.where() == kDuration;
+    throw InputError((is_plans_own ? "" : "/scene") + error.where(), error.what());
+  }
+}
+
+}  // namespace
+
+Scene SweepPlan::scene_of(std::size_t setting) const {
+  return read(changed_scene(scene, settings[setting].changes).dump());
+}
+
+SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
+  const Json json = parse_json(json_text);
+  const JsonReader reader(json);
+  reader.allow_keys(
+      {"scene", "grid", "settings", "duration_s", "repeats", "reference", "reference_step_s"});
+  reader.at("scene");
+  SweepPlan plan;
+  plan.scene = json["scene"];
+  plan.read = read;
+  read_plan_scene(reader, plan);
+  if (const auto repeats = reader.find("repeats"))
+    plan.n_repeats = static_cast<int>(repeats->integer(1, kMaxRepeats));
+  if (const auto reference = reader.find("reference"))
+    plan.reference = reference->word(kReferenceWords);
+  if (const auto step = reader.find("reference_step_s")) {
+    plan.reference_step = step->number(kPositive);
+    if (plan.reference != ReferenceKind::newton && plan.reference != ReferenceKind::same_mesh)
+      step->fail("no such key, as only newton and same_mesh take it");
+  }
+  std::vector<PlannedChanges> grid(1);
+  std::vector<PlannedChanges> settings(1);
+  if (const auto at = reader.find("grid")) grid = read_grid(*at, json["grid"]);
+  if (const auto at = reader.find("settings")) settings = read_settings(*at, json["settings"]);
+  for (const PlannedChanges& changes : combined(grid, settings))
+    plan.settings.push_back(make_setting(plan, changes));
+  return plan;
+}
+
+std::string write_sweep_plan(const SweepPlan& plan) {
+  Json settings = Json::array();
+  for (const SweepSetting& setting : plan.settings) settings.push_back(setting.changes);
+  Json json = {{"scene", plan.scene},
+               {"settings", settings},
+               {"duration_s", plan.duration},
+               {"repeats", plan.n_repeats},
+               {"reference", word_for(kReferenceWords, plan.reference)}};
+  if (plan.reference_step > 0) json["reference_step_s"] = plan.reference_step;
+  return format_json(json);
+}
+
+std::vector<double> sweep_sample_times(double duration) {
+  constexpr int kSamples = 10;
+  std::vector<double> times;
+  for (int s = 1; s <= kSamples; ++s) times.push_back(duration * s / kSamples);
+  return times;
+}
+
+}  // namespace pleat

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/files/json_text.h"
+#include "core/scene/scene.h"
+
+namespace pleat {
+
+/// What the settings of a sweep are compared with (sweep_reference.h makes it).
+enum class ReferenceKind {
+  finest,  ///< the finest level of the settings that differ in level and method alone, `implicit`
+           ///< with a direct solver at a quarter of their smallest step
+  rigid_chain,  ///< chain_reference at that level
+  newton,       ///< the same level, `newton` with the midpoint rule, its step and mesh checked
+  same_mesh,    ///< the setting's own level with `newton`: what its steps alone do wrong
+  closed_form,  ///< closed_form_reference at the setting's own level
+};
+
+/// One way to compute the scene of a plan.
+struct SweepSetting {
+  Json changes;  ///< in the plan's scene: {pointer: value}
+  int level;
+  MethodOptions method;
+  std::string family;  ///< the same for settings that differ in level and method alone
+  double n_vertices;   ///< for what it costs, roughly
+};
+
+/// Reads a scene from JSON text. Throws InputError with the JSON pointer.
+using SceneReader = std::function<Scene(std::string_view json_text)>;
+
+constexpr std::size_t kMaxSettings = 10'000;
+
+/// A scene and the settings in which it is computed.
+struct SweepPlan {
+  Json scene;  ///< as its file has it, but for its duration, which is the plan's
+  SceneReader read;
+  std::vector<SweepSetting> settings;  ///< at least one
+  std::string name;                    ///< the scene's
+  double duration;                     ///< [s], positive
+  int n_repeats = 5;                   ///< timed runs of each setting, at least 1
+  ReferenceKind reference = ReferenceKind::finest;
+  /// Step of the reference [s]; 0: a quarter of the smallest substep compared, at most 1/960 s.
+  double reference_step = 0;
+
+  /// The scene with a setting's changes.
+  Scene scene_of(std::size_t setting) const;
+};
+
+/// Reads {"scene": as in its file, "grid": {pointer: [values], ...}, "settings": [{pointer: value,
+/// ...}, ...], "duration_s", "repeats", "reference": "finest"|"rigid_chain"|
+/// "newton"|"same_mesh"|"closed_form", "reference_step_s"}. All but the scene may
+/// be missing; without grid and settings it is computed as it is.
+///
+/// A grid is the product of its lists, the first pointer's values changing last; with settings,
+/// each of them is taken at each point of the grid, before the next point. Pointers lead into the
+/// scene (override_scene). Every setting has to be a scene that `read` takes. Throws InputError
+/// with the plan's JSON pointer; the sentence names the scene's.
+SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read);
+
+/// The same plan with its settings in a list and every default written out.
+std::string write_sweep_plan(const SweepPlan& plan);
+
+/// The times at which a sweep of this duration [s] compares: ten, equally spaced, the last at its
+/// end.
+std::vector<double> sweep_sample_times(double duration);
+
+}  // namespace pleat

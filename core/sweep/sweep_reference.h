@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/reference/reference.h"
+#include "core/sweep/sweep_plan.h"
+
+namespace pleat {
+
+/// What the id of such a reference begins with.
+const char* id_prefix(ReferenceKind kind);
+
+/// newton with the midpoint rule and a direct solver: how exact references are run.
+///
+/// step  [s], positive
+MethodOptions exact_method(double step);
+
+/// What one reference of a sweep is made from.
+struct ReferenceRecipe {
+  std::string id;  ///< of the reference
+  ReferenceKind kind;
+  Scene scene;  ///< whose run it is; the rigid chain stands for its cloth
+};
+
+/// What the settings of a plan are compared with.
+struct SweepReferences {
+  std::vector<ReferenceRecipe> recipes;  ///< each once
+  std::vector<std::size_t> of_setting;   ///< index into the recipes
+};
+
+/// Throws InputError at /duration_s when a reference has more than kMaxSteps steps.
+SweepReferences sweep_references(const SweepPlan& plan);
+
+/// Makes one reference in slices.
+class ReferenceMaker {
+ public:
+  virtual ~ReferenceMaker() = default;
+  /// Works for about `budget` [s].
+  virtual void advance(double budget) = 0;
+  virtual bool done() const = 0;
+  virtual double progress() const = 0;  ///< share of the work done, in [0, 1]
+  /// Once done. It has fewer samples than times when the numbers ended its run, and says so.
+  virtual Reference reference() const = 0;
+};
+
+/// times  [s], positive, ascending.
+/// Throws InputError for a scene that the kind of reference is not for.
+std::unique_ptr<ReferenceMaker> make_reference_maker(const ReferenceRecipe& recipe,
+                                                     const std::vector<double>& times);
+
+}  // namespace pleat
