@@ -9,6 +9,7 @@
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
 #include "core/run/sampled_run.h"
@@ -180,7 +181,7 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
   }
   const MethodOptions& method = run.simulation().scene().method;
   const Reference reference{{id,
-                             std::string(name(method.stepper)) + " with " + name(method.solver) +
+                             std::string(method.stepper->name) + " with " + name(method.solver) +
                                  ", step " + step_phrase(method.step / run.simulation().substeps()),
                              false},
                             run.samples()};

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/files/json_text.h"
 
 namespace pleat {
@@ -28,8 +29,8 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --set POINTER=V1,V2    values in the scene, such as /method/substeps=1,4; with several of these
                          every value of one with every value of the others
   --levels 0,1,2         the same for /refinement/level (default: the scene's)
-  --steppers A,B         usual settings of explicit, rk4, implicit, newton, projective, xpbd (default:
-                         those that suit the model; with --set the scene's own method)
+  --steppers A,B         usual settings of these (default: those that suit the model; with --set the
+                         scene's own method)
   --reference KIND       finest (default): the finest level by implicit; newton: the same exactly,
                          with step and mesh checked; same_mesh: what steps alone do wrong;
                          closed_form: a shape at rest; rigid_chain: a sheet swinging from its edge
@@ -92,9 +93,8 @@ Changes to the scene, for every command but deform, which takes --fabrics and --
 and for every command but sweep, which has --levels and --steppers:
   --level N  --stepper NAME  --substeps N  --iterations N
 --json prints for machines.
-With another --stepper than the scene's, explicit takes as many substeps as it needs and the others
-one in place of that; projective takes a direct solver in place of cg. --fabric leaves out all of
-the scene's own numbers. Exit status: 0 done, 1 ran but a check failed or the output was lost, 2 bad
+With another --stepper than the scene's, settings that it does not read or does not take are left
+out. --fabric leaves out all of the scene's own numbers. Exit status: 0 done, 1 ran but a check failed or the output was lost, 2 bad
 input, 3 a fault of the program.
 )";
 
@@ -108,6 +108,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
     std::fputs(kHelp, stdout);
+    std::printf("\nSteppers:\n%s", stepper_help(standard_steppers()).c_str());
     return Outcome::ok;
   }
   if (command == "--version") {

@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/error/self_crossings.h"
 #include "core/files/frame_file.h"
 #include "core/files/matrix_file.h"
@@ -204,7 +205,7 @@ bool chooses_substeps(const Scene& scene) { return scene.method.substeps == 0; }
 /// What a long run is waited for.
 void print_beginning(const Simulation& simulation) {
   std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n",
-               name(simulation.scene().method.stepper), simulation.substeps(),
+               simulation.scene().method.stepper->name, simulation.substeps(),
                simulation.model().n_vertices());
 }
 
@@ -214,7 +215,7 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   const BuildReport built = build_report(simulation.model());
   std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n",
               printable(scene.name).c_str(), printable(scene.fabric.name).c_str(), scene.level,
-              simulation.model().n_vertices(), name(scene.method.stepper), scene.method.step,
+              simulation.model().n_vertices(), scene.method.stepper->name, scene.method.step,
               simulation.substeps());
   std::printf("built: %s\nleft out: %s\n", joined(built.built).c_str(),
               joined(built.left_out).c_str());

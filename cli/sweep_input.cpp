@@ -2,77 +2,37 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <vector>
 
 #include "core/base/check.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/usual_settings.h"
 
 namespace pleat {
 namespace {
 
-/// The settings of a stepper worth comparing, with the scene's own step: each about three times as
-/// dear as the one before.
-std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptions& scene_method) {
-  MethodOptions method;  // what the scene says of another stepper does not hold for this one
-  if (scene_method.stepper == stepper) method = scene_method;
-  method.step = scene_method.step;
-  method.stepper = stepper;
-  method.iterations = 1;
-  std::vector<int> substeps;
-  switch (stepper) {
-    case StepperKind::explicit_euler:
-    case StepperKind::rk4:
-      substeps = {0};
-      break;
-    case StepperKind::newton:
-      method.solver = best_direct_solver();
-      method.tolerance = kNewtonTolerance;
-      substeps = {1, 4};
-      break;
-    case StepperKind::implicit_euler:
-      substeps = {1, 4};
-      break;
-    case StepperKind::projective:
-      method.solver = best_direct_solver();
-      method.iterations = 5;
-      substeps = {1, 4};
-      break;
-    case StepperKind::xpbd:
-      substeps = {10, 30, 100};
-      break;
-  }
-  std::vector<MethodOptions> settings;
-  for (const int n : substeps) {
-    settings.push_back(method);
-    settings.back().substeps = n;
-  }
-  return settings;
-}
-
-/// Those worth comparing on a scene: fast ones for springs, exact ones for a membrane.
-std::vector<std::string> usual_steppers(const Scene& scene) {
-  if (scene.model.elasticity == Elasticity::membrane) return {"implicit", "newton"};
-  return {"explicit", "implicit", "projective", "xpbd"};
-}
-
-/// The settings of the steppers named, of the usual ones where none is.
-Json stepper_settings(std::vector<std::string> names, const Scene& scene) {
-  if (names.empty()) names = usual_steppers(scene);
-  Json settings = Json::array();
-  std::set<std::string> known;
+/// The steppers named, the usual ones where none is.
+std::vector<const StepperType*> chosen_steppers(const std::vector<std::string>& names,
+                                                const Scene& scene) {
+  if (names.empty()) return usual_steppers(standard_steppers(), scene);
+  std::vector<const StepperType*> chosen;
   for (const std::string& wanted : names) {
-    if (!known.insert(wanted).second)
+    const StepperType* type = find_stepper(standard_steppers(), wanted);
+    if (type == nullptr)
+      throw InputError("--steppers", "expected some of " + stepper_names(standard_steppers()) +
+                                         ", got " + abbreviated(Json(wanted)));
+    if (std::find(chosen.begin(), chosen.end(), type) != chosen.end())
       throw InputError("--steppers", "expected each stepper once, got " + wanted + " twice");
-    const auto* kind = std::find_if(kStepperKinds.begin(), kStepperKinds.end(),
-                                    [&](StepperKind one) { return wanted == name(one); });
-    if (kind == kStepperKinds.end())
-      throw InputError("--steppers",
-                       "expected explicit, rk4, implicit, newton, projective or xpbd, got " +
-                           abbreviated(Json(wanted)));
-    for (const MethodOptions& method : usual_settings(*kind, scene.method))
-      settings.push_back({{"/method", json_method(method)}});
+    chosen.push_back(type);
   }
+  return chosen;
+}
+
+Json stepper_settings(const std::vector<std::string>& names, const Scene& scene) {
+  Json settings = Json::array();
+  for (const StepperType* type : chosen_steppers(names, scene))
+    for (const MethodOptions& method : usual_settings(*type, scene.method))
+      settings.push_back({{"/method", json_method(method)}});
   return settings;
 }
 

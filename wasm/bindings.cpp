@@ -15,7 +15,9 @@
 #include "core/reference/reference_track.h"
 #include "core/run/simulation.h"
 #include "core/run/stage_timer.h"
+#include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_schema.h"
 #include "wasm/envelope.h"
 
 namespace {
@@ -63,7 +65,14 @@ class Scene {
 
   std::string schema() const {
     return guarded([](val& envelope) {
-      envelope.set("schema", json_value(std::string(pleat::scene_schema())));
+      envelope.set("schema", json_value(std::string(pleat::scene_schema_file())));
+    });
+  }
+
+  /// What a page says of each stepper and draws it with.
+  std::string steppers() const {
+    return guarded([](val& envelope) {
+      envelope.set("steppers", json_value(pleat::json_steppers(pleat::standard_steppers()).dump()));
     });
   }
 
@@ -352,6 +361,7 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .constructor<std::string>()
       .function("fabrics", &Scene::fabrics)
       .function("schema", &Scene::schema)
+      .function("steppers", &Scene::steppers)
       .function("parse", &Scene::parse)
       .function("readObj", &Scene::read_obj);
   emscripten::class_<Simulation>("Simulation")

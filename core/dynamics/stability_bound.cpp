@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/fabric/taut_springs.h"
 #include "core/model/hanging_vertices.h"
 
@@ -111,7 +112,7 @@ double largest_stable_step(const ClothModel& model) {
 int stable_substeps(const ClothModel& model, const MethodOptions& options) {
   if (!model.hinges.empty())
     throw InputError("/model/bending", std::string("expected fitted or none with ") +
-                                           name(options.stepper) + ", got hinge");
+                                           options.stepper->name + ", got hinge");
   const double bound = largest_stable_step(model);
   const double enough = std::max(1.0, std::ceil(options.step / (kStepShare * bound)));
   if (options.substeps > 0) {

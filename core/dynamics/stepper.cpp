@@ -3,12 +3,6 @@
 #include <cstdio>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_explicit.h"
-#include "core/dynamics/stepper_implicit.h"
-#include "core/dynamics/stepper_newton.h"
-#include "core/dynamics/stepper_projective.h"
-#include "core/dynamics/stepper_rk4.h"
-#include "core/dynamics/xpbd/stepper_xpbd.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
@@ -41,31 +35,6 @@ SolveReport lost_report(VertexId vertex, double time) {
 }
 
 }  // namespace
-
-const char* name(StepperKind kind) {
-  switch (kind) {
-    case StepperKind::explicit_euler:
-      return "explicit";
-    case StepperKind::rk4:
-      return "rk4";
-    case StepperKind::implicit_euler:
-      return "implicit";
-    case StepperKind::newton:
-      return "newton";
-    case StepperKind::projective:
-      return "projective";
-    case StepperKind::xpbd:
-      return "xpbd";
-  }
-  return "";
-}
-
-void MethodOptions::validate() const {
-  PLEAT_CHECK(step > 0, "a step is positive");
-  PLEAT_CHECK(substeps >= (is_explicit() ? 0 : 1), "at least one substep");
-  PLEAT_CHECK(iterations >= 1, "at least one iteration");
-  PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
-}
 
 Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
                  ContactMemory memory)
@@ -192,29 +161,6 @@ void Stepper::resolve_contacts(const Positions& positions_begin, State& state, d
     contact_forces_.col(pin.vertex).setZero();
     touches_[static_cast<std::size_t>(pin.vertex)] = {};
   }
-}
-
-std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options) {
-  const bool needs_springs =
-      options.stepper == StepperKind::projective || options.stepper == StepperKind::xpbd;
-  if (needs_springs && !model.is_plain_spring_lattice())
-    throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
-                                   name(options.stepper) + ", which works on nothing else");
-  switch (options.stepper) {
-    case StepperKind::explicit_euler:
-      return std::make_unique<StepperExplicit>(model, options);
-    case StepperKind::rk4:
-      return std::make_unique<StepperRk4>(model, options);
-    case StepperKind::implicit_euler:
-      return std::make_unique<StepperImplicit>(model, options);
-    case StepperKind::newton:
-      return std::make_unique<StepperNewton>(model, options);
-    case StepperKind::projective:
-      return std::make_unique<StepperProjective>(model, options);
-    case StepperKind::xpbd:
-      return std::make_unique<StepperXpbd>(model, options);
-  }
-  throw ContractError("unknown stepper");
 }
 
 }  // namespace pleat

@@ -1,6 +1,7 @@
 #include "core/run/adaptive_run.h"
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 
 namespace pleat {
 namespace {

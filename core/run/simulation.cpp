@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 
 namespace pleat {
 namespace {

@@ -50,8 +50,8 @@ std::int64_t whole_steps(double duration, double step) {
   return std::max<std::int64_t>(1, std::llround(n_steps));
 }
 
-Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
-                 const FileSource& files) {
+Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics, const FileSource& files,
+                 StepperTable steppers) {
   const Json document = parse_json(json_text);
   const JsonReader root(document);
   root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement",
@@ -68,7 +68,7 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
   if (const auto at = root.find("refinement")) read_refinement(*at, files, scene);
   if (const auto at = root.find("pins")) read_pins(*at, scene);
   if (const auto at = root.find("world")) read_world(*at, scene);
-  if (const auto at = root.find("method")) read_method(*at, scene.method);
+  if (const auto at = root.find("method")) scene.method = read_method(*at, steppers);
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);
   check_duration(scene.duration, scene.method.step);

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/files/fabric_file.h"
 #include "core/files/file_source.h"
 #include "core/scene/scene.h"
@@ -16,7 +17,7 @@ namespace pleat {
 ///
 /// files  for the meshes that it names. Without it they are refused.
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
-                 const FileSource& files = {});
+                 const FileSource& files = {}, StepperTable steppers = standard_steppers());
 
 /// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s
 /// again.
@@ -30,8 +31,5 @@ void check_duration(double duration, double step);
 
 /// `duration` [s] rounded to whole steps of `step` [s]: at least one, at most kMaxSteps.
 std::int64_t whole_steps(double duration, double step);
-
-/// The JSON schema of the format, as text.
-std::string_view scene_schema();
 
 }  // namespace pleat

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/scene/method_section.h"
 #include "core/sweep/pareto.h"
 
@@ -91,9 +92,8 @@ std::string short_number(double value) {
 
 std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;
-  std::string text = name(method.stepper);
-  if (method.stepper == StepperKind::implicit_euler || method.stepper == StepperKind::projective)
-    text += std::string(" ") + name(method.solver);
+  std::string text = method.stepper->name;
+  if (method.stepper->reads(MethodSetting::solver)) text += std::string(" ") + name(method.solver);
   text += ", " + step_phrase(method.step);
   if (row.n_substeps > 0) text += " x " + std::to_string(row.n_substeps);
   if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
@@ -191,7 +191,7 @@ std::string write_bench_row(const BenchRow& row) {
   return json.dump();
 }
 
-BenchRow read_bench_row(std::string_view json_text) {
+BenchRow read_bench_row(std::string_view json_text, StepperTable steppers) {
   constexpr std::int64_t kMostCounted = 1'000'000'000;
   const Json json = parse_json(json_text);
   const JsonReader reader(json);
@@ -203,7 +203,7 @@ BenchRow read_bench_row(std::string_view json_text) {
   }
   for (const CountField& field : kCountFields)
     row.*field.value = static_cast<int>(reader.at(field.key).integer(0, kMostCounted));
-  read_method(reader.at("method"), row.method);
+  row.method = read_method(reader.at("method"), steppers);
   for (const NumberField& field : kNumberFields) {
     const JsonReader value = reader.at(field.key);
     row.*field.value = json.at(field.key).is_null() ? BenchRow::kUnknown : value.number();

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/files/json_text.h"
 #include "core/reference/reference.h"
 
@@ -65,7 +66,7 @@ struct BenchRow {
 std::string write_bench_row(const BenchRow& row);
 
 /// Throws InputError with the JSON pointer; a row without a reference id is refused.
-BenchRow read_bench_row(std::string_view json_text);
+BenchRow read_bench_row(std::string_view json_text, StepperTable steppers = standard_steppers());
 
 /// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);

@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
 #include "core/files/json_reader.h"
@@ -85,31 +86,11 @@ bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_fra
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// What a substep costs per vertex, roughly, in units of what the forces of explicit cost.
-double substep_cost(const MethodOptions& method) {
-  switch (method.stepper) {
-    case StepperKind::explicit_euler:
-      return 1;
-    case StepperKind::rk4:
-      return 4;
-    case StepperKind::newton:
-      return 400;  // some three rounds of ten solves with a kept factor
-    case StepperKind::implicit_euler:
-      if (method.solver == SolverKind::cg) return 80;  // some ten steps with a 3x3-block matrix
-      return 300;                                      // a factorisation
-    case StepperKind::projective:
-      return 10 * method.iterations;  // a kept factor's two triangular solves a round
-    case StepperKind::xpbd:
-      return 0.2 * method.iterations;  // float32, four springs at a time, no forces
-  }
-  return 1;
-}
-
 /// For progress alone: vertices times substeps times their cost, per second of motion.
 double expected_work(double n_vertices, const MethodOptions& method) {
   constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
   const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
-  return n_vertices / method.step * substeps * substep_cost(method);
+  return n_vertices / method.step * substeps * method.stepper->substep_cost(method);
 }
 
 double expected_work(const Scene& scene) {
@@ -118,7 +99,7 @@ double expected_work(const Scene& scene) {
 }
 
 std::string phrase(const MethodOptions& method, int level) {
-  return std::string(name(method.stepper)) + ", level " + std::to_string(level);
+  return std::string(method.stepper->name) + ", level " + std::to_string(level);
 }
 
 Json journal_line(std::size_t setting, std::size_t round) {
@@ -309,7 +290,7 @@ bool Sweep::take_line(std::string_view text) {
       return true;
     }
     line.at("row").members();
-    BenchRow row = read_bench_row(json["row"].dump());
+    BenchRow row = read_bench_row(json["row"].dump(), plan_.steppers);
     if (row.reference.id != references_.recipes[references_.of_setting[setting()]].id) return false;
     keep_row(std::move(row));
     return true;

@@ -29,10 +29,10 @@ struct PlannedChange {
 };
 using PlannedChanges = std::vector<PlannedChange>;
 
-Json changed_scene(Json scene, const Json& changes) {
+Json changed_scene(Json scene, const Json& changes, StepperTable steppers) {
   std::vector<SceneOverride> overrides;
   for (const auto& change : changes.items()) overrides.push_back({change.key(), change.value()});
-  override_scene(scene, overrides);
+  override_scene(scene, overrides, steppers);
   return scene;
 }
 
@@ -141,7 +141,7 @@ SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) 
   SweepSetting setting;
   setting.changes = changes_json(planned);
   try {
-    const Json json = changed_scene(plan.scene, setting.changes);
+    const Json json = changed_scene(plan.scene, setting.changes, plan.steppers);
     const Scene scene = plan.read(json.dump());
     setting.level = scene.level;
     setting.method = scene.method;
@@ -171,10 +171,11 @@ void read_plan_scene(const JsonReader& reader, SweepPlan& plan) {
 }  // namespace
 
 Scene SweepPlan::scene_of(std::size_t setting) const {
-  return read(changed_scene(scene, settings[setting].changes).dump());
+  return read(changed_scene(scene, settings[setting].changes, steppers).dump());
 }
 
-SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
+SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read,
+                          StepperTable steppers) {
   const Json json = parse_json(json_text);
   const JsonReader reader(json);
   reader.allow_keys(
@@ -183,6 +184,7 @@ SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
   SweepPlan plan;
   plan.scene = json["scene"];
   plan.read = read;
+  plan.steppers = steppers;
   read_plan_scene(reader, plan);
   if (const auto repeats = reader.find("repeats"))
     plan.n_repeats = static_cast<int>(repeats->integer(1, kMaxRepeats));

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/files/json_text.h"
 #include "core/scene/scene.h"
 
@@ -39,6 +40,7 @@ constexpr std::size_t kMaxSettings = 10'000;
 struct SweepPlan {
   Json scene;  ///< as its file has it, but for its duration, which is the plan's
   SceneReader read;
+  StepperTable steppers;               ///< that its scenes may name
   std::vector<SweepSetting> settings;  ///< at least one
   std::string name;                    ///< the scene's
   double duration;                     ///< [s], positive
@@ -60,7 +62,8 @@ struct SweepPlan {
 /// each of them is taken at each point of the grid, before the next point. Pointers lead into the
 /// scene (override_scene). Every setting has to be a scene that `read` takes. Throws InputError
 /// with the plan's JSON pointer; the sentence names the scene's.
-SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read);
+SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read,
+                          StepperTable steppers = standard_steppers());
 
 /// The same plan with its settings in a list and every default written out.
 std::string write_sweep_plan(const SweepPlan& plan);

@@ -550,7 +550,8 @@ TEST_CASE("command: bad input leaves folders that exist as they were", "[cli]") 
   };
   const std::vector<Bad> cases = {
       {scene_with("\"step_s\": 0.02", "\"step_s\": 0"), {}},
-      {scene_with("\"solver\": \"eigen\"", "\"stepper\": \"explicit\""), {"--overwrite"}},
+      {scene_with("\"solver\": \"eigen\"", "\"stepper\": \"explicit\", \"substeps\": 1"),
+       {"--overwrite"}},
       {kScene, {}},  // the folder holds an earlier run
       {kScene, {"--overwrite", "--level", "99"}},
   };

@@ -134,7 +134,7 @@ TEST_CASE("closed_form_reference: a strip held by two rows is an elastica from b
 TEST_CASE("closed_form_reference: a static shape does not depend on the method", "[reference]") {
   Scene scene = hanging_scene(3);
   const std::string id = closed_form_reference(scene, kTimes).label.id;
-  scene.method.stepper = StepperKind::xpbd;
+  scene.method.stepper = &steppers::xpbd;
   CHECK(closed_form_reference(scene, kTimes).label.id == id);
   scene.fabric.areal_density *= 1.01;
   CHECK(closed_form_reference(scene, kTimes).label.id != id);

@@ -83,7 +83,7 @@ TEST_CASE("reference_track: level, method, name and duration are not its content
   const Scene scene = swinging_scene(1);
   Scene other = scene;
   other.level = 3;
-  other.method.stepper = StepperKind::xpbd;
+  other.method.stepper = &steppers::xpbd;
   other.name = "renamed";
   other.duration = 77;
   CHECK(ReferenceTrack(run_of(scene, 1)).is_of(other));

@@ -11,7 +11,7 @@ namespace {
 /// At rest by newton, from the rest shape.
 Positions at_rest(Scene scene) {
   scene.method = MethodOptions{};
-  scene.method.stepper = StepperKind::newton;
+  scene.method.stepper = &steppers::newton;
   scene.method.rule = NewtonRule::equilibrium;
   scene.method.solver = SolverKind::eigen;
   scene.method.tolerance = kNewtonTolerance;

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
 #include "native-tests/support/models.h"
 
@@ -25,7 +26,7 @@ TEST_CASE("contact: a sheet shot at a ball or a floor at 50 m/s never enters it"
   const bool ball = GENERATE(true, false);
   CAPTURE(ball);
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Scene scene = falling_scene(method, kRadius + 0.5);
     scene.initial_velocity = {0, -50, 0};
     const Sphere sphere{{0.05, 0, 0.02}, kRadius};
@@ -49,7 +50,7 @@ TEST_CASE("contact: a sheet shot at a ball or a floor at 50 m/s never enters it"
 
 TEST_CASE("contact: cloth dropped flat on a floor comes to rest there", "[run][long]") {
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Scene scene = falling_scene(method, 0.05);
     scene.colliders.push_back({Plane{}, {}, 0.5});
     Simulation simulation(scene);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
@@ -26,7 +27,7 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
           "[run]") {
   const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Simulation simulation(hanging_scene(method));
     for (int s = 0; s < 5; ++s) simulation.step();
     simulation.grab(kLowerCorner);
@@ -46,7 +47,7 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
 TEST_CASE("hand: a vertex that hangs is at its target too, between its parents", "[run]") {
   const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Scene scene = hanging_scene(method);
     scene.plan = patchy_plan(*base_quads(scene));
     Simulation simulation(scene);
@@ -82,7 +83,7 @@ TEST_CASE("hand: a target that is not finite is ignored", "[run]") {
 
 TEST_CASE("hand: a pinned vertex stays at its pin", "[run]") {
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Simulation simulation(hanging_scene(method));
     const Vec3 place = simulation.state().positions.col(2);
     simulation.grab(VertexId(2));

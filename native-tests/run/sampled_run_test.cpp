@@ -26,7 +26,7 @@ Scene falling_scene(double step) {
   cloth.velocities = Positions::Zero(3, 1);
   cloth.masses = Eigen::VectorXd::Ones(1);
   scene.cloth = cloth;
-  scene.method.stepper = StepperKind::explicit_euler;
+  scene.method.stepper = &steppers::explicit_euler;
   scene.method.step = step;
   return scene;
 }

@@ -294,7 +294,7 @@ const BadScene kBadScenes[] = {
      "/world/colliders/0/friction", "expected a number >= 0.0, got -0.1"},
     // Method and record.
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "euler"}})", "/method/stepper",
-     R"(expected one of "explicit", "rk4", "implicit", "newton", "projective", "xpbd", got "euler")"},
+     R"(expected one of "implicit", "projective", "xpbd", "explicit", "rk4", "newton", got "euler")"},
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "newton", "rule": "static"}})",
      "/method/rule",
      R"(expected one of "backward_euler", "midpoint", "equilibrium", got "static")"},
@@ -303,13 +303,13 @@ const BadScene kBadScenes[] = {
     {R"({"cloth": {"sheet": {}}, "method": {"substeps": 0}})", "/method/substeps",
      "expected a whole number from 1 to 1000000, got 0"},
     {R"({"cloth": {"sheet": {}}, "method": {"substeps": "stable"}})", "/method/substeps",
-     "expected a whole number, as only explicit and rk4 take \"stable\", got \"stable\""},
-    {R"({"cloth": {"sheet": {}}, "method": {"iterations": 0}})", "/method/iterations",
-     "expected a whole number from 1 to 100000, got 0"},
+     "expected a whole number, as implicit has no bound to be stable at, got \"stable\""},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd", "iterations": 0}})",
+     "/method/iterations", "expected a whole number from 1 to 100000, got 0"},
     {R"({"cloth": {"sheet": {}}, "method": {"tolerance": 1}})", "/method/tolerance",
      "expected a number between 0.0 and 1.0, both excluded, got 1"},
-    {R"({"cloth": {"sheet": {}}, "method": {"constraints": true}})", "/method/constraints",
-     R"(expected one of "compliant", "rigid", got true)"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd", "constraints": true}})",
+     "/method/constraints", R"(expected one of "compliant", "rigid", got true)"},
     {R"({"cloth": {"sheet": {}}, "record": {"every_s": -1}})", "/record/every_s",
      "expected a number > 0.0, got -1"},
     {R"({"cloth": {"sheet": {}}, "record": {"format": "stl"}})", "/record/format",
@@ -332,8 +332,7 @@ const char* const kRichScene = R"({
             "colliders": [{"plane": {"point_m": [0, 0.1, 0], "normal": [0, 1, 1]}, "friction": 0.7},
                           {"sphere": {"centre_m": [0, 0.3, 0], "radius_m": 0.1},
                            "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "begin_s": 1, "frequency_hz": 2}}]},
-  "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable", "iterations": 7, "solver": "eigen",
-             "tolerance": 1e-7, "constraints": "rigid"},
+  "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable"},
   "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
 
 Scene read(const std::string& text) { return read_scene(text, fabric_library()); }
@@ -395,16 +394,27 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.colliders[0].friction == 0.7);
   CHECK(std::get<Sphere>(scene.colliders[1].shape).radius == 0.1);
   CHECK(scene.colliders[1].motion.frequency == 2);
-  CHECK(scene.method.stepper == StepperKind::explicit_euler);
+  CHECK(scene.method.stepper == &steppers::explicit_euler);
   CHECK(scene.method.step == 0.003);
   CHECK(scene.method.substeps == 0);
-  CHECK(scene.method.iterations == 7);
-  CHECK(scene.method.solver == SolverKind::eigen);
-  CHECK(scene.method.tolerance == 1e-7);
-  CHECK(scene.method.constraints == Constraints::rigid);
   CHECK(scene.duration == 1.7);
   CHECK(scene.record.every == 0.06);
   CHECK(scene.record.format == FrameFormat::binary);
+}
+
+TEST_CASE("scene file: every setting of a method is read", "[scene]") {
+  const auto method = [](const std::string& text) {
+    return read(R"({"cloth": {"sheet": {}}, "method": )" + text + "}").method;
+  };
+  const MethodOptions xpbd =
+      method(R"({"stepper": "xpbd", "substeps": 9, "iterations": 7, "constraints": "rigid"})");
+  CHECK(xpbd.substeps == 9);
+  CHECK(xpbd.iterations == 7);
+  CHECK(xpbd.constraints == Constraints::rigid);
+  const MethodOptions implicit = method(R"({"solver": "eigen", "tolerance": 1e-7})");
+  CHECK(implicit.solver == SolverKind::eigen);
+  CHECK(implicit.tolerance == 1e-7);
+  CHECK(method(R"({"stepper": "newton", "rule": "midpoint"})").rule == NewtonRule::midpoint);
 }
 
 TEST_CASE("scene file: a positive number may be as large as any, but not zero", "[scene]") {

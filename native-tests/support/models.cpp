@@ -7,7 +7,7 @@
 namespace pleat {
 namespace {
 
-MethodOptions method(StepperKind stepper, double step) {
+MethodOptions method(const StepperType* stepper, double step) {
   MethodOptions options;
   options.stepper = stepper;
   options.step = step;
@@ -112,34 +112,34 @@ Eigen::MatrixXd dense(const SparseMatrix& lower) {
 }
 
 std::vector<MethodOptions> converged_methods(double step) {
-  MethodOptions explicit_method = method(StepperKind::explicit_euler, step);
-  MethodOptions projective = method(StepperKind::projective, step);
+  MethodOptions explicit_method = method(&steppers::explicit_euler, step);
+  MethodOptions projective = method(&steppers::projective, step);
   projective.iterations = 300;
-  MethodOptions xpbd = method(StepperKind::xpbd, step);
+  MethodOptions xpbd = method(&steppers::xpbd, step);
   xpbd.iterations = 100;
-  MethodOptions newton = method(StepperKind::newton, step);
+  MethodOptions newton = method(&steppers::newton, step);
   newton.rule = NewtonRule::backward_euler;
   newton.tolerance = kNewtonTolerance;
-  return {explicit_method, method(StepperKind::implicit_euler, step), projective, xpbd, newton};
+  return {explicit_method, method(&steppers::implicit_euler, step), projective, xpbd, newton};
 }
 
 std::vector<MethodOptions> everyday_methods() {
-  MethodOptions explicit_method = method(StepperKind::explicit_euler, 1.0 / 60);
+  MethodOptions explicit_method = method(&steppers::explicit_euler, 1.0 / 60);
   explicit_method.substeps = 0;
-  MethodOptions implicit = method(StepperKind::implicit_euler, 1.0 / 60);
+  MethodOptions implicit = method(&steppers::implicit_euler, 1.0 / 60);
   implicit.solver = SolverKind::cg;
-  MethodOptions projective = method(StepperKind::projective, 1.0 / 60);
+  MethodOptions projective = method(&steppers::projective, 1.0 / 60);
   projective.iterations = 10;
-  MethodOptions xpbd = method(StepperKind::xpbd, 1.0 / 60);
+  MethodOptions xpbd = method(&steppers::xpbd, 1.0 / 60);
   xpbd.substeps = 30;
   return {explicit_method, implicit, projective, xpbd};
 }
 
 std::vector<MethodOptions> accurate_methods(double step) {
-  MethodOptions newton = method(StepperKind::newton, step);
+  MethodOptions newton = method(&steppers::newton, step);
   newton.rule = NewtonRule::midpoint;
   newton.tolerance = kNewtonTolerance;
-  MethodOptions rk4 = method(StepperKind::rk4, step);
+  MethodOptions rk4 = method(&steppers::rk4, step);
   rk4.substeps = 0;
   return {newton, rk4};
 }

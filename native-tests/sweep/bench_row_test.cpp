@@ -16,7 +16,7 @@ BenchRow measured_row() {
   row.setting = {{"/refinement/level", 3}, {"/fabric/name", "silk"}};
   row.fabric = {{"name", "silk"}};
   row.model = {{"bending", "none"}};
-  row.method.stepper = StepperKind::projective;
+  row.method.stepper = &steppers::projective;
   row.method.step = 1.0 / 120;
   row.method.iterations = 7;
   row.method.solver = SolverKind::eigen;
@@ -54,7 +54,7 @@ TEST_CASE("bench_row: a row reads back to what was written", "[sweep]") {
   CHECK(read.setting == row.setting);
   CHECK(read.fabric == row.fabric);
   CHECK(read.model == row.model);
-  CHECK(read.method.stepper == StepperKind::projective);
+  CHECK(read.method.stepper == &steppers::projective);
   CHECK(read.rms_stretch == row.rms_stretch);
   CHECK(read.energy_drift == row.energy_drift);
   CHECK(read.n_unresolved_contacts == row.n_unresolved_contacts);
