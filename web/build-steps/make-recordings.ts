@@ -7,8 +7,10 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { deflateSync } from 'node:zlib';
-import { encodeFrames, type Parents, type RecordingHead } from '../src/sim/recording.ts';
-import type { ExampleStudyHandle, GarmentRunHandle } from '../src/sim/refinement-module.ts';
+import type {
+  ExampleStudyHandle,
+  GarmentRunHandle,
+} from '../src/refinement/bindings/refinement-module.ts';
 import {
   FINE_LEVEL,
   FRAME_S,
@@ -16,7 +18,12 @@ import {
   PATTERNS,
   SETTLED_S,
   USUAL_DEMAND,
-} from '../src/state/garment-frames.ts';
+} from '../src/refinement/state/garment-frames.ts';
+import {
+  encodeFrames,
+  type Parents,
+  type RecordingHead,
+} from '../src/refinement/worker/recording.ts';
 import createRefinement from '../src/wasm/refinement.mjs';
 
 /** As long as the frames of the test motion are [s]. */

@@ -1,8 +1,8 @@
 // Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
-import './design.css';
-import { createMotionView, type MotionView } from './views/motion-view';
-import { createTabs, VIEWS, type ViewId } from './views/tabs';
-import type { View } from './views/view';
+import './shared/design.css';
+import { createMotionView, type MotionView } from './motion/motion-view';
+import type { View } from './shared/panels/view';
+import { createTabs, VIEWS, type ViewId } from './tabs';
 
 const place = (id: string): HTMLElement => {
   const found = document.getElementById(id);
@@ -28,12 +28,12 @@ function motionView(hash: string): MotionView {
 /** Parts of the page that only one view needs, fetched when it is first asked for. */
 const FETCHED: Record<Exclude<ViewId, 'motion'>, (hash: string) => Promise<View>> = {
   async refinement(hash) {
-    const { createRefinementView } = await import('./views/refinement-view');
+    const { createRefinementView } = await import('./refinement/refinement-view');
     views.refinement ??= createRefinementView(place('refinement'), hash);
     return views.refinement;
   },
   async fabrics(hash) {
-    const { createFabricsView } = await import('./views/fabrics-view');
+    const { createFabricsView } = await import('./fabrics/fabrics-view');
     views.fabrics ??= createFabricsView(place('fabrics'), hash, {
       wear(fabric) {
         motionView('#').wear(fabric);

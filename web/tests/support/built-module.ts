@@ -1,7 +1,7 @@
 // The WebAssembly modules as they were built.
 import { existsSync, readFileSync } from 'node:fs';
-import type { RefinementModule } from '../../src/sim/refinement-module';
-import type { DeformModule, PleatModule, SweepModule } from '../../src/sim/wasm-module';
+import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import type { DeformModule, PleatModule, SweepModule } from '../../src/shared/bindings/wasm-module';
 
 interface Modules {
   pleat: PleatModule;

@@ -8,7 +8,7 @@ import type {
   SimulationHandle,
   SweepModule,
   Triple,
-} from '../../src/sim/wasm-module';
+} from '../../src/shared/bindings/wasm-module';
 
 /** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
 export const FRAGILE_STEPS = 10;

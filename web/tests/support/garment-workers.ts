@@ -1,21 +1,21 @@
 // The workers of garments in this thread, with the real module and the records of the repository.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { createExampleCore } from '../../src/sim/example-core';
+import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import {
   createAsked,
   type ExampleClient,
   type GarmentClient,
   type Port,
-} from '../../src/sim/garment-client';
-import { createGarmentCore } from '../../src/sim/garment-core';
+} from '../../src/refinement/run/garment-client';
+import { createExampleCore } from '../../src/refinement/worker/example-core';
+import { createGarmentCore } from '../../src/refinement/worker/garment-core';
 import type {
   FromExample,
   FromGarment,
   ToExample,
   ToGarment,
-} from '../../src/sim/garment-protocol';
-import type { RefinementModule } from '../../src/sim/refinement-module';
+} from '../../src/refinement/worker/garment-protocol';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 

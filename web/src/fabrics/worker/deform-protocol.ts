@@ -1,0 +1,63 @@
+// Messages between the page and the worker that finds the shapes of fabrics. Lengths in metres.
+import type {
+  ClothAnswer,
+  DeformReport,
+  Failure,
+  FitAnswer,
+  TermNumbers,
+} from '../../shared/bindings/wasm-module';
+
+export interface ShowMessage {
+  type: 'show';
+  form: 'consistent' | 'published';
+  /** One pane for each. */
+  weights: TermNumbers[];
+}
+
+export type ToDeform =
+  /** Another cloth, with nothing held and no panes. `cloth` marks what comes of it. */
+  | { type: 'open'; cloth: number; fabricsText: string; sceneText: string; objText: string }
+  | ShowMessage
+  /** Vertices, ascending, and their places. */
+  | { type: 'hold'; vertices: Int32Array; places: Float64Array }
+  /** By a hand that goes on moving: panes follow as far as it is quick. */
+  | { type: 'move'; places: Float64Array }
+  /** The hand rests: the exact shapes are found; those from rest are tried once it has let go. */
+  | { type: 'rest'; isHeld: boolean }
+  /** A frame's buffer comes back. */
+  | { type: 'return'; cloth: number; pane: number; buffer: ArrayBuffer }
+  | { type: 'fit'; measures: TermNumbers }
+  /** Asks for what a cloth in motion starts from. */
+  | { type: 'section'; pane: number };
+
+export type DeformStatus = 'dragging' | 'settling' | 'converged' | 'not_converged';
+
+export interface DeformFrame {
+  type: 'frame';
+  cloth: number;
+  pane: number;
+  /** As of any frame (protocol.ts); it holds no scalar. To be given back. */
+  buffer: ArrayBuffer;
+  status: DeformStatus;
+  report: DeformReport;
+  /** Of work since something was last moved or weighted otherwise [ms]. */
+  updateMs: number;
+}
+
+export type FromDeform =
+  | { type: 'broken'; reason: string }
+  | { type: 'opened'; cloth: number; answer: ClothAnswer; triangles: Uint32Array }
+  /** Every show and every hold is granted or refused, in the order in which they came. */
+  | { type: 'granted'; what: 'show' | 'hold' }
+  /** `step`: something failed that nobody asked for by name. */
+  | {
+      type: 'refused';
+      what: 'open' | 'show' | 'hold' | 'fit' | 'section' | 'step';
+      failure: Failure;
+    }
+  | DeformFrame
+  | { type: 'fitted'; measures: TermNumbers; answer: FitAnswer }
+  /** The section "cloth" of a scene, and the places from which a pane's shape starts. */
+  | { type: 'section'; section: object; positions: Float64Array };
+
+export type DeformPost = (message: FromDeform, transfer: Transferable[]) => void;

@@ -1,0 +1,162 @@
+// The view of cloth in motion: the store, the playback, the stage and the panels, wired together.
+import type { StartShape } from '../fabrics/run/deformer';
+import { fabricNamed } from '../shared/fabric/fabric-data';
+import { createAnnouncer } from '../shared/panels/announcer';
+import { createDropTarget } from '../shared/panels/drop-target';
+import { element } from '../shared/panels/element';
+import { createInvitation } from '../shared/panels/invitation';
+import { createKeysPanel } from '../shared/panels/keys-panel';
+import { PICTURE_LOST, replaceCanvas } from '../shared/panels/no-picture';
+import type { View } from '../shared/panels/view';
+import { createStore, watch } from '../shared/state/store';
+import { createDrawingPanel } from './panels/drawing-panel';
+import { createFabricPanel } from './panels/fabric-panel';
+import { createHeatLegend } from './panels/heat-legend';
+import { createMethodPanel } from './panels/method-panel';
+import { motionSentence } from './panels/motion-sentence';
+import { createToolbar } from './panels/motion-toolbar';
+import { createNumbersStrip } from './panels/numbers-strip';
+import { createProblemBanner } from './panels/problem-banner';
+import { createScenePanel } from './panels/scene-panel';
+import { createSpeedErrorView } from './panels/speed-error-view';
+import { createSweepPanel } from './panels/sweep-panel';
+import { createPlayback, type Playback } from './run/motion-run';
+import { createSweep } from './run/sweep';
+import { createStage, type Stage } from './stage/motion-stage';
+import { decodeLink, encodeLink } from './state/motion-link';
+import { initialState, shownHeat } from './state/motion-state';
+import { deformedMesh, holdFor } from './state/obj-mesh';
+import { presetSetting } from './state/setting';
+
+export interface MotionView extends View {
+  /** The shown scene in that fabric. */
+  wear(fabric: string): void;
+  /** Sets a cloth in motion from the shape that it was pulled into. */
+  start(shape: StartShape, fabric: string): void;
+}
+
+/** `place` finds the parts of the document by their ids. */
+export function createMotionView(place: (id: string) => HTMLElement, hash: string): MotionView {
+  let isShown = false;
+  const first = decodeLink(hash);
+  const store = createStore(initialState(first.link, first.problems));
+
+  const stageBox = place('stage');
+  const canvas = element('canvas', {
+    tabindex: 0,
+    role: 'application',
+    'aria-label':
+      'Cloth in three dimensions. Space plays, G takes the cloth, arrows turn the view.',
+  });
+  stageBox.append(canvas);
+
+  let running: Playback | null = null;
+  let stage: Stage | null = null;
+
+  function togglePlay(): void {
+    if (store.get().playing) running?.pause();
+    else running?.play();
+  }
+
+  const stageKeys: Record<string, () => void> = {
+    ' ': togglePlay,
+    '.': () => running?.step(),
+    r: () => running?.reset(),
+  };
+
+  const invitation = createInvitation(stageBox);
+  watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) =>
+    invitation.setShown(invited && phase === 'ready' && ahead === null),
+  );
+  createHeatLegend(stageBox, store);
+
+  try {
+    stage = createStage(stageBox, canvas, {
+      grab(vertex) {
+        running?.play();
+        running?.grab(vertex);
+      },
+      moveGrab: (target) => running?.moveGrab(target),
+      releaseGrab: () => running?.releaseGrab(),
+      key(name) {
+        stageKeys[name]?.();
+        return name in stageKeys;
+      },
+      drawn(scale, at) {
+        const { heatScale } = store.get();
+        if (JSON.stringify(scale) !== JSON.stringify(heatScale)) store.set({ heatScale: scale });
+        invitation.place(at.x, at.y);
+      },
+      contextLost() {
+        store.set({ playing: false, problem: { source: 'run', sentence: PICTURE_LOST } });
+      },
+    });
+  } catch {
+    const sentence = replaceCanvas(canvas, 'The numbers and the sweep');
+    store.set({ problem: { source: 'browser', sentence } });
+  }
+
+  const playback = createPlayback(store, {
+    showMesh: (...mesh) => stage?.showMesh(...mesh),
+    showFrame: (...frame) => stage?.showFrame(...frame),
+  });
+  running = playback;
+  const { play, pause, step, reset } = playback;
+  const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
+
+  createProblemBanner(place('messages'), store, actions);
+  createAnnouncer(place('messages'), store, motionSentence);
+  createNumbersStrip(place('strip'), store);
+  createToolbar(place('toolbar'), store, actions);
+  createScenePanel(place('panel'), store, playback);
+  createDropTarget(document.body, {
+    openObj(file) {
+      if (isShown) playback.openObj(file);
+    },
+  });
+  createFabricPanel(place('panel'), store);
+  createMethodPanel(place('panel'), store);
+  createDrawingPanel(place('panel'), store);
+  createSweepPanel(place('panel'), store, createSweep(store));
+  createKeysPanel(place('panel'));
+  createSpeedErrorView(place('tray'), store);
+
+  watch(store, ['setting'], ({ setting }) => stage?.setFabric(fabricNamed(setting.fabric).id));
+  watch(store, ['colliders'], ({ colliders }) => stage?.setColliders(colliders));
+  watch(store, ['heat', 'heatRange', 'numbers'], (state) =>
+    stage?.setHeat(shownHeat(state), state.heatRange),
+  );
+  watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
+  const link = () => `#${encodeLink(store.get())}`;
+  const writeLink = () => {
+    if (isShown && link() !== window.location.hash) window.history.replaceState(null, '', link());
+  };
+  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'startS'], writeLink);
+
+  return {
+    link,
+    open(newHash) {
+      const read = decodeLink(newHash);
+      store.set({ ...read.link, problem: initialState(read.link, read.problems).problem });
+    },
+    setShown(value) {
+      isShown = value;
+      if (!isShown) playback.pause();
+      writeLink();
+    },
+    wear(fabric) {
+      store.set({ setting: { ...store.get().setting, fabric } });
+    },
+    start({ section, positions }, fabric) {
+      const mesh = deformedMesh(section, positions);
+      const setting = { ...presetSetting('obj'), fabric, hold: holdFor(mesh, 'group:held') };
+      store.set({ mesh, setting, startS: 0, playing: false, invited: true });
+    },
+    probe: {
+      state: () => store.get(),
+      positions: () => Array.from(stage?.positions() ?? []),
+      project: (vertex: number) => stage?.project(vertex),
+      inviting: () => stage?.inviting(),
+    },
+  };
+}

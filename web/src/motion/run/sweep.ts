@@ -1,0 +1,73 @@
+// Runs a sweep in a worker of its own, so that the shown cloth and the page stay responsive.
+
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import type { Store } from '../../shared/state/store';
+import { startSweepWorker, type WorkerClient } from '../../shared/workers/client';
+import type { AppState, SweepState } from '../state/motion-state';
+import { sweepPlan, sweptScene } from '../state/sweep-plan';
+import type { SweepMessage } from '../worker/motion-protocol';
+
+export interface Sweep {
+  /** Measures levels 0 to `finest` of the shown preset. */
+  start(finest: number): void;
+  /** Ends at once; the rows so far stay. */
+  cancel(): void;
+}
+
+export function createSweep(store: Store<AppState>): Sweep {
+  let worker: WorkerClient<SweepMessage> | null = null;
+
+  function patch(change: Partial<SweepState>): void {
+    store.set({ sweep: { ...store.get().sweep, ...change } });
+  }
+
+  function end(phase: SweepState['phase'], message: string): void {
+    worker?.terminate();
+    worker = null;
+    patch({ phase, message });
+  }
+
+  store.subscribe((state, previous) => {
+    const isDisturbed = state.playing && state.sweep.phase === 'running' && !state.sweep.disturbed;
+    if (isDisturbed && (!previous.playing || previous.sweep.phase !== 'running')) {
+      patch({ disturbed: true });
+    }
+  });
+
+  return {
+    start(finest) {
+      worker?.terminate();
+      const { setting, mesh } = store.get();
+      store.set({
+        playing: false, // a second busy worker would make every time too long
+        sweepOpen: true,
+        sweep: {
+          phase: 'running',
+          progress: 0,
+          message: 'Computing the reference',
+          rows: [],
+          front: [],
+          scene: sweptScene(setting, mesh),
+          disturbed: false,
+        },
+      });
+      worker = startSweepWorker(
+        (message) => {
+          if (message.type === 'sweepReport') {
+            const { rows, front, progress, done, message: text } = message.report;
+            patch({ rows, front, progress, message: text });
+            if (done) end('done', text);
+          }
+          if (message.type === 'refused') end('failed', message.failure.what);
+          if (message.type === 'broken') end('failed', message.reason);
+        },
+        (reason) => end('failed', reason),
+      );
+      const planText = JSON.stringify(sweepPlan(setting, finest, mesh));
+      worker.send({ type: 'sweep', fabricsText, planText });
+    },
+    cancel() {
+      if (worker) end('cancelled', 'Cancelled; the rows so far stay.');
+    },
+  };
+}

@@ -1,0 +1,119 @@
+// Messages between the page and its workers, both ways. Lengths in metres, times in seconds.
+
+import type {
+  Collider,
+  Failure,
+  RunNumbers,
+  SceneSummary,
+  SweepReport,
+} from '../../shared/bindings/wasm-module';
+import type { ObjMesh } from '../state/obj-mesh';
+
+/** What a frame holds beside positions: stretch as a ratio (usual), or distance to the reference [m]. */
+export type Scalar = 'stretch' | 'distance';
+
+export interface StepMessage {
+  type: 'step';
+  /** 0 to fill the buffer anew. */
+  count: number;
+  wantsNumbers: boolean;
+  request: number;
+  scalar?: Scalar;
+  buffer: ArrayBuffer;
+}
+
+export interface LoadMessage {
+  type: 'load';
+  sceneText: string;
+  keepMotion: boolean;
+  request: number;
+  scalar?: Scalar;
+  /** Where the vertices start when that is not where they rest. */
+  start?: Float64Array;
+}
+
+export type ToWorker =
+  /** First message: opens the module's objects with the fabric file's text. */
+  | { type: 'open'; fabricsText: string }
+  /** `request` comes back in the answer, so that a late answer can be told from a current one. */
+  | LoadMessage
+  | { type: 'reset'; request: number; scalar?: Scalar }
+  /** A reference's file, for whichever scene is loaded and is what it is of. */
+  | { type: 'setReference'; bytes: ArrayBuffer }
+  /** `isOwn`: the visitor brought it. Whatever runs goes on. */
+  | { type: 'readObj'; name: string; objText: string; isOwn: boolean }
+  /** The buffer is given away here and comes back filled in `frame`. */
+  | StepMessage
+  | { type: 'grab'; vertex: number }
+  | { type: 'moveGrab'; target: [number, number, number] }
+  | { type: 'releaseGrab' };
+
+/** To a worker of its own. Runs to its end; to cancel, terminate the worker. */
+export interface SweepMessage {
+  type: 'sweep';
+  fabricsText: string;
+  planText: string;
+}
+
+export interface LoadedMessage {
+  type: 'loaded';
+  request: number;
+  summary: SceneSummary;
+  triangles: Uint32Array;
+  /** Two frame buffers that belong to the page from now on; the first holds the present frame. */
+  buffers: [ArrayBuffer, ArrayBuffer];
+  scalar: Scalar;
+  numbers: RunNumbers;
+  colliders: Collider[];
+}
+
+/** `status` is "ok", "not_converged" (the run goes on from the best so far), or why it ended. */
+export interface RunReport {
+  numbers: RunNumbers;
+  status: string;
+  message: string;
+}
+
+export interface FrameMessage {
+  type: 'frame';
+  request: number;
+  count: number;
+  buffer: ArrayBuffer;
+  scalar: Scalar;
+  /** The run cannot go on; the buffer holds its last finite frame. */
+  hasEnded: boolean;
+  /** Only when it was asked for, or when the run has ended. */
+  report: RunReport | null;
+  colliders: Collider[];
+}
+
+export type FromWorker =
+  | { type: 'ready' }
+  /** The module could not be started. */
+  | { type: 'broken'; reason: string }
+  | LoadedMessage
+  | FrameMessage
+  /** A reference was taken: the numbers anew. */
+  | { type: 'referenceSet'; numbers: RunNumbers }
+  | { type: 'objRead'; mesh: ObjMesh }
+  | { type: 'objRefused'; failure: Failure }
+  /** A load, reset or sweep that was refused; `request` is -1 when the message had none. */
+  | { type: 'refused'; request: number; failure: Failure }
+  | { type: 'sweepReport'; report: SweepReport };
+
+export type Post = (message: FromWorker, transfer: Transferable[]) => void;
+
+/** A frame buffer holds the positions (3 n) and then the scalar (n) as 32-bit floats. */
+export const FLOATS_PER_VERTEX = 4;
+
+/** The two parts of a frame buffer. */
+export function frameViews(buffer: ArrayBuffer): {
+  positions: Float32Array;
+  scalar: Float32Array;
+} {
+  const nVertices = buffer.byteLength / (4 * FLOATS_PER_VERTEX);
+  return {
+    positions: new Float32Array(buffer, 0, 3 * nVertices),
+    scalar: new Float32Array(buffer, 12 * nVertices, nVertices),
+  };
+}

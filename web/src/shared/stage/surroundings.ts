@@ -1,0 +1,197 @@
+// Floor, metre grid, light, and the bodies the cloth falls on.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CircleGeometry,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  ShadowMaterial,
+  SphereGeometry,
+  Vector3,
+} from 'three';
+import type { Collider } from '../bindings/wasm-module';
+
+export interface Surroundings {
+  object: Group;
+  /** Moves the spheres; builds them anew when their number or size changed. */
+  setColliders(colliders: Collider[]): void;
+  /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
+  frame(centre: Vector3, radius: number, height: number): void;
+  /** Puts floor and lights under somebody who walks; the grid's lines stay where they are [m]. */
+  follow(x: number, z: number): void;
+  /** Shadows cost as much as the picture itself, each time. */
+  setShadows(areCast: boolean): void;
+  /** `colour` reads a variable of the page's design. */
+  setTheme(colour: (name: string) => string): void;
+}
+
+/** Half the side of the grid, and its line spacing: metres, or a power of ten of them [m]. */
+const GRID_REACH_M = 4;
+const GRID_SPACING_M = 0.5;
+const LINE_PIECES = 16;
+
+/** How far along its normal a surface looks for its shadow, in a scene of a metre [m]. */
+const NORMAL_BIAS = 0.012;
+
+/** Alpha that fades to nothing at the edge of the floor, with distance from its middle [m]. */
+function fade(distance: number): number {
+  const part = Math.min(1, distance / GRID_REACH_M);
+  return (1 - part * part) ** 2;
+}
+
+/** Lines every half metre in the floor's own plane, cut into pieces so that they can fade. */
+function gridGeometry(): BufferGeometry {
+  const positions: number[] = [];
+  const colours: number[] = [];
+  const add = (x: number, z: number, isMetre: boolean) => {
+    positions.push(x, 0, z);
+    colours.push(1, 1, 1, fade(Math.hypot(x, z)) * (isMetre ? 1 : 0.45));
+  };
+  const nLines = GRID_REACH_M / GRID_SPACING_M;
+  for (let line = -nLines; line <= nLines; ++line) {
+    const offset = line * GRID_SPACING_M;
+    const isMetre = Number.isInteger(offset);
+    for (let piece = -LINE_PIECES; piece < LINE_PIECES; ++piece) {
+      const from = (piece / LINE_PIECES) * GRID_REACH_M;
+      const to = ((piece + 1) / LINE_PIECES) * GRID_REACH_M;
+      add(offset, from, isMetre);
+      add(offset, to, isMetre);
+      add(from, offset, isMetre);
+      add(to, offset, isMetre);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(positions), 3));
+  geometry.setAttribute('color', new BufferAttribute(new Float32Array(colours), 4));
+  return geometry;
+}
+
+/** A disc whose rim is transparent. */
+function discGeometry(): BufferGeometry {
+  const nRings = 24;
+  const nSectors = 64;
+  const positions: number[] = [];
+  const colours: number[] = [];
+  const indices: number[] = [];
+  for (let ring = 0; ring <= nRings; ++ring) {
+    const radius = (ring / nRings) * GRID_REACH_M;
+    for (let sector = 0; sector <= nSectors; ++sector) {
+      const angle = (2 * Math.PI * sector) / nSectors;
+      positions.push(radius * Math.cos(angle), 0, radius * Math.sin(angle));
+      colours.push(1, 1, 1, fade(radius));
+      if (ring === nRings || sector === nSectors) continue;
+      const a = ring * (nSectors + 1) + sector;
+      const b = a + nSectors + 1;
+      indices.push(a, a + 1, b, a + 1, b + 1, b);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(positions), 3));
+  geometry.setAttribute('color', new BufferAttribute(new Float32Array(colours), 4));
+  geometry.setIndex(indices);
+  return geometry;
+}
+
+export function createSurroundings(): Surroundings {
+  const object = new Group();
+  const floor = new Group();
+  const see = { transparent: true, vertexColors: true, depthWrite: false };
+  const discMaterial = new MeshBasicMaterial({ ...see, toneMapped: false });
+  const gridMaterial = new LineBasicMaterial({ ...see, toneMapped: false });
+  const disc = new Mesh(discGeometry(), discMaterial);
+  const shadow = new Mesh(
+    new CircleGeometry(GRID_REACH_M, 64),
+    new ShadowMaterial({ opacity: 0.3 }),
+  );
+  const grid = new LineSegments(gridGeometry(), gridMaterial);
+  shadow.rotation.x = -Math.PI / 2;
+  shadow.receiveShadow = true;
+  // Drawn in this order and without depth, three things in one plane do not flicker.
+  [disc, grid, shadow].forEach((part, order) => {
+    part.renderOrder = order - 3;
+    floor.add(part);
+  });
+
+  const sky = new HemisphereLight('#ffffff', '#a79f92', 1.35);
+  const key = new DirectionalLight('#fff4e2', 2.5);
+  key.castShadow = true;
+  key.shadow.mapSize.set(1024, 1024);
+  key.shadow.radius = 4;
+  key.shadow.bias = -0.0004;
+  object.add(floor, sky, key, key.target);
+
+  function placeLights(centre: Vector3, radius: number): void {
+    key.position.set(centre.x + 1.2 * radius, centre.y + 3 * radius, centre.z + 1.6 * radius);
+    key.target.position.copy(centre);
+  }
+
+  const bodyMaterial = new MeshStandardMaterial({ roughness: 0.75 });
+  let spheres: Mesh[] = [];
+  let radii = '';
+  let seen = { centre: new Vector3(), radius: 1 };
+
+  return {
+    object,
+    setColliders(colliders) {
+      const balls = colliders.filter((collider) => collider.shape === 'sphere');
+      const wanted = balls.map((ball) => ball.radius_m).join();
+      if (wanted !== radii) {
+        radii = wanted;
+        for (const sphere of spheres) {
+          sphere.geometry.dispose();
+          object.remove(sphere);
+        }
+        spheres = balls.map((ball) => {
+          // Drawn a little smaller than it is, so that flat triangles on it do not cut into it.
+          const sphere = new Mesh(new SphereGeometry(0.985 * ball.radius_m, 64, 40), bodyMaterial);
+          sphere.castShadow = true;
+          sphere.receiveShadow = true;
+          object.add(sphere);
+          return sphere;
+        });
+      }
+      balls.forEach((ball, index) => {
+        spheres[index]?.position.set(...ball.centre);
+      });
+    },
+    frame(centre, radius, height) {
+      const scale = 10 ** Math.round(Math.log10(radius));
+      floor.scale.setScalar(scale);
+      key.shadow.normalBias = NORMAL_BIAS * Math.max(scale, Math.min(1, radius));
+      floor.position.set(centre.x, height, centre.z);
+      seen = { centre: centre.clone(), radius };
+      placeLights(centre, radius);
+      const { camera } = key.shadow;
+      camera.left = -1.6 * radius;
+      camera.right = 1.6 * radius;
+      camera.top = 1.6 * radius;
+      camera.bottom = -1.6 * radius;
+      camera.near = 0.1 * radius;
+      camera.far = 8 * radius;
+      camera.updateProjectionMatrix();
+    },
+    follow(x, z) {
+      seen.centre.set(x, seen.centre.y, z);
+      placeLights(seen.centre, seen.radius);
+      floor.position.x = x;
+      floor.position.z = z;
+      const metre = floor.scale.x;
+      const into = (place: number) => (Math.round(place / metre) * metre - place) / metre;
+      grid.position.set(into(x), 0, into(z));
+    },
+    setShadows(areCast) {
+      key.castShadow = areCast;
+    },
+    setTheme(colour) {
+      discMaterial.color.set(colour('--stage-floor'));
+      gridMaterial.color.set(colour('--stage-grid'));
+      bodyMaterial.color.set(colour('--stage-body'));
+    },
+  };
+}
