@@ -1,7 +1,7 @@
 // Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
+import type { View } from './shared/page/view';
 import './shared/design.css';
 import { createMotionView, type MotionView } from './motion/motion-view';
-import type { View } from './shared/panels/view';
 import { createTabs, VIEWS, type ViewId } from './tabs';
 
 const place = (id: string): HTMLElement => {

@@ -1,5 +1,6 @@
 // The view of fabrics: one cloth, pulled by hand, in one to four fabrics or in all. Its store, its
 // worker, its stage and its panels, wired together.
+import type { StartShape, View } from '../shared/page/view';
 import './fabrics.css';
 import './panel.css';
 import { inputFailure } from '../shared/bindings/answers';
@@ -9,7 +10,6 @@ import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
 import { PICTURE_LOST, replaceCanvas } from '../shared/panels/no-picture';
-import type { View } from '../shared/panels/view';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, watch } from '../shared/state/store';
 import { createEnergyCurve } from './panels/energy-curve';
@@ -24,8 +24,8 @@ import { columnsFor, createPaneBadges } from './panels/pane-badges';
 import { createStageTools } from './panels/stage-tools';
 import { createTermReading } from './panels/term-reading';
 import { createTermSwitches } from './panels/term-switches';
-import { createDeformer, type Deformer, type StartShape } from './run/deformer';
-import { createPaneStage, type PaneStage } from './stage/fabrics-stage';
+import { createDeformer, type Deformer } from './run/deformer';
+import { createFabricsStage, type FabricsStage } from './stage/fabrics-stage';
 import type { HoldMark } from './stage/hold-marks';
 import { withShown, withToggled } from './state/fabric-choice';
 import { decodeFabricsLink, encodeFabricsLink } from './state/fabrics-link';
@@ -64,7 +64,7 @@ export function createFabricsView(
   const first = decodeFabricsLink(hash);
   const store = createStore(initialFabricsState(first.link, first.problems));
   let isShown = false;
-  let stage: PaneStage | null = null;
+  let stage: FabricsStage | null = null;
   let awaitsFraming = false;
 
   const messages = element('div');
@@ -110,7 +110,7 @@ export function createFabricsView(
   }
 
   try {
-    stage = createPaneStage(stageBox, canvas, {
+    stage = createFabricsStage(stageBox, canvas, {
       press(vertex, pane) {
         choosePane(pane);
         if (store.get().tool === 'pin') deformer.togglePin(vertex, pane);

@@ -1,30 +1,30 @@
 // The view of cloth in motion: the store, the playback, the stage and the panels, wired together.
-import type { StartShape } from '../fabrics/run/deformer';
+
 import { fabricNamed } from '../shared/fabric/fabric-data';
+import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createInvitation } from '../shared/panels/invitation';
 import { createKeysPanel } from '../shared/panels/keys-panel';
 import { PICTURE_LOST, replaceCanvas } from '../shared/panels/no-picture';
-import type { View } from '../shared/panels/view';
 import { createStore, watch } from '../shared/state/store';
 import { createDrawingPanel } from './panels/drawing-panel';
 import { createFabricPanel } from './panels/fabric-panel';
 import { createHeatLegend } from './panels/heat-legend';
 import { createMethodPanel } from './panels/method-panel';
 import { motionSentence } from './panels/motion-sentence';
-import { createToolbar } from './panels/motion-toolbar';
+import { createMotionToolbar } from './panels/motion-toolbar';
 import { createNumbersStrip } from './panels/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
 import { createSpeedErrorView } from './panels/speed-error-view';
 import { createSweepPanel } from './panels/sweep-panel';
-import { createPlayback, type Playback } from './run/motion-run';
+import { createMotionRun, type MotionRun } from './run/motion-run';
 import { createSweep } from './run/sweep';
-import { createStage, type Stage } from './stage/motion-stage';
-import { decodeLink, encodeLink } from './state/motion-link';
-import { initialState, shownHeat } from './state/motion-state';
+import { createMotionStage, type MotionStage } from './stage/motion-stage';
+import { decodeMotionLink, encodeMotionLink } from './state/motion-link';
+import { initialMotionState, shownHeat } from './state/motion-state';
 import { deformedMesh, holdFor } from './state/obj-mesh';
 import { presetSetting } from './state/setting';
 
@@ -38,8 +38,8 @@ export interface MotionView extends View {
 /** `place` finds the parts of the document by their ids. */
 export function createMotionView(place: (id: string) => HTMLElement, hash: string): MotionView {
   let isShown = false;
-  const first = decodeLink(hash);
-  const store = createStore(initialState(first.link, first.problems));
+  const first = decodeMotionLink(hash);
+  const store = createStore(initialMotionState(first.link, first.problems));
 
   const stageBox = place('stage');
   const canvas = element('canvas', {
@@ -50,8 +50,8 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   });
   stageBox.append(canvas);
 
-  let running: Playback | null = null;
-  let stage: Stage | null = null;
+  let running: MotionRun | null = null;
+  let stage: MotionStage | null = null;
 
   function togglePlay(): void {
     if (store.get().playing) running?.pause();
@@ -71,7 +71,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   createHeatLegend(stageBox, store);
 
   try {
-    stage = createStage(stageBox, canvas, {
+    stage = createMotionStage(stageBox, canvas, {
       grab(vertex) {
         running?.play();
         running?.grab(vertex);
@@ -96,7 +96,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
     store.set({ problem: { source: 'browser', sentence } });
   }
 
-  const playback = createPlayback(store, {
+  const playback = createMotionRun(store, {
     showMesh: (...mesh) => stage?.showMesh(...mesh),
     showFrame: (...frame) => stage?.showFrame(...frame),
   });
@@ -107,7 +107,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   createProblemBanner(place('messages'), store, actions);
   createAnnouncer(place('messages'), store, motionSentence);
   createNumbersStrip(place('strip'), store);
-  createToolbar(place('toolbar'), store, actions);
+  createMotionToolbar(place('toolbar'), store, actions);
   createScenePanel(place('panel'), store, playback);
   createDropTarget(document.body, {
     openObj(file) {
@@ -127,7 +127,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
     stage?.setHeat(shownHeat(state), state.heatRange),
   );
   watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
-  const link = () => `#${encodeLink(store.get())}`;
+  const link = () => `#${encodeMotionLink(store.get())}`;
   const writeLink = () => {
     if (isShown && link() !== window.location.hash) window.history.replaceState(null, '', link());
   };
@@ -136,8 +136,8 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   return {
     link,
     open(newHash) {
-      const read = decodeLink(newHash);
-      store.set({ ...read.link, problem: initialState(read.link, read.problems).problem });
+      const read = decodeMotionLink(newHash);
+      store.set({ ...read.link, problem: initialMotionState(read.link, read.problems).problem });
     },
     setShown(value) {
       isShown = value;

@@ -1,5 +1,6 @@
 // The view of refinement: one garment on a walking figure, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
+import type { View } from '../shared/page/view';
 import '../fabrics/fabrics.css';
 import '../fabrics/panel.css';
 import './refinement.css';
@@ -10,7 +11,6 @@ import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createKeyList } from '../shared/panels/keys-panel';
 import { PICTURE_LOST, replaceCanvas } from '../shared/panels/no-picture';
-import type { View } from '../shared/panels/view';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, watch } from '../shared/state/store';
 import { createDetailPanel } from './panels/detail-panel';

@@ -1,13 +1,15 @@
 // The worker of deformed cloth on its real module, with a clock and a schedule of the test's own.
+
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
+import type { TermNumbers } from '../../src/fabrics/bindings/deform-module';
 import { EXPERIMENTS } from '../../src/fabrics/state/experiments';
+import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
 import { type Hold, holdAt, holdsOf, joined } from '../../src/fabrics/state/holds';
 import { createDeformCore } from '../../src/fabrics/worker/deform-core';
 import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
-import { frameViews } from '../../src/motion/worker/motion-protocol';
-import type { TermNumbers } from '../../src/shared/bindings/wasm-module';
-import { fabricNamed, fabricsText, geometryOf } from '../../src/shared/fabric/fabric-data';
+import { frameViews } from '../../src/shared/bindings/frame';
+import { fabricNamed, fabricsText } from '../../src/shared/fabric/fabric-data';
 import { isBuilt, loadModule } from '../support/built-module';
 
 /** A sheet that is pulled up in its middle, of so many vertices a side. */

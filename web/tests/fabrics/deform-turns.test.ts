@@ -1,12 +1,13 @@
 // In which order the worker of deformed cloth asks what of the module: one that only keeps a record.
+
 import { describe, expect, it } from 'vitest';
-import { createDeformCore } from '../../src/fabrics/worker/deform-core';
-import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 import {
   type DeformationHandle,
   type DeformModule,
   PROGRESS,
-} from '../../src/shared/bindings/wasm-module';
+} from '../../src/fabrics/bindings/deform-module';
+import { createDeformCore } from '../../src/fabrics/worker/deform-core';
+import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 
 type Progress = (typeof PROGRESS)[keyof typeof PROGRESS];
 

@@ -1,14 +1,16 @@
 // The page's end of the worker of deformed cloth: what it shows is what the worker has.
+
 import { beforeAll, describe, expect, it, vi } from 'vitest';
+import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import { createDeformer } from '../../src/fabrics/run/deformer';
+import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
 import { decodeFabricsLink, encodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
 import { initialFabricsState } from '../../src/fabrics/state/fabrics-state';
 import { joined } from '../../src/fabrics/state/holds';
 import { createDeformCore } from '../../src/fabrics/worker/deform-core';
 import type { FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
-import { frameViews } from '../../src/motion/worker/motion-protocol';
-import type { DeformModule } from '../../src/shared/bindings/wasm-module';
-import { fabricNamed, geometryOf } from '../../src/shared/fabric/fabric-data';
+import { frameViews } from '../../src/shared/bindings/frame';
+import { fabricNamed } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
 import { isBuilt, loadModule } from '../support/built-module';
 

@@ -8,7 +8,8 @@ import {
   withShown,
   withToggled,
 } from '../../src/fabrics/state/fabric-choice';
-import { fabricNamed, fabrics, geometryOf } from '../../src/shared/fabric/fabric-data';
+import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
+import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
 
 const named = (name: string): FabricChoice => ({ kind: 'named', name });
 const own = (recovery: number): FabricChoice => ({

@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { TERMS, type Term, type Triple } from '../../src/fabrics/state/deform-state';
 import { EXPECTATIONS } from '../../src/fabrics/state/fabric-expectations';
-import { fabricNamed, fabrics, geometryOf } from '../../src/shared/fabric/fabric-data';
+import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
+import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
 
 const HARDLY = 0.05;
 const all = fabrics.map((fabric) => geometryOf(fabric).recomputed);

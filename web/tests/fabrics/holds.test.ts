@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import type { ClothAnswer } from '../../src/fabrics/bindings/deform-module';
 import { columnsFor } from '../../src/fabrics/panels/pane-badges';
 import { titleOf } from '../../src/fabrics/state/fabric-choice';
 import {
@@ -8,9 +9,8 @@ import {
 } from '../../src/fabrics/state/fabrics-link';
 import { heldBy, initialFabricsState } from '../../src/fabrics/state/fabrics-state';
 import { holdAt, holdsOf, joined, middleOf } from '../../src/fabrics/state/holds';
-import { slug } from '../../src/motion/state/motion-link';
-import type { ClothAnswer } from '../../src/shared/bindings/wasm-module';
 import { fabrics } from '../../src/shared/fabric/fabric-data';
+import { slug } from '../../src/shared/state/link-reader';
 
 /** A strip of five squares in the plane: vertices 0 to 5 below, 6 to 11 above. */
 const rest = [0, 1].flatMap((y) => [0, 1, 2, 3, 4, 5].flatMap((x) => [x, y, 0]));

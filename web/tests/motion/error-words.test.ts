@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
+import type { ReferenceNumbers, RunNumbers } from '../../src/motion/bindings/pleat-module';
+import type { BenchRow } from '../../src/motion/bindings/sweep-module';
 import { errorWords } from '../../src/motion/panels/error-words';
-import { NO_SWEEP } from '../../src/motion/state/motion-state';
 import { presetSetting, type Setting, withStepper } from '../../src/motion/state/setting';
-import { sweptScene } from '../../src/motion/state/sweep-plan';
-import type { BenchRow, ReferenceNumbers, RunNumbers } from '../../src/shared/bindings/wasm-module';
+import { NO_SWEEP, sweptScene } from '../../src/motion/state/sweep-state';
 
 const own = presetSetting('curtain');
 const reference: ReferenceNumbers = {

@@ -1,5 +1,10 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
+import { DEFORM_METHODS } from '../../src/fabrics/bindings/deform-module';
+import type { PleatModule, RunNumbers } from '../../src/motion/bindings/pleat-module';
+import { PLEAT_METHODS } from '../../src/motion/bindings/pleat-module';
+import type { SweepModule } from '../../src/motion/bindings/sweep-module';
+import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
 import {
   canRun,
   PRESET_IDS,
@@ -13,18 +18,9 @@ import {
   withStepper,
 } from '../../src/motion/state/setting';
 import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
-import { createWorkerCore, runSweep } from '../../src/motion/worker/motion-core';
-import {
-  type FromWorker,
-  frameViews,
-  type ToWorker,
-} from '../../src/motion/worker/motion-protocol';
-import {
-  BOUND_METHODS,
-  type PleatModule,
-  type RunNumbers,
-  type SweepModule,
-} from '../../src/shared/bindings/wasm-module';
+import { createMotionCore, runSweep } from '../../src/motion/worker/motion-core';
+import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { boundMethods } from '../support/bound-methods';
 import { isBuilt, loadModule } from '../support/built-module';
@@ -39,21 +35,21 @@ async function loadRealModule(): Promise<AllModules> {
   return { ...pleat, ...sweep };
 }
 
-type Sent<Type extends FromWorker['type']> = Extract<FromWorker, { type: Type }>;
+type Sent<Type extends FromMotion['type']> = Extract<FromMotion, { type: Type }>;
 
 /** A core with everything it posted; `take` removes and returns the next message. */
 function serve(module: AllModules) {
-  const posted: FromWorker[] = [];
-  const core = createWorkerCore(module, (message) => posted.push(message));
+  const posted: FromMotion[] = [];
+  const core = createMotionCore(module, (message) => posted.push(message));
   return {
     core,
     posted,
-    send: (message: ToWorker) => core.receive(message),
+    send: (message: ToMotion) => core.receive(message),
     sweep: (plan: object) =>
       runSweep(module, { type: 'sweep', fabricsText, planText: JSON.stringify(plan) }, (message) =>
         posted.push(message),
       ),
-    take<Type extends FromWorker['type']>(type: Type): Sent<Type> {
+    take<Type extends FromMotion['type']>(type: Type): Sent<Type> {
       const message = posted.shift();
       if (message?.type !== type) throw new Error(`${type} expected: ${JSON.stringify(message)}`);
       return message as Sent<Type>;
@@ -87,7 +83,7 @@ const modules: [string, () => Promise<AllModules>][] = [
 ];
 if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
 
-describe.each(modules)('worker-core with %s', (_name, load) => {
+describe.each(modules)('motion-core with %s', (_name, load) => {
   it('answers a load with a mesh, a first frame and numbers that fit together', async () => {
     const { loaded } = open(await load());
     const { positions, scalar } = frameViews(loaded.buffers[0]);
@@ -302,7 +298,7 @@ describe.each(modules)('worker-core with %s', (_name, load) => {
   });
 });
 
-describe('worker-core', () => {
+describe('motion-core', () => {
   it('reports a run that ended, with its reason', () => {
     const { send, take } = serve(createFakeModule().module);
     send({ type: 'open', fabricsText });
@@ -346,7 +342,7 @@ describe('worker-core', () => {
   });
 });
 
-describe('worker-core with a module that lacks CHOLMOD', () => {
+describe('motion-core with a module that lacks CHOLMOD', () => {
   const { module } = createFakeModule({ hasCholmod: false });
 
   it('loads every preset with every stepper, and says what serves instead', () => {
@@ -507,9 +503,13 @@ describe.runIf(hasModule)('the cost of a step', () => {
   });
 });
 
-describe.runIf(hasModule)('wasm-module', () => {
+describe.runIf(hasModule)('the modules', () => {
   it('binds exactly the classes and methods that the types name', async () => {
     const module: object = { ...(await loadRealModule()), ...(await loadModule('deform')) };
-    expect(boundMethods(module)).toEqual(BOUND_METHODS);
+    expect(boundMethods(module)).toEqual({
+      ...PLEAT_METHODS,
+      ...SWEEP_METHODS,
+      ...DEFORM_METHODS,
+    });
   });
 });

@@ -1,5 +1,9 @@
 import { describe, expect, it } from 'vitest';
-import { decodeLink, encodeLink, type LinkState, slug } from '../../src/motion/state/motion-link';
+import {
+  decodeMotionLink,
+  encodeMotionLink,
+  type MotionLink,
+} from '../../src/motion/state/motion-link';
 import {
   canRun,
   MODELS,
@@ -11,8 +15,9 @@ import {
   withStepper,
 } from '../../src/motion/state/setting';
 import { fabrics } from '../../src/shared/fabric/fabric-data';
+import { slug } from '../../src/shared/state/link-reader';
 
-const link: LinkState = {
+const link: MotionLink = {
   setting: {
     preset: 'tablecloth',
     fabric: 'coarse cotton (denim)',
@@ -32,7 +37,7 @@ const link: LinkState = {
 
 describe('url-codec', () => {
   it('gives back every part of the state it wrote', () => {
-    const { link: read, problems } = decodeLink(`#${encodeLink(link)}`);
+    const { link: read, problems } = decodeMotionLink(`#${encodeMotionLink(link)}`);
     expect(problems).toEqual([]);
     expect(read).toEqual(link);
   });
@@ -46,7 +51,9 @@ describe('url-codec', () => {
             ...withStepper(presetSetting(preset), stepper),
             fabric: fabric.name_en,
           };
-          const { link: read, problems } = decodeLink(`#${encodeLink({ ...link, setting })}`);
+          const { link: read, problems } = decodeMotionLink(
+            `#${encodeMotionLink({ ...link, setting })}`,
+          );
           expect(problems).toEqual([]);
           expect(read.setting).toEqual(setting);
         }
@@ -58,16 +65,18 @@ describe('url-codec', () => {
     for (const preset of PRESET_IDS) {
       for (const model of modelsOf(preset)) {
         const setting = withModel(presetSetting(preset), model);
-        expect(decodeLink(`#${encodeLink({ ...link, setting })}`).link.setting).toEqual(setting);
+        expect(decodeMotionLink(`#${encodeMotionLink({ ...link, setting })}`).link.setting).toEqual(
+          setting,
+        );
       }
     }
   });
 
   it('refuses a stepper that cannot run the model, and a model that the scene cannot have', () => {
-    const membrane = decodeLink('#scene=curtain&model=membrane&stepper=xpbd');
+    const membrane = decodeMotionLink('#scene=curtain&model=membrane&stepper=xpbd');
     expect(membrane.link.setting).toMatchObject({ model: 'membrane', stepper: 'implicit' });
     expect(membrane.problems.join()).toContain('stepper: expected implicit, explicit, rk4, newton');
-    const mesh = decodeLink('#scene=obj&model=springs');
+    const mesh = decodeMotionLink('#scene=obj&model=springs');
     expect(mesh.link.setting).toMatchObject({ preset: 'obj', model: 'membrane' });
     expect(mesh.problems.join()).toContain(`model: expected membrane, found "${MODELS[0]}"`);
   });
@@ -75,31 +84,31 @@ describe('url-codec', () => {
   it('carries what holds a mesh, whatever its groups are called', () => {
     const own = presetSetting('obj');
     for (const hold of ['nothing', 'group:waist & hem, 50 % ü'] as const) {
-      const { link: read, problems } = decodeLink(
-        `#${encodeLink({ ...link, setting: { ...own, hold } })}`,
+      const { link: read, problems } = decodeMotionLink(
+        `#${encodeMotionLink({ ...link, setting: { ...own, hold } })}`,
       );
       expect(problems).toEqual([]);
       expect(read.setting.hold).toBe(hold);
     }
-    expect(decodeLink('#scene=obj&hold=string').problems).toHaveLength(1);
+    expect(decodeMotionLink('#scene=obj&hold=string').problems).toHaveLength(1);
   });
 
   it('gives the first preset and no problem for an empty link', () => {
-    const { link: read, problems } = decodeLink('');
+    const { link: read, problems } = decodeMotionLink('');
     expect(problems).toEqual([]);
     expect(read.setting).toEqual(presetSetting('curtain'));
     expect(read.heat).toBe('off');
     expect(read.startS).toBeGreaterThan(0);
-    expect(decodeLink('#scene=curtain').link.startS).toBe(0);
+    expect(decodeMotionLink('#scene=curtain').link.startS).toBe(0);
   });
 
   it('takes what a preset is made for when a part is missing', () => {
-    const { link: read } = decodeLink('#scene=swinging-sheet');
+    const { link: read } = decodeMotionLink('#scene=swinging-sheet');
     expect(read.setting).toEqual(presetSetting('swinging-sheet'));
   });
 
   it('names each broken part, what was expected and what was found, and keeps the others', () => {
-    const { link: read, problems } = decodeLink(
+    const { link: read, problems } = decodeMotionLink(
       '#scene=curtain&level=9&fabric=lead&stepper=implicit&substeps=-3&step=1/7&heat=signed&start=99&foo=1',
     );
     const own = presetSetting('curtain');
@@ -115,14 +124,14 @@ describe('url-codec', () => {
   it.each(['#%', '#level=%zz&scene', '#====', `#fabric=${'x'.repeat(5000)}`, '#level=1&level=7'])(
     'reads %s without an exception and with short sentences',
     (hash) => {
-      const { problems } = decodeLink(hash);
+      const { problems } = decodeMotionLink(hash);
       for (const problem of problems) expect(problem.length).toBeLessThan(200);
     },
   );
 
   it('allows 0 substeps only where 0 has a meaning', () => {
-    expect(decodeLink('#stepper=explicit&substeps=0').problems).toEqual([]);
-    expect(decodeLink('#stepper=xpbd&substeps=0').problems).toHaveLength(1);
+    expect(decodeMotionLink('#stepper=explicit&substeps=0').problems).toEqual([]);
+    expect(decodeMotionLink('#stepper=xpbd&substeps=0').problems).toHaveLength(1);
   });
 
   it('writes each fabric as another word', () => {

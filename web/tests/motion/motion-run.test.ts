@@ -1,15 +1,12 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
-import { createPlayback } from '../../src/motion/run/motion-run';
-import { decodeLink } from '../../src/motion/state/motion-link';
-import { initialState, shownHeat } from '../../src/motion/state/motion-state';
+import type { PleatModule } from '../../src/motion/bindings/pleat-module';
+import { createMotionRun } from '../../src/motion/run/motion-run';
+import { decodeMotionLink } from '../../src/motion/state/motion-link';
+import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel } from '../../src/motion/state/setting';
-import { createWorkerCore } from '../../src/motion/worker/motion-core';
-import {
-  type FromWorker,
-  frameViews,
-  type ToWorker,
-} from '../../src/motion/worker/motion-protocol';
-import type { PleatModule } from '../../src/shared/bindings/wasm-module';
+import { createMotionCore } from '../../src/motion/worker/motion-core';
+import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
 import { createStore } from '../../src/shared/state/store';
 import { isBuilt, loadModule } from '../support/built-module';
 import diverging from '../support/diverging.json';
@@ -19,10 +16,10 @@ import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';
 let module: PleatModule;
 let changeScene = (scene: Record<string, unknown>) => scene;
 vi.mock('../../src/shared/workers/client', () => ({
-  startWorker(receive: (message: FromWorker) => void) {
-    const core = createWorkerCore(module, (message) => queueMicrotask(() => receive(message)));
+  startWorker(receive: (message: FromMotion) => void) {
+    const core = createMotionCore(module, (message) => queueMicrotask(() => receive(message)));
     return {
-      send(message: ToWorker) {
+      send(message: ToMotion) {
         if (message.type !== 'load') return core.receive(message);
         const scene = changeScene(JSON.parse(message.sceneText));
         core.receive({ ...message, sceneText: JSON.stringify(scene) });
@@ -34,10 +31,10 @@ vi.mock('../../src/shared/workers/client', () => ({
 
 /** A playback at a link, with the frame that is shown. */
 function open(hash: string) {
-  const { link, problems } = decodeLink(hash);
-  const store = createStore(initialState(link, problems));
+  const { link, problems } = decodeMotionLink(hash);
+  const store = createStore(initialMotionState(link, problems));
   let shown = { positions: new Float32Array(0), values: new Float32Array(0), scalar: '' };
-  const playback = createPlayback(store, {
+  const playback = createMotionRun(store, {
     showMesh: () => undefined,
     showFrame(buffer, scalar) {
       const views = frameViews(buffer);
@@ -54,7 +51,7 @@ beforeEach(() => {
   vi.stubGlobal('cancelAnimationFrame', clearTimeout);
 });
 
-describe('playback of a run that diverges', () => {
+describe('motion run of a run that diverges', () => {
   it('says in which step and where, keeps the last finite frame, and resets', async () => {
     module = createFakeModule().module;
     changeScene = (scene) => ({ ...scene, name: 'fragile' });
@@ -100,7 +97,7 @@ describe('playback of a run that diverges', () => {
   });
 });
 
-describe('playback', () => {
+describe('motion run', () => {
   beforeEach(() => {
     module = createFakeModule().module;
     changeScene = (scene) => scene;
@@ -143,7 +140,7 @@ describe('playback', () => {
   });
 });
 
-describe('playback of a mesh', () => {
+describe('motion run of a mesh', () => {
   const triangle = (top: number) => `v 0 ${top} 0\nv 1 0 0\nv 0 0 1\ng waist\nf 1 2 3\n`;
   const file = (name: string, text: string) => new File([text], name);
   const fetched = vi.fn();
@@ -237,7 +234,7 @@ describe('playback of a mesh', () => {
   });
 });
 
-describe('playback with a reference', () => {
+describe('motion run with a reference', () => {
   const reference = { name: 'swinging sheet', end_s: 0.1, uncertainty_m: 0.001 };
   const fetched = vi.fn();
   const answer = (content: object) => async () => new Response(JSON.stringify(content));

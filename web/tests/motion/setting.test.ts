@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { NO_SWEEP } from '../../src/motion/state/motion-state';
+import type { BenchRow } from '../../src/motion/bindings/sweep-module';
 import {
   isSameMethod,
   modelsOf,
@@ -10,14 +10,8 @@ import {
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
-import {
-  FINEST_EXPLICIT,
-  rowOfSetting,
-  settingOfRow,
-  sweepPlan,
-  sweptScene,
-} from '../../src/motion/state/sweep-plan';
-import type { BenchRow } from '../../src/shared/bindings/wasm-module';
+import { FINEST_EXPLICIT, settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { NO_SWEEP, rowOfSetting, sweptScene } from '../../src/motion/state/sweep-state';
 
 const start = presetSetting('curtain');
 

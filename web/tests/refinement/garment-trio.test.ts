@@ -1,6 +1,6 @@
 // The three panes with the real module and the frames that come with the page.
+
 import { beforeAll, describe, expect, it } from 'vitest';
-import { frameViews } from '../../src/motion/worker/motion-protocol';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
 import { exampleUrls } from '../../src/refinement/run/records';
@@ -14,6 +14,7 @@ import {
   type RefinementState,
 } from '../../src/refinement/state/refinement-state';
 import type { GarmentMesh, ToGarment } from '../../src/refinement/worker/garment-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
 import { createStore, type Store } from '../../src/shared/state/store';
 import { loadModule } from '../support/built-module';
 import { exampleClient, garmentClient, recordBytes } from '../support/garment-workers';

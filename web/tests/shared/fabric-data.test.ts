@@ -1,13 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { misprint } from '../../src/fabrics/panels/fabric-card';
 import { TERMS } from '../../src/fabrics/state/deform-state';
-import {
-  errorOfMean,
-  fabricNamed,
-  fabrics,
-  geometryOf,
-  measuredRange,
-} from '../../src/shared/fabric/fabric-data';
+import { errorOfMean, geometryOf, measuredRange } from '../../src/fabrics/state/fabric-geometry';
+import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
 
 describe('fabric-data', () => {
   it.each(fabrics)('gives $name_en weights that add up to one', (fabric) => {

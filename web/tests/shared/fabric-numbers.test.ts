@@ -4,8 +4,8 @@ import { clampedWords, readMeasure, trustWords } from '../../src/fabrics/panels/
 import { comparedReading, paneReading, SPIKE } from '../../src/fabrics/panels/term-reading';
 import { switched } from '../../src/fabrics/panels/term-switches';
 import type { OwnFabric, PaneState, Triple } from '../../src/fabrics/state/deform-state';
+import { errorOfMean, measuredRange, triple } from '../../src/fabrics/state/fabric-geometry';
 import { linearScale } from '../../src/shared/chart/linear-scale';
-import { errorOfMean, measuredRange, triple } from '../../src/shared/fabric/fabric-data';
 
 const ALL = { recovery: true, stretch: true, bending: true };
 const of = (recovery: number, stretch: number, bending: number): Triple => ({

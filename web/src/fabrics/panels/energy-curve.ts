@@ -1,7 +1,7 @@
 // The energy after each step towards the shape, in whole and term by term, drawn and as a table.
+
 import { linearScale } from '../../shared/chart/linear-scale';
 import { logScale } from '../../shared/chart/log-scale';
-import { triple } from '../../shared/fabric/fabric-data';
 import { element, setText, svg } from '../../shared/panels/element';
 import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
@@ -13,6 +13,7 @@ import {
   type Term,
 } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
+import { triple } from '../state/fabric-geometry';
 import { TERM_TITLES } from './term-words';
 
 const WIDTH = 360;

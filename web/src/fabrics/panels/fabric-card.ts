@@ -1,11 +1,6 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
 
-import {
-  type FabricRecord,
-  fabricNamed,
-  geometryOf,
-  sources,
-} from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed, sources } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { element, setText } from '../../shared/panels/element';
 import { quantityMeanings, quantityRows, sourceList } from '../../shared/panels/fabric-quantities';
@@ -14,6 +9,7 @@ import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type OwnFabric, TERMS, type Triple } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
 import { EXPECTATIONS } from '../state/fabric-expectations';
+import { geometryOf } from '../state/fabric-geometry';
 import { TERM_COSTS, TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
 import { createWeightBar, termKey, weightWords } from './weight-bar';
 

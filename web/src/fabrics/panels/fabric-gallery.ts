@@ -1,16 +1,12 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
 
-import {
-  type FabricRecord,
-  fabricNamed,
-  fabrics,
-  geometryOf,
-} from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { DeformState, FabricChoice } from '../state/deform-state';
 import { type Comparison, isSame, titleOf, withShown, withToggled } from '../state/fabric-choice';
+import { geometryOf } from '../state/fabric-geometry';
 import { createWeightBar, weightWords } from './weight-bar';
 
 export interface GalleryActions {

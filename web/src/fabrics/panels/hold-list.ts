@@ -1,5 +1,5 @@
 // Every pin and handle: by keys it is moved, and by a press let go.
-import type { Triple } from '../../shared/bindings/wasm-module';
+import type { Triple } from '../../shared/bindings/geometry';
 import { element } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState } from '../state/fabrics-state';

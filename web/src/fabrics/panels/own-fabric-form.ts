@@ -1,12 +1,6 @@
 // Three measurements of a visitor's own fabric, and what the measured ones make of them.
 
-import {
-  errorOfMean,
-  fabricNamed,
-  fabrics,
-  geometryOf,
-  measuredRange,
-} from '../../shared/fabric/fabric-data';
+import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
@@ -18,6 +12,7 @@ import {
   type Triple,
 } from '../state/deform-state';
 import { LARGEST_RATIO } from '../state/fabric-choice';
+import { errorOfMean, geometryOf, measuredRange } from '../state/fabric-geometry';
 import { TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
 import { createWeightBar, termKey } from './weight-bar';
 

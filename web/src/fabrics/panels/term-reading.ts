@@ -1,6 +1,5 @@
 // What the numbers of a shape say, in sentences.
 
-import { triple } from '../../shared/fabric/fabric-data';
 import { element } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
@@ -12,6 +11,7 @@ import {
   type Triple,
 } from '../state/deform-state';
 import { isSame, titleOf } from '../state/fabric-choice';
+import { triple } from '../state/fabric-geometry';
 import { TERM_TITLES } from './term-words';
 
 type Counts = Record<Term, boolean>;

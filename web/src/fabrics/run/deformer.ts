@@ -1,18 +1,25 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // messages, and answers into state and frames.
 
-import { frameViews } from '../../motion/worker/motion-protocol';
-import { brokenSentence, inputFailure, internalFailure } from '../../shared/bindings/answers';
-import type { Failure, Triple } from '../../shared/bindings/wasm-module';
+import {
+  brokenSentence,
+  type Failure,
+  inputFailure,
+  internalFailure,
+} from '../../shared/bindings/answers';
+import { frameViews } from '../../shared/bindings/frame';
+import type { Triple } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import type { StartShape } from '../../shared/page/view';
 import type { Store } from '../../shared/state/store';
 import { startDeformWorker } from '../../shared/workers/client';
 import type { PaneState, Triple as TermTriple } from '../state/deform-state';
 import { EXPERIMENTS, type Experiment, OWN, ownExperiment } from '../state/experiments';
 import type { Comparison } from '../state/fabric-choice';
-import { type FabricsLink, linkedHolds } from '../state/fabrics-link';
+import { linkedHolds } from '../state/fabrics-link';
 import {
   countedWeights,
+  type FabricsLink,
   type FabricsState,
   heldBy,
   linkFailure,
@@ -32,13 +39,6 @@ export interface DeformerView {
   showMesh(triangles: Uint32Array, nVertices: number, experiment: Experiment): void;
   /** The buffer stays valid until the next one of that pane. */
   showFrame(pane: number, buffer: ArrayBuffer): void;
-}
-
-/** What a cloth in motion starts from. */
-export interface StartShape {
-  /** The section "cloth" of a scene; what was held is its group "held". */
-  section: object;
-  positions: Float64Array;
 }
 
 export interface Deformer {

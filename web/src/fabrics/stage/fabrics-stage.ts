@@ -1,7 +1,8 @@
 // One cloth in several panes: one renderer and one camera, a cut of the canvas for each. It gets
 // frames and settings, never the solver, and draws only when something changed.
+
 import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
-import type { Collider, Triple } from '../../shared/bindings/wasm-module';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { createCameraControl, uprightOf } from '../../shared/stage/camera-control';
 import { createCanvas } from '../../shared/stage/canvas';
@@ -12,7 +13,7 @@ import { createPaneGrid } from '../../shared/stage/pane-grid';
 import { createSurroundings } from '../../shared/stage/surroundings';
 import { createHoldMarks, type HoldMark } from './hold-marks';
 
-export interface PaneStageEvents {
+export interface FabricsStageEvents {
   /** True when a press on this vertex is used up otherwise. */
   press(vertex: number, pane: number): boolean;
   grab(vertex: number, pane: number): void;
@@ -25,7 +26,7 @@ export interface PaneStageEvents {
   contextLost(): void;
 }
 
-export interface PaneStage {
+export interface FabricsStage {
   /** Another cloth in all panes, not yet seen. */
   showMesh(triangles: Uint32Array, nVertices: number): void;
   /** Fabrics by id, a pane for each; `nColumns` of them side by side. */
@@ -61,11 +62,11 @@ const FLOOR_BELOW = 0.25;
 const MOST_SHADOWED_PANES = 4;
 
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
-export function createPaneStage(
+export function createFabricsStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
-  events: PaneStageEvents,
-): PaneStage {
+  events: FabricsStageEvents,
+): FabricsStage {
   const scene = new Scene();
   const camera = new PerspectiveCamera(32, 1, 0.01, 100);
   const surroundings = createSurroundings();

@@ -1,4 +1,5 @@
 // Where the cloth is held: a ball at each handle, a pin at each pin. Seen through the cloth.
+
 import {
   type Camera,
   ConeGeometry,
@@ -8,7 +9,7 @@ import {
   SphereGeometry,
   Vector3,
 } from 'three';
-import type { Triple } from '../../shared/bindings/wasm-module';
+import type { Triple } from '../../shared/bindings/geometry';
 
 export interface HoldMark {
   kind: 'pin' | 'handle';

@@ -1,5 +1,5 @@
 // What the view "Fabrics" shows. Only this and the frames travel between its parts.
-import type { Failure } from '../../shared/bindings/wasm-module';
+import type { Failure } from '../../shared/bindings/answers';
 
 export type EnergyForm = 'consistent' | 'published';
 export const TERMS = ['recovery', 'stretch', 'bending'] as const;

@@ -1,5 +1,5 @@
 // The experiments that are shipped, and the meshes that they name.
-import type { Collider, Triple } from '../../shared/bindings/wasm-module';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
 import type { Term } from './deform-state';
 
 const TEXTS = import.meta.glob<string>('../../../../assets/deform/*.json', {

@@ -1,7 +1,8 @@
 // Which fabrics are shown side by side, and what changing that list gives.
 
-import { fabricNamed, geometryOf } from '../../shared/fabric/fabric-data';
+import { fabricNamed } from '../../shared/fabric/fabric-data';
 import type { FabricChoice, OwnFabric, Triple } from './deform-state';
+import { geometryOf } from './fabric-geometry';
 
 /** So many panes fit beside each other. */
 export const MOST_COMPARED = 4;

@@ -1,29 +1,13 @@
 // The view of fabrics to a link and back: experiment, fabrics, terms, and what was moved by hand.
 
-import { createReader, oneOf, slug } from '../../motion/state/motion-link';
-import type { Triple as Vector } from '../../shared/bindings/wasm-module';
+import type { Triple as Vector } from '../../shared/bindings/geometry';
 import { fabrics } from '../../shared/fabric/fabric-data';
+import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { type DeformState, type FabricChoice, TERMS, type Term } from './deform-state';
 import { EXPERIMENTS, OWN } from './experiments';
 import { LARGEST_RATIO, MOST_COMPARED, titleOf } from './fabric-choice';
-import type { FabricsState } from './fabrics-state';
+import type { FabricsLink, FabricsState, LinkedHold } from './fabrics-state';
 import { type HeldCloth, type Hold, holdAt } from './holds';
-
-/** How far a hold was moved: one of the experiment by its name, or a visitor's own by its vertex. */
-export interface LinkedHold {
-  by: string | { kind: Hold['kind']; vertex: number };
-  offset: Vector;
-}
-
-export interface FabricsLink
-  extends Pick<
-    FabricsState,
-    'experiment' | 'gallery' | 'form' | 'terms' | 'weightsFrom' | 'chosen' | 'compared' | 'edges'
-  > {
-  moved: LinkedHold[];
-  /** Names of the experiment's holds that were let go. */
-  released: string[];
-}
 
 /** More would make a link of thousands of letters. */
 const MOST_HOLDS = 40;
@@ -133,7 +117,7 @@ export function encodeFabricsLink(state: FabricsState): string {
 export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: string[] } {
   // A plus is a plus here, not a space.
   const text = hash.replace(/^#/, '').replaceAll('+', '%2B');
-  const { take, finish } = createReader(new URLSearchParams(text));
+  const { take, finish } = createLinkReader(new URLSearchParams(text));
   take('view', 'fabrics', 'fabrics', oneOf(['fabrics']));
   const ids = EXPERIMENTS.map(({ id }) => id);
   const first = ids[0] ?? OWN;

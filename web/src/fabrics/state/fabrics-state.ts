@@ -1,12 +1,9 @@
 // The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
-import { inputFailure } from '../../shared/bindings/answers';
-import type { ClothAnswer, Failure } from '../../shared/bindings/wasm-module';
-import {
-  type FabricRecord,
-  fabricNamed,
-  fabrics,
-  geometryOf,
-} from '../../shared/fabric/fabric-data';
+
+import { type Failure, inputFailure } from '../../shared/bindings/answers';
+import type { Triple as Place } from '../../shared/bindings/geometry';
+import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
+import type { ClothAnswer } from '../bindings/deform-module';
 import {
   type DeformState,
   type FabricChoice,
@@ -16,7 +13,7 @@ import {
   type Triple,
 } from './deform-state';
 import { weightsOf } from './fabric-choice';
-import type { FabricsLink } from './fabrics-link';
+import { geometryOf } from './fabric-geometry';
 import type { Hold } from './holds';
 
 /** What a press on the cloth does: a hand takes it, or a pin goes in or out. */
@@ -40,6 +37,22 @@ export interface FabricsState extends DeformState {
   isDragging: boolean;
   invited: boolean;
   edges: boolean;
+}
+
+/** How far a hold was moved: one of the experiment by its name, or a visitor's own by its vertex. */
+export interface LinkedHold {
+  by: string | { kind: Hold['kind']; vertex: number };
+  offset: Place;
+}
+
+export interface FabricsLink
+  extends Pick<
+    FabricsState,
+    'experiment' | 'gallery' | 'form' | 'terms' | 'weightsFrom' | 'chosen' | 'compared' | 'edges'
+  > {
+  moved: LinkedHold[];
+  /** Names of the experiment's holds that were let go. */
+  released: string[];
 }
 
 const ALL_FABRICS: readonly FabricChoice[] = fabrics.map(({ name_en: name }) => ({

@@ -1,8 +1,8 @@
 // What the worker of deformed cloth does with each message, as a function of the module, of where
 // answers go, and of the clock. The only file that calls delete() on its objects.
 
-import { FLOATS_PER_VERTEX, frameViews } from '../../motion/worker/motion-protocol';
 import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
 import {
   type ClothAnswer,
   type DeformationHandle,
@@ -10,7 +10,7 @@ import {
   type DeformReport,
   type FitAnswer,
   PROGRESS,
-} from '../../shared/bindings/wasm-module';
+} from '../bindings/deform-module';
 import type {
   DeformPost,
   DeformStatus,

@@ -1,11 +1,7 @@
 // Messages between the page and the worker that finds the shapes of fabrics. Lengths in metres.
-import type {
-  ClothAnswer,
-  DeformReport,
-  Failure,
-  FitAnswer,
-  TermNumbers,
-} from '../../shared/bindings/wasm-module';
+
+import type { Failure } from '../../shared/bindings/answers';
+import type { ClothAnswer, DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
 
 export interface ShowMessage {
   type: 'show';
@@ -36,7 +32,7 @@ export interface DeformFrame {
   type: 'frame';
   cloth: number;
   pane: number;
-  /** As of any frame (protocol.ts); it holds no scalar. To be given back. */
+  /** As of any frame (frame.ts); it holds no scalar. To be given back. */
   buffer: ArrayBuffer;
   status: DeformStatus;
   report: DeformReport;

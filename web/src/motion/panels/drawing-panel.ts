@@ -1,9 +1,10 @@
 // What is painted on the cloth: its material, stretch or distance; and the edges of the mesh.
 
 import { choice, element, field } from '../../shared/panels/element';
+import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
-import { HEAT_RANGES, type HeatMap } from '../state/motion-link';
-import { type AppState, shownHeat } from '../state/motion-state';
+import { HEAT_RANGES } from '../state/motion-link';
+import { type MotionState, shownHeat } from '../state/motion-state';
 
 const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
   { value: 'off', title: 'Fabric' },
@@ -12,7 +13,7 @@ const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
   { value: 'distance', title: 'Distance to reference' },
 ];
 
-export function createDrawingPanel(parent: HTMLElement, store: Store<AppState>): () => void {
+export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
   const heat = choice(HEAT_TITLES, (value) => store.set({ heat: value }));
   const range = choice<string>(
     [

@@ -1,9 +1,10 @@
 // How wrong the shown cloth is, as far as that is known, in words.
-import type { ReferenceNumbers, RunNumbers } from '../../shared/bindings/wasm-module';
+
 import { digits, percent, smallLength } from '../../shared/panels/quantity';
-import type { AppState } from '../state/motion-state';
+import type { ReferenceNumbers, RunNumbers } from '../bindings/pleat-module';
+import type { MotionState } from '../state/motion-state';
 import { presetSetting, STEPPER_TRAITS } from '../state/setting';
-import { rowOfSetting } from '../state/sweep-plan';
+import { rowOfSetting } from '../state/sweep-state';
 
 export interface ErrorWords {
   value: string;
@@ -61,7 +62,7 @@ function fromItself(numbers: RunNumbers, solves: boolean): string {
 }
 
 export function errorWords(
-  state: Pick<AppState, 'numbers' | 'setting' | 'sweep' | 'mesh'>,
+  state: Pick<MotionState, 'numbers' | 'setting' | 'sweep' | 'mesh'>,
 ): ErrorWords {
   const { numbers, setting } = state;
   if (!numbers) return { value: '–', detail: '', sentence: '' };

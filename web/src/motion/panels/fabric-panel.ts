@@ -5,9 +5,9 @@ import { lookOf } from '../../shared/fabric/fabric-look';
 import { choice, element, field } from '../../shared/panels/element';
 import { quantityMeanings, quantityRows, sourceList } from '../../shared/panels/fabric-quantities';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 
-export function createFabricPanel(parent: HTMLElement, store: Store<AppState>): () => void {
+export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
   const names = choice(
     fabrics.map((fabric) => ({
       value: fabric.name_en,

@@ -3,9 +3,9 @@
 import { element, setText } from '../../shared/panels/element';
 import { percent, smallLength } from '../../shared/panels/quantity';
 import { MAGNITUDE_MAP, SIGNED_MAP } from '../../shared/stage/colormap';
+import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
-import type { HeatMap } from '../state/motion-link';
-import type { AppState, HeatScale } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 
 const STRETCH_MEANING =
   'Change of length over rest length, averaged over the threads that meet at each point: where one is longer and another shorter, they cancel.';
@@ -27,7 +27,7 @@ function presentText({ least, most }: HeatScale, text: (value: number) => string
   return `now ${text(isNoise ? 0 : least)} to ${text(most)}`;
 }
 
-export function createHeatLegend(parent: HTMLElement, store: Store<AppState>): () => void {
+export function createHeatLegend(parent: HTMLElement, store: Store<MotionState>): () => void {
   const title = element('p', { class: 'legend-title' });
   const bar = element('div', { class: 'legend-bar', 'aria-hidden': 'true' });
   const low = element('span');

@@ -3,7 +3,7 @@
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { stepTitle } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 import {
   COUNTS,
   type Count,
@@ -123,7 +123,7 @@ function countField(count: Count, onChoice: (value: number) => void) {
   };
 }
 
-export function createMethodPanel(parent: HTMLElement, store: Store<AppState>): () => void {
+export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
   function change(patch: Partial<Setting>): void {
     store.set({ setting: { ...store.get().setting, ...patch } });
   }

@@ -1,9 +1,9 @@
 // What a screen reader says of the cloth in motion.
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 import { PRESETS } from '../state/setting';
 
 /** The sentence for a change, or null when nothing worth saying happened. */
-export function motionSentence(state: AppState, previous: AppState): string | null {
+export function motionSentence(state: MotionState, previous: MotionState): string | null {
   if (state.phase === 'ready' && previous.phase === 'loading' && state.summary) {
     const { title } = PRESETS[state.setting.preset];
     return `${title}, ${state.setting.fabric}, ${state.summary.n_vertices} vertices.`;

@@ -2,10 +2,10 @@
 
 import { choice, element, setText, svg } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import type { Playback } from '../run/motion-run';
-import type { AppState } from '../state/motion-state';
+import type { MotionRun } from '../run/motion-run';
+import type { MotionState } from '../state/motion-state';
 
-export interface ToolbarActions extends Pick<Playback, 'play' | 'pause' | 'step' | 'reset'> {
+export interface MotionToolbarActions extends Pick<MotionRun, 'play' | 'pause' | 'step' | 'reset'> {
   homeView(): void;
 }
 
@@ -45,10 +45,10 @@ export function toolButton(
   return { made, show };
 }
 
-export function createToolbar(
+export function createMotionToolbar(
   parent: HTMLElement,
-  store: Store<AppState>,
-  actions: ToolbarActions,
+  store: Store<MotionState>,
+  actions: MotionToolbarActions,
 ): () => void {
   const play = toolButton('play', 'Play', 'Play or pause (space)', () => {
     if (store.get().playing) actions.pause();

@@ -4,10 +4,10 @@ import { fabricNamed } from '../../shared/fabric/fabric-data';
 import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 import { errorWords } from './error-words';
 
-const STATUS_WORDS: Record<AppState['phase'], string> = {
+const STATUS_WORDS: Record<MotionState['phase'], string> = {
   loading: 'loading',
   ready: 'paused',
   stopped: 'stopped',
@@ -21,13 +21,13 @@ const LEAST_PART = 0.02;
 interface Item {
   title: string;
   meaning: string;
-  text(state: AppState): string;
+  text(state: MotionState): string;
   width: 'narrow' | 'middle' | 'wide';
   /** A second, smaller line. */
-  detail?(state: AppState): string;
+  detail?(state: MotionState): string;
 }
 
-function statusText({ phase, playing, pace, ahead }: AppState): string {
+function statusText({ phase, playing, pace, ahead }: MotionState): string {
   if (ahead !== null) return `ahead, ${Math.round(100 * ahead)} %`;
   if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
   return pace === null ? 'running' : `running ${digits(Math.min(pace, 1), 2)} ×`;
@@ -99,7 +99,7 @@ const ITEMS: readonly Item[] = [
   },
 ];
 
-export function createNumbersStrip(parent: HTMLElement, store: Store<AppState>): () => void {
+export function createNumbersStrip(parent: HTMLElement, store: Store<MotionState>): () => void {
   const cells = ITEMS.map((item) => {
     const value = element('dd');
     const detail = element('dd', { class: 'detail' });

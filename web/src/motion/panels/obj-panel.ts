@@ -3,7 +3,7 @@
 import { element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 import { type Hold, holdFor, holdsOf, type ObjMesh } from '../state/obj-mesh';
 
 /** More triangles than this and a step takes a good part of a second on most machines. */
@@ -32,7 +32,7 @@ function sentences(mesh: ObjMesh): string {
 
 export function createObjPanel(
   parent: HTMLElement,
-  store: Store<AppState>,
+  store: Store<MotionState>,
   actions: { openObj(file: File): void },
 ): () => void {
   const holds = element('select', {

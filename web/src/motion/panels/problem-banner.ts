@@ -2,11 +2,11 @@
 
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 
 export function createProblemBanner(
   parent: HTMLElement,
-  store: Store<AppState>,
+  store: Store<MotionState>,
   actions: { reset(): void },
 ): () => void {
   const sentence = element('p');

@@ -2,13 +2,13 @@
 
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 import { PRESET_IDS, PRESETS, presetSetting } from '../state/setting';
 import { createObjPanel } from './obj-panel';
 
 export function createScenePanel(
   parent: HTMLElement,
-  store: Store<AppState>,
+  store: Store<MotionState>,
   actions: { openObj(file: File): void },
 ): () => void {
   const presets = choice(

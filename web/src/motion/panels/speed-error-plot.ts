@@ -1,8 +1,9 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
-import type { BenchRow } from '../../shared/bindings/wasm-module';
+
 import { logScale } from '../../shared/chart/log-scale';
 import { svg } from '../../shared/panels/element';
 import { digits, milliseconds, smallLength } from '../../shared/panels/quantity';
+import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 
 export interface PlotContent {

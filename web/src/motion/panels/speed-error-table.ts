@@ -1,7 +1,8 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
-import type { BenchRow } from '../../shared/bindings/wasm-module';
+
 import { element } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 import { type PlotContent, titleOf } from './speed-error-plot';
 

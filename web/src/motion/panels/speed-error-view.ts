@@ -1,11 +1,12 @@
 // The sweep's chart with its table beside it; a chosen point becomes the shown setting.
 
-import type { BenchRow } from '../../shared/bindings/wasm-module';
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import type { AppState } from '../state/motion-state';
+import type { BenchRow } from '../bindings/sweep-module';
+import type { MotionState } from '../state/motion-state';
 import { PRESETS, STEPPER_TRAITS, STEPPERS } from '../state/setting';
-import { hasFinished, rowOfSetting, settingOfRow } from '../state/sweep-plan';
+import { hasFinished, settingOfRow } from '../state/sweep-plan';
+import { rowOfSetting } from '../state/sweep-state';
 import { createSpeedErrorPlot, markOf } from './speed-error-plot';
 import { createSpeedErrorTable } from './speed-error-table';
 
@@ -31,7 +32,7 @@ function createLegend() {
 }
 
 /** What the numbers are, and how far to trust them. */
-function footnote({ sweep }: AppState): string {
+function footnote({ sweep }: MotionState): string {
   const { rows, disturbed } = sweep;
   const [first] = rows;
   if (!first) return 'Waiting for the first row.';
@@ -46,7 +47,7 @@ function footnote({ sweep }: AppState): string {
   return parts.join(' ');
 }
 
-export function createSpeedErrorView(parent: HTMLElement, store: Store<AppState>): () => void {
+export function createSpeedErrorView(parent: HTMLElement, store: Store<MotionState>): () => void {
   function use(index: number): void {
     const { sweep, setting } = store.get();
     const row = sweep.rows[index];

@@ -3,7 +3,7 @@
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { Sweep } from '../run/sweep';
-import type { AppState } from '../state/motion-state';
+import type { MotionState } from '../state/motion-state';
 import { FINEST_EXPLICIT } from '../state/sweep-plan';
 
 /** Finest level of a sweep to begin with: some seconds to a minute. */
@@ -18,7 +18,7 @@ const FINEST = [
 
 export function createSweepPanel(
   parent: HTMLElement,
-  store: Store<AppState>,
+  store: Store<MotionState>,
   sweep: Sweep,
 ): () => void {
   let finest = FIRST_FINEST;

@@ -1,22 +1,16 @@
 // Runs the shown cloth: turns changes of the state into messages, and answers into state and frames.
 
 import exampleUrl from '../../../../assets/meshes/skirt.obj?url';
-import { brokenSentence } from '../../shared/bindings/answers';
-import type { Failure, Triple } from '../../shared/bindings/wasm-module';
+import { brokenSentence, type Failure } from '../../shared/bindings/answers';
+import { frameViews, type Scalar } from '../../shared/bindings/frame';
+import type { Triple } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
 import { startWorker } from '../../shared/workers/client';
-import { type AppState, shownHeat } from '../state/motion-state';
+import { type MotionState, shownHeat } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting, type Setting, sceneOf } from '../state/setting';
-import {
-  type FrameMessage,
-  type FromWorker,
-  frameViews,
-  type LoadedMessage,
-  type RunReport,
-  type Scalar,
-} from '../worker/motion-protocol';
+import type { FrameMessage, FromMotion, LoadedMessage, RunReport } from '../worker/motion-protocol';
 import { createPacer } from './pacer';
 import { referenceUrl } from './references';
 import { createStepTimer } from './step-timing';
@@ -30,14 +24,14 @@ const LONGEST_AHEAD_MS = 4000;
 /** The pace is measured over this much of the clock [s]. */
 const PACE_WINDOW_S = 1;
 
-export interface PlaybackView {
+export interface MotionRunView {
   /** A new mesh; its first frame follows at once. */
   showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
   /** The buffer stays valid until the next call. */
   showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
 }
 
-export interface Playback {
+export interface MotionRun {
   play(): void;
   pause(): void;
   step(): void;
@@ -91,7 +85,7 @@ function endOf(report: RunReport | null, frame: ArrayBuffer): string {
 }
 
 /** Opens the worker, loads the state's setting, and follows the store from then on. */
-export function createPlayback(store: Store<AppState>, view: PlaybackView): Playback {
+export function createMotionRun(store: Store<MotionState>, view: MotionRunView): MotionRun {
   const pacer = createPacer();
   const timer = createStepTimer();
   const client = startWorker(receive, broken);
@@ -239,7 +233,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
   }
 
   function receiveReport({ numbers, status }: RunReport): void {
-    const patch: Partial<AppState> = { numbers, isCutShort: status === 'not_converged' };
+    const patch: Partial<MotionState> = { numbers, isCutShort: status === 'not_converged' };
     const timing = timer.feed(numbers);
     if (timing) patch.timing = timing;
     const now = performance.now();
@@ -275,7 +269,7 @@ export function createPlayback(store: Store<AppState>, view: PlaybackView): Play
     });
   }
 
-  function receive(message: FromWorker): void {
+  function receive(message: FromMotion): void {
     switch (message.type) {
       case 'ready':
         return load();

@@ -3,8 +3,9 @@
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
 import { startSweepWorker, type WorkerClient } from '../../shared/workers/client';
-import type { AppState, SweepState } from '../state/motion-state';
-import { sweepPlan, sweptScene } from '../state/sweep-plan';
+import type { MotionState } from '../state/motion-state';
+import { sweepPlan } from '../state/sweep-plan';
+import { type SweepState, sweptScene } from '../state/sweep-state';
 import type { SweepMessage } from '../worker/motion-protocol';
 
 export interface Sweep {
@@ -14,7 +15,7 @@ export interface Sweep {
   cancel(): void;
 }
 
-export function createSweep(store: Store<AppState>): Sweep {
+export function createSweep(store: Store<MotionState>): Sweep {
   let worker: WorkerClient<SweepMessage> | null = null;
 
   function patch(change: Partial<SweepState>): void {

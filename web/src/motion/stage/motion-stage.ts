@@ -1,19 +1,19 @@
 // The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
 // simulation, and draws only when something changed.
+
 import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
-import type { Collider, Triple } from '../../shared/bindings/wasm-module';
+import type { Scalar } from '../../shared/bindings/frame';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { createCameraControl } from '../../shared/stage/camera-control';
 import { createCanvas } from '../../shared/stage/canvas';
 import { createClothMesh } from '../../shared/stage/cloth-mesh';
 import { createHand } from '../../shared/stage/grab';
 import { createHandMark } from '../../shared/stage/hand-mark';
+import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import { createSurroundings } from '../../shared/stage/surroundings';
-import type { HeatMap } from '../state/motion-link';
-import type { HeatScale } from '../state/motion-state';
-import type { Scalar } from '../worker/motion-protocol';
 
-export interface StageEvents {
+export interface MotionStageEvents {
   grab(vertex: number): void;
   moveGrab(target: Triple): void;
   releaseGrab(): void;
@@ -24,7 +24,7 @@ export interface StageEvents {
   contextLost(): void;
 }
 
-export interface Stage {
+export interface MotionStage {
   /** A new mesh; the view is set anew when it belongs to a new scene. */
   showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
   showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
@@ -103,11 +103,11 @@ function invitingVertex(positions: Float32Array, towards: Vector3): number {
 }
 
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
-export function createStage(
+export function createMotionStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
-  events: StageEvents,
-): Stage {
+  events: MotionStageEvents,
+): MotionStage {
   const scene = new Scene();
   const camera = new PerspectiveCamera(32, 1, 0.01, 100);
   const cloth = createClothMesh();

@@ -1,6 +1,9 @@
 // The state that a link carries, to text and back. A part that cannot be read gives its default
 // and one sentence; it never stops the page.
+
 import { fabrics } from '../../shared/fabric/fabric-data';
+import type { HeatMap } from '../../shared/stage/heat-map';
+import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import type { Hold } from './obj-mesh';
 import {
   type Count,
@@ -20,10 +23,7 @@ import {
   withStepper,
 } from './setting';
 
-/** Nothing, stretch, stretch with its sign, or distance to the reference. */
-export type HeatMap = 'off' | 'magnitude' | 'signed' | 'distance';
-
-export interface LinkState {
+export interface MotionLink {
   setting: Setting;
   heat: HeatMap;
   /** Upper end of the scale of stretch [%], or chosen from the frame. */
@@ -39,48 +39,6 @@ const DEFAULT_PRESET: PresetId = 'curtain';
 const LATEST_START_S = 10;
 /** By then the curtain hangs in folds, and its error is known: a first visit sees both [s]. */
 const FIRST_VISIT_START_S = 1.5;
-
-/** A name as it stands in a link: lower case, hyphens. */
-export function slug(name: string): string {
-  return name
-    .toLowerCase()
-    .replace(/[^a-z0-9]+/g, '-')
-    .replace(/^-|-$/g, '');
-}
-
-/** Reads one part of the link at a time and collects what was wrong with it. */
-export function createReader(parameters: URLSearchParams) {
-  const problems: string[] = [];
-  const known = new Set<string>();
-
-  function take<Value>(
-    key: string,
-    fallback: Value,
-    expected: string,
-    parse: (text: string) => Value | undefined,
-  ): Value {
-    known.add(key);
-    const text = parameters.get(key);
-    if (text === null) return fallback;
-    const value = parse(text);
-    if (value !== undefined) return value;
-    problems.push(`${key}: expected ${expected}, found "${text.slice(0, 40)}"`);
-    return fallback;
-  }
-
-  function finish(): string[] {
-    for (const key of new Set(parameters.keys())) {
-      if (!known.has(key)) problems.push(`${key.slice(0, 40)}: not a known part`);
-    }
-    return problems;
-  }
-
-  return { take, finish };
-}
-
-export function oneOf<Value extends string | number>(values: readonly Value[]) {
-  return (text: string): Value | undefined => values.find((value) => String(value) === text);
-}
 
 function wholeNumber(least: number, most: number) {
   return (text: string): number | undefined => {
@@ -106,7 +64,7 @@ function holdIn(text: string): Hold | undefined {
 }
 
 /** The part of a link after `#`. */
-export function encodeLink(link: LinkState): string {
+export function encodeMotionLink(link: MotionLink): string {
   const { setting } = link;
   const parts: [string, string][] = [
     ['scene', setting.preset],
@@ -127,9 +85,9 @@ export function encodeLink(link: LinkState): string {
 }
 
 /** The state a link stands for; `problems` says in words what could not be read. */
-export function decodeLink(hash: string): { link: LinkState; problems: string[] } {
+export function decodeMotionLink(hash: string): { link: MotionLink; problems: string[] } {
   const text = hash.replace(/^#/, '');
-  const { take, finish } = createReader(new URLSearchParams(text));
+  const { take, finish } = createLinkReader(new URLSearchParams(text));
   const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
   const models = modelsOf(preset);
   const own = presetSetting(preset);
@@ -156,7 +114,7 @@ export function decodeLink(hash: string): { link: LinkState; problems: string[] 
     hold: take('hold', own.hold, 'highest, nothing or group:NAME', holdIn),
   };
   const heat = take('heat', 'off', HEAT_MAPS.join(', '), oneOf(HEAT_MAPS));
-  const range = take<LinkState['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>
+  const range = take<MotionLink['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>
     text === 'auto' ? 'auto' : oneOf(HEAT_RANGES)(text),
   );
   const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';

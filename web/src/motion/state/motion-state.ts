@@ -1,13 +1,11 @@
 // Everything the page shows. Only this and the frames travel between its parts.
-import type {
-  BenchRow,
-  Collider,
-  RunNumbers,
-  SceneSummary,
-} from '../../shared/bindings/wasm-module';
-import type { HeatMap, LinkState } from './motion-link';
+
+import type { Collider } from '../../shared/bindings/geometry';
+import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
+import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
+import type { MotionLink } from './motion-link';
 import type { ObjMesh } from './obj-mesh';
-import type { SweptScene } from './sweep-plan';
+import { NO_SWEEP, type SweepState } from './sweep-state';
 
 export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
 
@@ -26,30 +24,7 @@ export interface StepTiming {
   parts: { name: string; ms: number }[];
 }
 
-/** The heat map's scale and what the frame holds: ratios or metres; NaN where there is no number. */
-export interface HeatScale {
-  map: HeatMap;
-  low: number;
-  high: number;
-  least: number;
-  most: number;
-}
-
-export interface SweepState {
-  phase: 'none' | 'running' | 'done' | 'cancelled' | 'failed';
-  /** 0 to 1. */
-  progress: number;
-  message: string;
-  rows: BenchRow[];
-  /** Indices into `rows`. */
-  front: number[];
-  /** The scene the rows are of. */
-  scene: SweptScene | null;
-  /** The cloth was running at the same time, so that the times are too long. */
-  disturbed: boolean;
-}
-
-export interface AppState extends LinkState {
+export interface MotionState extends MotionLink {
   phase: Phase;
   playing: boolean;
   /** Simulated seconds a second of the clock: 1, 1/2 or 1/4. */
@@ -76,17 +51,7 @@ export interface AppState extends LinkState {
   sweepOpen: boolean;
 }
 
-export const NO_SWEEP: SweepState = {
-  phase: 'none',
-  progress: 0,
-  message: '',
-  rows: [],
-  front: [],
-  scene: null,
-  disturbed: false,
-};
-
-export function initialState(link: LinkState, problems: string[]): AppState {
+export function initialMotionState(link: MotionLink, problems: string[]): MotionState {
   return {
     ...link,
     phase: 'loading',
@@ -113,6 +78,6 @@ export function initialState(link: LinkState, problems: string[]): AppState {
 }
 
 /** The heat map that can be shown: distance only where there is a reference. */
-export function shownHeat({ heat, numbers }: Pick<AppState, 'heat' | 'numbers'>): HeatMap {
+export function shownHeat({ heat, numbers }: Pick<MotionState, 'heat' | 'numbers'>): HeatMap {
   return heat === 'distance' && !numbers?.reference ? 'off' : heat;
 }

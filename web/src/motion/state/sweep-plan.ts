@@ -1,9 +1,7 @@
 // What one press of the sweep button measures, and how its rows map back to settings.
-import type { BenchRow } from '../../shared/bindings/wasm-module';
-import type { AppState } from './motion-state';
+import type { BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
 import {
-  isSameMethod,
   type Model,
   type Setting,
   STABLE_SUBSTEPS,
@@ -95,35 +93,4 @@ export function settingOfRow(row: BenchRow, present: Setting): Setting {
     substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
     iterations: row.method.iterations ?? present.iterations,
   };
-}
-
-/** What a sweep is of: a row of another scene, fabric or model says nothing about this one. */
-export interface SweptScene extends Pick<Setting, 'preset' | 'fabric' | 'model' | 'hold'> {
-  mesh: ObjMesh | null;
-}
-
-export function sweptScene(setting: Setting, mesh: ObjMesh | null): SweptScene {
-  const { preset, fabric, model, hold } = setting;
-  return { preset, fabric, model, hold, mesh: preset === 'obj' ? mesh : null };
-}
-
-function isOf(swept: SweptScene | null, shown: SweptScene): boolean {
-  return (
-    swept !== null &&
-    (Object.keys(shown) as (keyof SweptScene)[]).every((key) => swept[key] === shown[key])
-  );
-}
-
-/** The row of the last sweep that was measured with just the shown setting, if there is one. */
-export function rowOfSetting({
-  sweep,
-  setting,
-  mesh,
-}: Pick<AppState, 'sweep' | 'setting' | 'mesh'>): BenchRow | null {
-  if (!isOf(sweep.scene, sweptScene(setting, mesh))) return null;
-  const found = sweep.rows.find((row) => {
-    const measured = settingOfRow(row, setting);
-    return measured.level === setting.level && isSameMethod(measured, setting);
-  });
-  return found && hasFinished(found) ? found : null;
 }

@@ -1,30 +1,31 @@
 // What the workers do with each message, as a function of the module and of where answers go.
 // The only file that calls delete() on theirs.
 
-import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import {
+  describe,
+  type Failure,
+  internalFailure,
+  type RunStatus,
+  read,
+} from '../../shared/bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../../shared/bindings/frame';
+import type { Collider } from '../../shared/bindings/geometry';
 import type {
-  Collider,
-  Failure,
   ObjAnswer,
   PleatModule,
   RunNumbers,
-  RunStatus,
   SceneSummary,
   SimulationHandle,
-  SweepModule,
-  SweepReport,
-} from '../../shared/bindings/wasm-module';
+} from '../bindings/pleat-module';
+import type { SweepModule, SweepReport } from '../bindings/sweep-module';
 import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
-import {
-  FLOATS_PER_VERTEX,
-  frameViews,
-  type LoadMessage,
-  type Post,
-  type RunReport,
-  type Scalar,
-  type StepMessage,
-  type SweepMessage,
-  type ToWorker,
+import type {
+  LoadMessage,
+  Post,
+  RunReport,
+  StepMessage,
+  SweepMessage,
+  ToMotion,
 } from './motion-protocol';
 
 /** Work between two progress reports of a sweep [ms]; short enough that progress looks alive. */
@@ -57,10 +58,10 @@ function readColliders(simulation: SimulationHandle): Collider[] {
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export function createWorkerCore(
+export function createMotionCore(
   module: PleatModule,
   post: Post,
-): { receive: (message: ToWorker) => void; close: () => void } {
+): { receive: (message: ToMotion) => void; close: () => void } {
   let fabricsText: string | null = null;
   let simulation: SimulationHandle | null = null;
   let loaded: SceneSummary | null = null;
@@ -100,7 +101,7 @@ export function createWorkerCore(
     postLoaded(message, run, loaded);
   }
 
-  function reset(run: SimulationHandle, message: Extract<ToWorker, { type: 'reset' }>): void {
+  function reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
     if (!loaded) return refuse(message.request, internalFailure('reset before load'));
     const answer = read<object>(run.reset());
     if (!answer.ok) return refuse(message.request, answer);
@@ -126,7 +127,7 @@ export function createWorkerCore(
     post({ type: 'frame', request, count, buffer, scalar, hasEnded, report, colliders }, [buffer]);
   }
 
-  function readObj(text: string, message: Extract<ToWorker, { type: 'readObj' }>): void {
+  function readObj(text: string, message: Extract<ToMotion, { type: 'readObj' }>): void {
     const { name, objText, isOwn } = message;
     const scene = new module.Scene(text);
     const readAlong = (threads: keyof typeof DIRECTIONS) => {
@@ -154,7 +155,7 @@ export function createWorkerCore(
     post({ type: 'ready' }, []);
   }
 
-  function handle(message: ToWorker): void {
+  function handle(message: ToMotion): void {
     if (message.type === 'open') return open(message.fabricsText);
     if (!simulation || fabricsText === null) throw new Error(`${message.type} before open`);
     switch (message.type) {

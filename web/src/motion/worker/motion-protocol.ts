@@ -1,16 +1,11 @@
 // Messages between the page and its workers, both ways. Lengths in metres, times in seconds.
 
-import type {
-  Collider,
-  Failure,
-  RunNumbers,
-  SceneSummary,
-  SweepReport,
-} from '../../shared/bindings/wasm-module';
+import type { Failure } from '../../shared/bindings/answers';
+import type { Scalar } from '../../shared/bindings/frame';
+import type { Collider } from '../../shared/bindings/geometry';
+import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
+import type { SweepReport } from '../bindings/sweep-module';
 import type { ObjMesh } from '../state/obj-mesh';
-
-/** What a frame holds beside positions: stretch as a ratio (usual), or distance to the reference [m]. */
-export type Scalar = 'stretch' | 'distance';
 
 export interface StepMessage {
   type: 'step';
@@ -32,7 +27,7 @@ export interface LoadMessage {
   start?: Float64Array;
 }
 
-export type ToWorker =
+export type ToMotion =
   /** First message: opens the module's objects with the fabric file's text. */
   | { type: 'open'; fabricsText: string }
   /** `request` comes back in the answer, so that a late answer can be told from a current one. */
@@ -87,7 +82,7 @@ export interface FrameMessage {
   colliders: Collider[];
 }
 
-export type FromWorker =
+export type FromMotion =
   | { type: 'ready' }
   /** The module could not be started. */
   | { type: 'broken'; reason: string }
@@ -101,19 +96,4 @@ export type FromWorker =
   | { type: 'refused'; request: number; failure: Failure }
   | { type: 'sweepReport'; report: SweepReport };
 
-export type Post = (message: FromWorker, transfer: Transferable[]) => void;
-
-/** A frame buffer holds the positions (3 n) and then the scalar (n) as 32-bit floats. */
-export const FLOATS_PER_VERTEX = 4;
-
-/** The two parts of a frame buffer. */
-export function frameViews(buffer: ArrayBuffer): {
-  positions: Float32Array;
-  scalar: Float32Array;
-} {
-  const nVertices = buffer.byteLength / (4 * FLOATS_PER_VERTEX);
-  return {
-    positions: new Float32Array(buffer, 0, 3 * nVertices),
-    scalar: new Float32Array(buffer, 12 * nVertices, nVertices),
-  };
-}
+export type Post = (message: FromMotion, transfer: Transferable[]) => void;

@@ -1,9 +1,9 @@
 import createPleat from '../../wasm/pleat.mjs';
-import { createWorkerCore } from './motion-core';
-import type { FromWorker, ToWorker } from './motion-protocol';
+import { createMotionCore } from './motion-core';
+import type { FromMotion, ToMotion } from './motion-protocol';
 
-const post = (message: FromWorker, transfer: Transferable[]) =>
+const post = (message: FromMotion, transfer: Transferable[]) =>
   self.postMessage(message, { transfer });
-const core = createPleat().then((module) => createWorkerCore(module, post));
+const core = createPleat().then((module) => createMotionCore(module, post));
 core.catch((error) => post({ type: 'broken', reason: String(error) }, []));
-self.onmessage = async (event: MessageEvent<ToWorker>) => (await core).receive(event.data);
+self.onmessage = async (event: MessageEvent<ToMotion>) => (await core).receive(event.data);

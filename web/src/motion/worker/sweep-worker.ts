@@ -1,8 +1,8 @@
 import createSweep from '../../wasm/sweep.mjs';
 import { runSweep } from './motion-core';
-import type { FromWorker, SweepMessage } from './motion-protocol';
+import type { FromMotion, SweepMessage } from './motion-protocol';
 
-const post = (message: FromWorker, transfer: Transferable[]) =>
+const post = (message: FromMotion, transfer: Transferable[]) =>
   self.postMessage(message, { transfer });
 const module = createSweep();
 module.catch((error) => post({ type: 'broken', reason: String(error) }, []));

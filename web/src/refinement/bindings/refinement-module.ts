@@ -1,5 +1,7 @@
-// The classes bound by the WebAssembly module of garments, as wasm-module.ts has those of the others.
-import { methodsOf, type Triple } from '../../shared/bindings/wasm-module';
+// The classes bound by the WebAssembly module of garments, and the shape of the texts it answers with.
+
+import type { Triple } from '../../shared/bindings/geometry';
+import { methodsOf } from '../../shared/bindings/methods';
 
 /** What `GarmentRun.load` built. */
 export interface GarmentSummary {

@@ -1,6 +1,6 @@
 // The page's end of the workers of garments: each question has one answer.
 
-import type { Failure } from '../../shared/bindings/wasm-module';
+import type { Failure } from '../../shared/bindings/answers';
 import type { FromExample, FromGarment, ToExample, ToGarment } from '../worker/garment-protocol';
 
 /** A worker that will not answer any more. */

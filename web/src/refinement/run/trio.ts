@@ -1,15 +1,15 @@
 // Runs the three panes of a garment in step: turns changes of the state into questions to their workers,
 // and the answers into state and frames.
 
-import { frameViews } from '../../motion/worker/motion-protocol';
 import {
   brokenSentence,
   describe,
+  type Failure,
   inputFailure,
   internalFailure,
   quoted,
 } from '../../shared/bindings/answers';
-import type { Failure } from '../../shared/bindings/wasm-module';
+import { frameViews } from '../../shared/bindings/frame';
 import type { Store } from '../../shared/state/store';
 import type { SolidsAnswer } from '../bindings/refinement-module';
 import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';

@@ -1,5 +1,6 @@
 // Cloth of quads of several sizes: its material, one colour a face, or a number at each vertex by colour;
 // with the quads' edges and the vertices that hang.
+
 import {
   BufferAttribute,
   BufferGeometry,
@@ -14,7 +15,7 @@ import {
   Points,
   PointsMaterial,
 } from 'three';
-import { frameViews } from '../../motion/worker/motion-protocol';
+import { frameViews } from '../../shared/bindings/frame';
 import type { FabricLook } from '../../shared/fabric/fabric-look';
 import { type Colormap, paint } from '../../shared/stage/colormap';
 import { createClothMaterials } from '../../shared/stage/fabric-material';

@@ -1,7 +1,7 @@
 // The view of refinement to a link and back.
 
-import { createReader, oneOf, slug } from '../../motion/state/motion-link';
 import { fabrics } from '../../shared/fabric/fabric-data';
+import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';
 import { COLOURS, DEFAULT_LINK, DEMANDS, type RefinementLink, SPEEDS } from './refinement-state';
 
@@ -55,7 +55,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
 
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeRefinementLink(hash: string): { link: RefinementLink; problems: string[] } {
-  const { take, finish } = createReader(new URLSearchParams(hash.replace(/^#/, '')));
+  const { take, finish } = createLinkReader(new URLSearchParams(hash.replace(/^#/, '')));
   const isOn = (key: string, usual: boolean) =>
     take(key, usual ? 'on' : 'off', 'on or off', oneOf(ON_OFF)) === 'on';
   const valuesOf = <Value>(options: readonly { value: Value }[]) =>

@@ -1,6 +1,5 @@
 // What the view of refinement shows.
-import { inputFailure } from '../../shared/bindings/answers';
-import type { Failure } from '../../shared/bindings/wasm-module';
+import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
 import { USUAL_DEMAND } from './garment-frames';
 import { type GarmentId, MOTIONS, type MotionId, usualFabric } from './garments';

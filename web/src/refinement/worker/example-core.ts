@@ -1,8 +1,14 @@
 // What the worker of the examples does with each message: plans in an instant, from what was recorded
 // and from what it ran itself. The only file that calls delete() on its objects.
 
-import { describe, inputFailure, internalFailure, read } from '../../shared/bindings/answers';
-import type { Failure, RunStatus } from '../../shared/bindings/wasm-module';
+import {
+  describe,
+  type Failure,
+  inputFailure,
+  internalFailure,
+  type RunStatus,
+  read,
+} from '../../shared/bindings/answers';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,

@@ -1,9 +1,14 @@
 // What the worker of one pane does with each message, as a function of the module and of where
 // answers go. The only file that calls delete() on its object.
 
-import { FLOATS_PER_VERTEX, frameViews } from '../../motion/worker/motion-protocol';
-import { describe, internalFailure, read } from '../../shared/bindings/answers';
-import type { Failure, RunStatus } from '../../shared/bindings/wasm-module';
+import {
+  describe,
+  type Failure,
+  internalFailure,
+  type RunStatus,
+  read,
+} from '../../shared/bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
 import type {
   FaultsAnswer,
   FitAnswer,

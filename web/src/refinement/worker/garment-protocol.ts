@@ -1,7 +1,7 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
 
-import type { Failure } from '../../shared/bindings/wasm-module';
+import type { Failure } from '../../shared/bindings/answers';
 import type {
   FaultsAnswer,
   FitAnswer,
@@ -62,7 +62,7 @@ export interface GarmentMesh {
 export interface Described {
   type: 'described';
   request: number;
-  /** As of any frame (protocol.ts). */
+  /** As of any frame (frame.ts). */
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
   isKnown: boolean;

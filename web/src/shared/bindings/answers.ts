@@ -1,5 +1,21 @@
-// The texts that the modules answer with, and what went wrong in their stead.
-import type { Answer, Failure } from './wasm-module';
+// The texts that the WebAssembly modules answer with, and what says that something went wrong.
+
+/** Every text answer: the payload beside `ok`, or one sentence about what was wrong and where. */
+export type Answer<Payload> = ({ ok: true } & Payload) | Failure;
+
+export interface Failure {
+  ok: false;
+  /** `input`: the scene or plan is at fault. `internal`: the program is. */
+  kind: 'input' | 'internal';
+  /** JSON pointer into the text that was passed, or empty. */
+  where: string;
+  what: string;
+}
+
+export interface RunStatus {
+  status: string;
+  message: string;
+}
 
 /** Parses an answer; one that is not JSON is a fault of the program, not of the input. */
 export function read<Payload>(text: string): Answer<Payload> {

@@ -1,5 +1,5 @@
 // A failure, above the stage, until it is dismissed.
-import type { Failure } from '../bindings/wasm-module';
+import type { Failure } from '../bindings/answers';
 import { element, setText } from './element';
 
 /** What went wrong, in a sentence. */

@@ -1,4 +1,5 @@
 // One mesh from one frame: positions as they come, smooth normals, material or heat map.
+
 import {
   BufferAttribute,
   BufferGeometry,
@@ -8,12 +9,11 @@ import {
   LineSegments,
   Mesh,
 } from 'three';
-import type { HeatMap } from '../../motion/state/motion-link';
-import type { HeatScale } from '../../motion/state/motion-state';
-import { frameViews, type Scalar } from '../../motion/worker/motion-protocol';
+import { frameViews, type Scalar } from '../bindings/frame';
 import type { FabricLook } from '../fabric/fabric-look';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
 import { createClothMaterials } from './fabric-material';
+import type { HeatMap, HeatScale } from './heat-map';
 import { showPositions } from './normals';
 
 /** A still cloth has no stretch: the scale then ends at 0.01 %, or at 0.1 mm, not at nothing. */

@@ -1,6 +1,7 @@
 // The hand: which vertex it holds and where it wants it, by pointer or by keyboard.
+
 import { type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
-import type { Triple } from '../bindings/wasm-module';
+import type { Triple } from '../bindings/geometry';
 import { pick } from './pick';
 
 /** How far one key press moves the hand, as a part of its distance from the eye. */

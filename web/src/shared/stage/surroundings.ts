@@ -1,4 +1,5 @@
 // Floor, metre grid, light, and the bodies the cloth falls on.
+
 import {
   BufferAttribute,
   BufferGeometry,
@@ -15,7 +16,7 @@ import {
   SphereGeometry,
   Vector3,
 } from 'three';
-import type { Collider } from '../bindings/wasm-module';
+import type { Collider } from '../bindings/geometry';
 
 export interface Surroundings {
   object: Group;

@@ -1,6 +1,6 @@
 // The page's end of its workers: typed messages, and one sentence when a worker itself breaks.
 import type { FromDeform, ToDeform } from '../../fabrics/worker/deform-protocol';
-import type { FromWorker, SweepMessage, ToWorker } from '../../motion/worker/motion-protocol';
+import type { FromMotion, SweepMessage, ToMotion } from '../../motion/worker/motion-protocol';
 
 export interface WorkerClient<Message> {
   send(message: Message, transfer?: Transferable[]): void;
@@ -28,7 +28,7 @@ function connect<Message, Answer>(
 type Ends<Answer> = [receive: (message: Answer) => void, onBroken: (reason: string) => void];
 
 /** Starts a worker that runs the shown cloth. */
-export function startWorker(...ends: Ends<FromWorker>): WorkerClient<ToWorker> {
+export function startWorker(...ends: Ends<FromMotion>): WorkerClient<ToMotion> {
   const worker = new Worker(new URL('../../motion/worker/motion-worker.ts', import.meta.url), {
     type: 'module',
   });
@@ -36,7 +36,7 @@ export function startWorker(...ends: Ends<FromWorker>): WorkerClient<ToWorker> {
 }
 
 /** Starts a worker that runs one sweep. */
-export function startSweepWorker(...ends: Ends<FromWorker>): WorkerClient<SweepMessage> {
+export function startSweepWorker(...ends: Ends<FromMotion>): WorkerClient<SweepMessage> {
   const worker = new Worker(new URL('../../motion/worker/sweep-worker.ts', import.meta.url), {
     type: 'module',
   });

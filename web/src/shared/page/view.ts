@@ -1,4 +1,4 @@
-// What the page asks of each of its views.
+// What the page asks of each of its views, and what one view hands to another.
 
 export interface View {
   /** The part of the address after `#` at which this view is as it is. */
@@ -9,4 +9,11 @@ export interface View {
   setShown(isShown: boolean): void;
   /** For the console and for tests: state and frame to look at. */
   probe: object;
+}
+
+/** What a cloth in motion starts from. */
+export interface StartShape {
+  /** The section "cloth" of a scene; what was held is its group "held". */
+  section: object;
+  positions: Float64Array;
 }
