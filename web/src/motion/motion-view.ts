@@ -1,5 +1,4 @@
 // The view of cloth in motion: the store, the playback, the stage and the panels, wired together.
-
 import { fabricNamed } from '../shared/fabric/fabric-data';
 import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';

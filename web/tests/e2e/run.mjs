@@ -459,7 +459,7 @@ await check('the sweep fills chart and table, and a click on a point applies it'
       /not converged/.test(await page.locator('figcaption').textContent()),
       'the reference is not labelled',
     );
-    const point = page.locator('.point-xpbd').first();
+    const point = page.locator('[data-stepper="xpbd"]').first();
     const row = sweep.rows[Number(await point.getAttribute('data-row'))];
     await point.dispatchEvent('click');
     await isReady(page);

@@ -1,5 +1,4 @@
 // The worker of deformed cloth on its real module, with a clock and a schedule of the test's own.
-
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import type { TermNumbers } from '../../src/fabrics/bindings/deform-module';

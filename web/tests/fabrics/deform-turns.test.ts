@@ -1,5 +1,4 @@
 // In which order the worker of deformed cloth asks what of the module: one that only keeps a record.
-
 import { describe, expect, it } from 'vitest';
 import {
   type DeformationHandle,

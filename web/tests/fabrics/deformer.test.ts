@@ -1,5 +1,4 @@
 // The page's end of the worker of deformed cloth: what it shows is what the worker has.
-
 import { beforeAll, describe, expect, it, vi } from 'vitest';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import { createDeformer } from '../../src/fabrics/run/deformer';

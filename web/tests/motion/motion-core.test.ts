@@ -6,13 +6,10 @@ import { PLEAT_METHODS } from '../../src/motion/bindings/pleat-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
 import {
-  canRun,
   PRESET_IDS,
   PRESETS,
   presetSetting,
   type Setting,
-  STEPPER_TRAITS,
-  STEPPERS,
   sceneOf,
   withModel,
   withStepper,
@@ -22,6 +19,7 @@ import { createMotionCore, runSweep } from '../../src/motion/worker/motion-core'
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/steppers';
 import { boundMethods } from '../support/bound-methods';
 import { isBuilt, loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
@@ -133,7 +131,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('runs every stepper of the page from its usual setting', async () => {
     const { send, take } = open(await load());
-    STEPPERS.forEach((stepper, index) => {
+    STEPPER_NAMES.forEach((stepper, index) => {
       const text = JSON.stringify(sceneOf(withStepper({ ...setting, level: 0 }, stepper)));
       send({ type: 'load', sceneText: text, keepMotion: false, request: index });
       const [, buffer] = take('loaded').buffers;
@@ -145,7 +143,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('runs a membrane with every stepper that the page offers for it', async () => {
     const { send, take } = open(await load());
     const membrane = withModel({ ...setting, level: 0 }, 'membrane');
-    const possible = STEPPERS.filter((stepper) => canRun(stepper, 'membrane'));
+    const possible = STEPPER_NAMES.filter((stepper) => canRun(stepper, 'membrane'));
     expect(possible).not.toContain('xpbd');
     possible.forEach((stepper, index) => {
       const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
@@ -154,7 +152,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
       send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
       expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
     });
-    for (const stepper of STEPPERS.filter((one) => !possible.includes(one))) {
+    for (const stepper of STEPPER_NAMES.filter((one) => !possible.includes(one))) {
       if (_name === 'the stand-in') continue;
       const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
       send({ type: 'load', sceneText: text, keepMotion: false, request: 9 });
@@ -348,7 +346,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
   it('loads every preset with every stepper, and says what serves instead', () => {
     const { send, take } = open(module);
     for (const preset of PRESET_IDS) {
-      for (const stepper of STEPPERS) {
+      for (const stepper of STEPPER_NAMES) {
         const text = JSON.stringify(sceneOf(withStepper(presetSetting(preset), stepper)));
         send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
         expect(take('loaded').summary.notes).toEqual(['Eigen serves.']);
@@ -386,7 +384,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
   });
 
   it('has no option and no word that names it', () => {
-    const words = JSON.stringify([STEPPER_TRAITS, PRESETS]);
+    const words = JSON.stringify([STEPPERS, PRESETS]);
     expect(words.toLowerCase()).not.toContain('cholmod');
   });
 });

@@ -5,17 +5,16 @@ import {
   type MotionLink,
 } from '../../src/motion/state/motion-link';
 import {
-  canRun,
   MODELS,
   modelsOf,
   PRESET_IDS,
   presetSetting,
-  STEPPERS,
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
 import { fabrics } from '../../src/shared/fabric/fabric-data';
 import { slug } from '../../src/shared/state/link-reader';
+import { canRun, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
 
 const link: MotionLink = {
   setting: {
@@ -45,7 +44,7 @@ describe('url-codec', () => {
   it('keeps every preset, stepper and fabric', () => {
     for (const preset of PRESET_IDS) {
       const { model } = presetSetting(preset);
-      for (const stepper of STEPPERS.filter((one) => canRun(one, model))) {
+      for (const stepper of STEPPER_NAMES.filter((one) => canRun(one, model))) {
         for (const fabric of fabrics) {
           const setting = {
             ...withStepper(presetSetting(preset), stepper),

@@ -5,13 +5,13 @@ import {
   modelsOf,
   PRESET_IDS,
   presetSetting,
-  STEPPERS,
   sceneOf,
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
-import { FINEST_EXPLICIT, settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
 import { NO_SWEEP, rowOfSetting, sweptScene } from '../../src/motion/state/sweep-state';
+import { STEPPER_NAMES } from '../../src/shared/steppers/steppers';
 
 const start = presetSetting('curtain');
 
@@ -38,7 +38,7 @@ describe('setting', () => {
   it('keeps the fine print of a stepper away from the others', () => {
     for (const preset of PRESET_IDS) {
       const own = presetSetting(preset);
-      for (const stepper of STEPPERS.filter((other) => other !== own.stepper)) {
+      for (const stepper of STEPPER_NAMES.filter((other) => other !== own.stepper)) {
         const method = sceneOf(withStepper(own, stepper)).method as Record<string, unknown>;
         const known = ['stepper', 'step_s', 'substeps', 'iterations', 'solver'];
         expect(Object.keys(method).filter((key) => !known.includes(key))).toEqual([]);
@@ -93,7 +93,7 @@ describe('sweep-plan', () => {
     expect(settingsOf(4, 3)).toEqual([]);
     const others = ['implicit', 'projective', 'xpbd'];
     for (const level of [0, 1, 2, 3]) {
-      const expected = level <= FINEST_EXPLICIT ? [...others, 'explicit'] : others;
+      const expected = level <= 1 ? [...others, 'explicit'] : others;
       expect(steppersOf(level)).toEqual(new Set(expected));
     }
   });

@@ -1,5 +1,4 @@
 // The same core natively and in WebAssembly: 100 steps of smooth scenes end at the same places.
-
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { PleatModule } from '../../src/motion/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';

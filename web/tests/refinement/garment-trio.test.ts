@@ -1,5 +1,4 @@
 // The three panes with the real module and the frames that come with the page.
-
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';

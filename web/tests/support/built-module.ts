@@ -1,5 +1,4 @@
 // The WebAssembly modules as they were built.
-
 import { existsSync, readFileSync } from 'node:fs';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import type { PleatModule } from '../../src/motion/bindings/pleat-module';

@@ -1,6 +1,5 @@
 // A small stand-in for the WebAssembly module: a square sheet of springs, enough to test the page's
 // side of the boundary. It counts the objects that are not deleted.
-
 import type {
   PleatModule,
   SceneHandle,

@@ -1,5 +1,4 @@
 // The energy after each step towards the shape, in whole and term by term, drawn and as a table.
-
 import { linearScale } from '../../shared/chart/linear-scale';
 import { logScale } from '../../shared/chart/log-scale';
 import { element, setText, svg } from '../../shared/panels/element';

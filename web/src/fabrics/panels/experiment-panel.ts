@@ -1,5 +1,4 @@
 // Which cloth is pulled, what to notice in it, and the visitor's mesh.
-
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { type Store, watch } from '../../shared/state/store';

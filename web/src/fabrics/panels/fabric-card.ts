@@ -1,5 +1,4 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
-
 import { type FabricRecord, fabricNamed, sources } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { element, setText } from '../../shared/panels/element';

@@ -1,5 +1,4 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
-
 import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { element, setText } from '../../shared/panels/element';

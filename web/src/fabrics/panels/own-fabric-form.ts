@@ -1,5 +1,4 @@
 // Three measurements of a visitor's own fabric, and what the measured ones make of them.
-
 import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';

@@ -1,5 +1,4 @@
 // What each pane shows: fabric, energy, time; a press on it chooses the pane.
-
 import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';

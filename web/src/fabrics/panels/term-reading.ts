@@ -1,5 +1,4 @@
 // What the numbers of a shape say, in sentences.
-
 import { element } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';

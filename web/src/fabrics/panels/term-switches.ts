@@ -1,5 +1,4 @@
 // Which form of the energy, and which of its terms count, each with what that changes.
-
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type EnergyForm, TERMS, type Term } from '../state/deform-state';

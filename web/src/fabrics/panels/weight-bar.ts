@@ -1,5 +1,4 @@
 // Three weights as a stacked bar, and as a sentence for those who do not see it.
-
 import { element } from '../../shared/panels/element';
 import { percent } from '../../shared/panels/quantity';
 import { TERMS, type Triple } from '../state/deform-state';

@@ -1,6 +1,5 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // messages, and answers into state and frames.
-
 import {
   brokenSentence,
   type Failure,

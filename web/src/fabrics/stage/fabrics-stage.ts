@@ -1,6 +1,5 @@
 // One cloth in several panes: one renderer and one camera, a cut of the canvas for each. It gets
 // frames and settings, never the solver, and draws only when something changed.
-
 import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';

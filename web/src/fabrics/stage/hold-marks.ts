@@ -1,5 +1,4 @@
 // Where the cloth is held: a ball at each handle, a pin at each pin. Seen through the cloth.
-
 import {
   type Camera,
   ConeGeometry,

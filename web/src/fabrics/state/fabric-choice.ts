@@ -1,5 +1,4 @@
 // Which fabrics are shown side by side, and what changing that list gives.
-
 import { fabricNamed } from '../../shared/fabric/fabric-data';
 import type { FabricChoice, OwnFabric, Triple } from './deform-state';
 import { geometryOf } from './fabric-geometry';

@@ -1,5 +1,4 @@
 // The view of fabrics to a link and back: experiment, fabrics, terms, and what was moved by hand.
-
 import type { Triple as Vector } from '../../shared/bindings/geometry';
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';

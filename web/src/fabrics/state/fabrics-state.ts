@@ -1,5 +1,4 @@
 // The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
-
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { Triple as Place } from '../../shared/bindings/geometry';
 import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';

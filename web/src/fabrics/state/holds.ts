@@ -1,5 +1,4 @@
 // What holds a deformed cloth: pins and handles, and where each has its vertices.
-
 import type { Triple } from '../../shared/bindings/geometry';
 import type { ClothAnswer } from '../bindings/deform-module';
 import type { NamedHold } from './deform-state';

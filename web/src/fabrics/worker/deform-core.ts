@@ -1,6 +1,5 @@
 // What the worker of deformed cloth does with each message, as a function of the module, of where
 // answers go, and of the clock. The only file that calls delete() on its objects.
-
 import { describe, internalFailure, read } from '../../shared/bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
 import {

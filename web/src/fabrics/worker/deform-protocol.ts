@@ -1,5 +1,4 @@
 // Messages between the page and the worker that finds the shapes of fabrics. Lengths in metres.
-
 import type { Failure } from '../../shared/bindings/answers';
 import type { ClothAnswer, DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
 

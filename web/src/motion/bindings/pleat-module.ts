@@ -1,5 +1,4 @@
 // The classes bound by the module of cloth in motion, and the shape of the texts they answer with.
-
 import type { Triple } from '../../shared/bindings/geometry';
 import { methodsOf } from '../../shared/bindings/methods';
 

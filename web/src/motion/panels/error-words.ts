@@ -1,9 +1,9 @@
 // How wrong the shown cloth is, as far as that is known, in words.
-
 import { digits, percent, smallLength } from '../../shared/panels/quantity';
+import { stepperRow } from '../../shared/steppers/steppers';
 import type { ReferenceNumbers, RunNumbers } from '../bindings/pleat-module';
 import type { MotionState } from '../state/motion-state';
-import { presetSetting, STEPPER_TRAITS } from '../state/setting';
+import { presetSetting } from '../state/setting';
 import { rowOfSetting } from '../state/sweep-state';
 
 export interface ErrorWords {
@@ -72,7 +72,7 @@ export function errorWords(
   }
   const isOwnMesh = setting.level === presetSetting(setting.preset).level;
   if (numbers.reference) return fromReference(numbers.reference, isOwnMesh);
-  const sentence = fromItself(numbers, STEPPER_TRAITS[setting.stepper].solves);
+  const sentence = fromItself(numbers, stepperRow(setting.stepper).solves);
   const row = rowOfSetting(state);
   if (!row) return { value: 'unknown', detail: 'run a sweep', sentence };
   const { converged } = row.reference;

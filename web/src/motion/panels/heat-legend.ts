@@ -1,5 +1,4 @@
 // The colour scale on the stage: ends, unit, and the least and largest value now.
-
 import { element, setText } from '../../shared/panels/element';
 import { percent, smallLength } from '../../shared/panels/quantity';
 import { MAGNITUDE_MAP, SIGNED_MAP } from '../../shared/stage/colormap';

@@ -1,23 +1,24 @@
 // How it is computed: model, level, stepper, step, and the one count that the stepper listens to.
-
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { stepTitle } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
+import {
+  type Count,
+  canRun,
+  type Model,
+  STEPPERS,
+  stepperRow,
+} from '../../shared/steppers/steppers';
 import type { MotionState } from '../state/motion-state';
 import {
   COUNTS,
-  type Count,
-  canRun,
   LEVELS,
   MODEL_TRAITS,
   MODELS,
   MOST_ITERATIONS,
   MOST_SUBSTEPS,
-  type Model,
   modelsOf,
   type Setting,
-  STEPPER_TRAITS,
-  STEPPERS,
   STEPS_PER_SECOND,
   withModel,
   withStepper,
@@ -89,6 +90,8 @@ function modelPicker(onChoice: (model: Model) => void) {
   };
 }
 
+export const STEPPER_CHOICES = STEPPERS.map(({ name, title }) => ({ value: name, title }));
+
 const COUNT_TITLES: Record<Count, { title: string; most: number }> = {
   substeps: { title: 'Substeps', most: MOST_SUBSTEPS },
   iterations: { title: 'Iterations', most: MOST_ITERATIONS },
@@ -113,7 +116,7 @@ function countField(count: Count, onChoice: (value: number) => void) {
   return {
     box,
     show(setting: Setting) {
-      const trait = STEPPER_TRAITS[setting.stepper].counts[count];
+      const trait = stepperRow(setting.stepper).settings[count];
       box.hidden = !trait;
       if (!trait) return;
       input.min = String(trait.least);
@@ -133,9 +136,8 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
   );
   const level = levelPicker((chosen) => change({ level: chosen }));
   const meshNote = element('p', { class: 'note' });
-  const stepper = choice(
-    STEPPERS.map((value) => ({ value, title: STEPPER_TRAITS[value].title })),
-    (chosen) => store.set({ setting: withStepper(store.get().setting, chosen) }),
+  const stepper = choice(STEPPER_CHOICES, (chosen) =>
+    store.set({ setting: withStepper(store.get().setting, chosen) }),
   );
   const stepperNote = element('p', { class: 'note' });
   const step = choice(
@@ -164,14 +166,14 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
   );
 
   const stopSetting = watch(store, ['setting'], ({ setting }) => {
-    const traits = STEPPER_TRAITS[setting.stepper];
+    const row = stepperRow(setting.stepper);
     model.show(setting);
     level.select(setting.level);
     stepper.limit((value) => (canRun(value, setting.model) ? null : 'needs springs'));
     stepper.select(setting.stepper);
     step.select(Math.round(1 / setting.stepS));
-    const { substeps, iterations } = traits.counts;
-    const meanings = [traits.meaning, substeps?.meaning, iterations?.meaning];
+    const { substeps, iterations } = row.settings;
+    const meanings = [row.meaning, substeps?.meaning, iterations?.meaning];
     setText(stepperNote, meanings.filter((meaning) => meaning).join(' '));
     for (const count of counts) count.show(setting);
   });

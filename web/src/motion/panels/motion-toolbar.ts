@@ -1,5 +1,4 @@
 // Play, pause, step, reset, speed, view: one row under the stage.
-
 import { choice, element, setText, svg } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionRun } from '../run/motion-run';

@@ -1,5 +1,4 @@
 // The read-out above the toolbar: what the setting costs and how wrong it is, with status and time.
-
 import { fabricNamed } from '../../shared/fabric/fabric-data';
 import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds, percent } from '../../shared/panels/quantity';

@@ -1,5 +1,4 @@
 // The visitor's mesh: the file, what holds it, and what to know about it.
-
 import { element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { type Store, watch } from '../../shared/state/store';

@@ -1,8 +1,8 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
-
 import { logScale } from '../../shared/chart/log-scale';
 import { svg } from '../../shared/panels/element';
 import { digits, milliseconds, smallLength } from '../../shared/panels/quantity';
+import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 
@@ -23,18 +23,11 @@ const BOTTOM = 46;
 /** Radius that a finger or a pointer can hit. */
 const HIT_RADIUS = 12;
 
-/** Each stepper's mark about the origin. */
-const MARKS: Record<string, string> = {
-  implicit: 'M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0Z',
-  projective: 'M-4.2-4.2H4.2V4.2H-4.2Z',
-  xpbd: 'M0-5.4L5 3.8H-5Z',
-  explicit: 'M0-5.6L5.6 0L0 5.6L-5.6 0Z',
-  rk4: 'M-5-3.4H5L0 5.2Z',
-  newton: 'M-1.7-5H1.7V-1.7H5V1.7H1.7V5H-1.7V1.7H-5V-1.7H-1.7Z',
-};
-
-export function markOf(stepper: string): string {
-  return MARKS[stepper] ?? 'M-5 0H5M0-5V5';
+/** The mark of a stepper about the origin, and a style with its colours; a plus for an unknown one. */
+export function markOf(name: string): { path: string; style: string } {
+  const row = STEPPERS.find((one) => one.name === name);
+  if (!row) return { path: 'M-5 0H5M0-5V5', style: '' };
+  return { path: row.mark, style: `--mark: ${row.colour}; --mark-dark: ${row.dark_colour}` };
 }
 
 /** A setting in words: "xpbd, level 2, 1/60 s, 30 substeps". */
@@ -70,9 +63,12 @@ export function createSpeedErrorPlot(
 
   function point(row: BenchRow, index: number, x: number, y: number, isCurrent: boolean) {
     const label = `${titleOf(row)}: ${milliseconds(row.ms_per_frame)} a frame, error ${smallLength(row.position_error_m)}`;
+    const { path, style } = markOf(row.method.stepper);
     const group = svg('g', {
       transform: `translate(${x} ${y})`,
-      class: `point point-${row.method.stepper}`,
+      class: 'point',
+      style,
+      'data-stepper': row.method.stepper,
       role: 'button',
       tabindex: 0,
       'data-row': index,
@@ -81,7 +77,7 @@ export function createSpeedErrorPlot(
     group.append(
       svg('title', {}, label),
       svg('circle', { r: HIT_RADIUS, class: 'point-hit' }),
-      svg('path', { d: markOf(row.method.stepper), class: 'point-mark' }),
+      svg('path', { d: path, class: 'point-mark' }),
     );
     if (isCurrent) group.append(svg('circle', { r: 9, class: 'point-ring' }));
     group.addEventListener('click', () => onChoice(index));

@@ -1,5 +1,4 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
-
 import { element } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import type { BenchRow } from '../bindings/sweep-module';

@@ -1,10 +1,10 @@
 // The sweep's chart with its table beside it; a chosen point becomes the shown setting.
-
-import { element, setText } from '../../shared/panels/element';
+import { element, setText, svg } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
+import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
 import type { MotionState } from '../state/motion-state';
-import { PRESETS, STEPPER_TRAITS, STEPPERS } from '../state/setting';
+import { PRESETS } from '../state/setting';
 import { hasFinished, settingOfRow } from '../state/sweep-plan';
 import { rowOfSetting } from '../state/sweep-state';
 import { createSpeedErrorPlot, markOf } from './speed-error-plot';
@@ -13,19 +13,19 @@ import { createSpeedErrorTable } from './speed-error-table';
 /** The marks of the steppers that have a row. */
 function createLegend() {
   const list = element('ul', { class: 'marks' });
-  const items = STEPPERS.map((stepper) => {
-    const item = element('li', { class: `point-${stepper}` });
-    item.innerHTML = `<svg viewBox="-7 -7 14 14" aria-hidden="true"><path class="point-mark" d="${markOf(stepper)}"/></svg>`;
-    item.append(STEPPER_TRAITS[stepper].title);
-    return item;
+  const items = STEPPERS.map(({ name, title }) => {
+    const { path, style } = markOf(name);
+    const picture = svg('svg', { viewBox: '-7 -7 14 14', 'aria-hidden': 'true' });
+    picture.append(svg('path', { class: 'point-mark', d: path }));
+    return element('li', { style }, picture, title);
   });
   list.append(...items);
   return {
     list,
     update(rows: BenchRow[]) {
-      STEPPERS.forEach((stepper, index) => {
+      STEPPERS.forEach(({ name }, index) => {
         const item = items[index];
-        if (item) item.hidden = !rows.some((row) => row.method.stepper === stepper);
+        if (item) item.hidden = !rows.some((row) => row.method.stepper === name);
       });
     },
   };

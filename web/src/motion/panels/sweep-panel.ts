@@ -1,10 +1,9 @@
 // Starts and cancels the sweep, and tells how far it is.
-
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
+import { type Model, STEPPERS } from '../../shared/steppers/steppers';
 import type { Sweep } from '../run/sweep';
 import type { MotionState } from '../state/motion-state';
-import { FINEST_EXPLICIT } from '../state/sweep-plan';
 
 /** Finest level of a sweep to begin with: some seconds to a minute. */
 const FIRST_FINEST = 1;
@@ -16,6 +15,17 @@ const FINEST = [
   { value: 3, title: '0 to 3, minutes' },
 ];
 
+/** Which steppers a sweep of that model leaves out at fine levels. */
+function sweepLimits(model: Model): string {
+  return STEPPERS.filter(({ models }) => models.includes(model))
+    .flatMap(({ title, finest_sweep_level: finest }) =>
+      finest === undefined
+        ? []
+        : `${title} takes part up to level ${finest}: beyond, each of its runs takes minutes.`,
+    )
+    .join(' ');
+}
+
 export function createSweepPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
@@ -26,11 +36,7 @@ export function createSweepPanel(
     finest = level;
   });
   levels.select(finest);
-  const explicitNote = element(
-    'p',
-    { class: 'note' },
-    `Explicit takes part up to level ${FINEST_EXPLICIT}. Its stable substeps cost sixteen times as much a level: fine cotton at level 2 takes about ten minutes.`,
-  );
+  const limitsNote = element('p', { class: 'note' });
   const start = element(
     'button',
     { type: 'button', class: 'wide', click: () => sweep.start(finest) },
@@ -58,7 +64,7 @@ export function createSweepPanel(
         'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
       ),
       field('Levels', levels.control),
-      explicitNote,
+      limitsNote,
       start,
       cancel,
       progress,
@@ -67,7 +73,9 @@ export function createSweepPanel(
     ),
   );
   return watch(store, ['sweep', 'sweepOpen', 'phase', 'setting'], (state) => {
-    explicitNote.hidden = state.setting.model !== 'springs';
+    const limits = sweepLimits(state.setting.model);
+    limitsNote.hidden = limits === '';
+    setText(limitsNote, limits);
     const { phase } = state.sweep;
     const isRunning = phase === 'running';
     start.hidden = isRunning;

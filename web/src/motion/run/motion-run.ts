@@ -1,5 +1,4 @@
 // Runs the shown cloth: turns changes of the state into messages, and answers into state and frames.
-
 import exampleUrl from '../../../../assets/meshes/skirt.obj?url';
 import { brokenSentence, type Failure } from '../../shared/bindings/answers';
 import { frameViews, type Scalar } from '../../shared/bindings/frame';

@@ -1,5 +1,4 @@
 // Milliseconds of one step, in parts, from the running totals of the module.
-
 import type { RunNumbers } from '../bindings/pleat-module';
 import type { StepTiming } from '../state/motion-state';
 

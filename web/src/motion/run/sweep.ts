@@ -1,5 +1,4 @@
 // Runs a sweep in a worker of its own, so that the shown cloth and the page stay responsive.
-
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
 import { startSweepWorker, type WorkerClient } from '../../shared/workers/client';

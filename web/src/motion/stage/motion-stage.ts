@@ -1,6 +1,5 @@
 // The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
 // simulation, and draws only when something changed.
-
 import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider, Triple } from '../../shared/bindings/geometry';

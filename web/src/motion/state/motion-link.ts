@@ -1,13 +1,11 @@
 // The state that a link carries, to text and back. A part that cannot be read gives its default
 // and one sentence; it never stops the page.
-
 import { fabrics } from '../../shared/fabric/fabric-data';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
+import { type Count, canRun, STEPPER_NAMES, stepperRow } from '../../shared/steppers/steppers';
 import type { Hold } from './obj-mesh';
 import {
-  type Count,
-  canRun,
   LEVELS,
   MOST_ITERATIONS,
   MOST_SUBSTEPS,
@@ -16,8 +14,6 @@ import {
   type PresetId,
   presetSetting,
   type Setting,
-  STEPPER_TRAITS,
-  STEPPERS,
   STEPS_PER_SECOND,
   withModel,
   withStepper,
@@ -93,11 +89,11 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const own = presetSetting(preset);
   const model = take('model', own.model, models.join(', '), oneOf(models));
   const usual = withModel(own, model);
-  const steppers = STEPPERS.filter((stepper) => canRun(stepper, model));
+  const steppers = STEPPER_NAMES.filter((stepper) => canRun(stepper, model));
   const stepper = take('stepper', usual.stepper, steppers.join(', '), oneOf(steppers));
   const start = withStepper(usual, stepper);
   const takeCount = (count: Count, most: number) => {
-    const least = STEPPER_TRAITS[stepper].counts[count]?.least ?? 1;
+    const least = stepperRow(stepper).settings[count]?.least ?? 1;
     return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
   };
   const setting: Setting = {

@@ -1,5 +1,4 @@
 // Everything the page shows. Only this and the frames travel between its parts.
-
 import type { Collider } from '../../shared/bindings/geometry';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';

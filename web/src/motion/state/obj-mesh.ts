@@ -1,5 +1,4 @@
 // A mesh from an OBJ file: how its threads run, what holds it, and the world around it.
-
 import type { Triple } from '../../shared/bindings/geometry';
 import type { ObjAnswer } from '../bindings/pleat-module';
 

@@ -1,19 +1,20 @@
 // What is computed: preset, fabric, model, level, method. The scene text given to the module is made here.
-
 import curtainText from '../../../../assets/scenes/curtain.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
+import {
+  type Count,
+  canRun,
+  type Model,
+  STABLE_SUBSTEPS,
+  STEPPER_NAMES,
+  type Substeps,
+  stepperRow,
+} from '../../shared/steppers/steppers';
 import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
-export type Stepper = 'implicit' | 'projective' | 'xpbd' | 'explicit' | 'rk4' | 'newton';
-/** What holds the cloth together. */
-export type Model = 'springs' | 'membrane';
 export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'obj';
-
-/** What a scene says for 0 substeps: as many as the stability bound asks for. */
-export const STABLE_SUBSTEPS = 'stable';
-export type Substeps = number | typeof STABLE_SUBSTEPS;
 
 export interface Setting {
   preset: PresetId;
@@ -22,7 +23,7 @@ export interface Setting {
   model: Model;
   /** Uniform refinement: each level halves the mesh size. */
   level: number;
-  stepper: Stepper;
+  stepper: string;
   /** Time that one step advances [s]. */
   stepS: number;
   /** 0: as many as the stability bound asks for. */
@@ -40,7 +41,7 @@ interface SceneFile {
   world?: object;
   refinement?: { level?: number };
   method: {
-    stepper: Stepper;
+    stepper: string;
     step_s: number;
     substeps?: Substeps;
     iterations?: number;
@@ -56,90 +57,12 @@ export interface Preset {
   scene: SceneFile;
 }
 
-export const STEPPERS: readonly Stepper[] = [
-  'implicit',
-  'projective',
-  'xpbd',
-  'explicit',
-  'rk4',
-  'newton',
-];
 export const MODELS: readonly Model[] = ['springs', 'membrane'];
 export const LEVELS: readonly number[] = [0, 1, 2, 3, 4];
 /** Steps offered, as fractions of a second: 1/30 s to 1/960 s. */
 export const STEPS_PER_SECOND: readonly number[] = [30, 60, 120, 240, 480, 960];
 export const MOST_SUBSTEPS = 100000;
 export const MOST_ITERATIONS = 500;
-
-export type Count = 'substeps' | 'iterations';
-
-export interface StepperTraits {
-  title: string;
-  meaning: string;
-  /** It moves springs one by one and knows nothing else. */
-  needsSprings?: boolean;
-  /** Each substep has equations, which may be left unsolved in part. */
-  solves: boolean;
-  /** The counts the stepper listens to, each with what it starts from. */
-  counts: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
-}
-
-export const STEPPER_TRAITS: Record<Stepper, StepperTraits> = {
-  implicit: {
-    title: 'Implicit',
-    solves: true,
-    meaning:
-      'Backward Euler: one large sparse system a substep. Stable at large steps, but it damps the motion.',
-    counts: {
-      substeps: { start: 1, least: 1, meaning: 'More substeps damp less and cost more.' },
-    },
-  },
-  projective: {
-    title: 'Projective',
-    solves: true,
-    needsSprings: true,
-    meaning: 'Gives each spring its length alone, then solves one constant system; and repeats.',
-    counts: {
-      substeps: { start: 1, least: 1, meaning: 'More substeps damp less.' },
-      iterations: { start: 10, least: 1, meaning: 'More rounds come closer to Implicit.' },
-    },
-  },
-  xpbd: {
-    title: 'XPBD',
-    solves: true,
-    needsSprings: true,
-    meaning: 'Moves the two ends of each spring in turn, in many small substeps.',
-    counts: {
-      substeps: { start: 30, least: 1, meaning: 'More substeps: stiffer and less damped.' },
-      iterations: { start: 1, least: 1, meaning: 'Sweeps over all springs in one substep.' },
-    },
-  },
-  explicit: {
-    title: 'Explicit',
-    solves: false,
-    meaning: 'Forces give velocities, velocities give positions. Only stable in tiny substeps.',
-    counts: {
-      substeps: { start: 0, least: 0, meaning: '0: as many as its stability bound asks for.' },
-    },
-  },
-  rk4: {
-    title: 'Runge-Kutta 4',
-    solves: false,
-    meaning: 'Explicit, with four looks at the forces a substep. Very exact, and slow.',
-    counts: {
-      substeps: { start: 0, least: 0, meaning: '0: as many as its stability bound asks for.' },
-    },
-  },
-  newton: {
-    title: 'Newton (exact, slow)',
-    solves: true,
-    meaning:
-      'Backward Euler, solved to the last digit: all that is wrong is the length of its steps.',
-    counts: {
-      substeps: { start: 1, least: 1, meaning: 'More substeps damp less and cost more.' },
-    },
-  },
-};
 
 export const MODEL_TRAITS: Record<Model, { title: string; meaning: string }> = {
   springs: { title: 'Springs', meaning: 'A fast approximation, along the threads of a sheet.' },
@@ -179,17 +102,13 @@ export function modelsOf(preset: PresetId): Model[] {
   return PRESETS[preset].scene.cloth.sheet ? ['springs', 'membrane'] : ['membrane'];
 }
 
-export function canRun(stepper: Stepper, model: Model): boolean {
-  return model === 'springs' || !STEPPER_TRAITS[stepper].needsSprings;
-}
-
 /** Both counts of a method, with the stepper's own start where the method says nothing. */
-function countsOf(stepper: Stepper, method: { substeps?: Substeps; iterations?: number }) {
-  const { counts } = STEPPER_TRAITS[stepper];
+function countsOf(stepper: string, method: { substeps?: Substeps; iterations?: number }) {
+  const { settings } = stepperRow(stepper);
   const { substeps } = method;
   return {
-    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? counts.substeps?.start ?? 1),
-    iterations: method.iterations ?? counts.iterations?.start ?? 1,
+    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? settings.substeps?.start ?? 1),
+    iterations: method.iterations ?? settings.iterations?.start ?? 1,
   };
 }
 
@@ -209,25 +128,26 @@ export function presetSetting(preset: PresetId): Setting {
 }
 
 /** The same setting under another stepper, with that stepper's usual counts. */
-export function withStepper(setting: Setting, stepper: Stepper): Setting {
+export function withStepper(setting: Setting, stepper: string): Setting {
   const own = PRESETS[setting.preset].scene.method;
   return { ...setting, stepper, ...countsOf(stepper, own.stepper === stepper ? own : {}) };
 }
 
-/** The same setting with another model, under Implicit where its stepper cannot run that. */
+/** The same setting with another model, under the first stepper that can run it if its own cannot. */
 export function withModel(setting: Setting, model: Model): Setting {
-  const { stepper } = setting;
-  return { ...(canRun(stepper, model) ? setting : withStepper(setting, 'implicit')), model };
+  const stepper = [setting.stepper, ...STEPPER_NAMES].find((name) => canRun(name, model));
+  const isOther = stepper !== undefined && stepper !== setting.stepper;
+  return { ...(isOther ? withStepper(setting, stepper) : setting), model };
 }
 
 /** The `method` part of a scene: only what the stepper listens to, and the preset's fine print. */
 export function methodOf(setting: Setting): Record<string, unknown> {
   const own = PRESETS[setting.preset].scene.method;
   const method: Record<string, unknown> = own.stepper === setting.stepper ? { ...own } : {};
-  const { counts } = STEPPER_TRAITS[setting.stepper];
+  const { settings } = stepperRow(setting.stepper);
   method.stepper = setting.stepper;
   method.step_s = setting.stepS;
-  for (const count of COUNTS) if (counts[count]) method[count] = setting[count];
+  for (const count of COUNTS) if (settings[count]) method[count] = setting[count];
   if (method.substeps === 0) method.substeps = STABLE_SUBSTEPS;
   return method;
 }
@@ -249,12 +169,12 @@ export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<s
 
 /** True when both settings compute the same thing, whatever an unused count says. */
 export function isSameMethod(a: Setting, b: Setting): boolean {
-  const { counts } = STEPPER_TRAITS[a.stepper];
+  const { settings } = stepperRow(a.stepper);
   // Steps are fractions of a second that went through text: an ulp apart is the same.
   const isSameStep = Math.abs(a.stepS - b.stepS) < 1e-9;
   return (
     a.stepper === b.stepper &&
     isSameStep &&
-    COUNTS.every((count) => !counts[count] || a[count] === b[count])
+    COUNTS.every((count) => !settings[count] || a[count] === b[count])
   );
 }

@@ -1,18 +1,17 @@
 // What one press of the sweep button measures, and how its rows map back to settings.
-import type { BenchRow } from '../bindings/sweep-module';
-import type { ObjMesh } from './obj-mesh';
 import {
   type Model,
-  type Setting,
   STABLE_SUBSTEPS,
+  STEPPER_NAMES,
   STEPPERS,
-  type Stepper,
   type Substeps,
-  sceneOf,
-} from './setting';
+} from '../../shared/steppers/steppers';
+import type { BenchRow } from '../bindings/sweep-module';
+import type { ObjMesh } from './obj-mesh';
+import { type Setting, sceneOf } from './setting';
 
 export interface PlannedMethod {
-  stepper: Stepper;
+  stepper: string;
   step_s: number;
   substeps?: Substeps;
   iterations?: number;
@@ -21,32 +20,8 @@ export interface PlannedMethod {
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
 const DURATION_S = 1;
 
-/** Two costs for each stepper, so that every level shows which way its knob moves it. */
-const SPRING_METHODS: readonly PlannedMethod[] = [
-  { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
-  { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
-  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 5 },
-  { stepper: 'projective', step_s: 1 / 60, substeps: 1, iterations: 30 },
-  { stepper: 'xpbd', step_s: 1 / 60, substeps: 10, iterations: 1 },
-  { stepper: 'xpbd', step_s: 1 / 60, substeps: 60, iterations: 1 },
-  { stepper: 'explicit', step_s: 1 / 60, substeps: STABLE_SUBSTEPS },
-];
-
-const METHODS: Record<Model, readonly PlannedMethod[]> = {
-  springs: SPRING_METHODS,
-  membrane: [
-    { stepper: 'implicit', step_s: 1 / 60, substeps: 1 },
-    { stepper: 'implicit', step_s: 1 / 60, substeps: 4 },
-    { stepper: 'newton', step_s: 1 / 60, substeps: 1 },
-  ],
-};
-
-/**
- * The finest level that explicit is measured at. Each level has four times the vertices and asks
- * for four times the substeps: the six runs of fine cotton take half a minute at level 1, about
- * ten minutes at level 2.
- */
-export const FINEST_EXPLICIT = 1;
+/** Time that one step of a measured run advances [s]. */
+const STEP_S = 1 / 60;
 
 /** Values by their JSON pointers into the scene. */
 export interface PlannedSetting {
@@ -60,6 +35,17 @@ export interface SweepPlan {
   duration_s: number;
 }
 
+/** What is measured at one level, of every stepper that takes part there. */
+function methodsAt(level: number, model: Model): PlannedMethod[] {
+  const taking = STEPPERS.filter(
+    ({ models, finest_sweep_level: finest }) =>
+      models.includes(model) && level <= (finest ?? Number.POSITIVE_INFINITY),
+  );
+  return taking.flatMap(({ name, sweep }) =>
+    sweep.map((counts) => ({ stepper: name, step_s: STEP_S, ...counts })),
+  );
+}
+
 /** Levels 0 to `finest` of the shown scene, each with every method that can keep up. */
 export function sweepPlan(
   setting: Setting,
@@ -68,8 +54,7 @@ export function sweepPlan(
 ): SweepPlan {
   const settings: PlannedSetting[] = [];
   for (let level = 0; level <= finest; ++level) {
-    for (const method of METHODS[setting.model]) {
-      if (method.stepper === 'explicit' && level > FINEST_EXPLICIT) continue;
+    for (const method of methodsAt(level, setting.model)) {
       settings.push({ '/refinement/level': level, '/method': method });
     }
   }
@@ -83,7 +68,7 @@ export function hasFinished(row: BenchRow): boolean {
 
 /** The setting a row was measured with; the counts it does not name stay as they are. */
 export function settingOfRow(row: BenchRow, present: Setting): Setting {
-  const stepper = STEPPERS.find((known) => known === row.method.stepper) ?? present.stepper;
+  const stepper = STEPPER_NAMES.find((known) => known === row.method.stepper) ?? present.stepper;
   const { substeps } = row.method;
   return {
     ...present,

@@ -1,6 +1,5 @@
 // What the workers do with each message, as a function of the module and of where answers go.
 // The only file that calls delete() on theirs.
-
 import {
   describe,
   type Failure,

@@ -1,5 +1,4 @@
 // Messages between the page and its workers, both ways. Lengths in metres, times in seconds.
-
 import type { Failure } from '../../shared/bindings/answers';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider } from '../../shared/bindings/geometry';

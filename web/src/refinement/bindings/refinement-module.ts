@@ -1,5 +1,4 @@
 // The classes bound by the WebAssembly module of garments, and the shape of the texts it answers with.
-
 import type { Triple } from '../../shared/bindings/geometry';
 import { methodsOf } from '../../shared/bindings/methods';
 

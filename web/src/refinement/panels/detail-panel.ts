@@ -1,5 +1,4 @@
 // How fine: the demand or the number of vertices, whichever was moved last; and where frames come from.
-
 import { element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { DEMANDS, type RefinementState } from '../state/refinement-state';

@@ -1,5 +1,4 @@
 // The light that tells whether the motion is of the examples' kind, and what to do when it is not.
-
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { planStory } from '../state/plan-file';

@@ -1,5 +1,4 @@
 // The colours on the stage: what each means, with its unit.
-
 import { element, setText } from '../../shared/panels/element';
 import { digits, smallLength } from '../../shared/panels/quantity';
 import { MAGNITUDE_MAP } from '../../shared/stage/colormap';

@@ -1,5 +1,4 @@
 // Play, pause, step, reset, speed, view, time: one row under the stage.
-
 import { toolButton } from '../../motion/panels/motion-toolbar';
 import { choice, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';

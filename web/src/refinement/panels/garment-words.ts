@@ -1,5 +1,4 @@
 // What the view of refinement says.
-
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import type { FitAnswer } from '../bindings/refinement-module';
 import { exampleName, GARMENTS } from '../state/garments';

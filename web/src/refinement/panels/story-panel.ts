@@ -1,5 +1,4 @@
 // The plan in words and in a small table, and why the face that was asked about is as fine as it is.
-
 import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';

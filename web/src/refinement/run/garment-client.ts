@@ -1,5 +1,4 @@
 // The page's end of the workers of garments: each question has one answer.
-
 import type { Failure } from '../../shared/bindings/answers';
 import type { FromExample, FromGarment, ToExample, ToGarment } from '../worker/garment-protocol';
 

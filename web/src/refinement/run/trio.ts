@@ -1,6 +1,5 @@
 // Runs the three panes of a garment in step: turns changes of the state into questions to their workers,
 // and the answers into state and frames.
-
 import {
   brokenSentence,
   describe,

@@ -1,6 +1,5 @@
 // Cloth of quads of several sizes: its material, one colour a face, or a number at each vertex by colour;
 // with the quads' edges and the vertices that hang.
-
 import {
   BufferAttribute,
   BufferGeometry,

@@ -1,5 +1,4 @@
 // The view of refinement to a link and back.
-
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';

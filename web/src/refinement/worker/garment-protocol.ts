@@ -1,6 +1,5 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
-
 import type { Failure } from '../../shared/bindings/answers';
 import type {
   FaultsAnswer,

@@ -1,5 +1,4 @@
 // One mesh from one frame: positions as they come, smooth normals, material or heat map.
-
 import {
   BufferAttribute,
   BufferGeometry,

@@ -1,5 +1,4 @@
 // The hand: which vertex it holds and where it wants it, by pointer or by keyboard.
-
 import { type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
 import type { Triple } from '../bindings/geometry';
 import { pick } from './pick';

@@ -1,5 +1,4 @@
 // Floor, metre grid, light, and the bodies the cloth falls on.
-
 import {
   BufferAttribute,
   BufferGeometry,
