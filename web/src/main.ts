@@ -1,6 +1,6 @@
 // Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
 import type { View } from './shared/page/view';
-import './shared/design.css';
+import './shared/page/design.css';
 import { createMotionView, type MotionView } from './motion/motion-view';
 import { createTabs, VIEWS, type ViewId } from './tabs';
 

@@ -1,6 +1,7 @@
 // The view of fabrics: one cloth, pulled by hand, in one to four fabrics or in all. Its store, its
 // worker, its stage and its panels, wired together.
 import type { StartShape, View } from '../shared/page/view';
+import '../shared/page/panes.css';
 import './fabrics.css';
 import './panel.css';
 import { inputFailure } from '../shared/bindings/answers';
@@ -24,7 +25,7 @@ import { columnsFor, createPaneBadges } from './panels/pane-badges';
 import { createStageTools } from './panels/stage-tools';
 import { createTermReading } from './panels/term-reading';
 import { createTermSwitches } from './panels/term-switches';
-import { createDeformer, type Deformer } from './run/deformer';
+import { Deformer } from './run/deformer';
 import { createFabricsStage, type FabricsStage } from './stage/fabrics-stage';
 import type { HoldMark } from './stage/hold-marks';
 import { withShown, withToggled } from './state/fabric-choice';
@@ -79,7 +80,7 @@ export function createFabricsView(
   stageBox.append(canvas);
   root.replaceChildren(element('div', { class: 'left' }, messages, stageBox, toolBox), panel);
 
-  const deformer: Deformer = createDeformer(store, {
+  const deformer: Deformer = new Deformer(store, {
     showMesh(triangles, nVertices, { bodies }) {
       awaitsFraming = true;
       stage?.showMesh(triangles, nVertices);
@@ -116,9 +117,9 @@ export function createFabricsView(
         if (store.get().tool === 'pin') deformer.togglePin(vertex, pane);
         return store.get().tool === 'pin';
       },
-      grab: deformer.grab,
-      moveGrab: deformer.moveGrab,
-      releaseGrab: deformer.releaseGrab,
+      grab: (vertex, pane) => deformer.grab(vertex, pane),
+      moveGrab: (target) => deformer.moveGrab(target),
+      releaseGrab: () => deformer.releaseGrab(),
       key,
       drawn: ({ x, y }) => invitation.place(x, y),
       contextLost() {
@@ -164,7 +165,8 @@ export function createFabricsView(
     },
     async start() {
       const fabric = store.get().panes[store.get().chosen]?.fabric;
-      if (fabric?.kind === 'named') actions.start(await deformer.startShape(), fabric.name);
+      const shape = fabric?.kind === 'named' ? await deformer.startShape() : null;
+      if (fabric?.kind === 'named' && shape) actions.start(shape, fabric.name);
     },
   });
   createExperimentPanel(panel, store, {
@@ -172,9 +174,9 @@ export function createFabricsView(
     openObj: (file) => void deformer.openObj(file),
   });
   createFabricGallery(panel, store, {
-    compare: deformer.compare,
+    compare: (comparison) => deformer.compare(comparison),
     choose: choosePane,
-    showAll: deformer.setGallery,
+    showAll: (all) => deformer.setGallery(all),
   });
   createFabricCard(panel, store, { setWeightsFrom: (weightsFrom) => store.set({ weightsFrom }) });
   createTermReading(panel, store);
@@ -184,7 +186,7 @@ export function createFabricsView(
   });
   createEnergyCurve(panel, store);
   createOwnFabricForm(panel, store, {
-    measure: deformer.measure,
+    measure: (measures) => deformer.measure(measures),
     show(measures) {
       const { compared: fabrics, chosen, gallery } = store.get();
       const comparison = { fabrics, chosen: gallery ? 0 : chosen };
@@ -206,8 +208,8 @@ export function createFabricsView(
       deformer.nudge(name, [to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
     },
     choose: (chosenHold) => store.set({ chosenHold }),
-    release: deformer.release,
-    resetHolds: deformer.resetHolds,
+    release: (name) => deformer.release(name),
+    resetHolds: () => deformer.resetHolds(),
   });
   createFabricsKeys(panel);
   createDropTarget(document.body, {

@@ -1,4 +1,5 @@
 // The view of cloth in motion: the store, the playback, the stage and the panels, wired together.
+import './motion.css';
 import { fabricNamed } from '../shared/fabric/fabric-data';
 import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';
@@ -19,7 +20,7 @@ import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
 import { createSpeedErrorView } from './panels/speed-error-view';
 import { createSweepPanel } from './panels/sweep-panel';
-import { createMotionRun, type MotionRun } from './run/motion-run';
+import { MotionRun } from './run/motion-run';
 import { createSweep } from './run/sweep';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
 import { decodeMotionLink, encodeMotionLink } from './state/motion-link';
@@ -95,13 +96,18 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
     store.set({ problem: { source: 'browser', sentence } });
   }
 
-  const playback = createMotionRun(store, {
+  const playback = new MotionRun(store, {
     showMesh: (...mesh) => stage?.showMesh(...mesh),
     showFrame: (...frame) => stage?.showFrame(...frame),
   });
   running = playback;
-  const { play, pause, step, reset } = playback;
-  const actions = { play, pause, step, reset, homeView: () => stage?.homeView() };
+  const actions = {
+    play: () => playback.play(),
+    pause: () => playback.pause(),
+    step: () => playback.step(),
+    reset: () => playback.reset(),
+    homeView: () => stage?.homeView(),
+  };
 
   createProblemBanner(place('messages'), store, actions);
   createAnnouncer(place('messages'), store, motionSentence);

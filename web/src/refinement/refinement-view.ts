@@ -1,8 +1,7 @@
 // The view of refinement: one garment on a walking figure, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
 import type { View } from '../shared/page/view';
-import '../fabrics/fabrics.css';
-import '../fabrics/panel.css';
+import '../shared/page/panes.css';
 import './refinement.css';
 import { inputFailure } from '../shared/bindings/answers';
 import { fabricNamed } from '../shared/fabric/fabric-data';
@@ -23,7 +22,7 @@ import { createGarmentToolbar } from './panels/garment-toolbar';
 import { paintOf, upperEnd } from './panels/paints';
 import { objText, save } from './panels/saving';
 import { createStoryPanel } from './panels/story-panel';
-import { createTrio, type Trio } from './run/trio';
+import { Trio } from './run/trio';
 import { createGarmentStage, type GarmentStage } from './stage/garment-stage';
 import { decodeRefinementLink, encodeRefinementLink } from './state/refinement-link';
 import {
@@ -85,7 +84,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     if (most > ranges[colour]) store.set({ ranges: { ...ranges, [colour]: most } });
   }
 
-  const trio: Trio = createTrio(store, {
+  const trio = new Trio(store, {
     showMesh(id, mesh) {
       meshes[id] = mesh;
       stage?.setMesh(PANES.indexOf(id), mesh);
@@ -97,12 +96,20 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
   });
 
+  const run = {
+    play: () => trio.play(),
+    pause: () => trio.pause(),
+    step: () => trio.step(),
+    reset: () => trio.reset(),
+    cancel: () => trio.cancel(),
+  };
+
   function key(name: string): boolean {
     const { playing, edges, hanging } = store.get();
     const actions: Record<string, () => void> = {
-      ' ': playing ? trio.pause : trio.play,
-      '.': trio.step,
-      r: trio.reset,
+      ' ': playing ? run.pause : run.play,
+      '.': run.step,
+      r: run.reset,
       e: () => store.set({ edges: !edges }),
       h: () => store.set({ hanging: !hanging }),
     };
@@ -141,7 +148,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
 
   createAnnouncer(messages, store, garmentSentence);
   createGarmentToolbar(toolBox, store, {
-    ...trio,
+    ...run,
     homeView: () => stage?.homeView(),
     async savePicture() {
       const picture = await stage?.picture();
@@ -155,8 +162,8 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
   });
   createGarmentPanel(panel, store);
-  createFitPanel(panel, store, { cancel: trio.cancel });
-  createDetailPanel(panel, store, { cancel: trio.cancel });
+  createFitPanel(panel, store, { cancel: run.cancel });
+  createDetailPanel(panel, store, { cancel: run.cancel });
   createStoryPanel(panel, store, () => meshes.planned ?? null);
   createKeyList(panel, KEYS);
 

@@ -5,7 +5,7 @@ import type { TermNumbers } from '../../src/fabrics/bindings/deform-module';
 import { EXPERIMENTS } from '../../src/fabrics/state/experiments';
 import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
 import { type Hold, holdAt, holdsOf, joined } from '../../src/fabrics/state/holds';
-import { createDeformCore } from '../../src/fabrics/worker/deform-core';
+import { DeformCore } from '../../src/fabrics/worker/deform-core';
 import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricNamed, fabricsText } from '../../src/shared/fabric/fabric-data';
@@ -29,7 +29,7 @@ async function serve() {
   let isWoken = false;
   const keep = (message: FromDeform) =>
     message.type === 'granted' ? grants.push(message.what) : posted.push(message);
-  const core = createDeformCore(module, keep, {
+  const core = new DeformCore(module, keep, {
     later: () => {
       isWoken = true;
     },

@@ -5,7 +5,7 @@ import {
   type DeformModule,
   PROGRESS,
 } from '../../src/fabrics/bindings/deform-module';
-import { createDeformCore } from '../../src/fabrics/worker/deform-core';
+import { DeformCore } from '../../src/fabrics/worker/deform-core';
 import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 
 type Progress = (typeof PROGRESS)[keyof typeof PROGRESS];
@@ -74,7 +74,7 @@ function serve(nPanes: number, progress: (nSteps: number) => Progress, msPerLook
     calls.push(message.status);
     frames.push(message);
   };
-  const core = createDeformCore(module, post, { later, nowMs });
+  const core = new DeformCore(module, post, { later, nowMs });
   /** What was asked and shown in so many turns after a message. */
   function send(message: ToDeform, nTurns = 100): string[] {
     core.receive(message);

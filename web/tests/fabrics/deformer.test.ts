@@ -1,29 +1,34 @@
 // The page's end of the worker of deformed cloth: what it shows is what the worker has.
 import { beforeAll, describe, expect, it, vi } from 'vitest';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
-import { createDeformer } from '../../src/fabrics/run/deformer';
+import type { StartDeform } from '../../src/fabrics/run/deform-client';
+import { Deformer } from '../../src/fabrics/run/deformer';
 import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
 import { decodeFabricsLink, encodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
 import { initialFabricsState } from '../../src/fabrics/state/fabrics-state';
 import { joined } from '../../src/fabrics/state/holds';
-import { createDeformCore } from '../../src/fabrics/worker/deform-core';
+import { DeformCore } from '../../src/fabrics/worker/deform-core';
 import type { FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricNamed } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
+import { createAsked } from '../../src/shared/workers/asked';
 import { isBuilt, loadModule } from '../support/built-module';
+import { workerPort } from '../support/worker-port';
 
 // The worker is a core in this thread. Messages to it and from it come later and in their order.
 let module: DeformModule;
-vi.mock('../../src/shared/workers/client', () => ({
-  startDeformWorker(receive: (message: FromDeform) => void) {
-    const core = createDeformCore(module, (message) => setTimeout(receive, 0, message), {
-      later: () => setTimeout(core.advance, 0),
-      nowMs: () => performance.now(),
-    });
-    return { send: (message: ToDeform) => setTimeout(core.receive, 0, message) };
-  },
-}));
+const start: StartDeform = (listener) =>
+  createAsked(
+    workerPort<ToDeform, FromDeform>((post) => {
+      const core = new DeformCore(module, post, {
+        later: () => setTimeout(() => core.advance(), 0),
+        nowMs: () => performance.now(),
+      });
+      return core;
+    }),
+    listener,
+  );
 
 /** The view's state at a link, with the frame of its first pane. */
 async function open(hash: string) {
@@ -31,13 +36,17 @@ async function open(hash: string) {
   const store = createStore(initialFabricsState(link, problems));
   let positions = new Float32Array(0);
   let onFrame: () => void = () => undefined;
-  const deformer = createDeformer(store, {
-    showMesh: () => undefined,
-    showFrame(pane, buffer) {
-      if (pane === 0) positions = frameViews(buffer).positions.slice();
-      onFrame();
+  const deformer = new Deformer(
+    store,
+    {
+      showMesh: () => undefined,
+      showFrame(pane, buffer) {
+        if (pane === 0) positions = frameViews(buffer).positions.slice();
+        onFrame();
+      },
     },
-  });
+    start,
+  );
   /** Until everything that was asked for is answered and every shape is found. */
   async function found() {
     await new Promise((resume) => setTimeout(resume, 30));

@@ -15,8 +15,10 @@ import {
   withStepper,
 } from '../../src/motion/state/setting';
 import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
-import { createMotionCore, runSweep } from '../../src/motion/worker/motion-core';
+import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { runSweep } from '../../src/motion/worker/sweep-core';
+import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/steppers';
@@ -33,12 +35,13 @@ async function loadRealModule(): Promise<AllModules> {
   return { ...pleat, ...sweep };
 }
 
-type Sent<Type extends FromMotion['type']> = Extract<FromMotion, { type: Type }>;
+type Posted = FromMotion | FromSweep;
+type Sent<Type extends Posted['type']> = Extract<Posted, { type: Type }>;
 
 /** A core with everything it posted; `take` removes and returns the next message. */
 function serve(module: AllModules) {
-  const posted: FromMotion[] = [];
-  const core = createMotionCore(module, (message) => posted.push(message));
+  const posted: Posted[] = [];
+  const core = new MotionCore(module, (message) => posted.push(message));
   return {
     core,
     posted,
@@ -47,7 +50,7 @@ function serve(module: AllModules) {
       runSweep(module, { type: 'sweep', fabricsText, planText: JSON.stringify(plan) }, (message) =>
         posted.push(message),
       ),
-    take<Type extends FromMotion['type']>(type: Type): Sent<Type> {
+    take<Type extends Posted['type']>(type: Type): Sent<Type> {
       const message = posted.shift();
       if (message?.type !== type) throw new Error(`${type} expected: ${JSON.stringify(message)}`);
       return message as Sent<Type>;
@@ -164,8 +167,9 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     const { send, take, loaded } = open(await load());
     const refusedText = sceneText({ stepper: 'explicit', substeps: 1 });
     send({ type: 'load', sceneText: refusedText, keepMotion: false, request: 2 });
-    const { request, failure } = take('refused');
-    expect(request).toBe(2);
+    const refused = take('refused');
+    expect(refused).toMatchObject({ request: 2 });
+    const { failure } = refused;
     expect(failure.kind).toBe('input');
     expect(failure.where).toBe('/method/substeps');
     expect(failure.what).toContain('substeps');

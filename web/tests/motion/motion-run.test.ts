@@ -1,47 +1,56 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import type { PleatModule } from '../../src/motion/bindings/pleat-module';
-import { createMotionRun } from '../../src/motion/run/motion-run';
+import type { StartMotion } from '../../src/motion/run/motion-client';
+import { MotionRun } from '../../src/motion/run/motion-run';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel } from '../../src/motion/state/setting';
-import { createMotionCore } from '../../src/motion/worker/motion-core';
+import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { createStore } from '../../src/shared/state/store';
+import { createAsked } from '../../src/shared/workers/asked';
 import { isBuilt, loadModule } from '../support/built-module';
 import diverging from '../support/diverging.json';
 import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';
+import { workerPort } from '../support/worker-port';
 
 // The worker is a core in this thread, whose answers come later, as a worker's do.
 let module: PleatModule;
 let changeScene = (scene: Record<string, unknown>) => scene;
-vi.mock('../../src/shared/workers/client', () => ({
-  startWorker(receive: (message: FromMotion) => void) {
-    const core = createMotionCore(module, (message) => queueMicrotask(() => receive(message)));
-    return {
-      send(message: ToMotion) {
-        if (message.type !== 'load') return core.receive(message);
-        const scene = changeScene(JSON.parse(message.sceneText));
-        core.receive({ ...message, sceneText: JSON.stringify(scene) });
-      },
-      terminate: () => core.close(),
-    };
-  },
-}));
+const start: StartMotion = (listener) =>
+  createAsked(
+    workerPort<ToMotion, FromMotion>((post) => {
+      const core = new MotionCore(module, post);
+      return {
+        receive(message) {
+          if (message.type !== 'load') return core.receive(message);
+          const scene = changeScene(JSON.parse(message.sceneText));
+          core.receive({ ...message, sceneText: JSON.stringify(scene) });
+        },
+        close: () => core.close(),
+      };
+    }),
+    listener,
+  );
 
-/** A playback at a link, with the frame that is shown. */
+/** A run at a link, with the frame that is shown. */
 function open(hash: string) {
   const { link, problems } = decodeMotionLink(hash);
   const store = createStore(initialMotionState(link, problems));
   let shown = { positions: new Float32Array(0), values: new Float32Array(0), scalar: '' };
-  const playback = createMotionRun(store, {
-    showMesh: () => undefined,
-    showFrame(buffer, scalar) {
-      const views = frameViews(buffer);
-      shown = { positions: views.positions.slice(), values: views.scalar.slice(), scalar };
+  const run = new MotionRun(
+    store,
+    {
+      showMesh: () => undefined,
+      showFrame(buffer, scalar) {
+        const views = frameViews(buffer);
+        shown = { positions: views.positions.slice(), values: views.scalar.slice(), scalar };
+      },
     },
-  });
-  return { store, playback, shown: () => shown };
+    start,
+  );
+  return { store, run, shown: () => shown };
 }
 
 const phaseOf = ({ store }: ReturnType<typeof open>) => store.get().phase;
@@ -58,7 +67,7 @@ describe('motion run of a run that diverges', () => {
     const page = open('#scene=swinging-sheet&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     const start = page.shown().positions;
-    page.playback.play();
+    page.run.play();
     await vi.waitUntil(() => phaseOf(page) === 'stopped');
     const { problem, playing, numbers } = page.store.get();
     expect(playing).toBe(false);
@@ -70,11 +79,11 @@ describe('motion run of a run that diverges', () => {
     expect(problem?.sentence).toContain(`(${place.join(', ')}) m`);
     expect(page.shown().positions).not.toEqual(start);
 
-    page.playback.reset();
+    page.run.reset();
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get()).toMatchObject({ problem: null, numbers: { step: 0 } });
     expect(page.shown().positions).toEqual(start);
-    page.playback.step();
+    page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
   });
 
@@ -84,13 +93,13 @@ describe('motion run of a run that diverges', () => {
     const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     const start = page.shown().positions;
-    page.playback.play();
+    page.run.play();
     await vi.waitUntil(() => phaseOf(page) === 'stopped', 20000);
     const { problem, numbers } = page.store.get();
     expect(numbers?.time_s).toBeCloseTo(0.2, 9);
     expect(problem?.sentence).toMatch(/in step 13, .*vertex \d+ .*0\.2.* It was last at \(/);
     expect(page.shown().positions.every((metres) => Math.abs(metres) < 3)).toBe(true);
-    page.playback.reset();
+    page.run.reset();
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
     expect(page.shown().positions).toEqual(start);
@@ -106,7 +115,7 @@ describe('motion run', () => {
   it('keeps the motion over a change of level, and not over one of the scene', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    page.playback.step();
+    page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
     const { setting } = page.store.get();
     page.store.set({ setting: { ...setting, level: 1 } });
@@ -120,7 +129,7 @@ describe('motion run', () => {
   it('starts anew when the model changes', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    page.playback.step();
+    page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
     page.store.set({ setting: withModel(page.store.get().setting, 'membrane') });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
@@ -166,7 +175,7 @@ describe('motion run of a mesh', () => {
   it('puts the visitor’s file in its place, from any scene, and keeps it', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    await page.playback.openObj(file('hat.OBJ', triangle(2)));
+    await page.run.openObj(file('hat.OBJ', triangle(2)));
     await vi.waitUntil(() => page.store.get().mesh !== null && phaseOf(page) === 'ready');
     expect(page.store.get()).toMatchObject({
       mesh: { name: 'hat.OBJ', isOwn: true, high: [1, 2, 1] },
@@ -186,13 +195,13 @@ describe('motion run of a mesh', () => {
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     const sentence = () => page.store.get().problem?.sentence ?? '';
     const { setting } = page.store.get();
-    await page.playback.openObj(file('hat.obj', 'v 0 0 0\nwobble\n'));
+    await page.run.openObj(file('hat.obj', 'v 0 0 0\nwobble\n'));
     await vi.waitUntil(() => sentence() !== '');
     expect(sentence()).toContain('hat.obj: line 2: expected');
-    await page.playback.openObj(file('hat.stl', 'solid'));
+    await page.run.openObj(file('hat.stl', 'solid'));
     expect(sentence()).toContain('hat.stl is no OBJ file');
     expect(page.store.get()).toMatchObject({ setting, mesh: null, phase: 'ready' });
-    page.playback.step();
+    page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
   });
 
@@ -201,7 +210,7 @@ describe('motion run of a mesh', () => {
     const page = open('#scene=obj');
     await vi.waitUntil(() => phaseOf(page) === 'refused');
     expect(page.store.get().problem?.sentence).toContain('could not be fetched');
-    await page.playback.openObj(file('hat.obj', triangle(1)));
+    await page.run.openObj(file('hat.obj', triangle(1)));
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
   });
@@ -214,10 +223,10 @@ describe('motion run of a mesh', () => {
     fetched.mockReturnValue(late);
     const page = open('#scene=obj');
     await vi.waitUntil(() => fetched.mock.calls.length > 0);
-    await page.playback.openObj(file('hat.obj', triangle(1)));
+    await page.run.openObj(file('hat.obj', triangle(1)));
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     bring(new Response(triangle(2)));
-    page.playback.step();
+    page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
     await new Promise((resume) => setTimeout(resume, 20));
     expect(page.store.get().mesh?.name).toBe('hat.obj');
@@ -226,7 +235,7 @@ describe('motion run of a mesh', () => {
   it('starts anew when the fabric changes, as there are no mesh lines', async () => {
     const page = open('#scene=obj');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    page.playback.step();
+    page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
     page.store.set({ setting: { ...page.store.get().setting, fabric: 'silk' } });
     await vi.waitUntil(() => phaseOf(page) === 'ready');

@@ -1,9 +1,10 @@
 // The three panes with the real module and the frames that come with the page.
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import type { ShownFrame } from '../../src/refinement/run/pane-set';
 import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
 import { exampleUrls } from '../../src/refinement/run/records';
-import { createTrio, type ShownFrame, type TrioParts } from '../../src/refinement/run/trio';
+import { Trio, type TrioParts } from '../../src/refinement/run/trio';
 import { basePatterns, type PlanFile } from '../../src/refinement/state/plan-file';
 import {
   DEFAULT_LINK,
@@ -32,7 +33,7 @@ const plannerParts = () => createPlanner(() => exampleClient(module), recordByte
 
 interface Stand {
   store: Store<RefinementState>;
-  trio: ReturnType<typeof createTrio>;
+  trio: Trio;
   meshes: Partial<Record<PaneId, GarmentMesh>>;
   shown: Partial<Record<PaneId, Float32Array>>;
   questions: ToGarment[];
@@ -57,7 +58,7 @@ function stand(link: Partial<RefinementLink> = {}, changes: Partial<TrioParts> =
       }
     },
   };
-  const trio = createTrio(store, view, {
+  const trio = new Trio(store, view, {
     start: () => garmentClient(module, questions),
     fetchBytes: recordBytes,
     planner: plannerParts(),

@@ -1,5 +1,5 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
-// messages, and answers into state and frames.
+// questions to the worker, and answers into state and frames.
 import {
   brokenSentence,
   type Failure,
@@ -11,8 +11,9 @@ import type { Triple } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { StartShape } from '../../shared/page/view';
 import type { Store } from '../../shared/state/store';
-import { startDeformWorker } from '../../shared/workers/client';
-import type { PaneState, Triple as TermTriple } from '../state/deform-state';
+import { answerOf } from '../../shared/workers/asked';
+import type { TermNumbers } from '../bindings/deform-module';
+import type { PaneState } from '../state/deform-state';
 import { EXPERIMENTS, type Experiment, OWN, ownExperiment } from '../state/experiments';
 import type { Comparison } from '../state/fabric-choice';
 import { linkedHolds } from '../state/fabrics-link';
@@ -20,15 +21,21 @@ import {
   countedWeights,
   type FabricsLink,
   type FabricsState,
-  heldBy,
   linkFailure,
   panesFor,
+  settlingPanes,
 } from '../state/fabrics-state';
-import { baseOf, type Hold, holdAt, holdsOf, joined, placeOf } from '../state/holds';
-import type { DeformFrame, FromDeform } from '../worker/deform-protocol';
-
-/** A hand that has not moved for so long rests [ms]. */
-const REST_AFTER_MS = 150;
+import { holdsOf, placeOf } from '../state/holds';
+import type {
+  DeformFrame,
+  FittedMessage,
+  FromDeform,
+  OpenedMessage,
+} from '../worker/deform-protocol';
+import { type DeformClient, type StartDeform, startDeformWorker } from './deform-client';
+import { Hand } from './hand';
+import { HeldCloth, undone } from './held-cloth';
+import { LastGranted } from './last-granted';
 
 /** Numbers of a cloth that is being pulled are shown this often [ms]: faster cannot be read. */
 const NUMBERS_EVERY_MS = 150;
@@ -40,33 +47,11 @@ export interface DeformerView {
   showFrame(pane: number, buffer: ArrayBuffer): void;
 }
 
-export interface Deformer {
-  /** An experiment by its id, as it is by itself or as a link has it. */
-  openExperiment(id: string, link?: FabricsLink): void;
-  openObj(file: File): Promise<void>;
-  grab(vertex: number, pane: number): void;
-  /** Where the taken vertex is wanted [m]. */
-  moveGrab(target: Triple): void;
-  releaseGrab(): void;
-  /** Puts a pin around a vertex, or takes out the one that holds it. */
-  togglePin(vertex: number, pane: number): void;
-  release(name: string): void;
-  /** Moves one hold by so much [m]. */
-  nudge(name: string, move: Triple): void;
-  /** Everything as the experiment has it. */
-  resetHolds(): void;
-  compare(comparison: Comparison): void;
-  setGallery(isShown: boolean): void;
-  measure(measures: TermTriple): void;
-  /** The shape of the chosen pane, to start a motion from. */
-  startShape(): Promise<StartShape>;
-}
-
 /** What is on its way to be shown. */
 interface Opening {
   experiment: Experiment;
   link: FabricsLink | null;
-  /** Of the mesh that it names, unless that is to be fetched. */
+  /** Text of the mesh that it names, unless that is to be fetched. */
   objText: string;
 }
 
@@ -81,350 +66,259 @@ function shownOf({ compared, gallery, chosen, terms, form, weightsFrom }: Fabric
 
 const ALL_TERMS = { recovery: true, stretch: true, bending: true };
 
-/** Of a cloth that no link comes with. */
+/** How a cloth is held that comes without a link. */
 const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: [] };
 
-/** A failure of what was just changed, for somebody who sees pins and not a scene's file. */
-function undone(failure: Failure): Failure {
-  if (failure.where !== '/pins') return failure;
-  const what = failure.what.charAt(0).toUpperCase() + failure.what.slice(1);
-  return inputFailure(
-    `Undone: without recovery, pins and handles have to say where all of the cloth is. ${what}.`,
-  );
+async function meshText({ experiment, objText }: Opening): Promise<string> {
+  if (experiment.meshUrl === null) return objText;
+  const answer = await fetch(experiment.meshUrl);
+  if (!answer.ok) throw new Error(answer.statusText);
+  return answer.text();
 }
 
-export function createDeformer(store: Store<FabricsState>, view: DeformerView): Deformer {
-  const client = startDeformWorker(receive, broken);
-  let asked = 0; // counts what is to be opened
-  let cloth = -1; // the one that is shown
-  let opening: Opening | null = null;
-  let shown: (ArrayBuffer | undefined)[] = [];
-  let taken: { name: string; base: Triple; isNew: Hold | null } | null = null;
-  let restTimer = 0;
-  let lastNumbersMs = 0;
-  let obj: { name: string; text: string } | null = null;
-  let granted: { show: Shown | null; hold: readonly Hold[] } = { show: null, hold: [] };
-  let unanswered = { show: 0, hold: 0 };
-  let onShape: ((shape: StartShape) => void) | null = null;
+export class Deformer {
+  private readonly client: DeformClient;
+  private readonly held: HeldCloth;
+  private readonly hand: Hand;
+  private readonly granted = new LastGranted<Shown | null>(null);
+  private nOpened = 0; // counts what is to be opened: what belongs to an earlier one is dropped
+  private cloth = -1; // the one that is shown
+  private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
+  private lastNumbersMs = 0;
+  private obj: { name: string; text: string } | null = null; // the visitor's
 
-  function broken(reason: string): void {
+  constructor(
+    private readonly store: Store<FabricsState>,
+    private readonly view: DeformerView,
+    start: StartDeform = startDeformWorker,
+  ) {
+    this.client = start({
+      news: (message) => this.hear(message),
+      broken: (reason) => this.breakDown(reason),
+    });
+    this.hand = new Hand(
+      store,
+      () => this.held,
+      (vertex, pane) => this.place(vertex, pane),
+    );
+    this.held = new HeldCloth(store, this.client, () => this.hand.hasTaken());
+    store.subscribe((state, previous) => {
+      if (!state.cloth || state.cloth !== previous.cloth) return;
+      if (state.form !== previous.form || state.terms !== previous.terms) this.sendPanes();
+      if (state.weightsFrom !== previous.weightsFrom) this.showPanes();
+    });
+  }
+
+  /** An experiment by its id, as it is by itself or as a link has it. */
+  openExperiment(id: string, link?: FabricsLink): void {
+    const known = EXPERIMENTS.find((experiment) => experiment.id === id);
+    if (known) return void this.open({ experiment: known, link: link ?? null, objText: '' });
+    if (this.obj) this.openOwn(this.obj.name, this.obj.text);
+  }
+
+  async openObj(file: File): Promise<void> {
+    const { name } = file;
+    if (!/\.obj$/i.test(name))
+      return this.refuse(inputFailure(`${name} is no OBJ file: the name does not end in .obj.`));
+    const text = await file.text().catch(() => null);
+    if (text === null) this.refuse(inputFailure(`${name} could not be read.`));
+    else this.openOwn(name, text);
+  }
+
+  grab(vertex: number, pane: number): void {
+    this.hand.grab(vertex, pane);
+  }
+
+  /** Where the taken vertex is wanted [m]. */
+  moveGrab(target: Triple): void {
+    this.hand.move(target);
+  }
+
+  releaseGrab(): void {
+    this.hand.release();
+  }
+
+  /** Puts a pin around a vertex, or takes out the hold that has it. */
+  togglePin(vertex: number, pane: number): void {
+    this.hand.togglePin(vertex, pane);
+  }
+
+  release(name: string): void {
+    this.store.set({ problem: null });
+    this.held.set(this.held.holds().filter((hold) => hold.name !== name));
+  }
+
+  /** Moves one hold by so much [m]. */
+  nudge(name: string, [x, y, z]: Triple): void {
+    const hold = this.held.holds().find((one) => one.name === name);
+    if (!hold) return;
+    const [a, b, c] = hold.offset;
+    this.store.set({ invited: false, chosenHold: name });
+    this.held.move(name, [a + x, b + y, c + z]);
+  }
+
+  /** Everything as the experiment has it. */
+  resetHolds(): void {
+    this.store.set({ problem: null, chosenHold: null });
+    this.held.set(this.store.get().ownHolds);
+  }
+
+  compare({ fabrics: compared, chosen }: Comparison): void {
+    this.store.set({ compared, chosen, gallery: false });
+    this.fitOwn();
+    this.showPanes();
+  }
+
+  setGallery(isShown: boolean): void {
+    this.store.set({ gallery: isShown, chosen: 0 });
+    this.showPanes();
+  }
+
+  /** Asks for the weights of a visitor's own measurements. */
+  measure(measures: TermNumbers): void {
+    const question = answerOf(this.client.ask({ type: 'fit', measures }), (failure) =>
+      this.refuse(failure),
+    );
+    void question.then((answer) => answer && this.receiveFitted(answer));
+  }
+
+  /** The shape of the chosen pane, to start a motion from; null when it cannot be told. */
+  startShape(): Promise<StartShape | null> {
+    const question = this.client.ask({ type: 'section', pane: this.store.get().chosen });
+    return answerOf(question, (failure) => this.refuse(failure));
+  }
+
+  private breakDown(reason: string): void {
     const problem = internalFailure(brokenSentence('The shapes', reason));
-    store.set({ phase: 'broken', problem });
+    this.store.set({ phase: 'broken', problem });
   }
 
-  function refuse(failure: Failure): void {
-    store.set({ problem: failure });
+  private refuse(failure: Failure): void {
+    this.store.set({ problem: failure });
   }
 
-  async function open(wanted: Opening): Promise<void> {
-    asked += 1;
-    const own = asked;
-    opening = wanted;
-    store.set({ phase: 'loading' });
-    const { experiment } = wanted;
-    let text = wanted.objText;
-    try {
-      if (experiment.meshUrl !== null) {
-        const answer = await fetch(experiment.meshUrl);
-        if (!answer.ok) throw new Error(answer.statusText);
-        text = await answer.text();
-      }
-    } catch {
-      if (own !== asked) return;
-      opening = null;
-      store.set({ phase: 'ready' });
+  private hear(message: FromDeform): void {
+    if (message.type === 'frame' && message.cloth === this.cloth) this.receiveFrame(message);
+    if (message.type === 'refused') this.refuse(message.failure);
+  }
+
+  private openOwn(name: string, objText: string): void {
+    void this.open({ experiment: ownExperiment(name), link: null, objText });
+  }
+
+  private async open(wanted: Opening): Promise<void> {
+    this.nOpened += 1;
+    const cloth = this.nOpened;
+    const isCurrent = () => cloth === this.nOpened;
+    this.store.set({ phase: 'loading' });
+    const objText = await meshText(wanted).catch(() => null);
+    if (!isCurrent()) return;
+    const refuse = (failure: Failure) => {
+      if (isCurrent()) this.store.set({ phase: 'ready' });
+      this.refuse(failure);
+    };
+    if (objText === null)
       return refuse(inputFailure('The mesh could not be fetched. Check the connection.'));
-    }
-    if (own !== asked) return;
-    const { text: sceneText } = experiment;
-    client.send({ type: 'open', cloth: own, fabricsText, sceneText, objText: text });
+    const { text: sceneText } = wanted.experiment;
+    const question = { type: 'open', cloth, fabricsText, sceneText, objText } as const;
+    const opened = await answerOf(this.client.ask(question), refuse);
+    if (opened && isCurrent()) this.receiveOpened(opened, wanted);
   }
 
-  /** Goes back to what could be shown; of a link that never could be, to all terms. */
-  function undoShow(): void {
-    const state = store.get();
-    const last = granted.show ?? { ...shownOf(state), terms: ALL_TERMS };
-    if (JSON.stringify(last) === JSON.stringify(shownOf(state))) return;
-    store.set(last);
-    showPanes();
-  }
-
-  /** Goes back to what held the cloth before. */
-  function undoHold(): void {
-    if (granted.hold === store.get().holds) return;
-    setHolds(granted.hold);
-    sendHolds(granted.hold);
-  }
-
-  /** What the page shows and what the worker has are the same again once nothing is unanswered. */
-  function answered(what: 'show' | 'hold', isGranted: boolean): void {
-    unanswered = { ...unanswered, [what]: unanswered[what] - 1 };
-    if (unanswered[what] > 0) return;
-    if (!isGranted) return what === 'show' ? undoShow() : undoHold();
-    const state = store.get();
-    granted =
-      what === 'show' ? { ...granted, show: shownOf(state) } : { ...granted, hold: state.holds };
-  }
-
-  /** Numbers that are shown are of what was before, until new ones come. */
-  function settle(): void {
-    store.set({ panes: store.get().panes.map((pane) => ({ ...pane, status: 'settling' })) });
-  }
-
-  function sendPanes(): void {
-    settle();
-    const { panes, terms, form } = store.get();
-    const weights = panes.map((pane) => countedWeights(pane, terms));
-    unanswered.show += 1;
-    client.send({ type: 'show', form, weights });
-  }
-
-  function sendHolds(holds: readonly Hold[]): void {
-    unanswered.hold += 1;
-    settle();
-    const { vertices, places } = joined(holds);
-    client.send({ type: 'hold', vertices, places }, [vertices.buffer, places.buffer]);
-  }
-
-  function setHolds(holds: readonly Hold[]): void {
-    store.set(heldBy(holds));
-  }
-
-  /** The same holds elsewhere: a move is never refused. */
-  function sendMove(holds: readonly Hold[]): void {
-    setHolds(holds);
-    if (unanswered.hold === 0) granted = { ...granted, hold: holds };
-    const { places } = joined(holds);
-    client.send({ type: 'move', places }, [places.buffer]);
-    window.clearTimeout(restTimer);
-    restTimer = window.setTimeout(rest, REST_AFTER_MS);
-  }
-
-  function receiveOpened({ answer, triangles }: Extract<FromDeform, { type: 'opened' }>): void {
-    if (!opening) return;
+  private receiveOpened({ cloth, answer, triangles }: OpenedMessage, opening: Opening): void {
     const { experiment, link, objText } = opening;
-    if (experiment.id === OWN) obj = { name: answer.name, text: objText };
-    opening = null;
-    cloth = asked;
-    shown = [];
-    taken = null;
+    const isOwn = experiment.id === OWN;
+    if (isOwn) this.obj = { name: answer.name, text: objText };
+    this.cloth = cloth;
+    this.shown = [];
+    this.hand.drop();
     const ownHolds = holdsOf(answer, triangles);
     const { holds, problems } = linkedHolds(ownHolds, answer, link ?? UNMOVED);
-    setHolds(holds);
-    granted = { show: null, hold: ownHolds };
-    store.set({
+    this.held.open(ownHolds, holds);
+    this.granted.value = null;
+    this.store.set({
       phase: 'ready',
       experiment: experiment.id,
-      objName: experiment.id === OWN ? answer.name : store.get().objName,
+      objName: isOwn ? answer.name : this.store.get().objName,
       cloth: answer,
       ownHolds,
       chosenHold: null,
       isDragging: false,
       invited: true,
-      problem: link ? linkFailure(problems, store.get().problem) : null,
+      problem: link ? linkFailure(problems, this.store.get().problem) : null,
     });
-    view.showMesh(triangles, answer.n_vertices, experiment);
-    sendHolds(holds);
-    fitOwn();
-    sendPanes();
+    this.view.showMesh(triangles, answer.n_vertices, experiment);
+    this.held.send();
+    this.fitOwn();
+    this.sendPanes();
   }
 
-  function receiveFrame({ pane, buffer, report, status, updateMs }: DeformFrame): void {
-    const { panes } = store.get();
-    const old = shown[pane];
-    shown[pane] = buffer;
-    if (old) client.send({ type: 'return', cloth, pane, buffer: old }, [old]);
+  private receiveFrame({ cloth, pane, buffer, report, status, updateMs }: DeformFrame): void {
+    const { panes } = this.store.get();
+    const old = this.shown[pane];
+    this.shown[pane] = buffer;
+    if (old) this.client.tell({ type: 'return', cloth, pane, buffer: old }, [old]);
     if (!panes[pane]) return;
-    view.showFrame(pane, buffer);
+    this.view.showFrame(pane, buffer);
     const nowMs = performance.now();
-    if (status === 'dragging' && nowMs - lastNumbersMs < NUMBERS_EVERY_MS) return;
-    lastNumbersMs = nowMs;
+    if (status === 'dragging' && nowMs - this.lastNumbersMs < NUMBERS_EVERY_MS) return;
+    this.lastNumbersMs = nowMs;
     const { energy, terms, steps } = report;
     const numbers = { energy, terms, steps, status, updateMs };
-    store.set({
+    this.store.set({
       panes: panes.map((one, at): PaneState => (at === pane ? { ...one, ...numbers } : one)),
     });
   }
 
   /** The own fabric that is shown goes with the measurements in its form. */
-  function receiveFitted({ measures, answer }: Extract<FromDeform, { type: 'fitted' }>): void {
-    const { compared, panes } = store.get();
-    store.set({
+  private receiveFitted({ measures, answer }: FittedMessage): void {
+    const { compared, panes } = this.store.get();
+    this.store.set({
       ownFabric: answer,
       compared: compared.map((one) => (one.kind === 'own' ? { ...one, measures } : one)),
     });
-    if (panes.some(({ fabric }) => fabric.kind === 'own')) showPanes();
-  }
-
-  function receive(message: FromDeform): void {
-    switch (message.type) {
-      case 'broken':
-        return broken(message.reason);
-      case 'opened':
-        if (message.cloth === asked) receiveOpened(message);
-        return;
-      case 'frame':
-        if (message.cloth === cloth) receiveFrame(message);
-        return;
-      case 'fitted':
-        return receiveFitted(message);
-      case 'granted':
-        return answered(message.what, true);
-      case 'section':
-        onShape?.(message);
-        return;
-      case 'refused': {
-        if (message.what === 'open') {
-          opening = null;
-          store.set({ phase: 'ready' });
-        }
-        if (message.what !== 'hold' && message.what !== 'show') return refuse(message.failure);
-        answered(message.what, false);
-        return refuse(undone(message.failure));
-      }
-    }
+    if (panes.some(({ fabric }) => fabric.kind === 'own')) this.showPanes();
   }
 
   /** Panes for what is to be compared, or for all fabrics. */
-  function showPanes(): void {
-    const state = store.get();
+  private showPanes(): void {
+    const state = this.store.get();
     const panes = panesFor(state);
-    store.set({ panes, chosen: Math.min(state.chosen, panes.length - 1), problem: null });
-    if (state.cloth) sendPanes();
+    this.store.set({ panes, chosen: Math.min(state.chosen, panes.length - 1), problem: null });
+    if (state.cloth) this.sendPanes();
+  }
+
+  private sendPanes(): void {
+    const { store } = this;
+    // Numbers that are shown are of what was before, until new ones come.
+    store.set({ panes: settlingPanes(store.get().panes) });
+    const { panes, terms, form } = store.get();
+    const weights = panes.map((pane) => countedWeights(pane, terms));
+    const asked = this.granted.ask(this.client.ask({ type: 'show', form, weights }), {
+      granted: () => shownOf(store.get()),
+      refused: () => this.undoPanes(),
+    });
+    void answerOf(asked, (failure) => this.refuse(undone(failure)));
+  }
+
+  /** Goes back to what could be shown; when nothing could yet, to all terms. */
+  private undoPanes(): void {
+    const state = this.store.get();
+    const last = this.granted.value ?? { ...shownOf(state), terms: ALL_TERMS };
+    if (JSON.stringify(last) === JSON.stringify(shownOf(state))) return;
+    this.store.set(last);
+    this.showPanes();
   }
 
   /** Asks for the weights of a visitor's fabric that have not been fitted yet. */
-  function fitOwn(): void {
-    const { compared, ownFabric } = store.get();
+  private fitOwn(): void {
+    const { compared, ownFabric } = this.store.get();
     const own = compared.find((choice) => choice.kind === 'own');
-    if (own && !ownFabric) client.send({ type: 'fit', measures: own.measures });
+    if (own && !ownFabric) this.measure(own.measures);
   }
 
-  function rest(): void {
-    window.clearTimeout(restTimer);
-    client.send({ type: 'rest', isHeld: taken !== null });
-  }
-
-  function place(vertex: number, pane: number): Triple {
-    const buffer = shown[pane];
+  private place(vertex: number, pane: number): Triple {
+    const buffer = this.shown[pane];
     return buffer ? placeOf(frameViews(buffer).positions, vertex) : [0, 0, 0];
   }
-
-  /** A new hold that has `vertex` where it is seen. */
-  function newHold(vertex: number, pane: number, kind: Hold['kind']): Hold | null {
-    const state = store.get();
-    const hold = state.cloth && holdAt(state.cloth, vertex, kind, state.holds);
-    if (!hold) return null;
-    const [x, y, z] = place(vertex, pane);
-    const [bx, by, bz] = baseOf(hold, vertex) ?? [0, 0, 0];
-    return { ...hold, offset: [x - bx, y - by, z - bz] };
-  }
-
-  function moved(name: string, offset: Triple): Hold[] {
-    return store.get().holds.map((hold) => (hold.name === name ? { ...hold, offset } : hold));
-  }
-
-  store.subscribe((state, previous) => {
-    if (!state.cloth || state.cloth !== previous.cloth) return;
-    if (state.form !== previous.form || state.terms !== previous.terms) sendPanes();
-    if (state.weightsFrom !== previous.weightsFrom) showPanes();
-  });
-
-  return {
-    openExperiment(id, link) {
-      const known = EXPERIMENTS.find((experiment) => experiment.id === id);
-      if (known) return void open({ experiment: known, link: link ?? null, objText: '' });
-      if (!obj) return;
-      void open({ experiment: ownExperiment(obj.name), link: null, objText: obj.text });
-    },
-    async openObj(file) {
-      const { name } = file;
-      if (!/\.obj$/i.test(name))
-        return refuse(inputFailure(`${name} is no OBJ file: the name does not end in .obj.`));
-      try {
-        const text = await file.text();
-        await open({ experiment: ownExperiment(name), link: null, objText: text });
-      } catch {
-        refuse(inputFailure(`${name} could not be read.`));
-      }
-    },
-    grab(vertex, pane) {
-      const known = store.get().holds.find((hold) => hold.vertices.includes(vertex));
-      const hold = known ?? newHold(vertex, pane, 'handle');
-      const base = hold && baseOf(hold, vertex);
-      if (!hold || !base) return;
-      taken = { name: hold.name, base, isNew: known ? null : hold };
-      store.set({ isDragging: true, invited: false, chosenHold: hold.name });
-    },
-    moveGrab([x, y, z]) {
-      if (!taken) return;
-      const { name, base, isNew } = taken;
-      const offset: Triple = [x - base[0], y - base[1], z - base[2]];
-      if (isNew) {
-        // A press alone moves nothing, and holds nothing.
-        const way = Math.hypot(...offset.map((metres, axis) => metres - (isNew.offset[axis] ?? 0)));
-        if (way < 1e-3 * (store.get().cloth?.grasp_m ?? 0)) return;
-        setHolds([...store.get().holds, { ...isNew, offset }]);
-        taken.isNew = null;
-        return sendHolds(store.get().holds);
-      }
-      sendMove(moved(name, offset));
-    },
-    releaseGrab() {
-      const wasMoved = taken !== null && taken.isNew === null;
-      taken = null;
-      store.set({ isDragging: false });
-      if (!wasMoved) return;
-      settle();
-      rest();
-    },
-    togglePin(vertex, pane) {
-      const holds = store.get().holds;
-      const known = holds.find((hold) => hold.vertices.includes(vertex));
-      const pin = known ? null : newHold(vertex, pane, 'pin');
-      const others = holds.filter((hold) => hold !== known);
-      const next = pin ? [...others, pin] : others;
-      setHolds(next);
-      store.set({ invited: false, problem: null });
-      sendHolds(next);
-    },
-    release(name) {
-      const next = store.get().holds.filter((hold) => hold.name !== name);
-      setHolds(next);
-      store.set({ problem: null });
-      sendHolds(next);
-    },
-    nudge(name, [x, y, z]) {
-      const hold = store.get().holds.find((one) => one.name === name);
-      if (!hold) return;
-      const [a, b, c] = hold.offset;
-      store.set({ invited: false, chosenHold: name });
-      sendMove(moved(name, [a + x, b + y, c + z]));
-    },
-    resetHolds() {
-      const { ownHolds } = store.get();
-      setHolds(ownHolds);
-      store.set({ problem: null, chosenHold: null });
-      sendHolds(ownHolds);
-    },
-    compare({ fabrics: compared, chosen }) {
-      store.set({ compared, chosen, gallery: false });
-      fitOwn();
-      showPanes();
-    },
-    setGallery(isShown) {
-      store.set({ gallery: isShown, chosen: 0 });
-      showPanes();
-    },
-    measure(measures) {
-      client.send({ type: 'fit', measures });
-    },
-    startShape() {
-      const { chosen } = store.get();
-      return new Promise((resolve) => {
-        onShape = resolve;
-        client.send({ type: 'section', pane: chosen });
-      });
-    },
-  };
 }

@@ -97,6 +97,11 @@ export function panesFor(
   });
 }
 
+/** Panes whose numbers are of what was before, until new ones come. */
+export function settlingPanes(panes: readonly PaneState[]): PaneState[] {
+  return panes.map((pane) => ({ ...pane, status: 'settling' }));
+}
+
 /** What a link said that could not be followed, after what was known of it already. */
 export function linkFailure(problems: readonly string[], known: Failure | null): Failure | null {
   if (problems.length === 0) return known;

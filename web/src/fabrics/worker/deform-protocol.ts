@@ -1,5 +1,7 @@
 // Messages between the page and the worker that finds the shapes of fabrics. Lengths in metres.
+
 import type { Failure } from '../../shared/bindings/answers';
+import type { Done } from '../../shared/workers/asked';
 import type { ClothAnswer, DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
 
 export interface ShowMessage {
@@ -39,11 +41,35 @@ export interface DeformFrame {
   updateMs: number;
 }
 
+export interface OpenedMessage {
+  type: 'opened';
+  cloth: number;
+  answer: ClothAnswer;
+  triangles: Uint32Array;
+}
+
+/** What is shown, or what holds the cloth, is as it was asked for. */
+export interface GrantedMessage {
+  type: 'granted';
+  what: 'show' | 'hold';
+}
+
+export interface FittedMessage {
+  type: 'fitted';
+  measures: TermNumbers;
+  answer: FitAnswer;
+}
+
+/** The section "cloth" of a scene, and the places from which a pane's shape starts. */
+export interface SectionMessage {
+  type: 'section';
+  section: object;
+  positions: Float64Array;
+}
+
 export type FromDeform =
-  | { type: 'broken'; reason: string }
-  | { type: 'opened'; cloth: number; answer: ClothAnswer; triangles: Uint32Array }
-  /** Every show and every hold is granted or refused, in the order in which they came. */
-  | { type: 'granted'; what: 'show' | 'hold' }
+  | OpenedMessage
+  | GrantedMessage
   /** `step`: something failed that nobody asked for by name. */
   | {
       type: 'refused';
@@ -51,8 +77,17 @@ export type FromDeform =
       failure: Failure;
     }
   | DeformFrame
-  | { type: 'fitted'; measures: TermNumbers; answer: FitAnswer }
-  /** The section "cloth" of a scene, and the places from which a pane's shape starts. */
-  | { type: 'section'; section: object; positions: Float64Array };
+  | FittedMessage
+  | SectionMessage;
 
-export type DeformPost = (message: FromDeform, transfer: Transferable[]) => void;
+/** The answer to each message that is a question. Frames are news. */
+export interface DeformAnswers {
+  open: OpenedMessage;
+  show: GrantedMessage;
+  hold: GrantedMessage;
+  fit: FittedMessage;
+  section: SectionMessage;
+  move: Done;
+  rest: Done;
+  return: Done;
+}

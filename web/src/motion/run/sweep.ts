@@ -1,11 +1,12 @@
 // Runs a sweep in a worker of its own, so that the shown cloth and the page stay responsive.
+
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
-import { startSweepWorker, type WorkerClient } from '../../shared/workers/client';
 import type { MotionState } from '../state/motion-state';
 import { sweepPlan } from '../state/sweep-plan';
 import { type SweepState, sweptScene } from '../state/sweep-state';
-import type { SweepMessage } from '../worker/motion-protocol';
+import type { FromSweep } from '../worker/sweep-protocol';
+import { type SweepClient, startSweepWorker } from './motion-client';
 
 export interface Sweep {
   /** Measures levels 0 to `finest` of the shown preset. */
@@ -15,7 +16,7 @@ export interface Sweep {
 }
 
 export function createSweep(store: Store<MotionState>): Sweep {
-  let worker: WorkerClient<SweepMessage> | null = null;
+  let worker: SweepClient | null = null;
 
   function patch(change: Partial<SweepState>): void {
     store.set({ sweep: { ...store.get().sweep, ...change } });
@@ -25,6 +26,13 @@ export function createSweep(store: Store<MotionState>): Sweep {
     worker?.terminate();
     worker = null;
     patch({ phase, message });
+  }
+
+  function news(message: FromSweep): void {
+    if (message.type === 'refused') return end('failed', message.failure.what);
+    const { rows, front, progress, done, message: text } = message.report;
+    patch({ rows, front, progress, message: text });
+    if (done) end('done', text);
   }
 
   store.subscribe((state, previous) => {
@@ -51,20 +59,9 @@ export function createSweep(store: Store<MotionState>): Sweep {
           disturbed: false,
         },
       });
-      worker = startSweepWorker(
-        (message) => {
-          if (message.type === 'sweepReport') {
-            const { rows, front, progress, done, message: text } = message.report;
-            patch({ rows, front, progress, message: text });
-            if (done) end('done', text);
-          }
-          if (message.type === 'refused') end('failed', message.failure.what);
-          if (message.type === 'broken') end('failed', message.reason);
-        },
-        (reason) => end('failed', reason),
-      );
+      worker = startSweepWorker({ news, broken: (reason) => end('failed', reason) });
       const planText = JSON.stringify(sweepPlan(setting, finest, mesh));
-      worker.send({ type: 'sweep', fabricsText, planText });
+      worker.tell({ type: 'sweep', fabricsText, planText });
     },
     cancel() {
       if (worker) end('cancelled', 'Cancelled; the rows so far stay.');

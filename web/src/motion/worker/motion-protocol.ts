@@ -1,9 +1,10 @@
-// Messages between the page and its workers, both ways. Lengths in metres, times in seconds.
+// Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
+
 import type { Failure } from '../../shared/bindings/answers';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider } from '../../shared/bindings/geometry';
+import type { Done } from '../../shared/workers/asked';
 import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
-import type { SweepReport } from '../bindings/sweep-module';
 import type { ObjMesh } from '../state/obj-mesh';
 
 export interface StepMessage {
@@ -42,13 +43,6 @@ export type ToMotion =
   | { type: 'moveGrab'; target: [number, number, number] }
   | { type: 'releaseGrab' };
 
-/** To a worker of its own. Runs to its end; to cancel, terminate the worker. */
-export interface SweepMessage {
-  type: 'sweep';
-  fabricsText: string;
-  planText: string;
-}
-
 export interface LoadedMessage {
   type: 'loaded';
   request: number;
@@ -81,18 +75,34 @@ export interface FrameMessage {
   colliders: Collider[];
 }
 
+/** A reference was taken: the numbers anew. */
+export interface ReferenceSetMessage {
+  type: 'referenceSet';
+  numbers: RunNumbers;
+}
+
+export type ObjAnswerMessage =
+  | { type: 'objRead'; mesh: ObjMesh }
+  | { type: 'objRefused'; failure: Failure };
+
 export type FromMotion =
   | { type: 'ready' }
-  /** The module could not be started. */
-  | { type: 'broken'; reason: string }
   | LoadedMessage
   | FrameMessage
-  /** A reference was taken: the numbers anew. */
-  | { type: 'referenceSet'; numbers: RunNumbers }
-  | { type: 'objRead'; mesh: ObjMesh }
-  | { type: 'objRefused'; failure: Failure }
-  /** A load, reset or sweep that was refused; `request` is -1 when the message had none. */
-  | { type: 'refused'; request: number; failure: Failure }
-  | { type: 'sweepReport'; report: SweepReport };
+  | ReferenceSetMessage
+  | ObjAnswerMessage
+  /** `request` is -1 when what was refused had none. */
+  | { type: 'refused'; request: number; failure: Failure };
 
-export type Post = (message: FromMotion, transfer: Transferable[]) => void;
+/** The answer to each message that is a question; `done`: there was nothing to answer. */
+export interface MotionAnswers {
+  open: { type: 'ready' };
+  load: LoadedMessage;
+  reset: LoadedMessage;
+  setReference: ReferenceSetMessage | Done;
+  readObj: ObjAnswerMessage;
+  step: FrameMessage | Done;
+  grab: Done;
+  moveGrab: Done;
+  releaseGrab: Done;
+}

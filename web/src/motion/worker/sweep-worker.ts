@@ -1,10 +1,9 @@
+import { serve } from '../../shared/workers/serve';
 import createSweep from '../../wasm/sweep.mjs';
-import { runSweep } from './motion-core';
-import type { FromMotion, SweepMessage } from './motion-protocol';
+import { runSweep } from './sweep-core';
+import type { FromSweep, ToSweep } from './sweep-protocol';
 
-const post = (message: FromMotion, transfer: Transferable[]) =>
-  self.postMessage(message, { transfer });
-const module = createSweep();
-module.catch((error) => post({ type: 'broken', reason: String(error) }, []));
-self.onmessage = async (event: MessageEvent<SweepMessage>) =>
-  runSweep(await module, event.data, post);
+serve<ToSweep, FromSweep>(self, async (post) => {
+  const module = await createSweep();
+  return { receive: (message) => runSweep(module, message, post) };
+});

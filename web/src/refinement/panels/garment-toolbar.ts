@@ -1,6 +1,7 @@
 // Play, pause, step, reset, speed, view, time: one row under the stage.
-import { toolButton } from '../../motion/panels/motion-toolbar';
+
 import { choice, element, setText } from '../../shared/panels/element';
+import { toolButton } from '../../shared/panels/tool-button';
 import { type Store, watch } from '../../shared/state/store';
 import type { Trio } from '../run/trio';
 import { type RefinementState, SPEEDS } from '../state/refinement-state';

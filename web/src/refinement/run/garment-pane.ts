@@ -4,11 +4,10 @@ import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
 import { FRAME_S } from '../state/garment-frames';
 import { SCENE_FILES } from '../state/garments';
 import type { FrameSource, GarmentPane, PaneId } from '../state/refinement-state';
-import type { Advance, Described, FromGarment, ToGarment } from '../worker/garment-protocol';
+import type { Advance, Described, Loaded, ToGarment } from '../worker/garment-protocol';
 import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 
-type Answer<Type> = Extract<FromGarment, { type: Type }>;
 type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 'buffer'>;
 
 export interface GarmentContent {
@@ -24,7 +23,7 @@ export interface PaneRun {
   recording(): RecordingHead | null;
   isLoaded(): boolean;
   /** Null when that is loaded already. */
-  load(content: GarmentContent): Promise<Answer<'loaded'> | null>;
+  load(content: GarmentContent): Promise<Loaded | null>;
   reset(): Promise<void>;
   advance(frame: number, how: Advance): Promise<{ fit: FitAnswer | null; ended: string | null }>;
   describe(wish: Wish): Promise<Described>;
@@ -46,13 +45,6 @@ export function createPaneRun(
   let shown: ArrayBuffer | null = null;
   let spare: ArrayBuffer | null = null;
 
-  async function ask<Type extends FromGarment['type']>(
-    message: ToGarment,
-    transfer: Transferable[] = [],
-  ): Promise<Answer<Type>> {
-    return (await client.ask(message, transfer)) as Answer<Type>;
-  }
-
   return {
     id,
     source: 'resting',
@@ -67,7 +59,7 @@ export function createPaneRun(
       // Frames that cannot be had are computed.
       const bytes = recordUrl ? await fetchBytes(recordUrl).catch(() => null) : null;
       const files = SCENE_FILES;
-      const answer = await ask<'loaded'>(
+      const answer = await client.ask(
         {
           type: 'load',
           request: own,
@@ -88,16 +80,13 @@ export function createPaneRun(
       return answer;
     },
     async reset() {
-      await ask({ type: 'reset', request });
+      await client.ask({ type: 'reset', request });
     },
-    advance: (frame, how) => ask<'advanced'>({ type: 'advance', request, frame, how }),
+    advance: (frame, how) => client.ask({ type: 'advance', request, frame, how }),
     describe(wish) {
       const buffer = spare;
       spare = null;
-      return ask<'described'>(
-        { type: 'describe', request, ...wish, buffer },
-        buffer ? [buffer] : [],
-      );
+      return client.ask({ type: 'describe', request, ...wish, buffer }, buffer ? [buffer] : []);
     },
     keep({ buffer }) {
       spare = shown;

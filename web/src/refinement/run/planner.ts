@@ -60,114 +60,136 @@ function isPartOf(opened: Opened, { garment, fabric, further }: Wish): boolean {
   );
 }
 
-/** `seen` are the frames of an example that count, when it is run here. */
-export function createPlanner(
-  start = startExampleWorker,
-  fetchBytes: Fetched = fetched,
-  seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
-): Planner {
-  let client: ExampleClient | null = null;
-  let opened: Opened | null = null;
-  let tell: Progress = () => undefined;
-  let request = 0;
+/** The frames of an example that count, when it is run here [s]. */
+interface Seen {
+  fromS: number;
+  toS: number;
+}
 
-  async function open(to: ExampleClient, garment: GarmentId): Promise<void> {
-    const urls = exampleUrls(garment);
-    if (!urls) throw new Error('no example of this garment comes with the page');
-    const [features, frames] = await Promise.all([
-      fetchBytes(urls.features),
-      fetchBytes(urls.frames),
-    ]);
-    const { value: motion } = MOTIONS[0];
-    const fabric = usualFabric(garment);
-    await to.ask(
-      {
-        type: 'open',
-        fabricsText,
-        sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-        files: SCENE_FILES,
-        name: exampleName(garment, motion, fabric),
-        nPatterns: PATTERNS,
-        features,
-        frames,
-      },
-      [features, frames],
-    );
+async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: Fetched) {
+  const urls = exampleUrls(garment);
+  if (!urls) throw new Error('no example of this garment comes with the page');
+  const [features, frames] = await Promise.all([
+    fetchBytes(urls.features),
+    fetchBytes(urls.frames),
+  ]);
+  const { value: motion } = MOTIONS[0];
+  const fabric = usualFabric(garment);
+  await to.ask(
+    {
+      type: 'open',
+      fabricsText,
+      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
+      files: SCENE_FILES,
+      name: exampleName(garment, motion, fabric),
+      nPatterns: PATTERNS,
+      features,
+      frames,
+    },
+    [features, frames],
+  );
+}
+
+class ExamplePlanner implements Planner {
+  private request = 0; // number of the last question
+  private client: ExampleClient | null = null;
+  private opened: Opened | null = null;
+  private progress: Progress = () => undefined;
+
+  constructor(
+    private readonly start: () => ExampleClient,
+    private readonly fetchBytes: Fetched,
+    private readonly seen: Seen,
+  ) {}
+
+  async plan(wish: Wish, progress: Progress = () => undefined): Promise<PlanFile> {
+    const { garment, rule, demand, budget } = wish;
+    this.progress = progress;
+    if (this.opened && !isPartOf(this.opened, wish)) this.cancel();
+    if (isUsual(wish)) {
+      const plan = await this.usualPlan(garment);
+      if (plan) return plan;
+    }
+    const client = await this.withExamples(wish);
+    const asked: PlanWish =
+      rule === 'budget' && budget !== null ? { max_vertices: budget } : { demand };
+    const request = this.nextRequest();
+    return (await client.ask({ type: 'plan', request, wish: asked })).plan;
   }
 
-  async function run(to: ExampleClient, wish: Wish, motion: MotionId): Promise<void> {
-    const { garment, fabric } = wish;
-    tell(motion, 0);
-    request += 1;
-    let answer = await to.ask({
+  cancel(): void {
+    this.client?.terminate();
+    this.client = null;
+    this.opened = null;
+  }
+
+  private nextRequest(): number {
+    this.request += 1;
+    return this.request;
+  }
+
+  private async usualPlan(garment: GarmentId): Promise<PlanFile | null> {
+    const urls = exampleUrls(garment);
+    if (!urls) return null;
+    return JSON.parse(new TextDecoder().decode(await this.fetchBytes(urls.plan))) as PlanFile;
+  }
+
+  /** The worker, once it has all examples. */
+  private async withExamples(wish: Wish): Promise<ExampleClient> {
+    const { garment, fabric, further } = wish;
+    this.client ??= this.start();
+    const { client } = this;
+    const ready = () => openExample(client, garment, this.fetchBytes);
+    this.opened ??= { garment, fabric, further: [], ready: ready() };
+    const { opened } = this;
+    opened.fabric = fabric;
+    for (const motion of further.slice(opened.further.length)) {
+      opened.ready = opened.ready.then(() => this.run(client, wish, motion));
+      opened.further.push(motion);
+    }
+    try {
+      await opened.ready;
+    } catch (error) {
+      if (this.client === client) this.cancel();
+      throw error;
+    }
+    return client;
+  }
+
+  /** Runs one further example to its end. */
+  private async run(
+    client: ExampleClient,
+    { garment, fabric }: Wish,
+    motion: MotionId,
+  ): Promise<void> {
+    this.progress(motion, 0);
+    let { share } = await client.ask({
       type: 'begin',
-      request,
+      request: this.nextRequest(),
       fabricsText,
       sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
       files: SCENE_FILES,
       name: exampleName(garment, motion, fabric),
       nPatterns: PATTERNS,
       frameS: FRAME_S,
-      fromS: seen.fromS,
-      toS: seen.toS,
+      ...this.seen,
       keptOf: KEPT_OF,
     });
-    while (answer.type === 'wentOn' && answer.share < 1) {
-      tell(motion, answer.share);
-      request += 1;
-      answer = await to.ask({ type: 'goOn', request });
+    while (share < 1) {
+      this.progress(motion, share);
+      share = (await client.ask({ type: 'goOn', request: this.nextRequest() })).share;
     }
   }
+}
 
-  /** The worker, once it has all examples. */
-  async function withExamples(wish: Wish): Promise<ExampleClient> {
-    const { garment, fabric, further } = wish;
-    client ??= start();
-    const own = client;
-    opened ??= { garment, fabric, further: [], ready: open(own, garment) };
-    opened.fabric = fabric;
-    for (const motion of further.slice(opened.further.length)) {
-      opened.ready = opened.ready.then(() => run(own, wish, motion));
-      opened.further.push(motion);
-    }
-    try {
-      await opened.ready;
-    } catch (error) {
-      if (client === own) forget();
-      throw error;
-    }
-    return own;
-  }
-
-  function forget(): void {
-    client?.terminate();
-    client = null;
-    opened = null;
-  }
-
-  async function usualPlan(garment: GarmentId): Promise<PlanFile | null> {
-    const urls = exampleUrls(garment);
-    if (!urls) return null;
-    return JSON.parse(new TextDecoder().decode(await fetchBytes(urls.plan))) as PlanFile;
-  }
-
+export function createPlanner(
+  start = startExampleWorker,
+  fetchBytes: Fetched = fetched,
+  seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
+): Planner {
+  const planner = new ExamplePlanner(start, fetchBytes, seen);
   return {
-    async plan(wish, progress = () => undefined) {
-      const { garment, rule, demand, budget } = wish;
-      tell = progress;
-      if (opened && !isPartOf(opened, wish)) forget();
-      if (isUsual(wish)) {
-        const plan = await usualPlan(garment);
-        if (plan) return plan;
-      }
-      const own = await withExamples(wish);
-      const asked: PlanWish =
-        rule === 'budget' && budget !== null ? { max_vertices: budget } : { demand };
-      request += 1;
-      const answer = await own.ask({ type: 'plan', request, wish: asked });
-      if (answer.type !== 'planned') throw new Error('no plan came of it');
-      return answer.plan;
-    },
-    cancel: forget,
+    plan: (wish, progress) => planner.plan(wish, progress),
+    cancel: () => planner.cancel(),
   };
 }

@@ -1,5 +1,4 @@
-// Runs the three panes of a garment in step: turns changes of the state into questions to their workers,
-// and the answers into state and frames.
+// Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
 import {
   brokenSentence,
   describe,
@@ -8,56 +7,19 @@ import {
   internalFailure,
   quoted,
 } from '../../shared/bindings/answers';
-import { frameViews } from '../../shared/bindings/frame';
 import type { Store } from '../../shared/state/store';
-import type { SolidsAnswer } from '../bindings/refinement-module';
-import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';
-import { type MotionId, sceneText, usualFabric } from '../state/garments';
+import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { FRAME_S } from '../state/garment-frames';
+import type { MotionId } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
-import {
-  type Doing,
-  EMPTY_PANE,
-  type GarmentPane,
-  PANES,
-  type PaneId,
-  type RefinementState,
-} from '../state/refinement-state';
-import type { Described, GarmentMesh, GarmentScalar } from '../worker/garment-protocol';
-import { BrokenWorker, type GarmentClient, Refused, startGarmentWorker } from './garment-client';
-import { createPaneRun, type PaneRun } from './garment-pane';
-import { createPlanner, type Fetched, fetched, isUsual, type Planner } from './planner';
-import { recordUrl } from './records';
-
-/** Errors and numbers are read this often while it plays [ms]: faster cannot be read. */
-const NUMBERS_EVERY_MS = 500;
-
-/** When the display had to wait, as many frames are left out at most to be at real time again. */
-const MOST_LEFT_OUT = 3;
-
-export interface ShownFrame {
-  pane: PaneId;
-  buffer: ArrayBuffer;
-}
-
-export interface TrioView {
-  showMesh(pane: PaneId, mesh: GarmentMesh): void;
-  /** Of one time. Buffers stay valid until the next call. */
-  showFrames(frames: ShownFrame[], solids: SolidsAnswer | null): void;
-}
-
-export interface Trio {
-  play(): void;
-  pause(): void;
-  step(): void;
-  reset(): void;
-  /** Gives up what is on its way, if that can be given up. */
-  cancel(): void;
-}
+import type { Doing, RefinementState } from '../state/refinement-state';
+import { FramePace } from './frame-pace';
+import { startGarmentWorker } from './garment-client';
+import { type IsCurrent, type PaneParts, PaneSet, type TrioView } from './pane-set';
+import { createPlanner, fetched, type Planner } from './planner';
 
 /** What it takes to run anywhere. */
-export interface TrioParts {
-  start(): GarmentClient;
-  fetchBytes: Fetched;
+export interface TrioParts extends PaneParts {
   planner: Planner;
   /** Calls back with the next picture. */
   later(callback: () => void): void;
@@ -79,334 +41,194 @@ function failureOf(error: unknown): Failure {
   return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
-function scalarOf({ colour }: RefinementState): GarmentScalar | null {
-  return colour === 'curvature' || colour === 'distance' ? colour : null;
-}
+export class Trio {
+  private readonly panes: PaneSet;
+  private readonly pace: FramePace;
+  private wanted = 0; // counts loads: what belongs to an earlier one is dropped
+  private isBusy = false;
+  private isAskedAgain = false; // for colours, while busy
+  private isTakingBack = false; // a wish that was given up
+  private isBuilt = false; // all panes are as wanted, but for the plan
+  private planned: readonly MotionId[] = []; // further examples of the plan that is there
 
-export function createTrio(
-  store: Store<RefinementState>,
-  view: TrioView,
-  parts: TrioParts = BROWSER,
-): Trio {
-  const panes = PANES.map((id) => createPaneRun(id, parts.start(), parts.fetchBytes));
-  let wanted = 0; // counts loads: what belongs to an earlier one is dropped
-  let at = 0; // frame that is shown
-  let isPreview = false; // the planned pane shows a sample, and starts anew when it plays
-  let isBusy = false;
-  let isTakingBack = false; // a wish that was given up
-  let isBuilt = false; // all panes are as wanted, but for the plan
-  let planned: readonly MotionId[] = []; // further examples of the plan that is there
-  let isAskedAgain = false; // for colours, while busy
-  let dueFrames = 0;
-  let lastTickMs = 0;
-  let lastNumbersMs = 0;
-
-  const fine = () => panes.find(({ id }) => id === 'fine') as PaneRun;
-
-  function setPane(id: PaneId, patch: Partial<GarmentPane>): void {
-    const known = store.get().panes;
-    store.set({ panes: { ...known, [id]: { ...known[id], ...patch } } });
+  constructor(
+    private readonly store: Store<RefinementState>,
+    view: TrioView,
+    private readonly parts: TrioParts = BROWSER,
+  ) {
+    this.panes = new PaneSet(store, view, parts);
+    this.pace = new FramePace(parts.nowMs);
+    store.subscribe((state, previous) => this.follow(state, previous));
+    void this.load('all');
   }
 
-  function refinementOf(id: PaneId, plan: PlanFile): { level: number } | { plan: PlanFile } {
-    if (id === 'planned') return { plan };
-    return { level: id === 'coarse' ? 0 : FINE_LEVEL };
+  play(): void {
+    const { phase } = this.store.get();
+    if (phase !== 'ready' && phase !== 'loading') return;
+    const play = () => this.store.set({ playing: true });
+    if (this.panes.isAtEnd()) void this.restart().then(play);
+    else play();
   }
 
-  function recordOf(id: PaneId): string | null {
-    const state = store.get();
-    const { garment, motion, fabric, useRecords } = state;
-    if (fabric !== usualFabric(garment)) return null;
-    // The fine mesh takes longest and is the same whatever is asked of the others.
-    if (id !== 'fine' && !useRecords) return null;
-    if (id === 'planned' && !isUsual(state)) return null;
-    return recordUrl(garment, motion, id);
+  pause(): void {
+    this.store.set({ playing: false });
+    this.recolour();
   }
 
-  async function loadPane(pane: PaneRun, plan: PlanFile, request: number): Promise<void> {
-    const { garment, motion, fabric } = store.get();
-    const loaded = await pane.load({
-      sceneText: sceneText(garment, motion, fabric, refinementOf(pane.id, plan)),
-      recordUrl: recordOf(pane.id),
-    });
-    if (!loaded || request !== wanted) return;
-    view.showMesh(pane.id, loaded.mesh);
-    const nVertices = loaded.summary.n_vertices;
-    const msPerFrame = loaded.recording?.ms_per_frame ?? null;
-    const { source } = store.get().panes[pane.id];
-    setPane(pane.id, { ...EMPTY_PANE, source, nVertices, msPerFrame });
+  step(): void {
+    this.store.set({ playing: false });
+    if (this.store.get().phase === 'ready') void this.alone((isCurrent) => this.goOn(1, isCurrent));
   }
 
-  function setSources(): void {
-    const { computeFine } = store.get();
-    for (const pane of panes) {
-      const isRest = pane.id === 'fine' && !computeFine;
-      pane.source = pane.recording() ? 'recorded' : isRest ? 'resting' : 'computed';
-    }
-    isPreview = false;
+  reset(): void {
+    const { phase } = this.store.get();
+    if (phase === 'loading' || phase === 'broken') return;
+    this.store.set({ playing: false, phase: 'ready', problem: null });
+    void this.idle().then(() => this.restart());
   }
 
-  function endFrame(): number {
-    const lengths = panes.map((pane) => pane.recording()?.n_frames ?? Number.POSITIVE_INFINITY);
-    return Math.min(...lengths, 1 + Math.round(10 / FRAME_S)) - 1;
+  /** Gives up what is on its way, if that can be given up. */
+  cancel(): void {
+    const { doing, plan } = this.store.get();
+    if (!doing?.canCancel) return;
+    this.wanted += 1;
+    this.parts.planner.cancel();
+    if (!plan || !this.isBuilt) return this.store.set({ further: [] }); // the rest is still wanted
+    const budget = plan.vertex_budget ?? null;
+    const demand = plan.detail_demand ?? this.store.get().demand;
+    const rule = budget === null ? 'demand' : 'budget';
+    const { planned: further } = this;
+    this.takeBack({ further, rule, demand, budget, phase: 'ready', doing: null });
+  }
+
+  private follow(state: RefinementState, previous: RefinementState): void {
+    const differs = (...keys: (keyof RefinementState)[]) =>
+      keys.some((key) => !Object.is(state[key], previous[key]));
+    if (state.phase === 'broken' || this.isTakingBack) return;
+    if (differs('garment', 'motion', 'fabric', 'useRecords', 'computeFine', 'startS'))
+      void this.load('all');
+    else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
+    else if (differs('colour')) this.recolour();
+    if (!state.playing || previous.playing) return;
+    this.pace.start();
+    this.parts.later(() => this.tick());
   }
 
   /** Everything that is wanted, then its first picture. */
-  async function load(what: 'all' | 'plan'): Promise<void> {
-    wanted += 1;
-    const request = wanted;
-    if (what === 'all') isBuilt = false;
-    const words = isBuilt ? 'Planning' : 'Fetching and building three meshes';
-    const doing: Doing = { what: words, canCancel: isBuilt, share: null };
-    store.set({ phase: 'loading', playing: false, doing });
+  private async load(what: 'all' | 'plan'): Promise<void> {
+    this.wanted += 1;
+    const { wanted } = this;
+    const isCurrent = () => wanted === this.wanted;
+    if (what === 'all') this.isBuilt = false;
+    const words = this.isBuilt ? 'Planning' : 'Fetching and building three meshes';
+    const doing: Doing = { what: words, canCancel: this.isBuilt, share: null };
+    this.store.set({ phase: 'loading', playing: false, doing });
     try {
-      const { further } = store.get();
-      const plan = await parts.planner.plan(store.get(), (motion, share) => {
-        const running = `Running the ${motion.replaceAll('_', ' ')} on the fine mesh`;
-        if (request === wanted) store.set({ doing: { what: running, canCancel: true, share } });
-      });
-      if (request !== wanted) return;
-      store.set({ plan, doing, face: null, fit: null });
-      planned = further;
-      await Promise.all(panes.map((pane) => loadPane(pane, plan, request)));
-      if (request !== wanted) return;
-      setSources();
-      const nFine = store.get().panes.fine.nVertices;
-      const budgetRange: [number, number] = [plan.base_mesh.vertices, nFine];
-      store.set({ budgetRange, endS: endFrame() * FRAME_S });
-      await idle();
-      await start(request);
-      if (request !== wanted) return;
-      isBuilt = true;
-      store.set({ phase: 'ready', doing: null });
+      await this.bring(doing, isCurrent);
+      if (!isCurrent()) return;
+      this.isBuilt = true;
+      this.store.set({ phase: 'ready', doing: null });
     } catch (error) {
-      if (request !== wanted) return;
-      const isBroken = error instanceof BrokenWorker;
-      // A link's examples that cannot be had leave the rest of it.
-      if (!isBuilt && !isBroken && store.get().further.length > 0)
-        return store.set({ further: [], problem: failureOf(error) });
-      if (isBuilt) takeBack({ further: planned });
-      const isShown = panes.every((pane) => pane.isLoaded());
-      const phase = isBroken ? 'broken' : isShown ? 'ready' : 'stopped';
-      store.set({ phase, doing: null, problem: failureOf(error) });
+      if (isCurrent()) this.giveUp(error);
     }
   }
 
-  function takeBack(patch: Partial<RefinementState>): void {
-    isTakingBack = true;
-    store.set(patch);
-    isTakingBack = false;
+  /** Makes the plan, has the panes load what it says, and shows the first picture. */
+  private async bring(doing: Doing, isCurrent: IsCurrent): Promise<void> {
+    const { further } = this.store.get();
+    const plan = await this.plan(isCurrent);
+    if (!isCurrent()) return;
+    this.store.set({ plan, doing, face: null, fit: null });
+    this.planned = further;
+    await this.panes.load(plan, isCurrent);
+    if (!isCurrent()) return;
+    const nFine = this.store.get().panes.fine.nVertices;
+    const budgetRange: [number, number] = [plan.base_mesh.vertices, nFine];
+    this.store.set({ budgetRange, endS: this.panes.endFrame() * FRAME_S });
+    await this.idle();
+    await this.panes.start(isCurrent);
+  }
+
+  private plan(isCurrent: IsCurrent): Promise<PlanFile> {
+    return this.parts.planner.plan(this.store.get(), (motion, share) => {
+      const what = `Running the ${motion.replaceAll('_', ' ')} on the fine mesh`;
+      if (isCurrent()) this.store.set({ doing: { what, canCancel: true, share } });
+    });
+  }
+
+  /** What could not be loaded is told; what is left is shown. */
+  private giveUp(error: unknown): void {
+    const isBroken = error instanceof BrokenWorker;
+    const problem = failureOf(error);
+    // When a link's further examples cannot be had, the rest of it is shown.
+    if (!this.isBuilt && !isBroken && this.store.get().further.length > 0)
+      return this.store.set({ further: [], problem });
+    if (this.isBuilt) this.takeBack({ further: this.planned });
+    const phase = isBroken ? 'broken' : this.panes.isLoaded() ? 'ready' : 'stopped';
+    this.store.set({ phase, doing: null, problem });
+  }
+
+  private takeBack(patch: Partial<RefinementState>): void {
+    this.isTakingBack = true;
+    this.store.set(patch);
+    this.isTakingBack = false;
   }
 
   /** What runs meanwhile comes to its end. */
-  async function idle(): Promise<void> {
-    while (isBusy) await new Promise<void>((resolve) => parts.later(resolve));
+  private async idle(): Promise<void> {
+    while (this.isBusy) await new Promise<void>((resolve) => this.parts.later(resolve));
   }
 
-  /** The first picture: where the link says if frames come with the page, else at the beginning. */
-  async function start(request: number): Promise<void> {
-    const first = Math.min(Math.round(store.get().startS / FRAME_S), endFrame());
-    const isComputed = panes.some(({ source }) => source === 'computed');
-    isPreview = isComputed && fine().source === 'recorded';
-    await restart(isComputed && !isPreview ? 0 : first, request);
+  private restart(): Promise<void> {
+    return this.alone((isCurrent) => this.panes.restart(0, isCurrent));
   }
 
-  async function restart(frame: number, request = wanted): Promise<void> {
-    store.set({ fit: null });
-    await Promise.all(panes.map((pane) => pane.reset()));
-    if (request !== wanted) return;
-    at = frame;
-    await advanceAll((pane) => (pane.source === 'recorded' ? 'recorded' : 'still'));
-    await describeAll(true);
-  }
-
-  async function advanceAll(
-    how: (pane: PaneRun) => 'recorded' | 'stepped' | 'still',
-  ): Promise<string | null> {
-    const request = wanted;
-    let ended: string | null = null;
-    await Promise.all(
-      panes.map(async (pane) => {
-        const answer = await pane.advance(at, how(pane));
-        if (answer.fit && request === wanted) store.set({ fit: answer.fit });
-        ended ??= answer.ended && `${pane.id}: ${answer.ended}`;
-      }),
-    );
-    return ended;
-  }
-
-  function describePane(
-    pane: PaneRun,
-    reference: Float32Array | null,
-    wantsNumbers: boolean,
-  ): Promise<Described> {
-    const state = store.get();
-    const isOther = pane.id !== 'fine';
-    const isSampled = isPreview && isOther && pane.source === 'computed';
-    const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
-    return pane.describe({
-      scalar: scalarOf(state),
-      reference: isOther && isCompared ? reference : null,
-      fineLevel: FINE_LEVEL,
-      takesSample: isSampled,
-      timeS: at * FRAME_S,
-      wantsAll: wantsNumbers && !state.playing,
-    });
-  }
-
-  /** The shown time in all panes, with numbers where they are due. */
-  async function describeAll(wantsNumbers: boolean): Promise<void> {
-    const request = wanted;
-    const last = await describePane(fine(), null, wantsNumbers);
-    const isInStep = fine().source !== 'resting';
-    const reference = isInStep ? frameViews(last.buffer).positions.slice() : null;
-    const others = panes.filter((pane) => pane !== fine());
-    const answers = await Promise.all(
-      others.map((pane) => describePane(pane, reference, wantsNumbers)),
-    );
-    if (request !== wanted) return;
-    const shown = [...others, fine()].map((pane, index) => ({
-      pane,
-      described: answers[index] ?? last,
-    }));
-    if (wantsNumbers) for (const { pane, described } of shown) tell(pane, described);
-    view.showFrames(
-      shown.map(({ pane, described }) => ({ pane: pane.id, buffer: described.buffer })),
-      answers[0]?.solids ?? null,
-    );
-    for (const { pane, described } of shown) pane.keep(described);
-    store.set({ timeS: at * FRAME_S });
-  }
-
-  /** The numbers of one pane. */
-  function tell(pane: PaneRun, { errorM, surfaceM, faults, costs }: Described): void {
-    const isSampled = isPreview && pane.source === 'computed';
-    const patch: Partial<GarmentPane> = {
-      errorM: isSampled ? null : errorM,
-      surfaceM: isSampled ? null : surfaceM,
-      faults: isSampled ? null : faults,
-      source: isSampled ? 'sampled' : pane.source,
-    };
-    if (pane.source === 'computed' && costs) Object.assign(patch, pane.costs(costs));
-    setPane(pane.id, patch);
-  }
-
-  /** Goes on by some frames; `isSingle` with all numbers. */
-  async function goOn(nFrames: number, isSingle: boolean): Promise<void> {
-    const isComputed = panes.some(({ source }) => source === 'computed');
-    if (isPreview) {
-      isPreview = false;
-      return restart(0);
-    }
-    if (at >= endFrame()) {
-      if (!isSingle) pauseAtEnd();
-      return;
-    }
-    at = Math.min(endFrame(), at + (isComputed ? 1 : nFrames));
-    const ended = await advanceAll(({ source }) => {
-      if (source === 'recorded') return 'recorded';
-      return source === 'computed' ? 'stepped' : 'still';
-    });
-    const nowMs = parts.nowMs();
-    const wantsNumbers = isSingle || ended !== null || nowMs - lastNumbersMs >= NUMBERS_EVERY_MS;
-    if (wantsNumbers) lastNumbersMs = nowMs;
-    await describeAll(wantsNumbers);
-    if (ended !== null) {
-      const what = `The run stopped at ${(at * FRAME_S).toFixed(2)} s. ${ended}. The last good frame stays; reset to start again.`;
-      store.set({ phase: 'stopped', playing: false, problem: inputFailure(what) });
-    }
-  }
-
-  function pauseAtEnd(): void {
-    store.set({ playing: false });
+  /** Goes on by some frames; while it does not play, with all numbers. */
+  private async goOn(nFrames: number, isCurrent: IsCurrent): Promise<void> {
+    if (await this.panes.leavePreview(isCurrent)) return;
+    const isSingle = !this.store.get().playing;
+    if (this.panes.isAtEnd()) return this.store.set({ playing: false });
+    const ended = await this.panes.goOn(nFrames, isCurrent);
+    await this.panes.describe(this.pace.areNumbersDue(isSingle || ended !== null), isCurrent);
+    if (ended === null || !isCurrent()) return;
+    const what = `The run stopped at ${this.panes.timeS().toFixed(2)} s. ${ended}. The last good frame stays; reset to start again.`;
+    this.store.set({ phase: 'stopped', playing: false, problem: inputFailure(what) });
   }
 
   /** One thing at a time; what fails is told. */
-  async function alone(work: () => Promise<void>): Promise<void> {
-    if (isBusy) return;
-    isBusy = true;
-    const request = wanted;
+  private async alone(work: (isCurrent: IsCurrent) => Promise<void>): Promise<void> {
+    if (this.isBusy) return;
+    this.isBusy = true;
+    const { wanted } = this;
+    const isCurrent = () => wanted === this.wanted;
     try {
-      await work();
+      await work(isCurrent);
     } catch (error) {
-      if (request === wanted) {
-        const phase = error instanceof BrokenWorker ? 'broken' : 'stopped';
-        store.set({ phase, playing: false, doing: null, problem: failureOf(error) });
-      }
+      const phase = error instanceof BrokenWorker ? 'broken' : 'stopped';
+      const problem = failureOf(error);
+      if (isCurrent()) this.store.set({ phase, playing: false, doing: null, problem });
     }
-    isBusy = false;
-    if (!isAskedAgain) return;
-    isAskedAgain = false;
-    recolour();
+    this.isBusy = false;
+    if (!this.isAskedAgain) return;
+    this.isAskedAgain = false;
+    this.recolour();
   }
 
-  function recolour(): void {
-    if (store.get().phase !== 'ready') return;
-    if (isBusy) isAskedAgain = true;
-    else void alone(() => describeAll(true));
+  private recolour(): void {
+    if (this.store.get().phase !== 'ready') return;
+    if (this.isBusy) this.isAskedAgain = true;
+    else void this.alone((isCurrent) => this.panes.describe(true, isCurrent));
   }
 
-  function tick(): void {
-    const { playing, speed, phase } = store.get();
+  private tick(): void {
+    const { playing, speed, phase } = this.store.get();
     if (!playing) return;
-    const nowMs = parts.nowMs();
-    dueFrames += ((nowMs - lastTickMs) / 1000 / FRAME_S) * speed;
-    dueFrames = Math.min(dueFrames, MOST_LEFT_OUT);
-    lastTickMs = nowMs;
-    const count = Math.floor(dueFrames);
-    if (count > 0 && !isBusy && phase === 'ready') {
-      dueFrames -= count;
-      void alone(() => goOn(count, false));
+    this.pace.tick(speed);
+    const count = this.pace.due();
+    if (count > 0 && !this.isBusy && phase === 'ready') {
+      this.pace.take(count);
+      void this.alone((isCurrent) => this.goOn(count, isCurrent));
     }
-    parts.later(tick);
+    this.parts.later(() => this.tick());
   }
-
-  store.subscribe((state, previous) => {
-    const differs = (...keys: (keyof RefinementState)[]) =>
-      keys.some((key) => !Object.is(state[key], previous[key]));
-    if (state.phase === 'broken' || isTakingBack) return;
-    if (differs('garment', 'motion', 'fabric', 'useRecords', 'computeFine', 'startS'))
-      void load('all');
-    else if (differs('further', 'rule', 'demand', 'budget')) void load('plan');
-    else if (differs('colour')) recolour();
-    if (state.playing && !previous.playing) {
-      lastTickMs = parts.nowMs();
-      dueFrames = 1;
-      parts.later(tick);
-    }
-  });
-  void load('all');
-
-  return {
-    play() {
-      const { phase } = store.get();
-      if (phase !== 'ready' && phase !== 'loading') return;
-      if (at >= endFrame()) void alone(() => restart(0)).then(() => store.set({ playing: true }));
-      else store.set({ playing: true });
-    },
-    pause() {
-      store.set({ playing: false });
-      recolour();
-    },
-    step() {
-      store.set({ playing: false });
-      if (store.get().phase === 'ready') void alone(() => goOn(1, true));
-    },
-    reset() {
-      if (store.get().phase === 'loading' || store.get().phase === 'broken') return;
-      store.set({ playing: false, phase: 'ready', problem: null });
-      void idle().then(() => alone(() => restart(0)));
-    },
-    cancel() {
-      const { doing, plan } = store.get();
-      if (!doing?.canCancel) return;
-      wanted += 1;
-      parts.planner.cancel();
-      if (!plan || !isBuilt) return store.set({ further: [] }); // the rest is still wanted
-      const budget = plan.vertex_budget ?? null;
-      const demand = plan.detail_demand ?? store.get().demand;
-      const rule = budget === null ? 'demand' : 'budget';
-      takeBack({ further: planned, rule, demand, budget, phase: 'ready', doing: null });
-    },
-  };
 }

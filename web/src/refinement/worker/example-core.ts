@@ -1,5 +1,6 @@
 // What the worker of the examples does with each message: plans in an instant, from what was recorded
 // and from what it ran itself. The only file that calls delete() on its objects.
+
 import {
   describe,
   type Failure,
@@ -8,6 +9,7 @@ import {
   type RunStatus,
   read,
 } from '../../shared/bindings/answers';
+import type { Post } from '../../shared/workers/serve';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,
@@ -15,7 +17,7 @@ import type {
   RefinementModule,
 } from '../bindings/refinement-module';
 import type { PlanFile } from '../state/plan-file';
-import type { ExamplePost, ToExample } from './garment-protocol';
+import type { FromExample, ToExample } from './garment-protocol';
 import { readRecording } from './recording';
 
 type Message<Type> = Extract<ToExample, { type: Type }>;
@@ -31,65 +33,63 @@ interface Running {
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export function createExampleCore(
-  module: RefinementModule,
-  post: ExamplePost,
-  nowMs: () => number,
-): { receive(message: ToExample): Promise<void>; close(): void } {
-  let study: ExampleStudyHandle | null = null;
-  let running: Running | null = null;
+export class ExampleCore {
+  private study: ExampleStudyHandle | null = null;
+  private running: Running | null = null;
 
-  function refuse(request: number, failure: Failure): void {
-    post({ type: 'refused', request, failure }, []);
+  private refuse(request: number, failure: Failure): void {
+    this.post({ type: 'refused', request, failure }, []);
   }
 
-  async function open(message: Message<'open'>): Promise<void> {
-    study ??= new module.ExampleStudy(message.fabricsText);
+  private async open(message: Message<'open'>): Promise<void> {
+    this.study ??= new this.module.ExampleStudy(message.fabricsText);
     const answer = read<{ n_base_vertices: number; n_vertices: number }>(
-      study.open(message.sceneText, message.files),
+      this.study.open(message.sceneText, message.files),
     );
-    if (!answer.ok) return refuse(0, answer);
-    const parents = study.parents().slice();
+    if (!answer.ok) return this.refuse(0, answer);
+    const parents = this.study.parents().slice();
     const features = await readRecording(new Uint8Array(message.features), parents);
     const frames = await readRecording(new Uint8Array(message.frames), parents);
     if (!features?.frames[0] || !frames)
-      return refuse(0, internalFailure('the example is a record of another cloth'));
-    for (const frame of frames.frames) study.addFrame(frame);
-    const sorted = read<object>(study.sort(message.name, features.frames[0], message.nPatterns));
-    if (!sorted.ok) return refuse(0, sorted);
+      return this.refuse(0, internalFailure('the example is a record of another cloth'));
+    for (const frame of frames.frames) this.study.addFrame(frame);
+    const sorted = read<object>(
+      this.study.sort(message.name, features.frames[0], message.nPatterns),
+    );
+    if (!sorted.ok) return this.refuse(0, sorted);
     const { n_vertices: nFineVertices, n_base_vertices: nBaseVertices } = answer;
-    post({ type: 'opened', nFineVertices, nBaseVertices }, []);
+    this.post({ type: 'opened', nFineVertices, nBaseVertices }, []);
   }
 
-  function plan(owner: ExampleStudyHandle, message: Message<'plan'>): void {
-    const beginMs = nowMs();
+  private plan(owner: ExampleStudyHandle, message: Message<'plan'>): void {
+    const beginMs = this.nowMs();
     const answer = read<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
-    if (!answer.ok) return refuse(message.request, answer);
+    if (!answer.ok) return this.refuse(message.request, answer);
     const { request } = message;
-    post({ type: 'planned', request, plan: answer.plan, ms: nowMs() - beginMs }, []);
+    this.post({ type: 'planned', request, plan: answer.plan, ms: this.nowMs() - beginMs }, []);
   }
 
-  function endRun(): void {
-    running?.run.delete();
-    running?.seen.delete();
-    running = null;
+  private endRun(): void {
+    this.running?.run.delete();
+    this.running?.seen.delete();
+    this.running = null;
   }
 
-  function begin(wish: Message<'begin'>): void {
-    endRun();
+  private begin(wish: Message<'begin'>): void {
+    this.endRun();
     const { request, fabricsText, sceneText, files } = wish;
-    const run = new module.GarmentRun(fabricsText);
-    const seen = new module.ExampleStudy(fabricsText);
-    running = { wish, run, seen, stepsPerFrame: 1, frame: 0 };
+    const run = new this.module.GarmentRun(fabricsText);
+    const seen = new this.module.ExampleStudy(fabricsText);
+    this.running = { wish, run, seen, stepsPerFrame: 1, frame: 0 };
     const loaded = read<GarmentSummary>(run.load(sceneText, files));
-    if (!loaded.ok) return refuse(request, loaded);
+    if (!loaded.ok) return this.refuse(request, loaded);
     const opened = read<object>(seen.open(sceneText, files));
-    if (!opened.ok) return refuse(request, opened);
-    running.stepsPerFrame = Math.max(1, Math.round(wish.frameS / loaded.step_s));
-    post({ type: 'wentOn', request, share: 0 }, []);
+    if (!opened.ok) return this.refuse(request, opened);
+    this.running.stepsPerFrame = Math.max(1, Math.round(wish.frameS / loaded.step_s));
+    this.post({ type: 'wentOn', request, share: 0 }, []);
   }
 
-  function goOn(owner: ExampleStudyHandle, now: Running, request: number): void {
+  private goOn(owner: ExampleStudyHandle, now: Running, request: number): void {
     const { wish, run, seen } = now;
     const first = Math.round(wish.fromS / wish.frameS);
     const last = Math.round(wish.toS / wish.frameS);
@@ -97,7 +97,7 @@ export function createExampleCore(
       const status = read<RunStatus>(run.status());
       const why = status.ok ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : '';
       const what = `The example "${wish.name}" stopped at ${run.time().toFixed(2)} s. ${why}`;
-      return refuse(request, inputFailure(what));
+      return this.refuse(request, inputFailure(what));
     }
     now.frame += 1;
     if (now.frame > first) {
@@ -107,39 +107,44 @@ export function createExampleCore(
     }
     if (now.frame === last) {
       const sorted = read<object>(owner.sort(wish.name, seen.features().slice(), wish.nPatterns));
-      endRun();
-      if (!sorted.ok) return refuse(request, sorted);
+      this.endRun();
+      if (!sorted.ok) return this.refuse(request, sorted);
     }
-    post({ type: 'wentOn', request, share: now.frame / last }, []);
+    this.post({ type: 'wentOn', request, share: now.frame / last }, []);
   }
 
-  function handle(message: Exclude<ToExample, { type: 'open' }>): void {
-    if (!study) throw new Error(`${message.type} before open`);
+  private handle(message: Exclude<ToExample, { type: 'open' }>): void {
+    if (!this.study) throw new Error(`${message.type} before this.open`);
     switch (message.type) {
       case 'begin':
-        return begin(message);
+        return this.begin(message);
       case 'goOn':
-        if (!running) throw new Error('goOn before begin');
-        return goOn(study, running, message.request);
+        if (!this.running) throw new Error('goOn before begin');
+        return this.goOn(this.study, this.running, message.request);
       case 'plan':
-        return plan(study, message);
+        return this.plan(this.study, message);
     }
   }
 
-  return {
-    async receive(message) {
-      try {
-        if (message.type === 'open') return await open(message);
-        handle(message);
-      } catch (error) {
-        const request = message.type === 'open' ? 0 : message.request;
-        refuse(request, internalFailure(describe(error)));
-      }
-    },
-    close() {
-      endRun();
-      study?.delete();
-      study = null;
-    },
-  };
+  constructor(
+    private readonly module: RefinementModule,
+    private readonly post: Post<FromExample>,
+    private readonly nowMs: () => number,
+  ) {}
+
+  async receive(message: ToExample): Promise<void> {
+    try {
+      if (message.type === 'open') return await this.open(message);
+      this.handle(message);
+    } catch (error) {
+      const request = message.type === 'open' ? 0 : message.request;
+      this.refuse(request, internalFailure(describe(error)));
+    }
+  }
+
+  close(): void {
+    this.endRun();
+    this.study?.delete();
+    this.study = null;
+  }
 }

@@ -1,5 +1,6 @@
 // What the worker of one pane does with each message, as a function of the module and of where
 // answers go. The only file that calls delete() on its object.
+
 import {
   describe,
   type Failure,
@@ -8,6 +9,7 @@ import {
   read,
 } from '../../shared/bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
+import type { Post } from '../../shared/workers/serve';
 import type {
   FaultsAnswer,
   FitAnswer,
@@ -17,7 +19,7 @@ import type {
   RefinementModule,
   SolidsAnswer,
 } from '../bindings/refinement-module';
-import type { Described, FromGarment, GarmentPost, ToGarment } from './garment-protocol';
+import type { Described, FromGarment, ToGarment } from './garment-protocol';
 import { type Recording, readRecording } from './recording';
 
 type Message<Type> = Extract<ToGarment, { type: Type }>;
@@ -29,39 +31,36 @@ function payloadOf<Payload>(text: string): Payload | null {
 }
 
 /** Serves one pane. Call `receive` with each message, `close` at the end. */
-export function createGarmentCore(
-  module: RefinementModule,
-  post: GarmentPost,
-): { receive(message: ToGarment): Promise<void>; close(): void } {
-  let run: GarmentRunHandle | null = null;
-  let summary: GarmentSummary | null = null;
-  let recording: Recording | null = null;
-  let stepsPerFrame = 1;
+export class GarmentCore {
+  private run: GarmentRunHandle | null = null;
+  private summary: GarmentSummary | null = null;
+  private recording: Recording | null = null;
+  private stepsPerFrame = 1;
 
-  function refuse(request: number, failure: Failure): void {
-    post({ type: 'refused', request, failure }, []);
+  private refuse(request: number, failure: Failure): void {
+    this.post({ type: 'refused', request, failure }, []);
   }
 
-  async function load(message: Message<'load'>): Promise<void> {
+  private async load(message: Message<'load'>): Promise<void> {
     const { request, fabricsText, sceneText, files, frameS } = message;
-    run ??= new module.GarmentRun(fabricsText);
-    const answer = read<GarmentSummary>(run.load(sceneText, files));
-    if (!answer.ok) return refuse(request, answer);
-    summary = answer;
-    stepsPerFrame = Math.max(1, Math.round(frameS / answer.step_s));
+    this.run ??= new this.module.GarmentRun(fabricsText);
+    const answer = read<GarmentSummary>(this.run.load(sceneText, files));
+    if (!answer.ok) return this.refuse(request, answer);
+    this.summary = answer;
+    this.stepsPerFrame = Math.max(1, Math.round(frameS / answer.step_s));
     const mesh = {
-      triangles: run.triangles().slice(),
-      triangleFaces: run.triangleFaces().slice(),
-      edges: run.edges().slice(),
-      hanging: run.hanging().slice(),
-      faces: run.faces().slice(),
-      parents: run.parents().slice(),
+      triangles: this.run.triangles().slice(),
+      triangleFaces: this.run.triangleFaces().slice(),
+      edges: this.run.edges().slice(),
+      hanging: this.run.hanging().slice(),
+      faces: this.run.faces().slice(),
+      parents: this.run.parents().slice(),
     };
-    recording = message.recording
+    this.recording = message.recording
       ? await readRecording(new Uint8Array(message.recording), mesh.parents)
       : null;
-    const head = recording?.head ?? null;
-    post({ type: 'loaded', request, summary: answer, mesh, recording: head }, [
+    const head = this.recording?.head ?? null;
+    this.post({ type: 'loaded', request, summary: answer, mesh, recording: head }, [
       mesh.triangles.buffer,
       mesh.triangleFaces.buffer,
       mesh.edges.buffer,
@@ -71,34 +70,35 @@ export function createGarmentCore(
     ]);
   }
 
-  function ended(owner: GarmentRunHandle): string {
+  private ended(owner: GarmentRunHandle): string {
     const status = payloadOf<RunStatus>(owner.status());
     return status ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : 'no report';
   }
 
-  function advance(owner: GarmentRunHandle, { request, frame, how }: Message<'advance'>): void {
+  private advance(owner: GarmentRunHandle, { request, frame, how }: Message<'advance'>): void {
     let reason: string | null = null;
-    if (how === 'stepped' && owner.step(stepsPerFrame) !== 0) reason = ended(owner);
+    if (how === 'stepped' && owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
     if (how === 'recorded') {
-      const places = recording?.frames[frame];
-      if (!places || !recording) return refuse(request, internalFailure(`no frame ${frame}`));
-      const { first_s: firstS, every_s: everyS } = recording.head;
+      const places = this.recording?.frames[frame];
+      if (!places || !this.recording)
+        return this.refuse(request, internalFailure(`no frame ${frame}`));
+      const { first_s: firstS, every_s: everyS } = this.recording.head;
       const put = read<object>(owner.put(places, firstS + frame * everyS));
-      if (!put.ok) return refuse(request, put);
+      if (!put.ok) return this.refuse(request, put);
     }
-    const isWatched = summary?.has_monitor === true && how !== 'still';
+    const isWatched = this.summary?.has_monitor === true && how !== 'still';
     const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
-    post({ type: 'advanced', request, frame, fit, ended: reason }, []);
+    this.post({ type: 'advanced', request, frame, fit, ended: reason }, []);
   }
 
-  function reset(owner: GarmentRunHandle, { request }: Message<'reset'>): void {
+  private reset(owner: GarmentRunHandle, { request }: Message<'reset'>): void {
     const answer = read<object>(owner.reset());
-    if (!answer.ok) return refuse(request, answer);
-    post({ type: 'wasReset', request }, []);
+    if (!answer.ok) return this.refuse(request, answer);
+    this.post({ type: 'wasReset', request }, []);
   }
 
   /** False when there is no such number. */
-  function fill(owner: GarmentRunHandle, message: Message<'describe'>, buffer: ArrayBuffer) {
+  private fill(owner: GarmentRunHandle, message: Message<'describe'>, buffer: ArrayBuffer) {
     const views = frameViews(buffer);
     views.positions.set(owner.positions());
     const { scalar } = message;
@@ -112,19 +112,19 @@ export function createGarmentCore(
     return false;
   }
 
-  function describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
+  private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
     const { request, reference, fineLevel, timeS } = message;
     if (message.takesSample && reference) {
       const answer = read<object>(owner.putSample(reference, fineLevel, timeS));
-      if (!answer.ok) return refuse(request, answer);
+      if (!answer.ok) return this.refuse(request, answer);
     }
     const isCompared = reference !== null && !message.takesSample;
     const of = (text: string) => payloadOf<{ rms_m: number }>(text)?.rms_m ?? null;
     const errorM = isCompared ? of(owner.compare(reference, fineLevel)) : null;
-    const nBytes = 4 * FLOATS_PER_VERTEX * (summary?.n_vertices ?? 0);
+    const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
     const given = message.buffer;
     const buffer = given?.byteLength === nBytes ? given : new ArrayBuffer(nBytes);
-    const isKnown = fill(owner, message, buffer);
+    const isKnown = this.fill(owner, message, buffer);
     const isSought = isCompared && message.wantsAll;
     const surfaceM = isSought ? of(owner.compareSurface(reference, fineLevel)) : null;
     const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
@@ -141,33 +141,37 @@ export function createGarmentCore(
       costs,
       solids,
     };
-    post(answer satisfies FromGarment, [buffer]);
+    this.post(answer satisfies FromGarment, [buffer]);
   }
 
-  async function handle(message: ToGarment): Promise<void> {
-    if (message.type === 'load') return load(message);
-    if (!run || !summary) throw new Error(`${message.type} before load`);
+  private async handle(message: ToGarment): Promise<void> {
+    if (message.type === 'load') return this.load(message);
+    if (!this.run || !this.summary) throw new Error(`${message.type} before this.load`);
     switch (message.type) {
       case 'advance':
-        return advance(run, message);
+        return this.advance(this.run, message);
       case 'reset':
-        return reset(run, message);
+        return this.reset(this.run, message);
       case 'describe':
-        return describeFrame(run, message);
+        return this.describeFrame(this.run, message);
     }
   }
 
-  return {
-    async receive(message) {
-      try {
-        await handle(message);
-      } catch (error) {
-        refuse(message.request, internalFailure(describe(error)));
-      }
-    },
-    close() {
-      run?.delete();
-      run = null;
-    },
-  };
+  constructor(
+    private readonly module: RefinementModule,
+    private readonly post: Post<FromGarment>,
+  ) {}
+
+  async receive(message: ToGarment): Promise<void> {
+    try {
+      await this.handle(message);
+    } catch (error) {
+      this.refuse(message.request, internalFailure(describe(error)));
+    }
+  }
+
+  close(): void {
+    this.run?.delete();
+    this.run = null;
+  }
 }

@@ -73,29 +73,43 @@ export interface Described {
   solids: SolidsAnswer | null;
 }
 
+export interface Loaded {
+  type: 'loaded';
+  request: number;
+  summary: GarmentSummary;
+  mesh: GarmentMesh;
+  /** Head of the record; null when there is none, or one of another mesh. */
+  recording: RecordingHead | null;
+}
+
+export interface Advanced {
+  type: 'advanced';
+  request: number;
+  frame: number;
+  fit: FitAnswer | null;
+  /** Why the run ended, or null. */
+  ended: string | null;
+}
+
+export interface WasReset {
+  type: 'wasReset';
+  request: number;
+}
+
 export type FromGarment =
-  | { type: 'broken'; reason: string }
-  | {
-      type: 'loaded';
-      request: number;
-      summary: GarmentSummary;
-      mesh: GarmentMesh;
-      /** Of the record; null when there is none, or one of another mesh. */
-      recording: RecordingHead | null;
-    }
-  | {
-      type: 'advanced';
-      request: number;
-      frame: number;
-      fit: FitAnswer | null;
-      /** Why the run ended, or null. */
-      ended: string | null;
-    }
-  | { type: 'wasReset'; request: number }
+  | Loaded
+  | Advanced
+  | WasReset
   | Described
   | { type: 'refused'; request: number; failure: Failure };
 
-export type GarmentPost = (message: FromGarment, transfer: Transferable[]) => void;
+/** The answer to each question. */
+export interface GarmentAnswers {
+  load: Loaded;
+  advance: Advanced;
+  reset: WasReset;
+  describe: Described;
+}
 
 /** What a plan is asked by: one of both. */
 export type PlanWish = { demand: number } | { max_vertices: number };
@@ -132,12 +146,36 @@ export type ToExample =
   | { type: 'goOn'; request: number }
   | { type: 'plan'; request: number; wish: PlanWish };
 
+export interface ExampleOpened {
+  type: 'opened';
+  nFineVertices: number;
+  nBaseVertices: number;
+}
+
+/** So much of the example has run; at 1 plans are made of it too. */
+export interface WentOn {
+  type: 'wentOn';
+  request: number;
+  share: number;
+}
+
+export interface Planned {
+  type: 'planned';
+  request: number;
+  plan: PlanFile;
+  ms: number;
+}
+
 export type FromExample =
-  | { type: 'broken'; reason: string }
-  | { type: 'opened'; nFineVertices: number; nBaseVertices: number }
-  /** So much of the example has run; at 1 plans are made of it too. */
-  | { type: 'wentOn'; request: number; share: number }
-  | { type: 'planned'; request: number; plan: PlanFile; ms: number }
+  | ExampleOpened
+  | WentOn
+  | Planned
   | { type: 'refused'; request: number; failure: Failure };
 
-export type ExamplePost = (message: FromExample, transfer: Transferable[]) => void;
+/** The answer to each question. */
+export interface ExampleAnswers {
+  open: ExampleOpened;
+  begin: WentOn;
+  goOn: WentOn;
+  plan: Planned;
+}

@@ -34,11 +34,18 @@ export function internalFailure(what: string): Failure {
   return { ok: false, kind: 'internal', where: '', what };
 }
 
-/** Of a technical reason, as much is quoted. */
+/** Letters of a technical reason that are quoted at most. */
 const MOST_REASON = 100;
 
 export function quoted(reason: string): string {
   return reason.slice(0, MOST_REASON);
+}
+
+/** One sentence for a failure, with the place in the scene when there is one. */
+export function sentenceOf({ kind, where, what }: Failure): string {
+  const place = where && !what.includes(where) ? `${where}: ` : '';
+  const prefix = kind === 'internal' ? 'The program failed: ' : '';
+  return `${prefix}${place}${what}`;
 }
 
 /** The sentence when a worker breaks without which `subject` cannot be computed. */

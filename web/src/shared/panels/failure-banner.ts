@@ -1,5 +1,5 @@
 // A failure, above the stage, until it is dismissed.
-import type { Failure } from '../bindings/answers';
+import { type Failure, sentenceOf } from '../bindings/answers';
 import { element, setText } from './element';
 
 /** What went wrong, in a sentence. */
@@ -12,9 +12,6 @@ export function createFailureBanner(parent: HTMLElement, dismiss: () => void) {
     banner.hidden = problem === null;
     button.hidden = phase === 'broken';
     if (!problem) return;
-    const place =
-      problem.where && !problem.what.includes(problem.where) ? `${problem.where}: ` : '';
-    const prefix = problem.kind === 'internal' && phase !== 'broken' ? 'The program failed: ' : '';
-    setText(sentence, `${prefix}${place}${problem.what}`);
+    setText(sentence, phase === 'broken' ? problem.what : sentenceOf(problem));
   };
 }
