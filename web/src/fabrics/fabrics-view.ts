@@ -5,14 +5,15 @@ import '../shared/page/panes.css';
 import './fabrics.css';
 import './panel.css';
 import { inputFailure } from '../shared/bindings/answers';
+import type { Collider } from '../shared/bindings/geometry';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
-import { PICTURE_LOST, replaceCanvas } from '../shared/panels/no-picture';
+import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
-import { createStore, watch } from '../shared/state/store';
+import { createStore, type Store, watch } from '../shared/state/store';
 import { createEnergyCurve } from './panels/energy-curve';
 import { createExperimentPanel } from './panels/experiment-panel';
 import { createFabricCard } from './panels/fabric-card';
@@ -26,7 +27,11 @@ import { createStageTools } from './panels/stage-tools';
 import { createTermReading } from './panels/term-reading';
 import { createTermSwitches } from './panels/term-switches';
 import { Deformer } from './run/deformer';
-import { createFabricsStage, type FabricsStage } from './stage/fabrics-stage';
+import {
+  createFabricsStage,
+  type FabricsStage,
+  type FabricsStageEvents,
+} from './stage/fabrics-stage';
 import type { HoldMark } from './stage/hold-marks';
 import { withShown, withToggled } from './state/fabric-choice';
 import { decodeFabricsLink, encodeFabricsLink } from './state/fabrics-link';
@@ -57,134 +62,111 @@ function invitingVertex({ handles, cloth }: FabricsState): number {
   return Math.floor((cloth?.n_vertices ?? 0) / 2);
 }
 
-export function createFabricsView(
-  root: HTMLElement,
-  hash: string,
-  actions: FabricsActions,
-): FabricsView {
-  const first = decodeFabricsLink(hash);
-  const store = createStore(initialFabricsState(first.link, first.problems));
-  let isShown = false;
-  let stage: FabricsStage | null = null;
-  let awaitsFraming = false;
+/** The picture and what lies on it, all of one store. */
+class Picture {
+  stage: FabricsStage | null = null;
+  private readonly invitation;
+  private readonly badges;
+  private awaitsFraming = false;
+  private dressed = ''; // ids of the fabrics in the panes
 
-  const messages = element('div');
-  const stageBox = element('section', { class: 'stage', 'aria-label': 'Cloth' });
-  const toolBox = element('section', { class: 'toolbar', 'aria-label': 'Tools' });
-  const panel = element('aside', { class: 'panel', 'aria-label': 'Fabrics and experiment' });
-  const canvas = element('canvas', {
-    tabindex: 0,
-    role: 'application',
-    'aria-label': 'Cloth in three dimensions. G takes the cloth, arrows turn the view.',
-  });
-  stageBox.append(canvas);
-  root.replaceChildren(element('div', { class: 'left' }, messages, stageBox, toolBox), panel);
-
-  const deformer: Deformer = new Deformer(store, {
-    showMesh(triangles, nVertices, { bodies }) {
-      awaitsFraming = true;
-      stage?.showMesh(triangles, nVertices);
-      stage?.setBodies(bodies);
-    },
-    showFrame(pane, buffer) {
-      stage?.showFrame(pane, buffer);
-      if (!awaitsFraming || pane !== 0) return;
-      awaitsFraming = false;
-      const state = store.get();
-      const held = joined(state.holds).places;
-      stage?.frame([...(state.cloth?.rest_m ?? []), ...held]);
-      stage?.invite(invitingVertex(state));
-    },
-  });
-
-  const choosePane = (chosen: number) => {
-    if (chosen < store.get().panes.length) store.set({ chosen });
-  };
-  const invitation = createInvitation(stageBox);
-  const badges = createPaneBadges(stageBox, store, { choose: choosePane });
-
-  function key(name: string): boolean {
-    if (name === 'p') store.set({ tool: store.get().tool === 'pin' ? 'pull' : 'pin' });
-    else if (/^[1-4]$/.test(name)) choosePane(Number(name) - 1);
-    else return false;
-    return true;
+  constructor(
+    private readonly box: HTMLElement,
+    private readonly store: Store<FabricsState>,
+  ) {
+    this.invitation = createInvitation(box);
+    this.badges = createPaneBadges(box, store, { choose: (pane) => this.choose(pane) });
   }
 
-  try {
-    stage = createFabricsStage(stageBox, canvas, {
-      press(vertex, pane) {
-        choosePane(pane);
+  choose(chosen: number): void {
+    if (chosen < this.store.get().panes.length) this.store.set({ chosen });
+  }
+
+  showMesh(triangles: Uint32Array, nVertices: number, bodies: Collider[]): void {
+    this.awaitsFraming = true;
+    this.stage?.showMesh(triangles, nVertices);
+    this.stage?.setBodies(bodies);
+  }
+
+  showFrame(pane: number, buffer: ArrayBuffer): void {
+    this.stage?.showFrame(pane, buffer);
+    if (!this.awaitsFraming || pane !== 0) return;
+    this.awaitsFraming = false;
+    const state = this.store.get();
+    const held = joined(state.holds).places;
+    this.stage?.frame([...(state.cloth?.rest_m ?? []), ...held]);
+    this.stage?.invite(invitingVertex(state));
+  }
+
+  /** Opens the stage where the browser can draw it, and follows the store from then on. */
+  open(canvas: HTMLCanvasElement, deformer: Deformer): void {
+    const { store, box } = this;
+    try {
+      this.stage = createFabricsStage(box, canvas, this.events(deformer));
+    } catch {
+      replaceCanvas(canvas, 'The numbers');
+    }
+    new ResizeObserver(() => this.layOut()).observe(box);
+    watch(store, ['panes', 'ownFabric'], () => this.dress());
+    watch(store, ['pins', 'handles', 'chosenHold'], (state) =>
+      this.stage?.setMarks(marksOf(state)),
+    );
+    watch(store, ['edges'], ({ edges }) => this.stage?.setEdges(edges));
+    watch(store, ['chosen'], ({ chosen }) => this.stage?.choose(chosen));
+    watch(store, ['tool'], ({ tool }) => box.classList.toggle('pinning', tool === 'pin'));
+    watch(store, ['invited', 'phase', 'panes'], ({ invited, phase, panes }) =>
+      this.invitation.setShown(invited && phase === 'ready' && panes[0]?.status !== 'dragging'),
+    );
+  }
+
+  private events(deformer: Deformer): FabricsStageEvents {
+    const { store } = this;
+    return {
+      press: (vertex, pane) => {
+        this.choose(pane);
         if (store.get().tool === 'pin') deformer.togglePin(vertex, pane);
         return store.get().tool === 'pin';
       },
       grab: (vertex, pane) => deformer.grab(vertex, pane),
       moveGrab: (target) => deformer.moveGrab(target),
       releaseGrab: () => deformer.releaseGrab(),
-      key,
-      drawn: ({ x, y }) => invitation.place(x, y),
-      contextLost() {
-        store.set({ problem: inputFailure(PICTURE_LOST) });
-      },
-    });
-  } catch {
-    replaceCanvas(canvas, 'The numbers');
+      key: (name) => this.key(name),
+      drawn: ({ x, y }) => this.invitation.place(x, y),
+      contextLost: () => store.set({ problem: inputFailure(PICTURE_LOST) }),
+    };
   }
 
-  function layOut(): void {
-    const { panes, ownFabric } = store.get();
-    const nColumns = columnsFor(panes.length, stageBox.clientWidth, stageBox.clientHeight);
-    const ids = panes.map(({ fabric }) => recordOf(fabric, ownFabric).id);
-    stage?.setPanes(ids, nColumns);
-    badges.setColumns(nColumns);
+  private key(name: string): boolean {
+    const { tool } = this.store.get();
+    if (name === 'p') this.store.set({ tool: tool === 'pin' ? 'pull' : 'pin' });
+    else if (/^[1-4]$/.test(name)) this.choose(Number(name) - 1);
+    else return false;
+    return true;
   }
-  new ResizeObserver(layOut).observe(stageBox);
 
-  let dressed = '';
-  watch(store, ['panes', 'ownFabric'], ({ panes, ownFabric }) => {
-    const fabrics = JSON.stringify(panes.map(({ fabric }) => recordOf(fabric, ownFabric).id));
-    if (fabrics === dressed) return; // numbers alone
-    dressed = fabrics;
-    layOut();
-  });
-  watch(store, ['pins', 'handles', 'chosenHold'], (state) => stage?.setMarks(marksOf(state)));
-  watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
-  watch(store, ['chosen'], ({ chosen }) => stage?.choose(chosen));
-  watch(store, ['tool'], ({ tool }) => stageBox.classList.toggle('pinning', tool === 'pin'));
-  watch(store, ['invited', 'phase', 'panes'], ({ invited, phase, panes }) =>
-    invitation.setShown(invited && phase === 'ready' && panes[0]?.status !== 'dragging'),
-  );
-  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
-  watch(store, ['problem', 'phase'], showProblem);
+  private fabricIds(): number[] {
+    const { panes, ownFabric } = this.store.get();
+    return panes.map(({ fabric }) => recordOf(fabric, ownFabric).id);
+  }
 
-  createAnnouncer(messages, store, fabricsSentence);
-  createStageTools(toolBox, store, {
-    homeView: () => stage?.homeView(),
-    wear() {
-      const fabric = store.get().panes[store.get().chosen]?.fabric;
-      if (fabric?.kind === 'named') actions.wear(fabric.name);
-    },
-    async start() {
-      const fabric = store.get().panes[store.get().chosen]?.fabric;
-      const shape = fabric?.kind === 'named' ? await deformer.startShape() : null;
-      if (fabric?.kind === 'named' && shape) actions.start(shape, fabric.name);
-    },
-  });
-  createExperimentPanel(panel, store, {
-    openExperiment: (id) => deformer.openExperiment(id),
-    openObj: (file) => void deformer.openObj(file),
-  });
-  createFabricGallery(panel, store, {
-    compare: (comparison) => deformer.compare(comparison),
-    choose: choosePane,
-    showAll: (all) => deformer.setGallery(all),
-  });
-  createFabricCard(panel, store, { setWeightsFrom: (weightsFrom) => store.set({ weightsFrom }) });
-  createTermReading(panel, store);
-  createTermSwitches(panel, store, {
-    setForm: (form) => store.set({ form }),
-    setTerms: (terms) => store.set({ terms }),
-  });
-  createEnergyCurve(panel, store);
+  private dress(): void {
+    const ids = JSON.stringify(this.fabricIds());
+    if (ids === this.dressed) return; // numbers alone
+    this.dressed = ids;
+    this.layOut();
+  }
+
+  private layOut(): void {
+    const { clientWidth, clientHeight } = this.box;
+    const ids = this.fabricIds();
+    const nColumns = columnsFor(ids.length, clientWidth, clientHeight);
+    this.stage?.setPanes(ids, nColumns);
+    this.badges.setColumns(nColumns);
+  }
+}
+
+/** The own fabric's form, and what shows it beside others or takes it away. */
+function createOwnFabric(panel: HTMLElement, store: Store<FabricsState>, deformer: Deformer): void {
   createOwnFabricForm(panel, store, {
     measure: (measures) => deformer.measure(measures),
     show(measures) {
@@ -199,12 +181,37 @@ export function createFabricsView(
       if (left && typeof left !== 'string') deformer.compare(left);
     },
   });
+}
+
+function createPanels(
+  panel: HTMLElement,
+  store: Store<FabricsState>,
+  deformer: Deformer,
+  picture: Picture,
+): void {
+  createExperimentPanel(panel, store, {
+    openExperiment: (id) => deformer.openExperiment(id),
+    openObj: (file) => void deformer.openObj(file),
+  });
+  createFabricGallery(panel, store, {
+    compare: (comparison) => deformer.compare(comparison),
+    choose: (pane) => picture.choose(pane),
+    showAll: (all) => deformer.setGallery(all),
+  });
+  createFabricCard(panel, store, { setWeightsFrom: (weightsFrom) => store.set({ weightsFrom }) });
+  createTermReading(panel, store);
+  createTermSwitches(panel, store, {
+    setForm: (form) => store.set({ form }),
+    setTerms: (terms) => store.set({ terms }),
+  });
+  createEnergyCurve(panel, store);
+  createOwnFabric(panel, store, deformer);
   createHoldList(panel, store, {
     nudge(name, direction) {
       const hold = store.get().holds.find((one) => one.name === name);
-      if (!hold || !stage) return;
+      if (!hold || !picture.stage) return;
       const from = middleOf(hold);
-      const to = stage.stepFrom(from, direction);
+      const to = picture.stage.stepFrom(from, direction);
       deformer.nudge(name, [to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
     },
     choose: (chosenHold) => store.set({ chosenHold }),
@@ -212,6 +219,63 @@ export function createFabricsView(
     resetHolds: () => deformer.resetHolds(),
   });
   createFabricsKeys(panel);
+}
+
+function createTools(
+  toolBox: HTMLElement,
+  store: Store<FabricsState>,
+  deformer: Deformer,
+  homeView: () => void,
+  actions: FabricsActions,
+): void {
+  const chosenName = () => {
+    const { panes, chosen } = store.get();
+    const fabric = panes[chosen]?.fabric;
+    return fabric?.kind === 'named' ? fabric.name : null;
+  };
+  createStageTools(toolBox, store, {
+    homeView,
+    wear() {
+      const name = chosenName();
+      if (name !== null) actions.wear(name);
+    },
+    async start() {
+      const name = chosenName();
+      const shape = name === null ? null : await deformer.startShape();
+      if (name !== null && shape) actions.start(shape, name);
+    },
+  });
+}
+
+export function createFabricsView(
+  root: HTMLElement,
+  hash: string,
+  actions: FabricsActions,
+): FabricsView {
+  const first = decodeFabricsLink(hash);
+  const store = createStore(initialFabricsState(first.link, first.problems));
+  let isShown = false;
+  const messages = element('div');
+  const stageBox = element('section', { class: 'stage', 'aria-label': 'Cloth' });
+  const toolBox = element('section', { class: 'toolbar', 'aria-label': 'Tools' });
+  const panel = element('aside', { class: 'panel', 'aria-label': 'Fabrics and experiment' });
+  const canvas = createStageCanvas(
+    stageBox,
+    'Cloth in three dimensions. G takes the cloth, arrows turn the view.',
+  );
+  root.replaceChildren(element('div', { class: 'left' }, messages, stageBox, toolBox), panel);
+
+  const picture = new Picture(stageBox, store);
+  const deformer = new Deformer(store, {
+    showMesh: (triangles, nVertices, { bodies }) => picture.showMesh(triangles, nVertices, bodies),
+    showFrame: (pane, buffer) => picture.showFrame(pane, buffer),
+  });
+  picture.open(canvas, deformer);
+  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
+  watch(store, ['problem', 'phase'], showProblem);
+  createAnnouncer(messages, store, fabricsSentence);
+  createTools(toolBox, store, deformer, () => picture.stage?.homeView(), actions);
+  createPanels(panel, store, deformer, picture);
   createDropTarget(document.body, {
     openObj(file) {
       if (isShown) void deformer.openObj(file);
@@ -221,7 +285,6 @@ export function createFabricsView(
 
   const link = () => `#${encodeFabricsLink(store.get())}`;
   const writeLink = createLinkWriter(store, link, () => isShown && store.get().cloth !== null);
-
   return {
     link,
     open(newHash) {
@@ -235,8 +298,8 @@ export function createFabricsView(
     },
     probe: {
       state: () => store.get(),
-      positions: (pane = 0) => Array.from(stage?.positions(pane) ?? []),
-      project: (vertex: number, pane = 0) => stage?.project(vertex, pane),
+      positions: (pane = 0) => Array.from(picture.stage?.positions(pane) ?? []),
+      project: (vertex: number, pane = 0) => picture.stage?.project(vertex, pane),
       inviting: () => invitingVertex(store.get()),
     },
   };

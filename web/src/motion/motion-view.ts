@@ -4,11 +4,10 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
-import { element } from '../shared/panels/element';
 import { createInvitation } from '../shared/panels/invitation';
 import { createKeysPanel } from '../shared/panels/keys-panel';
-import { PICTURE_LOST, replaceCanvas } from '../shared/panels/no-picture';
-import { createStore, watch } from '../shared/state/store';
+import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createStore, type Store, watch } from '../shared/state/store';
 import { createDrawingPanel } from './panels/drawing-panel';
 import { createFabricPanel } from './panels/fabric-panel';
 import { createHeatLegend } from './panels/heat-legend';
@@ -24,7 +23,7 @@ import { MotionRun } from './run/motion-run';
 import { createSweep } from './run/sweep';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
 import { decodeMotionLink, encodeMotionLink } from './state/motion-link';
-import { initialMotionState, shownHeat } from './state/motion-state';
+import { initialMotionState, type MotionState, shownHeat } from './state/motion-state';
 import { deformedMesh, holdFor } from './state/obj-mesh';
 import { presetSetting } from './state/setting';
 
@@ -35,52 +34,39 @@ export interface MotionView extends View {
   start(shape: StartShape, fabric: string): void;
 }
 
-/** `place` finds the parts of the document by their ids. */
-export function createMotionView(place: (id: string) => HTMLElement, hash: string): MotionView {
-  let isShown = false;
-  const first = decodeMotionLink(hash);
-  const store = createStore(initialMotionState(first.link, first.problems));
+type Place = (id: string) => HTMLElement;
 
-  const stageBox = place('stage');
-  const canvas = element('canvas', {
-    tabindex: 0,
-    role: 'application',
-    'aria-label':
-      'Cloth in three dimensions. Space plays, G takes the cloth, arrows turn the view.',
-  });
-  stageBox.append(canvas);
-
-  let running: MotionRun | null = null;
-  let stage: MotionStage | null = null;
-
-  function togglePlay(): void {
-    if (store.get().playing) running?.pause();
-    else running?.play();
-  }
-
-  const stageKeys: Record<string, () => void> = {
-    ' ': togglePlay,
-    '.': () => running?.step(),
-    r: () => running?.reset(),
-  };
-
-  const invitation = createInvitation(stageBox);
+/** The picture, which gets frames; null where the browser cannot draw it. */
+function createPicture(
+  box: HTMLElement,
+  store: Store<MotionState>,
+  run: () => MotionRun | null,
+): MotionStage | null {
+  const canvas = createStageCanvas(
+    box,
+    'Cloth in three dimensions. Space plays, G takes the cloth, arrows turn the view.',
+  );
+  const invitation = createInvitation(box);
   watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) =>
     invitation.setShown(invited && phase === 'ready' && ahead === null),
   );
-  createHeatLegend(stageBox, store);
-
+  createHeatLegend(box, store);
+  const keys: Record<string, () => void> = {
+    ' ': () => (store.get().playing ? run()?.pause() : run()?.play()),
+    '.': () => run()?.step(),
+    r: () => run()?.reset(),
+  };
   try {
-    stage = createMotionStage(stageBox, canvas, {
+    return createMotionStage(box, canvas, {
       grab(vertex) {
-        running?.play();
-        running?.grab(vertex);
+        run()?.play();
+        run()?.grab(vertex);
       },
-      moveGrab: (target) => running?.moveGrab(target),
-      releaseGrab: () => running?.releaseGrab(),
+      moveGrab: (target) => run()?.moveGrab(target),
+      releaseGrab: () => run()?.releaseGrab(),
       key(name) {
-        stageKeys[name]?.();
-        return name in stageKeys;
+        keys[name]?.();
+        return name in keys;
       },
       drawn(scale, at) {
         const { heatScale } = store.get();
@@ -94,44 +80,66 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
   } catch {
     const sentence = replaceCanvas(canvas, 'The numbers and the sweep');
     store.set({ problem: { source: 'browser', sentence } });
+    return null;
   }
+}
 
-  const playback = new MotionRun(store, {
-    showMesh: (...mesh) => stage?.showMesh(...mesh),
-    showFrame: (...frame) => stage?.showFrame(...frame),
-  });
-  running = playback;
+function createPanels(
+  place: Place,
+  store: Store<MotionState>,
+  run: MotionRun,
+  homeView: () => void,
+): void {
   const actions = {
-    play: () => playback.play(),
-    pause: () => playback.pause(),
-    step: () => playback.step(),
-    reset: () => playback.reset(),
-    homeView: () => stage?.homeView(),
+    play: () => run.play(),
+    pause: () => run.pause(),
+    step: () => run.step(),
+    reset: () => run.reset(),
+    homeView,
   };
-
   createProblemBanner(place('messages'), store, actions);
   createAnnouncer(place('messages'), store, motionSentence);
   createNumbersStrip(place('strip'), store);
   createMotionToolbar(place('toolbar'), store, actions);
-  createScenePanel(place('panel'), store, playback);
-  createDropTarget(document.body, {
-    openObj(file) {
-      if (isShown) playback.openObj(file);
-    },
-  });
+  createScenePanel(place('panel'), store, run);
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store);
   createDrawingPanel(place('panel'), store);
   createSweepPanel(place('panel'), store, createSweep(store));
   createKeysPanel(place('panel'));
   createSpeedErrorView(place('tray'), store);
+}
 
-  watch(store, ['setting'], ({ setting }) => stage?.setFabric(fabricNamed(setting.fabric).id));
-  watch(store, ['colliders'], ({ colliders }) => stage?.setColliders(colliders));
+/** Has the picture follow what the state says of it. */
+function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
+  watch(store, ['setting'], ({ setting }) => stage.setFabric(fabricNamed(setting.fabric).id));
+  watch(store, ['colliders'], ({ colliders }) => stage.setColliders(colliders));
   watch(store, ['heat', 'heatRange', 'numbers'], (state) =>
-    stage?.setHeat(shownHeat(state), state.heatRange),
+    stage.setHeat(shownHeat(state), state.heatRange),
   );
-  watch(store, ['edges'], ({ edges }) => stage?.setEdges(edges));
+  watch(store, ['edges'], ({ edges }) => stage.setEdges(edges));
+}
+
+/** `place` finds the parts of the document by their ids. */
+export function createMotionView(place: Place, hash: string): MotionView {
+  let isShown = false;
+  const first = decodeMotionLink(hash);
+  const store = createStore(initialMotionState(first.link, first.problems));
+  let running: MotionRun | null = null;
+  const stage = createPicture(place('stage'), store, () => running);
+  const run = new MotionRun(store, {
+    showMesh: (...mesh) => stage?.showMesh(...mesh),
+    showFrame: (...frame) => stage?.showFrame(...frame),
+  });
+  running = run;
+  createPanels(place, store, run, () => stage?.homeView());
+  createDropTarget(document.body, {
+    openObj(file) {
+      if (isShown) void run.openObj(file);
+    },
+  });
+  if (stage) drawFrom(store, stage);
+
   const link = () => `#${encodeMotionLink(store.get())}`;
   const writeLink = () => {
     if (isShown && link() !== window.location.hash) window.history.replaceState(null, '', link());
@@ -146,7 +154,7 @@ export function createMotionView(place: (id: string) => HTMLElement, hash: strin
     },
     setShown(value) {
       isShown = value;
-      if (!isShown) playback.pause();
+      if (!isShown) run.pause();
       writeLink();
     },
     wear(fabric) {

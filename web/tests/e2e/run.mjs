@@ -411,12 +411,13 @@ await check(
         prepare: (fresh) =>
           fresh.addInitScript((change) => {
             const { postMessage } = Worker.prototype;
-            Worker.prototype.postMessage = function post(message, transfer) {
+            Worker.prototype.postMessage = function post(letter, transfer) {
+              const { message } = letter;
               if (message.type === 'load') {
                 const scene = { ...JSON.parse(message.sceneText), ...change };
                 message.sceneText = JSON.stringify(scene);
               }
-              postMessage.call(this, message, transfer);
+              postMessage.call(this, letter, transfer);
             };
           }, diverging),
       },

@@ -75,38 +75,10 @@ function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggl
   return { name, row, button, box, boxCell, words, showWeights };
 }
 
-export function createFabricGallery(
-  parent: HTMLElement,
-  store: Store<DeformState>,
-  actions: GalleryActions,
-): () => void {
-  function comparison(): Comparison {
-    const { panes, chosen } = store.get();
-    return { fabrics: panes.map((pane) => pane.fabric), chosen };
-  }
+type Row = ReturnType<typeof createRow>;
 
-  function press(choice: FabricChoice): void {
-    const { panes, gallery } = store.get();
-    const pane = panes.findIndex(({ fabric }) => isSame(fabric, choice));
-    if (pane >= 0) actions.choose(pane);
-    else if (!gallery) actions.compare(withShown(comparison(), choice));
-  }
-
-  function toggle(choice: FabricChoice): void {
-    const changed = withToggled(comparison(), choice);
-    setText(refusal, typeof changed === 'string' ? changed : '');
-    if (typeof changed === 'string') render();
-    else actions.compare(changed);
-  }
-
-  const rows = fabrics.map((fabric) => {
-    const choice: FabricChoice = { kind: 'named', name: fabric.name_en };
-    return createRow(
-      fabric,
-      () => press(choice),
-      () => toggle(choice),
-    );
-  });
+/** The rows as one stop for Tab; arrow keys lead on from it. */
+function createGrid(rows: readonly Row[]) {
   let current: Cell = { row: 0, column: 0 };
 
   function controlAt({ row, column }: Cell): HTMLElement | null {
@@ -115,7 +87,6 @@ export function createFabricGallery(
     return column === 1 && !found.boxCell.hidden ? found.box : found.button;
   }
 
-  /** One stop for Tab in the whole list; arrow keys lead on from it. */
   function moveTo(cell: Cell): void {
     controlAt(current)?.setAttribute('tabindex', '-1');
     current = cell;
@@ -145,6 +116,71 @@ export function createFabricGallery(
     },
     ...rows.map(({ row }) => row),
   );
+  moveTo(current);
+  return {
+    grid,
+    /** The check boxes are gone. */
+    leaveBoxes() {
+      if (current.column === 1) moveTo({ row: current.row, column: 0 });
+    },
+  };
+}
+
+/** Shows in each row what is shown in panes, and the weights. */
+function renderRows(rows: readonly Row[], state: DeformState): void {
+  const { panes, chosen, gallery, weightsFrom } = state;
+  const shown = panes.map(({ fabric }) => titleOf(fabric));
+  for (const { name, button, box, boxCell, words, showWeights } of rows) {
+    const weights = geometryOf(fabricNamed(name))[weightsFrom];
+    showWeights(weights);
+    setText(words, `: ${weightWords(weights)}`);
+    button.setAttribute('aria-pressed', String(shown[chosen] === name));
+    box.checked = shown.includes(name);
+    boxCell.hidden = gallery;
+  }
+}
+
+/** What a press on a fabric and a tick at it do; `onRefused` hears why nothing was done. */
+function createChoices(
+  store: Store<DeformState>,
+  actions: GalleryActions,
+  onRefused: (sentence: string) => void,
+) {
+  function comparison(): Comparison {
+    const { panes, chosen } = store.get();
+    return { fabrics: panes.map((pane) => pane.fabric), chosen };
+  }
+  return {
+    press(choice: FabricChoice): void {
+      const { panes, gallery } = store.get();
+      const pane = panes.findIndex(({ fabric }) => isSame(fabric, choice));
+      if (pane >= 0) actions.choose(pane);
+      else if (!gallery) actions.compare(withShown(comparison(), choice));
+    },
+    toggle(choice: FabricChoice): void {
+      const changed = withToggled(comparison(), choice);
+      if (typeof changed === 'string') return onRefused(changed);
+      onRefused('');
+      actions.compare(changed);
+    },
+  };
+}
+
+export function createFabricGallery(
+  parent: HTMLElement,
+  store: Store<DeformState>,
+  actions: GalleryActions,
+): () => void {
+  const { press, toggle } = createChoices(store, actions, (sentence) => {
+    setText(refusal, sentence);
+    if (sentence !== '') render();
+  });
+  const rows = fabrics.map((fabric) => {
+    const choice: FabricChoice = { kind: 'named', name: fabric.name_en };
+    const pressRow = () => press(choice);
+    return createRow(fabric, pressRow, () => toggle(choice));
+  });
+  const { grid, leaveBoxes } = createGrid(rows);
   const all = element(
     'button',
     {
@@ -161,27 +197,18 @@ export function createFabricGallery(
   );
 
   function render(): void {
-    const { panes, chosen, gallery, weightsFrom } = store.get();
-    all.setAttribute('aria-pressed', String(gallery));
+    const state = store.get();
+    all.setAttribute('aria-pressed', String(state.gallery));
     setText(
       hint,
-      gallery
+      state.gallery
         ? 'Choose a fabric to read its card.'
         : 'Choose a fabric for the pane; tick up to four to see them side by side.',
     );
-    const shown = panes.map(({ fabric }) => titleOf(fabric));
-    for (const { name, button, box, boxCell, words, showWeights } of rows) {
-      const weights = geometryOf(fabricNamed(name))[weightsFrom];
-      showWeights(weights);
-      setText(words, `: ${weightWords(weights)}`);
-      button.setAttribute('aria-pressed', String(shown[chosen] === name));
-      box.checked = shown.includes(name);
-      boxCell.hidden = gallery;
-    }
-    if (gallery && current.column === 1) moveTo({ row: current.row, column: 0 });
+    renderRows(rows, state);
+    if (state.gallery) leaveBoxes();
   }
 
-  controlAt(current)?.setAttribute('tabindex', '0');
   // Numbers of a pane change with every frame of a drag, this list does not.
   let drawn = '';
   return watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom'], (state) => {

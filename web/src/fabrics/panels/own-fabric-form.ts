@@ -98,6 +98,93 @@ function measureField(term: Term, onInput: () => void) {
   };
 }
 
+/** A table's head cell. */
+function headCell(title: string, kind = ''): HTMLElement {
+  return element('th', kind === '' ? { scope: 'col' } : { scope: 'col', class: kind }, title);
+}
+
+/** What the measured fabrics make of the measures: weights, and how far they are to be trusted. */
+function createResult(showIt: () => void) {
+  const { bar, show: showWeights } = createWeightBar();
+  const summary = element('p', { role: 'status' });
+  const clamped = element('p', { class: 'field-error' });
+  const trust = element('ul', { class: 'plain-list note' });
+  const rows = element('tbody');
+  const heads = [headCell('Term'), headCell('Normalised', 'number'), headCell('Weight', 'number')];
+  const table = element(
+    'table',
+    { class: 'quantities' },
+    element('caption', { class: 'unseen' }, 'Weights of your fabric'),
+    element('thead', {}, element('tr', {}, ...heads)),
+    rows,
+  );
+  const note = `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others misses its normalised value (0 to 1):`;
+  const trustBox = element(
+    'details',
+    {},
+    element('summary', {}, 'How far to trust it'),
+    element('p', { class: 'note' }, note),
+    trust,
+  );
+  const button = element('button', { type: 'button', class: 'wide', click: showIt }, 'Show it');
+  const parts = [summary, bar, table, clamped, trustBox, button];
+  const box = element('div', { class: 'own-result' }, ...parts);
+
+  function row(term: Term, own: OwnFabric): HTMLElement {
+    return element(
+      'tr',
+      {},
+      element('th', { scope: 'row' }, termKey(term), TERM_TITLES[term]),
+      element('td', { class: 'number' }, digits(own.normalised[term], 2)),
+      element('td', { class: 'number' }, percent(own.weights[term])),
+    );
+  }
+
+  return {
+    box,
+    show(own: OwnFabric | null, measures: Triple | null): void {
+      box.hidden = !own || !measures;
+      if (!own || !measures) return;
+      showWeights(own.weights);
+      setText(summary, `Nearest measured fabric: ${own.nearest}.`);
+      rows.replaceChildren(...TERMS.map((term) => row(term, own)));
+      setText(clamped, clampedWords(own, measures).join(' '));
+      clamped.hidden = own.clamped.length === 0;
+      trust.replaceChildren(...trustWords(own).map((words) => element('li', {}, words)));
+    },
+  };
+}
+
+type MeasureField = ReturnType<typeof measureField>;
+
+/** The three measures, or null while one of them is none. */
+function readMeasures(fields: readonly MeasureField[]): Triple | null {
+  const values = fields.map(({ term, input }) => readMeasure(term, input.value));
+  const [recovery, stretch, bending] = values;
+  const areNumbers =
+    typeof recovery === 'number' && typeof stretch === 'number' && typeof bending === 'number';
+  return areNumbers ? { recovery, stretch, bending } : null;
+}
+
+/** Says at each field what is wrong with it. */
+function tellProblems(fields: readonly MeasureField[], { problem }: DeformState): void {
+  for (const { term, input, tell } of fields) {
+    const value = readMeasure(term, input.value);
+    const isRefused = problem?.where.endsWith(`/${term}`) === true;
+    const refusal = isRefused ? `${TERM_TITLES[term]}: ${problem.what}.` : '';
+    tell(typeof value === 'string' ? value : refusal);
+  }
+}
+
+/** The own fabric's measures, or for a start those of the chosen one. */
+function firstMeasures({ panes, chosen }: DeformState): { measures: Triple; isOwn: boolean } {
+  const own = panes.find(({ fabric }) => fabric.kind === 'own')?.fabric;
+  if (own?.kind === 'own') return { measures: own.measures, isOwn: true };
+  const { fabric } = panes[chosen] ?? {};
+  const name = fabric?.kind === 'named' ? fabric.name : '';
+  return { measures: geometryOf(fabricNamed(name)).measures, isOwn: false };
+}
+
 export function createOwnFabricForm(
   parent: HTMLElement,
   store: Store<DeformState>,
@@ -106,66 +193,17 @@ export function createOwnFabricForm(
   let measures: Triple | null = null;
 
   function changed(): void {
-    const values = fields.map(({ term, input }) => readMeasure(term, input.value));
-    const [recovery, stretch, bending] = values;
-    const areNumbers =
-      typeof recovery === 'number' && typeof stretch === 'number' && typeof bending === 'number';
-    measures = areNumbers ? { recovery, stretch, bending } : null;
+    measures = readMeasures(fields);
     if (measures) actions.measure(measures);
     render();
   }
 
   const fields = TERMS.map((term) => measureField(term, changed));
-  const { bar, show } = createWeightBar();
-  const summary = element('p', { role: 'status' });
-  const clamped = element('p', { class: 'field-error' });
-  const trust = element('ul', { class: 'plain-list note' });
-  const rows = element('tbody');
-  const showIt = element(
-    'button',
-    { type: 'button', class: 'wide', click: () => measures && actions.show(measures) },
-    'Show it',
-  );
+  const result = createResult(() => measures && actions.show(measures));
   const hideIt = element(
     'button',
     { type: 'button', class: 'wide', click: actions.hide },
     'Take it away',
-  );
-  const result = element(
-    'div',
-    { class: 'own-result' },
-    summary,
-    bar,
-    element(
-      'table',
-      { class: 'quantities' },
-      element('caption', { class: 'unseen' }, 'Weights of your fabric'),
-      element(
-        'thead',
-        {},
-        element(
-          'tr',
-          {},
-          element('th', { scope: 'col' }, 'Term'),
-          element('th', { scope: 'col', class: 'number' }, 'Normalised'),
-          element('th', { scope: 'col', class: 'number' }, 'Weight'),
-        ),
-      ),
-      rows,
-    ),
-    clamped,
-    element(
-      'details',
-      {},
-      element('summary', {}, 'How far to trust it'),
-      element(
-        'p',
-        { class: 'note' },
-        `A guess from ${fabrics.length} fabrics, whose measurements hardly tell their weights. Leaving each measured fabric out in turn, the curve through the others misses its normalised value (0 to 1):`,
-      ),
-      trust,
-    ),
-    showIt,
   );
   const box = element(
     'details',
@@ -177,53 +215,23 @@ export function createOwnFabricForm(
     element('summary', {}, 'Your own fabric'),
     element('p', { class: 'note' }, 'Three ratios, measured on a sample of 46 × 40 cm.'),
     ...fields.map((one) => one.box),
-    result,
+    result.box,
     hideIt,
   );
   parent.append(element('section', { 'aria-label': 'Your own fabric' }, box));
 
   function render(): void {
-    const { ownFabric: own, problem, panes, gallery } = store.get();
+    const state = store.get();
+    const { panes, gallery } = state;
     const isBesideOthers = panes.length > 1 && panes.some(({ fabric }) => fabric.kind === 'own');
     hideIt.hidden = gallery || !isBesideOthers;
-    for (const { term, input, tell } of fields) {
-      const value = readMeasure(term, input.value);
-      const isRefused = problem?.where.endsWith(`/${term}`) === true;
-      const refusal = isRefused ? `${TERM_TITLES[term]}: ${problem.what}.` : '';
-      tell(typeof value === 'string' ? value : refusal);
-    }
-    result.hidden = !own || !measures;
-    if (!own || !measures) return;
-    show(own.weights);
-    setText(summary, `Nearest measured fabric: ${own.nearest}.`);
-    rows.replaceChildren(
-      ...TERMS.map((term) =>
-        element(
-          'tr',
-          {},
-          element('th', { scope: 'row' }, termKey(term), TERM_TITLES[term]),
-          element('td', { class: 'number' }, digits(own.normalised[term], 2)),
-          element('td', { class: 'number' }, percent(own.weights[term])),
-        ),
-      ),
-    );
-    setText(clamped, clampedWords(own, measures).join(' '));
-    clamped.hidden = own.clamped.length === 0;
-    trust.replaceChildren(...trustWords(own).map((words) => element('li', {}, words)));
+    tellProblems(fields, state);
+    result.show(state.ownFabric, measures);
   }
 
-  /** The own fabric's measures, or for a start those of the chosen one. */
-  function fill(): void {
-    const { panes, chosen } = store.get();
-    const own = panes.find(({ fabric }) => fabric.kind === 'own')?.fabric;
-    const { fabric } = panes[chosen] ?? {};
-    const name = fabric?.kind === 'named' ? fabric.name : '';
-    const start = own?.kind === 'own' ? own.measures : geometryOf(fabricNamed(name)).measures;
-    for (const { term, input } of fields) input.value = String(start[term]);
-    box.open = own !== undefined;
-  }
-
-  fill();
+  const first = firstMeasures(store.get());
+  for (const { term, input } of fields) input.value = String(first.measures[term]);
+  box.open = first.isOwn;
   let listed = '';
   return watch(store, ['ownFabric', 'problem', 'panes', 'gallery'], (state) => {
     const { panes, gallery, problem, ownFabric: own } = state;

@@ -1,15 +1,12 @@
 // One cloth in several panes: one renderer and one camera, a cut of the canvas for each. It gets
 // frames and settings, never the solver, and draws only when something changed.
-import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
+import { Box3, type Scene, Sphere, Vector3 } from 'three';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { createCameraControl, uprightOf } from '../../shared/stage/camera-control';
-import { createCanvas } from '../../shared/stage/canvas';
+import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
-import { createHand } from '../../shared/stage/grab';
-import { createHandMark } from '../../shared/stage/hand-mark';
-import { createPaneGrid } from '../../shared/stage/pane-grid';
-import { createSurroundings } from '../../shared/stage/surroundings';
+import { type Box, stepSeen } from '../../shared/stage/grab';
+import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
 import { createHoldMarks, type HoldMark } from './hold-marks';
 
 export interface FabricsStageEvents {
@@ -51,14 +48,167 @@ export interface FabricsStage {
 const AZIMUTH = 0.5;
 const POLAR = 1.08;
 
-/** How far one key press moves what is held, as a part of its distance from the eye. */
-const KEY_REACH = 0.02;
-
 /** The floor lies under the cloth by this part of its size. */
 const FLOOR_BELOW = 0.25;
 
 /** With more panes than this shadows would take longer than the cloth. */
 const MOST_SHADOWED_PANES = 4;
+
+/** Clothes of one topology, one in each pane. */
+class PaneClothes {
+  private readonly clothes: ClothMesh[] = [];
+  private topology: { triangles: Uint32Array; nVertices: number } = {
+    triangles: new Uint32Array(0),
+    nVertices: 0,
+  };
+  private areEdgesShown = false;
+
+  constructor(private readonly scene: () => Scene) {}
+
+  get count(): number {
+    return this.clothes.length;
+  }
+
+  positions(pane: number): Float32Array {
+    return this.clothes[pane]?.positions() ?? new Float32Array(0);
+  }
+
+  triangles(): Uint32Array {
+    return this.topology.triangles;
+  }
+
+  setTopology(triangles: Uint32Array, nVertices: number): void {
+    this.topology = { triangles, nVertices };
+    for (const cloth of this.clothes) this.dress(cloth);
+  }
+
+  /** A cloth for each fabric. */
+  setFabrics(ids: readonly number[]): void {
+    for (const cloth of this.clothes.splice(ids.length)) {
+      this.scene().remove(cloth.object);
+      cloth.close();
+    }
+    while (this.clothes.length < ids.length) {
+      const cloth = createClothMesh();
+      this.dress(cloth);
+      this.clothes.push(cloth);
+      this.scene().add(cloth.object);
+    }
+    ids.forEach((id, pane) => {
+      this.clothes[pane]?.setLook(lookOf(id));
+    });
+  }
+
+  setFrame(pane: number, buffer: ArrayBuffer): void {
+    this.clothes[pane]?.setFrame(buffer, 'stretch');
+  }
+
+  setEdges(isShown: boolean): void {
+    this.areEdgesShown = isShown;
+    for (const cloth of this.clothes) cloth.setEdges(isShown);
+  }
+
+  /** Has the cloth of one pane alone be seen. */
+  show(pane: number): void {
+    this.clothes.forEach((cloth, other) => {
+      cloth.object.visible = other === pane && cloth.positions().length > 0;
+    });
+    this.clothes[pane]?.update();
+  }
+
+  /** Without a frame yet. */
+  private dress(cloth: ClothMesh): void {
+    const { triangles, nVertices } = this.topology;
+    cloth.setFrame(new ArrayBuffer(0), 'stretch');
+    if (nVertices > 0) cloth.setTopology(triangles, nVertices);
+    cloth.setEdges(this.areEdgesShown);
+  }
+}
+
+/** Sets the view so that these places are seen; the height of the floor below them [m]. */
+function frame({ surroundings, control, camera }: PaneStage, places: readonly number[]): number {
+  const box = new Box3().setFromArray(places);
+  const { center: centre, radius } = box.getBoundingSphere(new Sphere());
+  const floor = box.min.y - FLOOR_BELOW * radius;
+  surroundings.frame(centre, radius, floor);
+  const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
+  control.frame({ ...view, upright: uprightOf(places, view, camera.fov) });
+  return floor;
+}
+
+/** The stage itself and the hand on it, which is in one pane at a time. */
+class Stage {
+  readonly marks = createHoldMarks();
+  readonly clothes = new PaneClothes(() => this.stage.scene);
+  readonly stage: PaneStage;
+  readonly hand: ReturnType<typeof createStageHand>;
+  inviting = 0;
+  chosen = 0;
+  floor = 0;
+  private active = 0; // pane in which the hand is
+
+  constructor(
+    parent: HTMLElement,
+    canvas: HTMLCanvasElement,
+    private readonly events: FabricsStageEvents,
+  ) {
+    this.stage = createPaneStage(parent, canvas, {
+      fov: 32,
+      objects: [this.marks.object],
+      isReady: () => this.clothes.count > 0,
+      prepare: (pane) => this.prepare(pane),
+      drawn: () => this.drawn(),
+      themed: (colour) => this.setTheme(colour),
+      handKey: (name) => this.hand.key(name),
+      key: events.key,
+      contextLost: events.contextLost,
+    });
+    this.hand = createStageHand(this.stage, {
+      picture: (at) => this.pictureAt(at),
+      press: (vertex) => events.press(vertex, this.active),
+      grab: (vertex) => events.grab(vertex, this.active),
+      move: events.moveGrab,
+      release: events.releaseGrab,
+      fallbackVertex: () => this.inviting,
+      cloth: () => ({
+        positions: this.clothes.positions(this.active),
+        triangles: this.clothes.triangles(),
+      }),
+      floor: () => this.floor,
+    });
+    this.stage.open();
+  }
+
+  project(vertex: number, pane: number): { x: number; y: number } {
+    return this.stage.grid.project(this.clothes.positions(pane), vertex, pane);
+  }
+
+  private pictureAt(at: { x: number; y: number } | null): () => Box {
+    const { grid } = this.stage;
+    const pane = at ? grid.paneAt(at) : Math.min(this.chosen, this.clothes.count - 1);
+    this.active = pane;
+    return () => grid.boxOf(pane);
+  }
+
+  private prepare(pane: number): void {
+    this.marks.face(this.stage.camera);
+    this.clothes.show(pane);
+    this.hand.mark(pane === this.active ? this.clothes.positions(pane) : null);
+  }
+
+  private drawn(): void {
+    if (this.clothes.positions(0).length > 0) this.events.drawn(this.project(this.inviting, 0));
+  }
+
+  private setTheme(colour: (name: string) => string): void {
+    this.hand.setColour(colour('--stage-hand'));
+    this.marks.setColours({
+      pin: colour('--stage-hand'),
+      handle: colour('--accent'),
+      chosen: colour('--alarm'),
+    });
+  }
+}
 
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
 export function createFabricsStage(
@@ -66,175 +216,52 @@ export function createFabricsStage(
   canvas: HTMLCanvasElement,
   events: FabricsStageEvents,
 ): FabricsStage {
-  const scene = new Scene();
-  const camera = new PerspectiveCamera(32, 1, 0.01, 100);
-  const surroundings = createSurroundings();
-  const handMark = createHandMark();
-  const holdMarks = createHoldMarks();
-  scene.add(surroundings.object, holdMarks.object, handMark.object);
-
-  const panes: ClothMesh[] = [];
-  const grid = createPaneGrid(canvas, camera);
-  let topology: { triangles: Uint32Array; nVertices: number } | null = null;
-  let areEdgesShown = false;
-  let floor = 0;
-  let inviting = 0;
-  let chosen = 0;
-  let active = 0; // pane in which the hand is
-
-  const { redraw, open } = createCanvas(parent, canvas, {
-    draw,
-    resized: refit,
-    themed(colour) {
-      surroundings.setTheme(colour);
-      handMark.setColour(colour('--stage-hand'));
-      holdMarks.setColours({
-        pin: colour('--stage-hand'),
-        handle: colour('--accent'),
-        chosen: colour('--alarm'),
-      });
-    },
-    key: (name) => hand.key(name) || control.key(name) || events.key(name),
-    contextLost: events.contextLost,
-  });
-  const control = createCameraControl(canvas, camera, redraw, grid.paneHeight);
-  const hand = createHand(canvas, camera, {
-    picture(at) {
-      active = at ? grid.paneAt(at) : Math.min(chosen, panes.length - 1);
-      const pane = active;
-      return () => grid.boxOf(pane);
-    },
-    press: (vertex) => events.press(vertex, active),
-    grab(vertex) {
-      control.setResting(true);
-      events.grab(vertex, active);
-    },
-    move: events.moveGrab,
-    release() {
-      control.setResting(false);
-      events.releaseGrab();
-    },
-    fallbackVertex: () => inviting,
-    cloth: () => ({
-      positions: positions(active),
-      triangles: topology?.triangles ?? new Uint32Array(0),
-    }),
-    floor: () => floor,
-    onChange: redraw,
-  });
-
-  function positions(pane: number): Float32Array {
-    return panes[pane]?.positions() ?? new Float32Array(0);
-  }
-
-  function refit(): void {
-    grid.fit();
-    control.refit();
-  }
-
-  function project(vertex: number, pane: number): { x: number; y: number } {
-    return grid.project(positions(pane), vertex, pane);
-  }
-
-  function draw(renderer: WebGLRenderer): void {
-    if (canvas.clientWidth === 0 || panes.length === 0) return;
-    holdMarks.face(camera);
-    const held = hand.vertex();
-    grid.draw(renderer, (index) => {
-      panes.forEach((other, k) => {
-        other.object.visible = k === index && other.positions().length > 0;
-      });
-      panes[index]?.update();
-      const place =
-        held !== null && index === active
-          ? new Vector3().fromArray(positions(index), 3 * held)
-          : null;
-      handMark.place(place, hand.target(), camera);
-      renderer.render(scene, camera);
-    });
-    if (positions(0).length > 0) events.drawn(project(inviting, 0));
-  }
-
-  /** Without a frame yet. */
-  function dress(cloth: ClothMesh): void {
-    cloth.setFrame(new ArrayBuffer(0), 'stretch');
-    if (topology) cloth.setTopology(topology.triangles, topology.nVertices);
-    cloth.setEdges(areEdgesShown);
-  }
-
-  open();
-
+  const own = new Stage(parent, canvas, events);
+  const { stage, clothes, marks, hand } = own;
+  const { grid, redraw } = stage;
   return {
     showMesh(triangles, nVertices) {
-      topology = { triangles, nVertices };
-      for (const pane of panes) dress(pane);
+      clothes.setTopology(triangles, nVertices);
       hand.drop();
-      control.setResting(false);
       redraw();
     },
     setPanes(fabricIds, columns) {
-      for (const pane of panes.splice(fabricIds.length)) {
-        scene.remove(pane.object);
-        pane.close();
-      }
-      while (panes.length < fabricIds.length) {
-        const pane = createClothMesh();
-        dress(pane);
-        panes.push(pane);
-        scene.add(pane.object);
-      }
-      fabricIds.forEach((id, pane) => {
-        panes[pane]?.setLook(lookOf(id));
-      });
-      grid.set(panes.length, columns);
-      surroundings.setShadows(panes.length <= MOST_SHADOWED_PANES);
-      refit();
+      clothes.setFabrics(fabricIds);
+      grid.set(clothes.count, columns);
+      stage.surroundings.setShadows(clothes.count <= MOST_SHADOWED_PANES);
+      stage.refit();
       redraw();
     },
     showFrame(pane, buffer) {
-      panes[pane]?.setFrame(buffer, 'stretch');
+      clothes.setFrame(pane, buffer);
       redraw();
     },
-    setMarks(marks) {
-      holdMarks.set(marks);
+    setMarks(newMarks) {
+      marks.set(newMarks);
       redraw();
     },
     setBodies(bodies) {
-      surroundings.setColliders(bodies);
+      stage.surroundings.setColliders(bodies);
       redraw();
     },
     choose(pane) {
-      chosen = pane;
+      own.chosen = pane;
     },
     invite(vertex) {
-      inviting = vertex;
+      own.inviting = vertex;
       redraw();
     },
     setEdges(isShown) {
-      areEdgesShown = isShown;
-      for (const pane of panes) pane.setEdges(isShown);
+      clothes.setEdges(isShown);
       redraw();
     },
     frame(places) {
-      const box = new Box3().setFromArray(places);
-      const { center: centre, radius } = box.getBoundingSphere(new Sphere());
-      floor = box.min.y - FLOOR_BELOW * radius;
-      surroundings.frame(centre, radius, floor);
-      const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
-      control.frame({ ...view, upright: uprightOf(places, view, camera.fov) });
+      own.floor = frame(stage, places);
     },
-    homeView: control.home,
-    stepFrom(place, [right, up, away]) {
-      const from = new Vector3(...place);
-      const reach = KEY_REACH * camera.position.distanceTo(from);
-      const axis = (index: number) => new Vector3().setFromMatrixColumn(camera.matrixWorld, index);
-      return from
-        .addScaledVector(axis(0), right * reach)
-        .addScaledVector(axis(1), up * reach)
-        .addScaledVector(axis(2), -away * reach)
-        .toArray();
-    },
-    positions,
-    project,
+    homeView: stage.control.home,
+    stepFrom: (place, direction) =>
+      stepSeen(stage.camera, new Vector3(...place), direction).toArray(),
+    positions: (pane) => clothes.positions(pane),
+    project: (vertex, pane) => own.project(vertex, pane),
   };
 }

@@ -1,16 +1,12 @@
 // The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
 // simulation, and draws only when something changed.
-import { Box3, PerspectiveCamera, Scene, Sphere, Vector3, type WebGLRenderer } from 'three';
+import { Box3, Sphere, Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { createCameraControl } from '../../shared/stage/camera-control';
-import { createCanvas } from '../../shared/stage/canvas';
-import { createClothMesh } from '../../shared/stage/cloth-mesh';
-import { createHand } from '../../shared/stage/grab';
-import { createHandMark } from '../../shared/stage/hand-mark';
+import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
-import { createSurroundings } from '../../shared/stage/surroundings';
+import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
 
 export interface MotionStageEvents {
   grab(vertex: number): void;
@@ -101,112 +97,12 @@ function invitingVertex(positions: Float32Array, towards: Vector3): number {
   return best;
 }
 
-/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
-export function createMotionStage(
-  parent: HTMLElement,
-  canvas: HTMLCanvasElement,
-  events: MotionStageEvents,
-): MotionStage {
-  const scene = new Scene();
-  const camera = new PerspectiveCamera(32, 1, 0.01, 100);
-  const cloth = createClothMesh();
-  const surroundings = createSurroundings();
-  const mark = createHandMark();
-  scene.add(surroundings.object, cloth.object, mark.object);
-
-  let colliders: Collider[] = [];
-  let awaitsFraming = false;
-  let isFreshMesh = false;
-  let inviting = 0;
-  let floor = 0; // height of what is drawn as the floor [m]
-
-  const { redraw, open } = createCanvas(parent, canvas, {
-    draw,
-    resized(width, height) {
-      camera.aspect = width / height;
-      control.refit();
-    },
-    themed(colour) {
-      surroundings.setTheme(colour);
-      mark.setColour(colour('--stage-hand'));
-    },
-    key: (name) => hand.key(name) || control.key(name) || events.key(name),
-    contextLost: events.contextLost,
-  });
-  const control = createCameraControl(canvas, camera, redraw);
-  const hand = createHand(canvas, camera, {
-    grab(vertex) {
-      control.setResting(true);
-      events.grab(vertex);
-    },
-    move: events.moveGrab,
-    release() {
-      control.setResting(false);
-      events.releaseGrab();
-    },
-    fallbackVertex: () => inviting,
-    picture: () => () => canvas.getBoundingClientRect(),
-    cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
-    floor: () => floor,
-    onChange: redraw,
-  });
-
-  function project(vertex: number): { x: number; y: number } {
-    const place = new Vector3().fromArray(cloth.positions(), 3 * vertex).project(camera);
-    return {
-      x: ((place.x + 1) / 2) * canvas.clientWidth,
-      y: ((1 - place.y) / 2) * canvas.clientHeight,
-    };
-  }
-
-  function draw(renderer: WebGLRenderer): void {
-    if (cloth.positions().length === 0) return;
-    cloth.update();
-    const vertex = hand.vertex();
-    const held = vertex === null ? null : new Vector3().fromArray(cloth.positions(), 3 * vertex);
-    mark.place(held, hand.target(), camera);
-    renderer.render(scene, camera);
-    events.drawn(cloth.heatScale(), project(inviting));
-  }
-
-  function frameScene(): void {
-    const sphere = framedSphere(cloth.positions(), colliders);
-    floor = floorHeight(sphere, colliders);
-    surroundings.frame(sphere.center, sphere.radius, floor);
-    control.frame({ centre: sphere.center, radius: sphere.radius, azimuth: AZIMUTH, polar: POLAR });
-    chooseInviting();
-  }
-
-  function chooseInviting(): void {
-    const towards = camera.getWorldDirection(new Vector3()).negate();
-    inviting = invitingVertex(cloth.positions(), towards);
-  }
-
-  open();
-
+/** What is set of how the cloth is drawn. */
+function drawingOf(
+  cloth: ClothMesh,
+  redraw: () => void,
+): Pick<MotionStage, 'setFabric' | 'setHeat' | 'setEdges'> {
   return {
-    showMesh(triangles, nVertices, isNewScene) {
-      cloth.setTopology(triangles, nVertices);
-      awaitsFraming = isNewScene;
-      isFreshMesh = true;
-      hand.drop();
-      control.setResting(false);
-    },
-    showFrame(buffer, scalar) {
-      cloth.setFrame(buffer, scalar);
-      if (isFreshMesh) chooseInviting();
-      isFreshMesh = false;
-      redraw();
-    },
-    setColliders(newColliders) {
-      colliders = newColliders;
-      surroundings.setColliders(newColliders);
-      if (awaitsFraming) {
-        awaitsFraming = false;
-        frameScene();
-      }
-      redraw();
-    },
     setFabric(id) {
       cloth.setLook(lookOf(id));
       redraw();
@@ -218,7 +114,87 @@ export function createMotionStage(
       cloth.setEdges(isShown);
       redraw();
     },
-    homeView: control.home,
+  };
+}
+
+/** The floor of the scene, and the view in which all of it is seen. */
+function frame({ surroundings, control }: PaneStage, sphere: Sphere, floor: number): void {
+  const { center: centre, radius } = sphere;
+  surroundings.frame(centre, radius, floor);
+  control.frame({ centre, radius, azimuth: AZIMUTH, polar: POLAR });
+}
+
+/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
+export function createMotionStage(
+  parent: HTMLElement,
+  canvas: HTMLCanvasElement,
+  events: MotionStageEvents,
+): MotionStage {
+  const cloth = createClothMesh();
+  let awaitsFraming = false;
+  let isFreshMesh = false;
+  let inviting = 0;
+  let floor = 0; // height of what is drawn as the floor [m]
+
+  const stage = createPaneStage(parent, canvas, {
+    fov: 32,
+    objects: [cloth.object],
+    isReady: () => cloth.positions().length > 0,
+    prepare() {
+      cloth.update();
+      hand.mark(cloth.positions());
+    },
+    drawn: () => events.drawn(cloth.heatScale(), project(inviting)),
+    themed: (colour) => hand.setColour(colour('--stage-hand')),
+    handKey: (name) => hand.key(name),
+    key: events.key,
+    contextLost: events.contextLost,
+  });
+  const { grid, redraw } = stage;
+  const hand = createStageHand(stage, {
+    grab: events.grab,
+    move: events.moveGrab,
+    release: events.releaseGrab,
+    fallbackVertex: () => inviting,
+    picture: () => () => grid.boxOf(0),
+    cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
+    floor: () => floor,
+  });
+  const project = (vertex: number) => grid.project(cloth.positions(), vertex, 0);
+
+  function chooseInviting(): void {
+    const towards = stage.camera.getWorldDirection(new Vector3()).negate();
+    inviting = invitingVertex(cloth.positions(), towards);
+  }
+
+  stage.open();
+
+  return {
+    showMesh(triangles, nVertices, isNewScene) {
+      cloth.setTopology(triangles, nVertices);
+      awaitsFraming = isNewScene;
+      isFreshMesh = true;
+      hand.drop();
+    },
+    showFrame(buffer, scalar) {
+      cloth.setFrame(buffer, scalar);
+      if (isFreshMesh) chooseInviting();
+      isFreshMesh = false;
+      redraw();
+    },
+    setColliders(colliders) {
+      stage.surroundings.setColliders(colliders);
+      if (awaitsFraming) {
+        awaitsFraming = false;
+        const sphere = framedSphere(cloth.positions(), colliders);
+        floor = floorHeight(sphere, colliders);
+        frame(stage, sphere, floor);
+        chooseInviting();
+      }
+      redraw();
+    },
+    ...drawingOf(cloth, redraw),
+    homeView: stage.control.home,
     positions: () => cloth.positions(),
     project,
     inviting: () => inviting,

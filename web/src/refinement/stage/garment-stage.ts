@@ -1,12 +1,10 @@
 // One garment in three panes, each on a mesh of its own, on the same figure: one renderer, one camera
 // that goes along. It gets frames and settings, never the workers, and draws only when something changed.
-import { PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from 'three';
+import { type PerspectiveCamera, Vector3 } from 'three';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { createCameraControl } from '../../shared/stage/camera-control';
-import { createCanvas } from '../../shared/stage/canvas';
-import { createPaneGrid } from '../../shared/stage/pane-grid';
+import type { Box } from '../../shared/stage/grab';
+import { createPaneStage, type PaneStage } from '../../shared/stage/pane-stage';
 import { pick } from '../../shared/stage/pick';
-import { createSurroundings } from '../../shared/stage/surroundings';
 import type { SolidsAnswer } from '../bindings/refinement-module';
 import type { GarmentMesh } from '../worker/garment-protocol';
 import { createGradedCloth, type GradedCloth, type Paint } from './graded-cloth';
@@ -60,99 +58,8 @@ const LIT_RADIUS_M = 0.8;
 const PRESS_REACH = 5;
 const PRESS_MS = 500;
 
-/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
-export function createGarmentStage(
-  parent: HTMLElement,
-  canvas: HTMLCanvasElement,
-  events: GarmentStageEvents,
-): GarmentStage {
-  const scene = new Scene();
-  const camera = new PerspectiveCamera(30, 1, 0.01, 100);
-  const surroundings = createSurroundings();
-  const mannequin = createMannequin();
-  const panes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
-  scene.add(surroundings.object, mannequin.object, ...panes.map(({ object }) => object));
-  const leftOut: boolean[] = [];
-  const grid = createPaneGrid(canvas, camera);
-  grid.set(N_PANES, N_PANES); // side by side, as people do: they are higher than wide
-  let isFramed = false;
-  let colours = { line: '#000000', dot: '#000000' };
-  let areEdgesShown = false;
-  let areHangingShown = false;
-  let onPicture: ((picture: Blob | null) => void) | null = null;
-
-  const { redraw, open } = createCanvas(parent, canvas, {
-    draw,
-    resized() {
-      grid.fit();
-      control.refit();
-    },
-    themed(colour) {
-      surroundings.setTheme(colour);
-      mannequin.setColour(colour('--stage-body'));
-      colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
-      showLines();
-    },
-    key: (name) => control.key(name) || events.key(name),
-    contextLost: events.contextLost,
-  });
-  const control = createCameraControl(canvas, camera, redraw);
-
-  function showLines(): void {
-    for (const pane of panes) {
-      pane.setEdges(areEdgesShown, colours.line);
-      pane.setHanging(areHangingShown, colours.dot);
-    }
-    redraw();
-  }
-
-  function positions(pane: number): Float32Array {
-    return panes[pane]?.positions() ?? new Float32Array(0);
-  }
-
-  function draw(renderer: WebGLRenderer): void {
-    if (canvas.clientWidth === 0 || !isFramed) return;
-    grid.draw(renderer, (index) => {
-      panes.forEach((other, k) => {
-        other.object.visible = k === index && !leftOut[k] && other.positions().length > 0;
-      });
-      panes[index]?.update();
-      renderer.render(scene, camera);
-    });
-    if (!onPicture) return;
-    canvas.toBlob(onPicture);
-    onPicture = null;
-  }
-
-  function follow(pelvis: Vector3): void {
-    // The height stays: who squats goes down in the picture.
-    const centre = new Vector3(pelvis.x, MIDDLE_M, pelvis.z);
-    if (!isFramed) {
-      surroundings.frame(centre, LIT_RADIUS_M, 0);
-      const view = { centre, radius: SEEN_ACROSS_M, azimuth: AZIMUTH, polar: POLAR };
-      control.frame({ ...view, upright: SEEN_UP_M / SEEN_ACROSS_M });
-    }
-    isFramed = true;
-    control.follow(centre);
-    surroundings.follow(centre.x, centre.z);
-  }
-
-  function faceAt(pane: number, x: number, y: number): number | null {
-    const box = grid.boxOf(pane);
-    const across = (2 * (x - box.left)) / box.width - 1;
-    const up = 1 - (2 * (y - box.top)) / box.height;
-    const ahead = new Vector3(across, up, 0.5).unproject(camera).sub(camera.position).normalize();
-    const cloth = panes[pane];
-    if (!cloth) return null;
-    const hit = pick(
-      cloth.positions(),
-      cloth.triangles(),
-      camera.position.toArray(),
-      ahead.toArray(),
-    );
-    return hit ? cloth.faceOf(hit.triangle) : null;
-  }
-
+/** Hears a press that was no drag, by where it was on the page. */
+function listenToPresses(canvas: HTMLCanvasElement, onPress: (x: number, y: number) => void): void {
   let pressed: { x: number; y: number; timeMs: number } | null = null;
   canvas.addEventListener('pointerdown', ({ clientX: x, clientY: y, timeStamp, isPrimary }) => {
     pressed = isPrimary ? { x, y, timeMs: timeStamp } : null;
@@ -161,60 +68,167 @@ export function createGarmentStage(
     const start = pressed;
     pressed = null;
     if (!start || timeStamp - start.timeMs > PRESS_MS) return;
-    if (Math.hypot(x - start.x, y - start.y) > PRESS_REACH) return;
-    const pane = grid.paneAt({ x, y });
-    events.press(pane, faceAt(pane, x, y));
+    if (Math.hypot(x - start.x, y - start.y) <= PRESS_REACH) onPress(x, y);
   });
+}
 
-  open();
+/** The face of a cloth that is seen at a point of the page; null beside the cloth. */
+function faceAt(
+  cloth: GradedCloth,
+  camera: PerspectiveCamera,
+  box: Box,
+  x: number,
+  y: number,
+): number | null {
+  const across = (2 * (x - box.left)) / box.width - 1;
+  const up = 1 - (2 * (y - box.top)) / box.height;
+  const ahead = new Vector3(across, up, 0.5).unproject(camera).sub(camera.position).normalize();
+  const eye = camera.position.toArray();
+  const hit = pick(cloth.positions(), cloth.triangles(), eye, ahead.toArray());
+  return hit ? cloth.faceOf(hit.triangle) : null;
+}
 
+/** The first view of a person who stands there. */
+function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
+  surroundings.frame(centre, LIT_RADIUS_M, 0);
+  const view = { centre, radius: SEEN_ACROSS_M, azimuth: AZIMUTH, polar: POLAR };
+  control.frame({ ...view, upright: SEEN_UP_M / SEEN_ACROSS_M });
+}
+
+/** The three clothes on their figure, and what is drawn of them. */
+class Stage {
+  readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
+  readonly mannequin = createMannequin();
+  readonly leftOut: boolean[] = [];
+  readonly stage: PaneStage;
+  areEdgesShown = false;
+  areHangingShown = false;
+  onPicture: ((picture: Blob | null) => void) | null = null;
+  private isFramed = false;
+  private colours = { line: '#000000', dot: '#000000' };
+
+  constructor(
+    parent: HTMLElement,
+    private readonly canvas: HTMLCanvasElement,
+    events: GarmentStageEvents,
+  ) {
+    this.stage = createPaneStage(parent, canvas, {
+      fov: 30,
+      objects: [this.mannequin.object, ...this.clothes.map(({ object }) => object)],
+      isReady: () => this.isFramed,
+      prepare: (pane) => this.prepare(pane),
+      drawn: () => this.drawn(),
+      themed: (colour) => this.setTheme(colour),
+      key: events.key,
+      contextLost: events.contextLost,
+    });
+    const { grid, camera } = this.stage;
+    grid.set(N_PANES, N_PANES); // side by side, as people do: they are higher than wide
+    listenToPresses(canvas, (x, y) => {
+      const pane = grid.paneAt({ x, y });
+      const cloth = this.clothes[pane];
+      events.press(pane, cloth ? faceAt(cloth, camera, grid.boxOf(pane), x, y) : null);
+    });
+    this.stage.open();
+  }
+
+  showLines(): void {
+    for (const cloth of this.clothes) {
+      cloth.setEdges(this.areEdgesShown, this.colours.line);
+      cloth.setHanging(this.areHangingShown, this.colours.dot);
+    }
+    this.stage.redraw();
+  }
+
+  follow(pelvis: Vector3): void {
+    // The height stays: who squats goes down in the picture.
+    const centre = new Vector3(pelvis.x, MIDDLE_M, pelvis.z);
+    if (!this.isFramed) frame(this.stage, centre);
+    this.isFramed = true;
+    this.stage.control.follow(centre);
+    this.stage.surroundings.follow(centre.x, centre.z);
+  }
+
+  positions(pane: number): Float32Array {
+    return this.clothes[pane]?.positions() ?? new Float32Array(0);
+  }
+
+  private prepare(pane: number): void {
+    this.clothes.forEach((cloth, other) => {
+      const isHere = other === pane && !this.leftOut[other];
+      cloth.object.visible = isHere && cloth.positions().length > 0;
+    });
+    this.clothes[pane]?.update();
+  }
+
+  private drawn(): void {
+    if (this.onPicture) this.canvas.toBlob(this.onPicture);
+    this.onPicture = null;
+  }
+
+  private setTheme(colour: (name: string) => string): void {
+    this.mannequin.setColour(colour('--stage-body'));
+    this.colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
+    this.showLines();
+  }
+}
+
+/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
+export function createGarmentStage(
+  parent: HTMLElement,
+  canvas: HTMLCanvasElement,
+  events: GarmentStageEvents,
+): GarmentStage {
+  const own = new Stage(parent, canvas, events);
+  const { clothes, stage } = own;
+  const { redraw } = stage;
   return {
     setMesh(pane, mesh) {
-      panes[pane]?.setMesh(mesh);
+      clothes[pane]?.setMesh(mesh);
       redraw();
     },
     showFrame(pane, buffer) {
-      panes[pane]?.setFrame(buffer);
+      clothes[pane]?.setFrame(buffer);
       redraw();
     },
     setSolids({ cones, pelvis_m: pelvis }) {
-      mannequin.setCones(cones);
-      if (pelvis) follow(new Vector3(...pelvis));
+      own.mannequin.setCones(cones);
+      if (pelvis) own.follow(new Vector3(...pelvis));
       redraw();
     },
     setShown(pane, isShown) {
-      leftOut[pane] = !isShown;
+      own.leftOut[pane] = !isShown;
       redraw();
     },
     setPaint(pane, paint) {
-      panes[pane]?.setPaint(paint);
+      clothes[pane]?.setPaint(paint);
       redraw();
     },
     setEdges(isShown) {
-      areEdgesShown = isShown;
-      showLines();
+      own.areEdgesShown = isShown;
+      own.showLines();
     },
     setHanging(isShown) {
-      areHangingShown = isShown;
-      showLines();
+      own.areHangingShown = isShown;
+      own.showLines();
     },
     setFabric(fabricId) {
-      for (const pane of panes) pane.setLook(lookOf(fabricId));
+      for (const cloth of clothes) cloth.setLook(lookOf(fabricId));
       redraw();
     },
     setChosen(pane, face) {
-      panes[pane]?.setChosen(face);
+      clothes[pane]?.setChosen(face);
       redraw();
     },
-    homeView: control.home,
+    homeView: stage.control.home,
     redraw,
-    positions,
-    triangles: (pane) => panes[pane]?.triangles() ?? new Uint32Array(0),
-    scalars: (pane) => panes[pane]?.scalars() ?? new Float32Array(0),
-    project: (vertex, pane) => grid.project(positions(pane), vertex, pane),
+    positions: (pane) => own.positions(pane),
+    triangles: (pane) => clothes[pane]?.triangles() ?? new Uint32Array(0),
+    scalars: (pane) => clothes[pane]?.scalars() ?? new Float32Array(0),
+    project: (vertex, pane) => stage.grid.project(own.positions(pane), vertex, pane),
     picture() {
       return new Promise((resolve) => {
-        onPicture = resolve;
+        own.onPicture = resolve;
         redraw();
       });
     },

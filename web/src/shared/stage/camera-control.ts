@@ -60,31 +60,65 @@ export function uprightOf(places: readonly number[], view: View, fov: number): n
   return Math.min(1, (MARGIN * most) / view.radius);
 }
 
-/** `pictureHeight` is that of what the camera sees [CSS pixels]. */
-export function createCameraControl(
-  element: HTMLElement,
-  camera: PerspectiveCamera,
-  onChange: () => void,
-  pictureHeight: () => number = () => element.clientHeight,
-): CameraControl {
-  const target = new Vector3();
-  const pose = new Spherical(1, 1.3, 0.5);
-  const pointers = new Map<number, { x: number; y: number }>();
-  let view: View = { centre: new Vector3(), radius: 1, azimuth: 0.5, polar: 1.3 };
-  let isResting = false;
-  let zoom = 1; // distance over the distance that just shows everything
+/** Where the camera is: about a turning point, at a distance in which the view is seen. */
+class Orbit {
+  private readonly target = new Vector3();
+  private readonly pose = new Spherical(1, 1.3, 0.5);
+  private view: View = { centre: new Vector3(), radius: 1, azimuth: 0.5, polar: 1.3 };
+  private zoom = 1; // distance over the distance that just shows everything
 
-  function fittingDistance(): number {
-    const half = (camera.fov * Math.PI) / 360;
-    const halfAcross = Math.atan(Math.tan(half) * camera.aspect);
-    const { radius, upright = 1 } = view;
-    return Math.max((upright * radius) / Math.sin(half), radius / Math.sin(halfAcross));
+  constructor(
+    private readonly camera: PerspectiveCamera,
+    private readonly onChange: () => void,
+    private readonly pictureHeight: () => number,
+  ) {}
+
+  frame(view: View): void {
+    this.view = view;
+    this.home();
   }
 
-  function apply(): void {
+  home(): void {
+    this.target.copy(this.view.centre);
+    this.pose.theta = this.view.azimuth;
+    this.pose.phi = this.view.polar;
+    this.zoom = 1;
+    this.apply();
+  }
+
+  follow(centre: Vector3): void {
+    this.target.add(centre.clone().sub(this.view.centre));
+    this.view = { ...this.view, centre: centre.clone() };
+    this.apply();
+  }
+
+  turn(azimuth: number, polar: number): void {
+    this.pose.theta += azimuth;
+    this.pose.phi += polar;
+    this.apply();
+  }
+
+  zoomBy(factor: number): void {
+    this.zoom *= factor;
+    this.apply();
+  }
+
+  /** By a way on the screen [CSS pixels]. */
+  pan(dx: number, dy: number): void {
+    const { camera, pose, target } = this;
+    const metresPerPixel =
+      (2 * pose.radius * Math.tan((camera.fov * Math.PI) / 360)) / this.pictureHeight();
+    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+    const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
+    target.addScaledVector(right, -dx * metresPerPixel).addScaledVector(up, dy * metresPerPixel);
+    this.apply();
+  }
+
+  apply(): void {
+    const { camera, pose, target, view } = this;
     pose.phi = clamp(pose.phi, HIGHEST, LOWEST);
-    zoom = clamp(zoom, 0.15, 2.5);
-    pose.radius = zoom * fittingDistance();
+    this.zoom = clamp(this.zoom, 0.15, 2.5);
+    pose.radius = this.zoom * this.fittingDistance();
     target.sub(view.centre).clampLength(0, view.radius).add(view.centre);
     camera.position.setFromSpherical(pose).add(target);
     camera.lookAt(target);
@@ -92,108 +126,106 @@ export function createCameraControl(
     camera.far = pose.radius * 20;
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
-    onChange();
+    this.onChange();
   }
 
-  function turn(azimuth: number, polar: number): void {
-    pose.theta += azimuth;
-    pose.phi += polar;
-    apply();
+  private fittingDistance(): number {
+    const half = (this.camera.fov * Math.PI) / 360;
+    const halfAcross = Math.atan(Math.tan(half) * this.camera.aspect);
+    const { radius, upright = 1 } = this.view;
+    return Math.max((upright * radius) / Math.sin(half), radius / Math.sin(halfAcross));
+  }
+}
+
+interface Point {
+  x: number;
+  y: number;
+}
+
+/** Pointers that turn, pan and zoom; none does anything while resting. */
+class OrbitPointers {
+  private readonly pointers = new Map<number, Point>();
+  private isResting = false;
+
+  constructor(
+    element: HTMLElement,
+    private readonly orbit: Orbit,
+  ) {
+    element.addEventListener('pointerdown', ({ pointerId, clientX: x, clientY: y }) => {
+      if (this.isResting) return;
+      element.setPointerCapture(pointerId);
+      this.pointers.set(pointerId, { x, y });
+    });
+    element.addEventListener('pointermove', (event) => this.move(event));
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
+      element.addEventListener(end, (event) => this.pointers.delete(event.pointerId));
+    }
+    element.addEventListener('contextmenu', (event) => event.preventDefault());
+    const wheel = (event: WheelEvent) => {
+      event.preventDefault();
+      orbit.zoomBy(Math.exp(clamp(event.deltaY, -100, 100) * 0.002));
+    };
+    element.addEventListener('wheel', wheel, { passive: false });
   }
 
-  function pan(dx: number, dy: number): void {
-    const metresPerPixel =
-      (2 * pose.radius * Math.tan((camera.fov * Math.PI) / 360)) / pictureHeight();
-    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
-    const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
-    target.addScaledVector(right, -dx * metresPerPixel).addScaledVector(up, dy * metresPerPixel);
-    apply();
+  setResting(isResting: boolean): void {
+    this.isResting = isResting;
+    this.pointers.clear();
   }
 
-  function home(): void {
-    target.copy(view.centre);
-    pose.theta = view.azimuth;
-    pose.phi = view.polar;
-    zoom = 1;
-    apply();
+  private move({ pointerId, clientX, clientY, shiftKey, buttons }: PointerEvent): void {
+    const pointer = this.pointers.get(pointerId);
+    if (!pointer || this.isResting) return;
+    const dx = clientX - pointer.x;
+    const dy = clientY - pointer.y;
+    const isPanning = shiftKey || (buttons & 6) !== 0;
+    if (this.pointers.size > 1) this.pinch(pointer, clientX, clientY);
+    else if (isPanning) this.orbit.pan(dx, dy);
+    else this.orbit.turn(-dx * DRAG_TURN, -dy * DRAG_TURN);
+    pointer.x = clientX;
+    pointer.y = clientY;
   }
 
-  function movePinch(moved: { x: number; y: number }, x: number, y: number): void {
-    const other = [...pointers.values()].find((pointer) => pointer !== moved);
+  private pinch(moved: Point, x: number, y: number): void {
+    const other = [...this.pointers.values()].find((pointer) => pointer !== moved);
     if (!other) return;
     const before = Math.hypot(moved.x - other.x, moved.y - other.y);
     const after = Math.hypot(x - other.x, y - other.y);
-    if (before > 0 && after > 0) zoom *= before / after;
-    pan((x - moved.x) / 2, (y - moved.y) / 2);
+    if (before > 0 && after > 0) this.orbit.zoomBy(before / after);
+    this.orbit.pan((x - moved.x) / 2, (y - moved.y) / 2);
   }
+}
 
-  element.addEventListener('pointerdown', (event) => {
-    if (isResting) return;
-    element.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-  });
-  element.addEventListener('pointermove', (event) => {
-    const pointer = pointers.get(event.pointerId);
-    if (!pointer || isResting) return;
-    const dx = event.clientX - pointer.x;
-    const dy = event.clientY - pointer.y;
-    const isPanning = event.shiftKey || (event.buttons & 6) !== 0;
-    if (pointers.size > 1) movePinch(pointer, event.clientX, event.clientY);
-    else if (isPanning) pan(dx, dy);
-    else turn(-dx * DRAG_TURN, -dy * DRAG_TURN);
-    pointer.x = event.clientX;
-    pointer.y = event.clientY;
-  });
-  for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
-    element.addEventListener(end, (event) => pointers.delete(event.pointerId));
-  }
-  element.addEventListener('contextmenu', (event) => event.preventDefault());
-  element.addEventListener(
-    'wheel',
-    (event) => {
-      event.preventDefault();
-      zoom *= Math.exp(clamp(event.deltaY, -100, 100) * 0.002);
-      apply();
-    },
-    { passive: false },
-  );
-
+/** `pictureHeight` is that of what the camera sees [CSS pixels]. */
+export function createCameraControl(
+  element: HTMLElement,
+  camera: PerspectiveCamera,
+  onChange: () => void,
+  pictureHeight: () => number = () => element.clientHeight,
+): CameraControl {
+  const orbit = new Orbit(camera, onChange, pictureHeight);
+  const pointers = new OrbitPointers(element, orbit);
+  const home = () => orbit.home();
   const keys: Record<string, () => void> = {
-    ArrowLeft: () => turn(-KEY_TURN, 0),
-    ArrowRight: () => turn(KEY_TURN, 0),
-    ArrowUp: () => turn(0, -KEY_TURN),
-    ArrowDown: () => turn(0, KEY_TURN),
-    '+': () => zoomBy(1 / KEY_ZOOM),
-    '=': () => zoomBy(1 / KEY_ZOOM),
-    '-': () => zoomBy(KEY_ZOOM),
+    ArrowLeft: () => orbit.turn(-KEY_TURN, 0),
+    ArrowRight: () => orbit.turn(KEY_TURN, 0),
+    ArrowUp: () => orbit.turn(0, -KEY_TURN),
+    ArrowDown: () => orbit.turn(0, KEY_TURN),
+    '+': () => orbit.zoomBy(1 / KEY_ZOOM),
+    '=': () => orbit.zoomBy(1 / KEY_ZOOM),
+    '-': () => orbit.zoomBy(KEY_ZOOM),
     Home: home,
   };
-  function zoomBy(factor: number): void {
-    zoom *= factor;
-    apply();
-  }
-
   return {
-    frame(newView) {
-      view = newView;
-      home();
-    },
+    frame: (view) => orbit.frame(view),
     home,
-    follow(centre) {
-      const moved = centre.clone().sub(view.centre);
-      target.add(moved);
-      view = { ...view, centre: centre.clone() };
-      apply();
-    },
+    follow: (centre) => orbit.follow(centre),
     key(name) {
       const action = keys[name];
       action?.();
       return action !== undefined;
     },
-    setResting(value) {
-      isResting = value;
-      pointers.clear();
-    },
-    refit: apply,
+    setResting: (isResting) => pointers.setResting(isResting),
+    refit: () => orbit.apply(),
   };
 }

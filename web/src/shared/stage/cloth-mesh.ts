@@ -2,7 +2,6 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  DynamicDrawUsage,
   Group,
   LineBasicMaterial,
   LineSegments,
@@ -13,7 +12,7 @@ import type { FabricLook } from '../fabric/fabric-look';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
 import { createClothMaterials } from './fabric-material';
 import type { HeatMap, HeatScale } from './heat-map';
-import { showPositions } from './normals';
+import { changingTriples, showPositions } from './normals';
 
 /** A still cloth has no stretch: the scale then ends at 0.01 %, or at 0.1 mm, not at nothing. */
 const LEAST_REACH = 1e-4;
@@ -53,9 +52,8 @@ export interface ClothMesh {
   close(): void;
 }
 
-export function createClothMesh(): ClothMesh {
-  const geometry = new BufferGeometry();
-  const edgeGeometry = new BufferGeometry();
+/** What is drawn: both sides of the cloth, the heat map in their place, and the edges. */
+function createParts(geometry: BufferGeometry, edgeGeometry: BufferGeometry) {
   const materials = createClothMaterials();
   const front = new Mesh(geometry, materials.front);
   const back = new Mesh(geometry, materials.back);
@@ -72,26 +70,31 @@ export function createClothMesh(): ClothMesh {
   const object = new Group();
   object.add(front, back, heat, edges);
   for (const part of object.children) part.frustumCulled = false;
+  return { object, front, back, heat, edges, setLook: materials.setLook };
+}
 
-  let triangles = new Uint32Array(0);
-  let positions: Float32Array = new Float32Array(0);
-  let values: Float32Array = new Float32Array(0);
-  let scalar: Scalar = 'stretch';
-  let painted = new Float32Array(0);
-  let isStale = false; // the frame or the heat map changed since the last update
-  let heatMap: HeatMap = 'off';
-  let heatRange: 'auto' | number = 'auto';
-  let scale: HeatScale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
+const NO_SCALE: HeatScale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
 
-  function paintHeat(): void {
-    if (heatMap === 'off') {
-      scale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
-      return;
-    }
-    const isWanted = (heatMap === 'distance') === (scalar === 'distance');
+/** Colours vertices by what a frame holds of them, and tells the scale. */
+class HeatPaint {
+  map: HeatMap = 'off';
+  /** Upper end for stretch [%]. */
+  range: 'auto' | number = 'auto';
+  scale = NO_SCALE;
+  private painted = new Float32Array(0);
+
+  resize(nVertices: number): void {
+    this.painted = new Float32Array(nVertices);
+  }
+
+  paint(values: Float32Array, scalar: Scalar, colours: BufferAttribute): void {
+    const { map, painted } = this;
+    this.scale = NO_SCALE;
+    if (map === 'off') return;
+    const isWanted = (map === 'distance') === (scalar === 'distance');
     for (let v = 0; v < values.length; ++v) {
       const value = isWanted ? (values[v] as number) : Number.NaN;
-      painted[v] = heatMap === 'signed' ? value : Math.abs(value);
+      painted[v] = map === 'signed' ? value : Math.abs(value);
     }
     let least = Number.POSITIVE_INFINITY;
     let most = Number.NEGATIVE_INFINITY;
@@ -100,31 +103,39 @@ export function createClothMesh(): ClothMesh {
       most = Math.max(most, value);
     }
     const reach = Math.max(Math.abs(least), Math.abs(most), LEAST_REACH);
-    const range = heatMap === 'distance' ? 'auto' : heatRange;
+    const range = map === 'distance' ? 'auto' : this.range;
     const high = range === 'auto' ? roundedUp(reach) : range / 100;
-    const low = heatMap === 'signed' ? -high : 0;
-    scale = { map: heatMap, low, high, least, most };
-    const colours = geometry.getAttribute('color') as BufferAttribute;
-    const map = heatMap === 'signed' ? SIGNED_MAP : MAGNITUDE_MAP;
-    paint(map, painted, low, high, colours.array as Float32Array);
+    const low = map === 'signed' ? -high : 0;
+    this.scale = { map, low, high, least, most };
+    const table = map === 'signed' ? SIGNED_MAP : MAGNITUDE_MAP;
+    paint(table, painted, low, high, colours.array as Float32Array);
     colours.needsUpdate = true;
   }
+}
+
+export function createClothMesh(): ClothMesh {
+  const geometry = new BufferGeometry();
+  const edgeGeometry = new BufferGeometry();
+  const { object, front, back, heat, edges, setLook } = createParts(geometry, edgeGeometry);
+  const heatPaint = new HeatPaint();
+  let triangles = new Uint32Array(0);
+  let positions: Float32Array = new Float32Array(0);
+  let values: Float32Array = new Float32Array(0);
+  let scalar: Scalar = 'stretch';
+  let isStale = false; // the frame or the heat map changed since the last update
 
   return {
     object,
     positions: () => positions,
     triangles: () => triangles,
-    heatScale: () => scale,
+    heatScale: () => heatPaint.scale,
     setTopology(newTriangles, nVertices) {
       triangles = new Uint32Array(newTriangles);
-      painted = new Float32Array(nVertices);
+      heatPaint.resize(nVertices);
       geometry.dispose();
       edgeGeometry.dispose();
-      const dynamic = (values: Float32Array) =>
-        new BufferAttribute(values, 3).setUsage(DynamicDrawUsage);
-      geometry.setAttribute('position', dynamic(new Float32Array(3 * nVertices)));
-      geometry.setAttribute('normal', dynamic(new Float32Array(3 * nVertices)));
-      geometry.setAttribute('color', dynamic(new Float32Array(3 * nVertices)));
+      for (const name of ['position', 'normal', 'color'])
+        geometry.setAttribute(name, changingTriples(nVertices));
       geometry.setIndex(new BufferAttribute(triangles, 1));
       edgeGeometry.setAttribute('position', geometry.getAttribute('position'));
       edgeGeometry.setIndex(new BufferAttribute(edgesOf(triangles), 1));
@@ -140,13 +151,13 @@ export function createClothMesh(): ClothMesh {
       if (!isStale || positions.length === 0) return;
       isStale = false;
       showPositions(geometry, positions, triangles);
-      paintHeat();
+      heatPaint.paint(values, scalar, geometry.getAttribute('color') as BufferAttribute);
     },
-    setLook: materials.setLook,
+    setLook,
     setHeat(map, range) {
-      if (map === heatMap && range === heatRange) return false;
-      heatMap = map;
-      heatRange = range;
+      if (map === heatPaint.map && range === heatPaint.range) return false;
+      heatPaint.map = map;
+      heatPaint.range = range;
       front.visible = map === 'off';
       back.visible = map === 'off';
       heat.visible = map !== 'off';

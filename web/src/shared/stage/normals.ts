@@ -1,5 +1,10 @@
 // Positions and smooth normals of a triangle mesh.
-import type { BufferAttribute, BufferGeometry } from 'three';
+import { BufferAttribute, type BufferGeometry, DynamicDrawUsage } from 'three';
+
+/** Room for three numbers a vertex that change with every frame. */
+export function changingTriples(n: number): BufferAttribute {
+  return new BufferAttribute(new Float32Array(3 * n), 3).setUsage(DynamicDrawUsage);
+}
 
 /** Sums each triangle's area-weighted normal at its corners; the shader normalises. */
 function addNormals(positions: Float32Array, triangles: Uint32Array, normals: Float32Array): void {

@@ -98,76 +98,42 @@ function discGeometry(): BufferGeometry {
   return geometry;
 }
 
-export function createSurroundings(): Surroundings {
+/** A disc, a grid on it and the shadows that fall there, in one plane. */
+function createFloor() {
   const object = new Group();
-  const floor = new Group();
-  const see = { transparent: true, vertexColors: true, depthWrite: false };
-  const discMaterial = new MeshBasicMaterial({ ...see, toneMapped: false });
-  const gridMaterial = new LineBasicMaterial({ ...see, toneMapped: false });
-  const disc = new Mesh(discGeometry(), discMaterial);
+  const see = { transparent: true, vertexColors: true, depthWrite: false, toneMapped: false };
+  const disc = new Mesh(discGeometry(), new MeshBasicMaterial(see));
+  const grid = new LineSegments(gridGeometry(), new LineBasicMaterial(see));
   const shadow = new Mesh(
     new CircleGeometry(GRID_REACH_M, 64),
     new ShadowMaterial({ opacity: 0.3 }),
   );
-  const grid = new LineSegments(gridGeometry(), gridMaterial);
   shadow.rotation.x = -Math.PI / 2;
   shadow.receiveShadow = true;
   // Drawn in this order and without depth, three things in one plane do not flicker.
   [disc, grid, shadow].forEach((part, order) => {
     part.renderOrder = order - 3;
-    floor.add(part);
+    object.add(part);
   });
+  return { object, disc, grid };
+}
 
-  const sky = new HemisphereLight('#ffffff', '#a79f92', 1.35);
-  const key = new DirectionalLight('#fff4e2', 2.5);
-  key.castShadow = true;
-  key.shadow.mapSize.set(1024, 1024);
-  key.shadow.radius = 4;
-  key.shadow.bias = -0.0004;
-  object.add(floor, sky, key, key.target);
-
-  function placeLights(centre: Vector3, radius: number): void {
-    key.position.set(centre.x + 1.2 * radius, centre.y + 3 * radius, centre.z + 1.6 * radius);
-    key.target.position.copy(centre);
-  }
-
-  const bodyMaterial = new MeshStandardMaterial({ roughness: 0.75 });
-  let spheres: Mesh[] = [];
-  let radii = '';
-  let seen = { centre: new Vector3(), radius: 1 };
-
+/** The light that casts shadows, and how it stands to a lit sphere. */
+function createKeyLight() {
+  const light = new DirectionalLight('#fff4e2', 2.5);
+  light.castShadow = true;
+  light.shadow.mapSize.set(1024, 1024);
+  light.shadow.radius = 4;
+  light.shadow.bias = -0.0004;
   return {
-    object,
-    setColliders(colliders) {
-      const balls = colliders.filter((collider) => collider.shape === 'sphere');
-      const wanted = balls.map((ball) => ball.radius_m).join();
-      if (wanted !== radii) {
-        radii = wanted;
-        for (const sphere of spheres) {
-          sphere.geometry.dispose();
-          object.remove(sphere);
-        }
-        spheres = balls.map((ball) => {
-          // Drawn a little smaller than it is, so that flat triangles on it do not cut into it.
-          const sphere = new Mesh(new SphereGeometry(0.985 * ball.radius_m, 64, 40), bodyMaterial);
-          sphere.castShadow = true;
-          sphere.receiveShadow = true;
-          object.add(sphere);
-          return sphere;
-        });
-      }
-      balls.forEach((ball, index) => {
-        spheres[index]?.position.set(...ball.centre);
-      });
+    light,
+    place({ x, y, z }: Vector3, radius: number) {
+      light.position.set(x + 1.2 * radius, y + 3 * radius, z + 1.6 * radius);
+      light.target.position.set(x, y, z);
     },
-    frame(centre, radius, height) {
-      const scale = 10 ** Math.round(Math.log10(radius));
-      floor.scale.setScalar(scale);
-      key.shadow.normalBias = NORMAL_BIAS * Math.max(scale, Math.min(1, radius));
-      floor.position.set(centre.x, height, centre.z);
-      seen = { centre: centre.clone(), radius };
-      placeLights(centre, radius);
-      const { camera } = key.shadow;
+    frame(radius: number, scale: number) {
+      light.shadow.normalBias = NORMAL_BIAS * Math.max(scale, Math.min(1, radius));
+      const { camera } = light.shadow;
       camera.left = -1.6 * radius;
       camera.right = 1.6 * radius;
       camera.top = 1.6 * radius;
@@ -176,22 +142,80 @@ export function createSurroundings(): Surroundings {
       camera.far = 8 * radius;
       camera.updateProjectionMatrix();
     },
+  };
+}
+
+/** The spheres among the colliders. */
+function createBalls() {
+  const object = new Group();
+  const material = new MeshStandardMaterial({ roughness: 0.75 });
+  let spheres: Mesh[] = [];
+  let radii = '';
+
+  function build(radius: number): Mesh {
+    // Drawn a little smaller than it is, so that flat triangles on it do not cut into it.
+    const sphere = new Mesh(new SphereGeometry(0.985 * radius, 64, 40), material);
+    sphere.castShadow = true;
+    sphere.receiveShadow = true;
+    return sphere;
+  }
+
+  return {
+    object,
+    material,
+    set(colliders: Collider[]) {
+      const balls = colliders.filter((collider) => collider.shape === 'sphere');
+      const wanted = balls.map((ball) => ball.radius_m).join();
+      if (wanted !== radii) {
+        radii = wanted;
+        for (const sphere of spheres) sphere.geometry.dispose();
+        spheres = balls.map((ball) => build(ball.radius_m));
+        object.clear();
+        if (spheres.length > 0) object.add(...spheres);
+      }
+      balls.forEach((ball, index) => {
+        spheres[index]?.position.set(...ball.centre);
+      });
+    },
+  };
+}
+
+export function createSurroundings(): Surroundings {
+  const object = new Group();
+  const floor = createFloor();
+  const balls = createBalls();
+  const key = createKeyLight();
+  const sky = new HemisphereLight('#ffffff', '#a79f92', 1.35);
+  object.add(floor.object, sky, key.light, key.light.target, balls.object);
+  let lit = { centre: new Vector3(), radius: 1 };
+
+  return {
+    object,
+    setColliders: balls.set,
+    frame(centre, radius, height) {
+      const scale = 10 ** Math.round(Math.log10(radius));
+      floor.object.scale.setScalar(scale);
+      floor.object.position.set(centre.x, height, centre.z);
+      lit = { centre: centre.clone(), radius };
+      key.place(centre, radius);
+      key.frame(radius, scale);
+    },
     follow(x, z) {
-      seen.centre.set(x, seen.centre.y, z);
-      placeLights(seen.centre, seen.radius);
-      floor.position.x = x;
-      floor.position.z = z;
-      const metre = floor.scale.x;
+      lit.centre.set(x, lit.centre.y, z);
+      key.place(lit.centre, lit.radius);
+      floor.object.position.x = x;
+      floor.object.position.z = z;
+      const metre = floor.object.scale.x;
       const into = (place: number) => (Math.round(place / metre) * metre - place) / metre;
-      grid.position.set(into(x), 0, into(z));
+      floor.grid.position.set(into(x), 0, into(z));
     },
     setShadows(areCast) {
-      key.castShadow = areCast;
+      key.light.castShadow = areCast;
     },
     setTheme(colour) {
-      discMaterial.color.set(colour('--stage-floor'));
-      gridMaterial.color.set(colour('--stage-grid'));
-      bodyMaterial.color.set(colour('--stage-body'));
+      floor.disc.material.color.set(colour('--stage-floor'));
+      floor.grid.material.color.set(colour('--stage-grid'));
+      balls.material.color.set(colour('--stage-body'));
     },
   };
 }
