@@ -32,7 +32,7 @@ const TEST_S = 5;
 /** The end of the example [s]. */
 const EXAMPLE_S = 8;
 
-/** Of places [m] and of curvature [1/m]. */
+/** Rounding of places [m] and of curvature [1/m]. */
 const QUANTUM = { place: 1e-4, curvature: 1e-3 };
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -59,7 +59,7 @@ function sceneOf(name: string, refinement: object, durationS: number) {
 
 interface Run {
   frames: Float64Array[];
-  /** Of one core [ms]. */
+  /** Time of a frame on one core [ms]. */
   msPerFrame: number;
 }
 

@@ -1,4 +1,4 @@
-// In which order the worker of deformed cloth asks what of the module: one that only keeps a record.
+// The order in which the worker of deformed cloth calls a module that only keeps a record of the calls.
 import { describe, expect, it } from 'vitest';
 import {
   type DeformationHandle,

@@ -13,7 +13,7 @@ const stepS = 0.004;
 const PATIENCE_MS = 60000;
 
 /**
- * Of the largest coordinate: rounding, carried through so many smooth steps. xpbd computes in 32 bits, whose
+ * Relative to the largest coordinate: rounding, carried through so many smooth steps. xpbd computes in 32 bits, whose
  * rounding is 1e-7.
  */
 const toleranceOf = (stepper: string) => (stepper === 'xpbd' ? 2e-5 : 1e-9);

@@ -26,7 +26,7 @@ beforeAll(async () => {
 
 const PATIENCE_MS = 60000;
 
-/** Of a further example the first three frames count, instead of minutes of work. */
+/** The first three frames of a further example count, instead of minutes of work. */
 const SEEN = { fromS: 0, toS: 0.1 };
 
 const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes, SEEN);

@@ -25,7 +25,7 @@ const BOTTOM = 40;
 /** Energies below this part of the largest are not worth the room that they take on a scale. */
 const LEAST_PART = 1e-4;
 
-/** From this ratio between them on, energies are drawn on a logarithmic scale. */
+/** Energies whose largest is at least so many times the least are drawn on a logarithmic scale. */
 const WIDE_RATIO = 30;
 
 /** More steps than this have no number of their own on the axis. */

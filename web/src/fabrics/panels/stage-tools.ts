@@ -1,4 +1,4 @@
-// Under the stage: what a press does, the view, and where else this fabric and this shape can go.
+// The row under the stage: what a press does, the view, and what takes this fabric or this shape into motion.
 import { element } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState, Tool } from '../state/fabrics-state';

@@ -15,7 +15,7 @@ import { TERM_TITLES } from './term-words';
 
 type Counts = Record<Term, boolean>;
 
-/** Of the three unweighted terms together. */
+/** Bounds of the share that a term has in the three unweighted terms together. */
 const LITTLE = 0.1;
 const MUCH = 0.6;
 

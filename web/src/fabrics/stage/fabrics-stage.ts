@@ -51,7 +51,7 @@ const POLAR = 1.08;
 /** The floor lies under the cloth by this part of its size. */
 const FLOOR_BELOW = 0.25;
 
-/** With more panes than this shadows would take longer than the cloth. */
+/** Shadows in more panes than this would take longer than the cloth. */
 const MOST_SHADOWED_PANES = 4;
 
 /** Clothes of one topology, one in each pane. */
@@ -116,7 +116,7 @@ class PaneClothes {
     this.clothes[pane]?.update();
   }
 
-  /** Without a frame yet. */
+  /** Gives a cloth the topology and the edges of the others, and no frame yet. */
   private dress(cloth: ClothMesh): void {
     const { triangles, nVertices } = this.topology;
     cloth.setFrame(new ArrayBuffer(0), 'stretch');

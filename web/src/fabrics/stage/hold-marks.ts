@@ -12,7 +12,7 @@ import type { Triple } from '../../shared/bindings/geometry';
 
 export interface HoldMark {
   kind: 'pin' | 'handle';
-  /** Of its middle [m]. */
+  /** Its middle [m]. */
   place: Triple;
   /** The one that keys move. */
   isChosen: boolean;

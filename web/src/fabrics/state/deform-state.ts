@@ -37,7 +37,7 @@ export interface PaneState {
   terms: Triple;
   steps: DeformStep[];
   status: 'dragging' | 'settling' | 'converged' | 'not_converged';
-  /** Of the last update [ms]. */
+  /** Time of the last update [ms]. */
   updateMs: number;
 }
 
@@ -47,7 +47,7 @@ export interface NamedHold {
 }
 
 export interface DeformState {
-  /** Of assets/deform, or 'own' for the visitor's OBJ. */
+  /** Name of a file of assets/deform, or 'own' for the visitor's OBJ. */
   experiment: string;
   panes: PaneState[]; // 1 to 4, or 15 in the gallery
   gallery: boolean;

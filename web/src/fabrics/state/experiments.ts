@@ -49,7 +49,7 @@ export interface Experiment {
   bodies: Collider[];
 }
 
-/** In the order in which they are offered; the first one is shown to begin with. */
+/** Experiments in the order in which they are offered; the first one is shown to begin with. */
 const TITLES: readonly [string, string][] = [
   ['pull', 'Pulled up at two places'],
   ['ball', 'A ball under the cloth'],

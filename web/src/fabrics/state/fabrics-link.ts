@@ -11,7 +11,7 @@ import { type HeldCloth, type Hold, holdAt } from './holds';
 /** More would make a link of thousands of letters. */
 const MOST_HOLDS = 40;
 
-/** Of a move, in a link. */
+/** Significant digits of a move in a link. */
 const DIGITS = 5;
 
 /** A thousand times the size of the cloth: no hand goes there, and its squares are still numbers. */

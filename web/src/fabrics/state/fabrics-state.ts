@@ -23,7 +23,7 @@ export interface FabricsState extends DeformState {
   phase: 'loading' | 'ready' | 'broken';
   /** Pins and handles, in the order in which they came: which has a vertex first, keeps it. */
   holds: readonly Hold[];
-  /** Of the experiment, before a visitor changed them. */
+  /** The experiment's holds, before a visitor changed them. */
   ownHolds: Hold[];
   /** What is shown when it is not all fabrics: one to four. */
   compared: FabricChoice[];

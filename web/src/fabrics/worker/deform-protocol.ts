@@ -17,7 +17,7 @@ export type ToDeform =
   | ShowMessage
   /** Vertices, ascending, and their places. */
   | { type: 'hold'; vertices: Int32Array; places: Float64Array }
-  /** By a hand that goes on moving: panes follow as far as it is quick. */
+  /** A hand goes on moving: panes follow as far as that is quick. */
   | { type: 'move'; places: Float64Array }
   /** The hand rests: the exact shapes are found; those from rest are tried once it has let go. */
   | { type: 'rest'; isHeld: boolean }
@@ -37,7 +37,7 @@ export interface DeformFrame {
   buffer: ArrayBuffer;
   status: DeformStatus;
   report: DeformReport;
-  /** Of work since something was last moved or weighted otherwise [ms]. */
+  /** Time of the work since something was last moved or weighted otherwise [ms]. */
   updateMs: number;
 }
 

@@ -84,7 +84,7 @@ export interface SimulationHandle {
   masses(): Float64Array;
   /** Signed mean strain of the springs at each vertex, as a ratio. */
   stretch(): Float32Array;
-  /** To the reference at each vertex [m]; empty without one for the scene at its time. */
+  /** Distance to the reference at each vertex [m]; empty without one for the scene at its time. */
   distances(): Float32Array;
   triangles(): Uint32Array;
   /** Compares with a reference from now on, whenever the loaded scene is what it is of. */

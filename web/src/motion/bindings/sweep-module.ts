@@ -30,7 +30,7 @@ export interface BenchRow {
   /** Slowest minus quickest run, of `ms_per_frame`. */
   spread_ms: number | null;
   position_error_m: number | null;
-  /** Of the rest diagonal. */
+  /** Percent of the diagonal at rest. */
   position_error_percent: number | null;
   rms_stretch: number | null;
   largest_stretch: number | null;

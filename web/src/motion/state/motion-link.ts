@@ -33,7 +33,7 @@ export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed', 'dis
 export const HEAT_RANGES: readonly number[] = [0.5, 1, 2, 5, 10];
 const DEFAULT_PRESET: PresetId = 'curtain';
 const LATEST_START_S = 10;
-/** By then the curtain hangs in folds, and its error is known: a first visit sees both [s]. */
+/** A first visit starts here: the curtain hangs in folds, and its error is known [s]. */
 const FIRST_VISIT_START_S = 1.5;
 
 function wholeNumber(least: number, most: number) {

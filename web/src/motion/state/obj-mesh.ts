@@ -9,7 +9,7 @@ export type Hold = 'highest' | 'nothing' | `group:${string}`;
 export type Threads = 'texture' | 'down' | 'along_x';
 
 export interface ObjMesh {
-  /** Of the file. */
+  /** Name of the file. */
   name: string;
   /** Brought by the visitor; else it is the page's example. */
   isOwn: boolean;

@@ -27,7 +27,7 @@ export interface GarmentCosts {
 
 /** How a motion fits a plan's example. */
 export interface FitAnswer {
-  /** Of the faces that bend beyond what their pattern showed. */
+  /** Share of the faces that bend beyond what their pattern showed. */
   share: number;
   worst_share: number;
   /** Frames up to this one with too large a share. */
@@ -91,16 +91,16 @@ export interface GarmentRunHandle {
   triangles(): Uint32Array;
   /** The face that each triangle is of, by its place in `faces`. */
   triangleFaces(): Uint32Array;
-  /** Of the quads: pairs of vertices. */
+  /** The quads' edges as pairs of vertices. */
   edges(): Uint32Array;
   hanging(): Uint32Array;
   /** Seven numbers a face that is not split: itself, level, parent or -1, corners. */
   faces(): Int32Array;
   /** Four numbers a vertex, -1 for none. */
   parents(): Int32Array;
-  /** At each vertex [1/m]. */
+  /** One number a vertex [1/m]. */
   curvature(): Float32Array;
-  /** At each vertex [m], since `compare`. */
+  /** One number a vertex [m]; filled by `compare`. */
   distances(): Float32Array;
   delete(): void;
 }
@@ -110,7 +110,7 @@ export interface ExampleStudyHandle {
   open(sceneText: string, files: HandedFiles): string;
   parents(): Int32Array;
   addFrame(places: Float32Array): string;
-  /** Of the added frames: mean and deviation of each fine vertex's curvature [1/m]. */
+  /** Mean and deviation of each fine vertex's curvature over the added frames [1/m]. */
   features(): Float64Array;
   /** One example more that plans are made of. */
   sort(name: string, features: ArrayLike<number>, nPatterns: number): string;

@@ -59,7 +59,7 @@ export function examplesWords({ examples }: PlanStory): string {
   return `${examples.length > 1 ? 'examples' : 'example'} ${names}`;
 }
 
-/** Of several examples the least and the largest number. */
+/** The least and the largest number of several examples. */
 export function fromTo(values: readonly number[]): string {
   const least = digits(Math.min(...values), 2);
   const most = digits(Math.max(...values), 2);

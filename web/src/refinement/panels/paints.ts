@@ -5,7 +5,7 @@ import { countFaces, faceAt, facePatterns, type PlanFile } from '../state/plan-f
 import type { RefinementState } from '../state/refinement-state';
 import type { GarmentMesh } from '../worker/garment-protocol';
 
-/** By level and by pattern: few colours, told apart by lightness too. */
+/** Colours of levels and of patterns: few, told apart by lightness too. */
 export const LEVEL_COLOURS = ['#f3e3b5', '#5bb3a6', '#4380bd', '#5a2a78'];
 export const PATTERN_COLOURS = ['#d5d8dc', '#f0a25a', '#b3282d', '#5b1038'];
 

@@ -124,7 +124,7 @@ export function createStoryPanel(
   const meaning = element(
     'p',
     { class: 'note' },
-    'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. Then: vertices inside the body, and edges that go through the cloth itself, which it is not kept from. A frame is 1/30 s.',
+    'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.',
   );
   parent.append(
     element(

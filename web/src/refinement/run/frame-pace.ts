@@ -14,7 +14,7 @@ export class FramePace {
 
   constructor(private readonly nowMs: () => number) {}
 
-  /** From now on, with one frame due at once. */
+  /** Starts to count the time, with one frame due at once. */
   start(): void {
     this.lastTickMs = this.nowMs();
     this.dueFrames = 1;

@@ -12,14 +12,14 @@ type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 
 
 export interface GarmentContent {
   sceneText: string;
-  /** Of a record of that scene; null for none. */
+  /** Address of a record of that scene; null for none. */
   recordUrl: string | null;
 }
 
 export interface PaneRun {
   readonly id: PaneId;
   source: FrameSource;
-  /** Of the record that is loaded. */
+  /** Head of the record that is loaded. */
   recording(): RecordingHead | null;
   isLoaded(): boolean;
   /** Null when that is loaded already. */
@@ -27,9 +27,9 @@ export interface PaneRun {
   reset(): Promise<void>;
   advance(frame: number, how: Advance): Promise<{ fit: FitAnswer | null; ended: string | null }>;
   describe(wish: Wish): Promise<Described>;
-  /** From now on that frame is drawn, and the one before may be overwritten. */
+  /** That frame is drawn from now on, and the one before may be overwritten. */
   keep(described: Described): void;
-  /** Of the frames computed here [ms]. */
+  /** Cost of the frames computed here [ms]. */
   costs(costs: GarmentCosts): Pick<GarmentPane, 'msPerFrame' | 'parts'>;
 }
 

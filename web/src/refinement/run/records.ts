@@ -12,7 +12,7 @@ function urlOf(folder: string, file: string): string | null {
   return URLS[`../../../../assets/recordings/${folder}/${file}`] ?? null;
 }
 
-/** Of a pane, in the garment's usual fabric and by its usual plan. */
+/** Address of a pane's record, in the garment's usual fabric and by its usual plan. */
 export function recordUrl(garment: GarmentId, motion: MotionId, pane: PaneId): string | null {
   return urlOf(`${garment}_${motion}`, `${pane}.recording`);
 }

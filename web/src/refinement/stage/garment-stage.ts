@@ -42,7 +42,7 @@ export interface GarmentStage {
 
 const N_PANES = 3;
 
-/** From the front and a little from the side that is nearer to the viewer [rad]. */
+/** Direction of the first view: the front, and a little of the nearer side [rad]. */
 const AZIMUTH = 1.02;
 const POLAR = 1.36;
 
@@ -51,7 +51,7 @@ const MIDDLE_M = 0.78;
 const SEEN_ACROSS_M = 0.5;
 const SEEN_UP_M = 0.86;
 
-/** Of the light and the shadows around the person [m]. */
+/** Radius of the light and the shadows around the person [m]. */
 const LIT_RADIUS_M = 0.8;
 
 /** A press that moved farther is a drag [CSS pixels], or lasted longer [ms]. */

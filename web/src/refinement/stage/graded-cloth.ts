@@ -49,7 +49,7 @@ export interface GradedCloth {
   setChosen(face: number | null): void;
 }
 
-/** Of a hanging vertex, in CSS pixels. */
+/** Size of the dot at a hanging vertex [CSS pixels]. */
 const DOT_SIZE = 5;
 
 /** Lines and dots lie on the cloth that they belong to. */

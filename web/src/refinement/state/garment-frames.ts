@@ -1,6 +1,6 @@
 // What the view of refinement and the program that makes its records agree on.
 
-/** Of the mesh that all others are held against, and that plans go up to. */
+/** Level of the mesh that all others are compared with, and the finest level of a plan. */
 export const FINE_LEVEL = 2;
 
 /** Time between frames [s]. */
@@ -9,10 +9,10 @@ export const FRAME_S = 1 / 30;
 /** Frames of an example count from when the cloth has settled into the motion [s]. */
 export const SETTLED_S = 2;
 
-/** For as long an example that is run on this device is seen: the longest cycle of a motion [s]. */
+/** How long an example that is run on this device is watched: the longest cycle of a motion [s]. */
 export const SEEN_S = 3;
 
-/** Of an example's frames, as many are kept for a plan's limits as one in these. */
+/** One in so many of an example's frames is kept for a plan's limits. */
 export const KEPT_OF = 3;
 
 /** Patterns of a plan. */

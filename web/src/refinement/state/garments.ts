@@ -67,7 +67,7 @@ export function usualFabric(garment: GarmentId): string {
   return sceneOf(garment, 'walk').fabric.name;
 }
 
-/** Of a motion that plans are made of. */
+/** Name of the example that a motion gives a plan. */
 export function exampleName(garment: GarmentId, motion: MotionId, fabric: string): string {
   const name = `${garment}_${motion}`;
   return fabric === usualFabric(garment) ? name : `${name} in ${fabric}`;

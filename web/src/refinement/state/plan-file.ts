@@ -71,7 +71,7 @@ export function facePatterns(faces: Int32Array, parents: Int32Array, plan: PlanF
 }
 
 export interface PatternStory {
-  /** Of curvature over each example [1/m]. */
+  /** Mean and deviation of curvature over each example [1/m]. */
   meansPerM: number[];
   deviationsPerM: number[];
   /** Base vertices. */

@@ -25,7 +25,7 @@ export type FrameSource = 'recorded' | 'computed' | 'sampled' | 'resting';
 export interface GarmentPane {
   nVertices: number;
   source: FrameSource;
-  /** Of work for one frame [ms], in parts. */
+  /** Time of the work for one frame [ms], in parts. */
   msPerFrame: number | null;
   parts: { name: string; ms: number }[];
   /** Against the fine pane, RMS of the same points and of the surfaces [m]. */
@@ -71,7 +71,7 @@ export interface RefinementLink {
 export interface Doing {
   what: string;
   canCancel: boolean;
-  /** Of a further example, how much of it has run; else null. */
+  /** How much of a further example has run, 0 to 1; null when none runs. */
   share: number | null;
 }
 

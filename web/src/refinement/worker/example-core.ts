@@ -26,7 +26,7 @@ type Message<Type> = Extract<ToExample, { type: Type }>;
 interface Running {
   wish: Message<'begin'>;
   run: GarmentRunHandle;
-  /** Of its frames alone. */
+  /** A study of this example's frames alone. */
   seen: ExampleStudyHandle;
   stepsPerFrame: number;
   frame: number;

@@ -24,7 +24,7 @@ import { type Recording, readRecording } from './recording';
 
 type Message<Type> = Extract<ToGarment, { type: Type }>;
 
-/** Of an answer that is nothing but welcome. */
+/** The payload of an answer that a frame can do without; null when it was refused. */
 function payloadOf<Payload>(text: string): Payload | null {
   const answer = read<Payload>(text);
   return answer.ok ? answer : null;

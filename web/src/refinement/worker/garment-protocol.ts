@@ -39,7 +39,7 @@ export type ToGarment =
       /** The fine pane's places at the same time, if they are there. */
       reference: Float32Array | null;
       fineLevel: number;
-      /** In the place of a frame of its own: the reference as this mesh could show it. */
+      /** Shows the reference as this mesh could show it, in place of a frame of its own. */
       takesSample: boolean;
       timeS: number;
       /** What takes longer than a frame: the distance between surfaces, and faults. */
@@ -139,7 +139,7 @@ export type ToExample =
       frameS: number;
       fromS: number;
       toS: number;
-      /** Of the frames that count, one in these is kept for limits. */
+      /** One in so many of the frames that count is kept for limits. */
       keptOf: number;
     }
   /** A frame of it. */

@@ -8,13 +8,13 @@ export interface RecordingHead {
   n_vertices: number;
   /** Numbers a vertex: 3 for places, 2 for mean and deviation of curvature. */
   n_components: number;
-  /** In the unit of the numbers. */
+  /** Rounding of the numbers, in their unit. */
   quantum: number;
   n_frames: number;
   /** Time of the first frame and between frames [s]. */
   first_s: number;
   every_s: number;
-  /** Of what it was computed on; null where nothing was timed. */
+  /** Time of a frame on the machine that computed it [ms]; null where nothing was timed. */
   ms_per_frame: number | null;
 }
 

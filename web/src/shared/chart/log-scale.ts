@@ -11,7 +11,7 @@ export interface LogScale {
   minorTicks: number[];
 }
 
-/** With fewer decades than this, 2 and 5 are labelled too. */
+/** An axis of fewer decades than this has labels at 2 and 5 too. */
 const FEW_DECADES = 2.3;
 
 function multiples(factors: readonly number[], low: number, high: number): number[] {

@@ -103,7 +103,7 @@ class Orbit {
     this.apply();
   }
 
-  /** By a way on the screen [CSS pixels]. */
+  /** Shifts what is seen by a way on the screen [CSS pixels]. */
   pan(dx: number, dy: number): void {
     const { camera, pose, target } = this;
     const metresPerPixel =

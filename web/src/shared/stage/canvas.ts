@@ -3,7 +3,7 @@ import { PCFShadowMap, SRGBColorSpace, WebGLRenderer } from 'three';
 
 export interface CanvasEvents {
   draw(renderer: WebGLRenderer): void;
-  /** Of the parent, in CSS pixels; both positive. */
+  /** Size of the parent in CSS pixels; both positive. */
   resized(width: number, height: number): void;
   /** `colour` reads a variable of the page's design. */
   themed(colour: (name: string) => string): void;

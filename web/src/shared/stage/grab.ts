@@ -21,7 +21,7 @@ export interface Hand {
 export type Box = Pick<DOMRect, 'left' | 'top' | 'width' | 'height'>;
 
 export interface HandEvents {
-  /** Of the picture that a point of the page lies in, or of null, that keys are for: where it is. */
+  /** Where the picture is that has this point of the page; null asks for the one that keys act on. */
   picture(at: { x: number; y: number } | null): () => Box;
   /** True when a press there is used up otherwise. */
   press?(vertex: number): boolean;
@@ -30,7 +30,7 @@ export interface HandEvents {
   release(): void;
   /** A vertex to take by keyboard when none lies in the middle of the picture. */
   fallbackVertex(): number;
-  /** In the picture that was last asked for. */
+  /** The cloth in the picture that was last asked for. */
   cloth(): { positions: Float32Array; triangles: Uint32Array };
   /** Nothing is pulled below this height [m], whether the scene has a solid floor or not. */
   floor(): number;

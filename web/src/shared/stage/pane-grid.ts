@@ -40,7 +40,7 @@ export function createPaneGrid(canvas: HTMLCanvasElement, camera: PerspectiveCam
       const { width, height } = cutCanvas(0);
       if (width > 0 && height > 0) camera.aspect = width / height;
     },
-    /** In CSS pixels. */
+    /** Height of a pane in CSS pixels. */
     paneHeight: () => canvas.clientHeight / nRows,
     /** The pane at a point of the page, or the first. */
     paneAt({ x, y }: { x: number; y: number }): number {

@@ -6,7 +6,7 @@ export interface Hit {
   /** Along the ray, in lengths of its direction. */
   distance: number;
   point: Point;
-  /** Of the list, counted from 0. */
+  /** Index in the list. */
   triangle: number;
   /** The corner of the met triangle that is nearest to the point. */
   vertex: number;

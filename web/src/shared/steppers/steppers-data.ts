@@ -1,13 +1,13 @@
 // The steppers, one row each, in the order in which they are offered. The types are in steppers.ts.
 
-/** For steppers that are stable in small substeps only. */
+/** What steppers have that are stable in small substeps only. */
 const STABLE_SUBSTEPS = {
   start: 0,
   least: 0,
   meaning: '0: as many as its stability bound asks for.',
 };
 
-/** For steppers that solve for a whole substep at once. */
+/** What steppers have that solve for a whole substep at once. */
 const DAMPED_SUBSTEPS = { start: 1, least: 1, meaning: 'More substeps damp less and cost more.' };
 
 export default [
@@ -82,7 +82,7 @@ export default [
   {
     name: 'rk4',
     title: 'Runge-Kutta 4',
-    meaning: 'Explicit, with four looks at the forces a substep. Very exact, and slow.',
+    meaning: 'Explicit: evaluates the forces four times a substep. Very exact, and slow.',
     needs_springs: false,
     solves: false,
     settings: { substeps: STABLE_SUBSTEPS },
@@ -96,7 +96,7 @@ export default [
     name: 'newton',
     title: 'Newton (exact, slow)',
     meaning:
-      'Backward Euler, solved to the last digit: all that is wrong is the length of its steps.',
+      'Backward Euler, solved to rounding: what is left of its error is due to the length of its steps.',
     needs_springs: false,
     solves: true,
     settings: { substeps: DAMPED_SUBSTEPS },

@@ -20,13 +20,13 @@ export interface Done {
   type: 'done';
 }
 
-/** From the page. `id` is null for what is told and not asked. */
+/** What the page sends. `id` is null for what is told and not asked. */
 export interface Letter<Question> {
   id: number | null;
   message: Question;
 }
 
-/** From the worker: an answer by the id of its question, news without one, or why it cannot go on. */
+/** What the worker sends: an answer with the id of its question, news without one, or why it cannot go on. */
 export type Reply = { id: number | null; message: Message } | { broken: string };
 
 /** Which answer each type of question has. */
