@@ -6,6 +6,7 @@ import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { createInvitation } from '../shared/panels/invitation';
 import { createKeysPanel } from '../shared/panels/keys-panel';
+import { createRunTools } from '../shared/panels/run-tools';
 import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createDrawingPanel } from './panels/drawing-panel';
@@ -13,7 +14,6 @@ import { createFabricPanel } from './panels/fabric-panel';
 import { createHeatLegend } from './panels/heat-legend';
 import { createMethodPanel } from './panels/method-panel';
 import { motionSentence } from './panels/motion-sentence';
-import { createMotionToolbar } from './panels/motion-toolbar';
 import { createNumbersStrip } from './panels/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
@@ -33,6 +33,13 @@ export interface MotionView extends View {
   /** Sets a cloth in motion from the shape that it was pulled into. */
   start(shape: StartShape, fabric: string): void;
 }
+
+const TOOL_WORDS = {
+  step: 'One step (full stop)',
+  reset: 'Back to the start (R)',
+  view: 'Look from the first direction again (Home)',
+  speed: 'simulated seconds a second',
+};
 
 type Place = (id: string) => HTMLElement;
 
@@ -100,7 +107,7 @@ function createPanels(
   createProblemBanner(place('messages'), store, actions);
   createAnnouncer(place('messages'), store, motionSentence);
   createNumbersStrip(place('strip'), store);
-  createMotionToolbar(place('toolbar'), store, actions);
+  createRunTools(place('toolbar'), store, actions, TOOL_WORDS, (phase) => phase !== 'broken');
   createScenePanel(place('panel'), store, run);
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store);

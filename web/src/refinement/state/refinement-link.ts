@@ -1,8 +1,10 @@
 // The view of refinement to a link and back.
+
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
+import { SPEEDS } from '../../shared/state/speeds';
 import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';
-import { COLOURS, DEFAULT_LINK, DEMANDS, type RefinementLink, SPEEDS } from './refinement-state';
+import { COLOURS, DEFAULT_LINK, DEMANDS, type RefinementLink } from './refinement-state';
 
 const ON_OFF = ['on', 'off'] as const;
 const LARGEST_BUDGET = 100000;

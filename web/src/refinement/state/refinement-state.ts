@@ -14,8 +14,6 @@ export type ColourId = (typeof COLOURS)[number];
 /** A sum of four corners' patterns: with three patterns it ends below 8. */
 export const DEMANDS = { least: 0, most: 7.5, step: 0.5, usual: USUAL_DEMAND };
 
-export const SPEEDS: readonly number[] = [1, 0.5, 0.25];
-
 /**
  * Where a pane's frames come from: a record that comes with the page, this device, or, until it
  * plays, the fine pane's shape as this mesh could show it.
