@@ -411,12 +411,13 @@ await check(
         prepare: (fresh) =>
           fresh.addInitScript((change) => {
             const { postMessage } = Worker.prototype;
-            Worker.prototype.postMessage = function post(message, transfer) {
+            Worker.prototype.postMessage = function post(letter, transfer) {
+              const { message } = letter;
               if (message.type === 'load') {
                 const scene = { ...JSON.parse(message.sceneText), ...change };
                 message.sceneText = JSON.stringify(scene);
               }
-              postMessage.call(this, message, transfer);
+              postMessage.call(this, letter, transfer);
             };
           }, diverging),
       },
@@ -459,7 +460,7 @@ await check('the sweep fills chart and table, and a click on a point applies it'
       /not converged/.test(await page.locator('figcaption').textContent()),
       'the reference is not labelled',
     );
-    const point = page.locator('.point-xpbd').first();
+    const point = page.locator('[data-stepper="xpbd"]').first();
     const row = sweep.rows[Number(await point.getAttribute('data-row'))];
     await point.dispatchEvent('click');
     await isReady(page);
