@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -13,14 +12,15 @@
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
 #include "core/run/sampled_run.h"
+#include "core/run/timed_run.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
-constexpr double kSlice = 0.1;       // [s] between reports of progress
 
 std::vector<double> take_times(Arguments& arguments) {
   std::vector<double> times;
@@ -41,14 +41,11 @@ Json sample_json(const Sample& sample) {
           {"positions_m", std::vector<double>(begin, begin + sample.positions.size())}};
 }
 
-std::int64_t steps_of_frame(const MethodOptions& method) {
-  constexpr double kTolerance = 1e-9;  // [s]
-  const std::int64_t n_steps = whole_steps(kFrame, method.step);
-  if (std::abs(static_cast<double>(n_steps) * method.step - kFrame) > kTolerance)
-    throw InputError("/method/step_s",
-                     "expected 1/60 s or a whole part of it, got " + Json(method.step).dump());
-  return n_steps;
-}
+struct BenchOptions {
+  bool wants_parts = false;
+  int n_frames = 60;
+  std::vector<double> times;
+};
 
 /// Wall time, stretch and parts of a run, frame by frame, and its positions at the end of some
 /// frames.
@@ -59,27 +56,20 @@ struct FrameSeries {
   std::vector<double> rms_stretch;
   std::vector<double> largest_stretch;
   Json samples = Json::array();
-  SolveReport report;  // residual the largest, iterations the sum
+  SolveReport report;                          // of all steps
+  std::array<double, kStageCount> parts_ms{};  // of a frame, without what is built once
 };
 
-FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<double>& times) {
-  const std::int64_t n_steps = steps_of_frame(simulation.scene().method);
+FrameSeries run_frames(Simulation& simulation, const BenchOptions& options) {
+  const auto& [wants_parts, n_frames, times] = options;
+  const std::int64_t n_steps = steps_of_frame(simulation.scene().method.step, kFrame);
+  TimedRun run(simulation, wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
   FrameSeries series;
   Progress progress;
   std::size_t next = 0;
   for (int frame = 0; frame < n_frames; ++frame) {
-    const Stopwatch watch;
-    for (std::int64_t step = 0; step < n_steps && !series.report.ends_run(); ++step) {
-      SolveReport report = simulation.step();
-      series.report.iterations += report.iterations;
-      series.report.relative_residual =
-          std::max(series.report.relative_residual, report.relative_residual);
-      if (report.ok()) continue;
-      series.report.status = report.status;
-      series.report.message = std::move(report.message);
-    }
-    const double seconds = watch.elapsed();
-    if (series.report.ends_run()) break;
+    const double seconds = run.advance(n_steps);
+    if (run.has_ended()) break;
     series.n_frames = frame + 1;
     if (frame > 0)
       series.ms.push_back(1e3 * seconds);
@@ -95,28 +85,17 @@ FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<d
     }
     progress.show(static_cast<double>(series.n_frames) / n_frames, simulation.scene().name);
   }
+  series.report = run.report();
+  if (run.n_timed() > 0)
+    series.parts_ms =
+        run.parts().mean_ms(static_cast<double>(run.n_timed()) / static_cast<double>(n_steps));
   return series;
 }
 
-Json parts_json(const StageTimer& parts, int n_frames) {
-  Json json = Json::object();
-  for (int s = 0; s < kStageCount; ++s)
-    json[name(static_cast<Stage>(s))] = 1e3 * parts.total(static_cast<Stage>(s)) / n_frames;
-  return json;
-}
-
-struct BenchOptions {
-  bool wants_parts = false;
-  int n_frames = 60;
-  std::vector<double> times;
-};
-
 Outcome run_bench(const Scene& scene, const BenchOptions& options) {
-  steps_of_frame(scene.method);
+  steps_of_frame(scene.method.step, kFrame);
   Simulation simulation(scene);
-  StageTimer parts;
-  if (options.wants_parts) simulation.observe(&parts);
-  const FrameSeries series = run_frames(simulation, options.n_frames, options.times);
+  const FrameSeries series = run_frames(simulation, options);
   const int n_frames = std::max(1, series.n_frames);
   const auto& masses = simulation.model().masses;
   Json json = {{"scene", scene.name},
@@ -136,7 +115,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
                {"core", core_version()},
                {"samples", series.samples},
                {"masses_kg", std::vector<double>(masses.data(), masses.data() + masses.size())}};
-  if (options.wants_parts) json["parts_ms"] = parts_json(parts, n_frames);
+  if (options.wants_parts) json["parts_ms"] = json_parts(series.parts_ms);
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
   if (!series.report.ends_run()) return Outcome::ok;
@@ -167,13 +146,7 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
   const std::string id = reference_id("run", scene, times);
   if (auto known = store.find(id)) return known;
   SampledRun run(scene, times, SampledRun::Parts::untimed);
-  {
-    Progress progress;
-    while (!run.done()) {
-      run.advance(kSlice);
-      progress.show(run.progress(), scene.name);
-    }
-  }
+  finish(run, scene.name);
   if (run.failed()) {
     std::fprintf(stderr, "pleat: no reference, as its run ended early: %s\n",
                  run.report().message.c_str());

@@ -9,12 +9,11 @@
 #include "core/files/plan_file.h"
 #include "core/run/plan_maker.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {
-
-constexpr double kSlice = 0.1;  // [s] between reports of progress
 
 std::optional<double> take_number(Arguments& arguments, const char* option) {
   const auto text = arguments.text(option);
@@ -48,11 +47,7 @@ Json plans_json(const PlanMaker& maker, const std::vector<PlanOptions>& options)
 Outcome print_plans(const Scene& scene, const PlanRecipe& recipe,
                     const std::vector<PlanOptions>& options) {
   PlanMaker maker({scene}, recipe);
-  Progress progress;
-  while (!maker.done()) {
-    maker.advance(kSlice);
-    progress.show(maker.progress(), scene.name);
-  }
+  finish(maker, scene.name);
   const PlanCost& cost = maker.cost();
   Json json = {{"scene", scene.name},
                {"n_fine_vertices", rest_cloth(scene).mesh.n_vertices()},
@@ -66,13 +61,6 @@ Outcome print_plans(const Scene& scene, const PlanRecipe& recipe,
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
   return Outcome::ok;
-}
-
-Json parts_json(const std::array<double, kStageCount>& parts_ms) {
-  Json json = Json::object();
-  for (int s = 0; s < kStageCount; ++s)
-    json[name(static_cast<Stage>(s))] = parts_ms[static_cast<std::size_t>(s)];
-  return json;
 }
 
 Json fit_json(const FitSummary& fit) {
@@ -96,7 +84,7 @@ Json result_json(const Contestant& contestant, const ContestantResult& result) {
                {"residual", result.report.relative_residual},
                {"n_frames", result.n_frames},
                {"frame_ms", result.frame_ms},
-               {"parts_ms", parts_json(result.parts_ms)},
+               {"parts_ms", json_parts(result.parts_ms)},
                {"refinement_ms", result.refinement_ms},
                {"errors",
                 {{"position_m", result.errors.position},

@@ -38,9 +38,11 @@ Json stepper_settings(const std::vector<std::string>& names, const Scene& scene)
 
 /// Values between commas: as JSON where all of them are, else numbers and texts.
 Json value_list(const std::string& text) {
-  Json values = Json::parse("[" + text + "]", nullptr, /*allow_exceptions=*/false);
-  if (!values.is_discarded()) return values;
-  values = Json::array();
+  try {
+    return parse_json("[" + text + "]");
+  } catch (const InputError&) {
+  }
+  Json values = Json::array();
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     values.push_back(option_value(text.substr(begin, end - begin)));
@@ -49,7 +51,7 @@ Json value_list(const std::string& text) {
   return values;
 }
 
-/// What the options say of a plan.
+/// What the options say about a plan.
 struct SweepOptions {
   Json values = Json::object();  // of the grid
   std::map<std::string, const char*> grid;
@@ -59,10 +61,11 @@ struct SweepOptions {
   std::vector<std::string_view> given;
 
   void add_list(const char* option, const std::string& pointer, const std::string& list) {
-    if (!grid.emplace(pointer, option).second)
+    const auto key = text_value(pointer).get<std::string>();
+    if (!grid.emplace(key, option).second)
       throw InputError(option,
-                       "expected each pointer once, got " + abbreviated(Json(pointer)) + " twice");
-    values[pointer] = value_list(list);
+                       "expected each pointer once, got " + abbreviated(Json(key)) + " twice");
+    values[key] = value_list(list);
     given.emplace_back(option);
   }
   bool is_given(std::string_view option) const {
@@ -94,22 +97,22 @@ SweepOptions take_plan_options(Arguments& arguments) {
   return options;
 }
 
-/// Broken files are no plans: who reads them as a scene says what is wrong.
-bool is_plan_file(const std::string& file) {
+/// The plan of a file, or nothing. Broken files are no plans: who reads them as a scene says what
+/// is wrong.
+std::optional<Json> plan_in_file(const std::string& file) {
   try {
-    const Json json = parse_json(read_file(file));
-    return json.is_object() && json.contains("scene");
+    Json json = parse_json(read_file(file));
+    if (json.is_object() && json.contains("scene")) return json;
   } catch (const FileError&) {
     throw;
   } catch (const InputError&) {
-    return false;
   }
+  return std::nullopt;
 }
 
-/// The text of a plan's file with the scene that it may name in its place.
-std::string whole_plan(SweepInput& input) {
-  Json json = parse_json(read_file(input.file));
-  if (!json["scene"].is_string()) return json.dump();
+/// A file's plan with the scene that it may name in its place.
+Json whole_plan(Json json, SweepInput& input) {
+  if (!json["scene"].is_string()) return json;
   const std::filesystem::path folder = std::filesystem::path(input.file).parent_path();
   input.scene_file = (folder / json["scene"].get<std::string>()).string();
   try {
@@ -119,16 +122,16 @@ std::string whole_plan(SweepInput& input) {
   } catch (const InputError& error) {
     throw InputError(input.scene_file + ": " + error.where(), error.what());
   }
-  return json.dump();
+  return json;
 }
 
-std::string plan_of_options(const SweepOptions& options, const SceneInput& scene) {
-  Json plan = {{"scene", parse_json(scene.text)}, {"grid", options.values}};
+Json plan_of_options(const SweepOptions& options, const SceneInput& scene) {
+  Json plan = {{"scene", scene.json}, {"grid", options.values}};
   if (!options.steppers.empty() || !options.is_given("--set"))
     plan["settings"] = stepper_settings(options.steppers, scene.scene);
   if (options.n_repeats) plan["repeats"] = *options.n_repeats;
-  if (options.reference) plan["reference"] = *options.reference;
-  return plan.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (options.reference) plan["reference"] = text_value(*options.reference);
+  return plan;
 }
 
 }  // namespace
@@ -165,15 +168,17 @@ SweepInput take_sweep(Arguments& arguments) {
   SweepInput input;
   input.file = arguments.word("a scene's or a plan's file");
   input.grid = options.grid;
-  const bool is_plan = is_plan_file(input.file);
+  const std::optional<Json> plan_file = plan_in_file(input.file);
   for (const auto* given : {&options.given, &changes.options})
-    if (is_plan && !given->empty())
+    if (plan_file && !given->empty())
       throw InputError(std::string(given->front()), "a plan's file says this itself");
-  if (!is_plan) input.scene = read_scene_input(input.file, changes, fabrics);
+  if (!plan_file) input.scene = read_scene_input(input.file, changes, fabrics);
   with_source_named(input, [&] {
-    const std::string text = is_plan ? whole_plan(input) : plan_of_options(options, *input.scene);
-    input.plan = read_sweep_plan(
-        text, [fabrics](std::string_view scene) { return read_scene(scene, fabrics); });
+    const Json plan =
+        plan_file ? whole_plan(*plan_file, input) : plan_of_options(options, *input.scene);
+    input.plan = read_sweep_plan(JsonReader(plan), [fabrics](const JsonReader& scene) {
+      return read_scene(scene, fabrics);
+    });
   });
   return input;
 }

@@ -74,13 +74,9 @@ SolveReport Stepper::advance(State& state, double time) {
     place_solids(time_end - h, time_end);
     SolveReport part = substep(state, time_end, h);
     place_between_parents(model_.hanging, state);
-    part.iterations += report.iterations;
-    if (!report.ok() &&
-        part.ok()) {  // a cap met in an earlier substep is not hidden by a later one
-      part.status = report.status;
-      part.message = std::move(report.message);
-    }
-    report = std::move(part);
+    const double last_residual = part.relative_residual;
+    report.add(std::move(part));
+    report.relative_residual = last_residual;
     if (report.ends_run()) break;
   }
   store(state, report);

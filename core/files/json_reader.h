@@ -49,6 +49,7 @@ class JsonReader {
   explicit JsonReader(const Json& document) : JsonReader(document, "") {}
 
   const std::string& pointer() const { return pointer_; }
+  const Json& json() const { return *json_; }
 
   /// Refuses anything but an object with no other keys than these.
   void allow_keys(std::span<const char* const> keys) const;

@@ -26,14 +26,14 @@ void AdaptiveRun::build(RestCloth cloth) {
   stepper_.reset();  // it refers to the model
   cloth_ = std::move(cloth);
   model_ = std::make_unique<ClothModel>(scene_model(scene_, cloth_));
-  gauge_ = gauge_edges(mesh());
+  gauge_ = gauge_edges(*mesh());
   stepper_ = make_stepper(*model_, scene_.method);
   stepper_->observe(observer_);
 }
 
 bool AdaptiveRun::adapt() {
   DynamicRefinement::Result adapted =
-      refinement_.adapted({mesh(), std::move(state_.positions), std::move(state_.velocities)});
+      refinement_.adapted({*mesh(), std::move(state_.positions), std::move(state_.velocities)});
   state_ = {std::move(adapted.state.positions), std::move(adapted.state.velocities)};
   if (adapted.n_split == 0 && adapted.n_merged == 0) return false;
   build(rest_cloth(scene_, std::move(adapted.state.mesh)));

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/run/content_id.h"
 
 namespace pleat {
 namespace {
@@ -31,6 +32,7 @@ void Simulation::start() {
   if (start_positions_) state_.positions = *start_positions_;
   time_begin_ = 0;
   n_steps_ = 0;
+  was_led_astray_ = false;
   ended_ = {};
   for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(0);
   stepper_ = make_stepper(model_, scene_.method);
@@ -89,6 +91,7 @@ void Simulation::carry_over(const Simulation& old) {
   stepper_->start_from_contact_forces(carried_forces(old.stepper_->contact_forces(), from, to));
   time_begin_ = old.time();
   n_steps_ = 0;
+  was_led_astray_ = old.is_disturbed() || content_id(old.scene_) != content_id(scene_);
   if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {
     grab(old.grab_->vertex);
     move_grab(old.grab_->target);
@@ -104,6 +107,7 @@ void Simulation::end_transition() {
 void Simulation::grab(VertexId vertex) {
   PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
   release_grab();
+  was_led_astray_ = true;
   std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
   for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
   grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};

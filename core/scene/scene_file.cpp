@@ -53,7 +53,11 @@ std::int64_t whole_steps(double duration, double step) {
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics, const FileSource& files,
                  StepperTable steppers) {
   const Json document = parse_json(json_text);
-  const JsonReader root(document);
+  return read_scene(JsonReader(document), fabrics, files, steppers);
+}
+
+Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files,
+                 StepperTable steppers) {
   root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement",
                    "pins", "world", "method", "duration_s", "record"});
   Scene scene;

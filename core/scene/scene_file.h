@@ -11,12 +11,20 @@
 
 namespace pleat {
 
+class JsonReader;
+
 /// Reads a scene (JSON, schema in scene_schema.json). Unknown keys, wrong types, values out of
 /// range and everything that could not run throw InputError with the JSON pointer, what was
 /// expected and what was found.
 ///
 /// files  for the meshes that it names. Without it they are refused.
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
+                 const FileSource& files = {}, StepperTable steppers = standard_steppers());
+
+/// The same of a scene that is parsed already.
+///
+/// root  of the scene's own document
+Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics,
                  const FileSource& files = {}, StepperTable steppers = standard_steppers());
 
 /// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s

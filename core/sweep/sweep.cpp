@@ -115,7 +115,7 @@ std::string sweep_identity(const SweepPlan& plan, const std::string& commit) {
   return format_json({{"core", core_version()},
                       {"commit", commit},
                       {"references", references},
-                      {"plan", parse_json(write_sweep_plan(plan))}});
+                      {"plan", json_sweep_plan(plan)}});
 }
 
 Sweep::Sweep(SweepPlan plan, ReferenceStore& store, std::string commit)
@@ -194,9 +194,7 @@ BenchRow Sweep::measured_row() const {
     row.iterations_per_step = report.iterations / static_cast<double>(simulation.n_steps());
   if (run_->timed_duration() > 0) {
     row.ms_per_frame = ms_per_frame(run_->timed_seconds(), run_->timed_duration());
-    for (int s = 0; s < kStageCount; ++s)
-      row.parts_ms[static_cast<std::size_t>(s)] =
-          ms_per_frame(run_->parts().total(static_cast<Stage>(s)), run_->timed_duration());
+    row.parts_ms = run_->parts().mean_ms(run_->timed_duration() / kFrame);
   }
   const std::size_t recipe = references_.of_setting[setting()];
   if (!run_->failed()) compare(*run_, references_.recipes[recipe].scene, *made_[recipe], row);
@@ -239,7 +237,7 @@ std::optional<BenchRow> Sweep::begin_run() {
 
 void Sweep::record_row(BenchRow row) {
   Json line = journal_line(setting(), round());
-  line["row"] = parse_json(write_bench_row(row));
+  line["row"] = json_bench_row(row);
   record_(line.dump() + "\n");
   keep_row(std::move(row));
 }
@@ -289,8 +287,7 @@ bool Sweep::take_line(std::string_view text) {
       keep_time(line.at("ms_per_frame").number(kNotNegative));
       return true;
     }
-    line.at("row").members();
-    BenchRow row = read_bench_row(json["row"].dump(), plan_.steppers);
+    BenchRow row = read_bench_row(line.at("row"), plan_.steppers);
     if (row.reference.id != references_.recipes[references_.of_setting[setting()]].id) return false;
     keep_row(std::move(row));
     return true;
@@ -348,15 +345,14 @@ std::string Sweep::message() const {
                                  std::to_string(plan_.n_repeats));
 }
 
-std::string Sweep::report_json() const {
+Json Sweep::report() const {
   Json rows = Json::array();
-  for (const BenchRow& row : rows_) rows.push_back(parse_json(write_bench_row(row)));
-  return Json{{"done", done()},
-              {"progress", progress()},
-              {"rows", rows},
-              {"front", front_of(rows_)},
-              {"message", message()}}
-      .dump();
+  for (const BenchRow& row : rows_) rows.push_back(json_bench_row(row));
+  return {{"done", done()},
+          {"progress", progress()},
+          {"rows", rows},
+          {"front", front_of(rows_)},
+          {"message", message()}};
 }
 
 }  // namespace pleat

@@ -76,7 +76,8 @@ std::vector<BenchRow> rows_in(const std::string& lines) {
   std::vector<BenchRow> rows;
   for (std::size_t begin = 0; begin < lines.size();) {
     const std::size_t end = lines.find('\n', begin);
-    rows.push_back(read_bench_row(lines.substr(begin, end - begin)));
+    const Json row = parse_json(lines.substr(begin, end - begin));
+    rows.push_back(read_bench_row(JsonReader(row)));
     begin = end + 1;
   }
   return rows;

@@ -79,6 +79,45 @@ TEST_CASE("reference_track: coarser and finer cloth is compared along the mesh",
   }
 }
 
+TEST_CASE("reference_track: cloth that was led astray has no distance", "[reference]") {
+  const Scene scene = swinging_scene(1);
+  ReferenceTrack track(run_of(scene, 5));
+  Simulation simulation(scene);
+  const Positions start = simulation.rest_positions();
+  const auto has_distance = [&] {
+    const bool has = track.distance(simulation).has_value();
+    CHECK(track.distances().empty() == !has);
+    return has;
+  };
+  SECTION("by a hand, until it starts anew") {
+    simulation.grab(VertexId(40));
+    CHECK_FALSE(has_distance());
+    simulation.release_grab();
+    CHECK_FALSE(has_distance());
+    simulation.reset();
+    CHECK(has_distance());
+  }
+  SECTION("by other places to start from, whenever it starts from them") {
+    simulation.start_from(start);
+    CHECK_FALSE(has_distance());
+    simulation.reset();
+    CHECK_FALSE(has_distance());
+  }
+  SECTION("by another scene's cloth, and not by its own at another level") {
+    Scene other = scene;
+    other.fabric = library_fabric("silk");
+    Simulation of_another(other);
+    simulation.carry_over(of_another);
+    CHECK_FALSE(has_distance());
+    Simulation finer(swinging_scene(2));
+    finer.carry_over(simulation);
+    CHECK(finer.is_disturbed());
+    Simulation undisturbed(swinging_scene(2));
+    undisturbed.carry_over(Simulation(scene));
+    CHECK(track.distance(undisturbed));
+  }
+}
+
 TEST_CASE("reference_track: level, method, name and duration are not its content", "[reference]") {
   const Scene scene = swinging_scene(1);
   Scene other = scene;

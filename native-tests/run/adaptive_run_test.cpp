@@ -29,8 +29,8 @@ using Places = std::map<std::pair<double, double>, Vec3>;
 /// By rest coordinates, which refinement takes exact means of.
 Places places(const AdaptiveRun& run) {
   Places all;
-  for (int v = 0; v < run.mesh().n_vertices(); ++v) {
-    const auto uv = run.mesh().rest_coordinates().col(v);
+  for (int v = 0; v < run.mesh()->n_vertices(); ++v) {
+    const auto uv = run.mesh()->rest_coordinates().col(v);
     all[{uv[0], uv[1]}] = run.state().positions.col(v);
   }
   return all;

@@ -41,6 +41,10 @@ const std::string kScene =
     R"({"cloth": {"sheet": {"columns": 2, "rows": 2}}, "pins": [{"part": "upper_edge"}],
         "method": {"stepper": "made_up"}})";
 
+Scene read(const JsonReader& scene) {
+  return read_scene(scene, fabric_library(), FileSource(), kTable);
+}
+
 Scene scene_of(std::string_view text) {
   return read_scene(text, fabric_library(), FileSource(), kTable);
 }
@@ -133,19 +137,20 @@ TEST_CASE("stepper table: a sweep measures an added stepper and its figure draws
   const Json plan = {
       {"scene", parse_json(kScene)}, {"settings", settings}, {"duration_s", 0.1}, {"repeats", 1}};
   MemoryReferenceStore store;
-  Sweep sweep(read_sweep_plan(plan.dump(), scene_of, kTable), store, "test");
+  Sweep sweep(read_sweep_plan(JsonReader(plan), read, kTable), store, "test");
   std::string journal;
   sweep.on_run([&](const std::string& line) { journal += line; });
   while (!sweep.done()) sweep.advance(1);
   REQUIRE(sweep.rows().size() == 2);
   for (const BenchRow& row : sweep.rows()) CHECK(row.method.stepper == &kMadeUp);
   CHECK(sweep.rows()[1].n_substeps == 7);
-  CHECK(read_bench_row(write_bench_row(sweep.rows()[0]), kTable).method.stepper == &kMadeUp);
+  const Json row = json_bench_row(sweep.rows()[0]);
+  CHECK(read_bench_row(JsonReader(row), kTable).method.stepper == &kMadeUp);
   const std::string figure = front_figure(sweep.rows());
   CHECK(has(figure, "M-1-2L3 4Z\" fill=\"#123456\""));
   CHECK(has(figure, ">made_up</text>"));
 
-  Sweep again(read_sweep_plan(plan.dump(), scene_of, kTable), store, "test");
+  Sweep again(read_sweep_plan(JsonReader(plan), read, kTable), store, "test");
   CHECK(again.resume(journal) == journal.size());
   CHECK(again.done());
 }
