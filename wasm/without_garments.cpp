@@ -4,9 +4,9 @@
 #include "core/base/check.h"
 #include "core/files/plan_file.h"
 #include "core/mesh/smooth_surface.h"
-#include "core/scene/figure_section.h"
-#include "core/scene/garment_section.h"
+#include "core/scene/garment_cloth.h"
 #include "core/scene/plan_section.h"
+#include "core/scene/scene_figure.h"
 
 namespace pleat {
 namespace {

@@ -139,7 +139,7 @@ struct Chain {
 };
 
 /// From the end `begin` on; nothing unless it passes every particle.
-Chain chain_from(VertexId begin, const InlineCloth& cloth) {
+Chain chain_from(VertexId begin, const ParticleCloth& cloth) {
   const auto n_particles = static_cast<std::size_t>(cloth.positions.cols());
   std::vector<std::array<const Spring*, 2>> ends_at(n_particles, {nullptr, nullptr});
   for (const Spring& spring : cloth.springs) {
@@ -160,7 +160,8 @@ Chain chain_from(VertexId begin, const InlineCloth& cloth) {
   return chain.particles.size() == n_particles ? chain : Chain{};
 }
 
-RestShape particles_at_rest(const Scene& scene, const InlineCloth& cloth, const ClothModel& model) {
+RestShape particles_at_rest(const Scene& scene, const ParticleCloth& cloth,
+                            const ClothModel& model) {
   if (!model.bends.empty()) refuse("/cloth/particles/bends", "no bending");
   if (model.pins.empty() || model.pins.size() > 2)
     refuse("/pins", "one or both ends of a chain held");
@@ -212,9 +213,9 @@ Reference closed_form_reference(const Scene& scene, std::span<const double> time
   const ClothModel model = scene_model(scene, rest_cloth(scene, scene.level));
   check_surroundings(scene, model);
   const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  const RestShape rest = shape
-                             ? sheet_at_rest(scene, *shape, model)
-                             : particles_at_rest(scene, std::get<InlineCloth>(scene.cloth), model);
+  const RestShape rest =
+      shape ? sheet_at_rest(scene, *shape, model)
+            : particles_at_rest(scene, std::get<ParticleCloth>(scene.cloth), model);
   Scene content = scene;
   content.method = MethodOptions{};  // the shape at rest does not depend on it
   Reference reference;

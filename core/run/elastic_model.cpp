@@ -39,7 +39,7 @@ void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
   model.hanging = quads.hanging_vertices();
 }
 
-void add_particles(ClothModel& model, const Scene& scene, const InlineCloth& particles) {
+void add_particles(ClothModel& model, const Scene& scene, const ParticleCloth& particles) {
   model.masses = particles.masses;
   model.springs = particles.springs;
   if (scene.model.bending == BendingModel::quadratic) model.bends = particles.bends;
@@ -61,7 +61,7 @@ void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mes
 }  // namespace
 
 void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth) {
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+  if (const auto* particles = std::get_if<ParticleCloth>(&scene.cloth))
     return add_particles(model, scene, *particles);
   // A quarter of each quad or a third of each triangle at every corner.
   model.masses = scene.fabric.areal_density * rest_areas(scene, cloth);

@@ -100,7 +100,7 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
 
 State scene_state(const Scene& scene, const RestCloth& cloth) {
   const Positions& positions = cloth.start;
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+  if (const auto* particles = std::get_if<ParticleCloth>(&scene.cloth))
     return {positions, particles->velocities};
   return {positions, scene.initial_velocity.replicate(1, positions.cols())};
 }

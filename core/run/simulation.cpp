@@ -9,7 +9,7 @@ namespace {
 
 std::vector<GaugeEdge> cloth_gauge(const Scene& scene, const RestCloth& cloth) {
   if (cloth.quads) return gauge_edges(*cloth.quads);
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+  if (const auto* particles = std::get_if<ParticleCloth>(&scene.cloth))
     return gauge_edges(particles->springs);
   return gauge_edges(cloth.mesh);
 }
@@ -106,7 +106,7 @@ void Simulation::grab(VertexId vertex) {
   std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
   for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
   grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
-  const bool is_one_piece = !std::holds_alternative<InlineCloth>(scene_.cloth);
+  const bool is_one_piece = !std::holds_alternative<ParticleCloth>(scene_.cloth);
   const double radius = is_one_piece ? kHandRadius * rest_diagonal(scene_) : 0;
   const Positions& rest = rest_positions();
   std::vector<bool> in_hand(pinned.size(), false);

@@ -5,8 +5,8 @@
 
 #include "core/base/check.h"
 #include "core/mesh/mesh_lines.h"
-#include "core/scene/garment_section.h"
-#include "core/scene/mesh_section.h"
+#include "core/scene/garment_cloth.h"
+#include "core/scene/mesh_cloth.h"
 #include "core/scene/vertex_arrays.h"
 
 namespace pleat {
@@ -113,7 +113,7 @@ BendElement read_bend(const JsonReader& reader, std::int64_t n_vertices) {
 void read_particles(const JsonReader& reader, Scene& scene) {
   reader.allow_keys(
       {"positions_m", "velocities_m_per_s", "masses_kg", "springs", "bends", "triangles"});
-  InlineCloth cloth;
+  ParticleCloth cloth;
   cloth.positions = read_positions(reader.at("positions_m"));
   const std::int64_t n = cloth.positions.cols();
   const auto n_elements = static_cast<std::size_t>(n);
@@ -167,7 +167,7 @@ Json json_bend(const BendElement& bend) {
   return json;
 }
 
-Json json_particles(const InlineCloth& cloth) {
+Json json_particles(const ParticleCloth& cloth) {
   Json json;
   json["positions_m"] = json_columns(cloth.positions);
   json["velocities_m_per_s"] = json_columns(cloth.velocities);
@@ -192,11 +192,11 @@ std::int64_t n_refined_vertices(const Scene& scene, int level) {
     return n_mesh_vertices(cloth->mesh, level);
   if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
     return n_garment_vertices(garment->garment.patch, level);
-  return std::get<InlineCloth>(scene.cloth).positions.cols();
+  return std::get<ParticleCloth>(scene.cloth).positions.cols();
 }
 
 void check_level(const Scene& scene, int level, const std::string& where) {
-  if (level > 0 && std::holds_alternative<InlineCloth>(scene.cloth))
+  if (level > 0 && std::holds_alternative<ParticleCloth>(scene.cloth))
     throw InputError(where,
                      "expected 0, as particles cannot be refined, got " + std::to_string(level));
   const std::int64_t n_vertices = n_refined_vertices(scene, level);
@@ -228,7 +228,7 @@ Json json_cloth(const Scene& scene) {
     json["mesh"] = json_mesh(*cloth, scene.initial_velocity);
   if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth))
     json["garment"] = json_garment(*garment);
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
+  if (const auto* particles = std::get_if<ParticleCloth>(&scene.cloth))
     json["particles"] = json_particles(*particles);
   return json;
 }

@@ -94,7 +94,7 @@ RestCloth rest_cloth(const Scene& scene, int level) {
     return rest_cloth(scene, std::move(*quads));
   }
   if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) return rest_mesh(*mesh, level);
-  const auto& particles = std::get<InlineCloth>(scene.cloth);
+  const auto& particles = std::get<ParticleCloth>(scene.cloth);
   RestCloth cloth;
   cloth.mesh = {particles.positions, particles.triangles, {}};
   cloth.start = particles.positions;
@@ -117,7 +117,7 @@ RestCloth rest_cloth(const Scene& scene, QuadMesh quads) {
 
 Eigen::VectorXd rest_areas(const Scene& scene, const RestCloth& cloth) {
   if (cloth.quads) return cloth.quads->vertex_areas();
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth)) return particles->masses;
+  if (const auto* particles = std::get_if<ParticleCloth>(&scene.cloth)) return particles->masses;
   return vertex_areas(cloth.mesh);
 }
 
@@ -128,7 +128,7 @@ double rest_diagonal(const Scene& scene) {
     return box_diagonal(garment->garment.patch.rest_positions);
   const auto* mesh = std::get_if<MeshCloth>(&scene.cloth);
   const Positions& positions =
-      mesh != nullptr ? mesh->mesh.rest_positions : std::get<InlineCloth>(scene.cloth).positions;
+      mesh != nullptr ? mesh->mesh.rest_positions : std::get<ParticleCloth>(scene.cloth).positions;
   return positions.cols() == 0 ? 0 : box_diagonal(positions);
 }
 

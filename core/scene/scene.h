@@ -21,7 +21,7 @@ namespace pleat {
 
 /// Particles and springs written out in the scene: textbook systems (pendulum, chain) are scenes
 /// too.
-struct InlineCloth {
+struct ParticleCloth {
   Positions positions;     ///< at time 0 [m]
   Positions velocities;    ///< at time 0 [m/s], same size
   Eigen::VectorXd masses;  ///< [kg], positive
@@ -117,7 +117,7 @@ struct RecordOptions {
 struct Scene {
   std::string name = "unnamed";
   std::string caption;  ///< one sentence: what to notice
-  std::variant<SheetShape, InlineCloth, MeshCloth, GarmentCloth> cloth = SheetShape{};
+  std::variant<SheetShape, ParticleCloth, MeshCloth, GarmentCloth> cloth = SheetShape{};
   Vec3 initial_velocity{0, 0, 0};  ///< of a sheet or mesh [m/s]
   BendSource bend_source = BendSource::at_rest;
   bool fabric_is_named =

@@ -7,10 +7,10 @@
 #include "core/files/plan_file.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
-#include "core/scene/figure_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
 #include "core/scene/plan_section.h"
+#include "core/scene/scene_figure.h"
 #include "core/scene/world_section.h"
 
 namespace pleat {

@@ -72,6 +72,6 @@ TEST_CASE("chain_reference: scenes that do not swing so are refused", "[referenc
   SECTION("another edge") { scene.pins.front().where = SheetPart::left_edge; }
   SECTION("thrown") { scene.initial_velocity = Vec3(0, 0, 1); }
   SECTION("weft not level") { scene.gravity = Vec3(1, -9, 0); }
-  SECTION("particles") { scene.cloth = InlineCloth{}; }
+  SECTION("particles") { scene.cloth = ParticleCloth{}; }
   CHECK_THROWS_AS(chain_reference(scene, kTimes), InputError);
 }

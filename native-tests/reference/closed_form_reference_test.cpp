@@ -51,7 +51,7 @@ Scene cantilever_scene(int rows) {
 
 /// Ten springs in no particular order between two pins.
 Scene rope_scene() {
-  InlineCloth cloth;
+  ParticleCloth cloth;
   constexpr int kParticles = 11;
   cloth.positions = Positions::Zero(3, kParticles);
   cloth.positions.row(0).setLinSpaced(0, 0.9);
@@ -218,25 +218,25 @@ TEST_CASE("closed_form_reference: scenes without a closed form are refused by wh
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a ring") {
-    std::get<InlineCloth>(rope.cloth)
+    std::get<ParticleCloth>(rope.cloth)
         .springs.push_back({VertexId(0), VertexId(10), 1, 1, 0, SpringKind::other});
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a fork") {
-    std::get<InlineCloth>(rope.cloth).springs.front().b = VertexId(8);
+    std::get<ParticleCloth>(rope.cloth).springs.front().b = VertexId(8);
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a spring without stiffness") {
-    std::get<InlineCloth>(rope.cloth).springs.front().stiffness = 0;
+    std::get<ParticleCloth>(rope.cloth).springs.front().stiffness = 0;
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a rope with rigidity") {
-    std::get<InlineCloth>(rope.cloth)
+    std::get<ParticleCloth>(rope.cloth)
         .bends.push_back({{VertexId(0), VertexId(1), VertexId(2)}, {1, -2, 1}, 1});
     CHECK(where(rope) == "/cloth/particles/bends");
   }
   SECTION("supports above each other") {
-    std::get<InlineCloth>(rope.cloth).positions.col(10) = Vec3(0, 2, 1);
+    std::get<ParticleCloth>(rope.cloth).positions.col(10) = Vec3(0, 2, 1);
     CHECK(where(rope) == "/pins");
   }
 }

@@ -86,7 +86,7 @@ TEST_CASE("adaptive run: where nothing is refined it is the simulation, to the b
 
 TEST_CASE("adaptive run: cloth that is not of quads is refused", "[run]") {
   Scene scene = hanging_scene();
-  InlineCloth cloth;
+  ParticleCloth cloth;
   cloth.positions = cloth.velocities = Positions::Zero(3, 1);
   cloth.masses = Eigen::VectorXd::Ones(1);
   scene.cloth = cloth;

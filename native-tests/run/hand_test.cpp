@@ -96,7 +96,7 @@ TEST_CASE("hand: a pinned vertex stays at its pin", "[run]") {
 
 TEST_CASE("simulation: after its end it says the same at every step and does not move", "[run]") {
   // A mass on a spring so stiff that an overflow follows from the first step.
-  InlineCloth particles;
+  ParticleCloth particles;
   particles.positions = Positions::Zero(3, 2);
   particles.positions(0, 1) = 1e200;
   particles.velocities = Positions::Zero(3, 2);

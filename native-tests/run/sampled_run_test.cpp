@@ -21,7 +21,7 @@ Scene swinging_scene() {
 /// One particle in free fall from the origin.
 Scene falling_scene(double step) {
   Scene scene;
-  InlineCloth cloth;
+  ParticleCloth cloth;
   cloth.positions = Positions::Zero(3, 1);
   cloth.velocities = Positions::Zero(3, 1);
   cloth.masses = Eigen::VectorXd::Ones(1);

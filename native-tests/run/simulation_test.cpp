@@ -83,7 +83,7 @@ TEST_CASE(
     "simulation: the hanging chain comes to rest with its links stretched by what hangs on them",
     "[run]") {
   const Scene scene = asset_scene("hanging_chain");
-  const auto& chain = std::get<InlineCloth>(scene.cloth);
+  const auto& chain = std::get<ParticleCloth>(scene.cloth);
   Simulation simulation(scene);
   run(simulation, 1200);
   const auto n_links = static_cast<int>(chain.springs.size());
@@ -101,7 +101,7 @@ TEST_CASE(
 
 TEST_CASE("simulation: the spring pendulum follows the cosine", "[run]") {
   const Scene scene = asset_scene("spring_pendulum");
-  const auto& pendulum = std::get<InlineCloth>(scene.cloth);
+  const auto& pendulum = std::get<ParticleCloth>(scene.cloth);
   const double mass = pendulum.masses[1];
   const double stiffness = pendulum.springs[0].stiffness;
   const double omega = std::sqrt(stiffness / mass);

@@ -412,7 +412,7 @@ TEST_CASE("scene file: a positive number may be as large as any, but not zero", 
     const std::string begin = R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]],
         "masses_kg": [1, 1], "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": )";
     const Scene scene = read(begin + number + "}]}}}");
-    return std::get<InlineCloth>(scene.cloth).springs.at(0).stiffness;
+    return std::get<ParticleCloth>(scene.cloth).springs.at(0).stiffness;
   };
   CHECK(stiffness("1e12") == 1e12);
   CHECK_THROWS_AS(stiffness("1.0000001e12"), InputError);
@@ -436,7 +436,7 @@ TEST_CASE("scene file: a spring without rest length is unstretched at time 0", "
   const Scene scene =
       read(R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [3, 4, 0]], "masses_kg": [1, 2],
                                "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 10}]}}})");
-  const auto& cloth = std::get<InlineCloth>(scene.cloth);
+  const auto& cloth = std::get<ParticleCloth>(scene.cloth);
   CHECK(cloth.springs.at(0).rest_length == 5);
   CHECK(cloth.masses[1] == 2);
   CHECK(cloth.velocities.isZero(0));

@@ -1,4 +1,4 @@
-#include "core/scene/figure_section.h"
+#include "core/scene/scene_figure.h"
 
 #include "core/files/motion_file.h"
 

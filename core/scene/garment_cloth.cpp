@@ -1,4 +1,4 @@
-#include "core/scene/garment_section.h"
+#include "core/scene/garment_cloth.h"
 
 #include "core/base/check.h"
 

@@ -1,4 +1,4 @@
-#include "core/scene/mesh_section.h"
+#include "core/scene/mesh_cloth.h"
 
 #include <algorithm>
 #include <limits>
