@@ -26,7 +26,7 @@ class Experiment {
     return guarded([&](val&) {
       const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
       const auto read = [fabrics](std::string_view text) {
-        return pleat::read_scene(text, fabrics);
+        return pleat::read_scene(text, fabrics, {}, pleat::plain_scene_parts());
       };
       sweep_.emplace(pleat::read_sweep_plan(plan_text, read), references_, pleat::core_version());
     });

@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/reference/closed_forms.h"
 #include "core/run/scene_model.h"
+#include "core/scene/particle_cloth.h"
 
 namespace pleat {
 namespace {
@@ -117,8 +118,8 @@ RestShape cantilever_sheet(const Scene& scene, const SheetShape& shape, const Qu
   return rest;
 }
 
-RestShape sheet_at_rest(const Scene& scene, const SheetShape& shape, const ClothModel& model) {
-  const QuadMesh mesh = *rest_cloth(scene, scene.level).quads;
+RestShape sheet_at_rest(const Scene& scene, const SheetShape& shape, const QuadMesh& mesh,
+                        const ClothModel& model) {
   const int n_held = n_held_rows(shape, mesh, model.pins, scene.level);
   const double row = shape.height / (shape.rows << scene.level);
   const double held = (n_held - 1) * row;
@@ -209,13 +210,14 @@ RestShape particles_at_rest(const Scene& scene, const ParticleCloth& cloth,
 }  // namespace
 
 Reference closed_form_reference(const Scene& scene, std::span<const double> times) {
-  if (std::holds_alternative<MeshCloth>(scene.cloth)) refuse("/cloth", "a sheet or particles");
-  const ClothModel model = scene_model(scene, rest_cloth(scene, scene.level));
+  const auto* sheet = scene.cloth.as<SheetCloth>();
+  const auto* particles = scene.cloth.as<ParticleCloth>();
+  if (sheet == nullptr && particles == nullptr) refuse("/cloth", "a sheet or particles");
+  const RestCloth cloth = rest_cloth(scene, scene.level);
+  const ClothModel model = scene_model(scene, cloth);
   check_surroundings(scene, model);
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  const RestShape rest =
-      shape ? sheet_at_rest(scene, *shape, model)
-            : particles_at_rest(scene, std::get<ParticleCloth>(scene.cloth), model);
+  const RestShape rest = sheet != nullptr ? sheet_at_rest(scene, sheet->shape, *cloth.quads, model)
+                                          : particles_at_rest(scene, *particles, model);
   Scene content = scene;
   content.method = MethodOptions{};  // the shape at rest does not depend on it
   Reference reference;

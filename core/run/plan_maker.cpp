@@ -42,7 +42,7 @@ QuadMesh example_base(const Scene& scene) {
 /// Of an example: its name, and what has to be the same.
 std::string description(const Scene& scene) {
   return abbreviated(Json(scene.name)) + " at level " + std::to_string(scene.level) + " with " +
-         std::to_string(n_refined_vertices(scene, 0)) + " unrefined vertices";
+         std::to_string(scene.cloth->n_vertices(0)) + " unrefined vertices";
 }
 
 }  // namespace

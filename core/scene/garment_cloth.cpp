@@ -1,6 +1,8 @@
 #include "core/scene/garment_cloth.h"
 
 #include "core/base/check.h"
+#include "core/mesh/smooth_surface.h"
+#include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
@@ -54,26 +56,66 @@ Garment made(const JsonReader& reader, Make&& make) {
   }
 }
 
+/// The group with the middles of edges whose ends are both in it.
+VertexGroup refined(const VertexGroup& base, const QuadMesh& quads) {
+  VertexGroup group{base.name, {}};
+  std::vector<bool> inside(static_cast<std::size_t>(quads.n_vertices()), false);
+  for (const VertexId v : base.vertices) inside[v] = true;
+  for (int i = 0; i < quads.n_vertices(); ++i) {
+    const VertexParents& parents = quads.parents()[static_cast<std::size_t>(i)];
+    if (parents.count == 2) inside[i] = inside[parents.vertices[0]] && inside[parents.vertices[1]];
+    if (inside[i]) group.vertices.emplace_back(i);
+  }
+  return group;
+}
+
 }  // namespace
 
-GarmentCloth read_garment(const JsonReader& reader, const Scene& scene) {
-  if (!scene.figure) reader.fail("no garment, as the scene has no figure to wear it");
-  const BodyBuild build = scene.figure->build;
+const char* GarmentCloth::key() const { return "garment"; }
+
+Json GarmentCloth::json() const {
+  if (const auto* skirt = std::get_if<SkirtMeasures>(&measures))
+    return {{"skirt", json_measures(*skirt, kSkirtLengths)}};
+  return {{"trousers", json_measures(std::get<TrouserMeasures>(measures), kTrouserLengths)}};
+}
+
+double GarmentCloth::rest_diagonal() const { return box_diagonal(garment.patch.rest_positions); }
+
+QuadMesh GarmentCloth::base_quads() const { return QuadMesh::from_patch(garment.patch); }
+
+RestCloth GarmentCloth::at_rest(QuadMesh quads) const {
+  RestCloth cloth = flat_rest_cloth(std::move(quads));
+  cloth.start = on_smooth_surface(base_quads(), *cloth.quads);
+  for (const VertexGroup& group : garment.groups)
+    cloth.groups.push_back(refined(group, *cloth.quads));
+  return cloth;
+}
+
+std::string GarmentCloth::read_part(const JsonReader& reader) const {
+  return read_group(reader, garment.groups).name;
+}
+
+std::vector<VertexId> GarmentCloth::base_part(const std::string& name) const {
+  return vertices_of(garment.groups, name);
+}
+
+GarmentCloth read_garment(const JsonReader& reader, const Figure* figure) {
+  if (figure == nullptr) reader.fail("no garment, as the scene has no figure to wear it");
+  const BodyBuild build = figure->build;
+  GarmentCloth cloth;
   reader.allow_keys({"skirt", "trousers"});
   if (reader.only_one_of({"skirt", "trousers"}) == 0) {
     const JsonReader at = reader.at("skirt");
     const auto measures = read_measures(at, kSkirtLengths);
-    return {measures, made(at, [&] { return skirt(measures, build); })};
+    cloth.measures = measures;
+    cloth.garment = made(at, [&] { return skirt(measures, build); });
+  } else {
+    const JsonReader at = reader.at("trousers");
+    const auto measures = read_measures(at, kTrouserLengths);
+    cloth.measures = measures;
+    cloth.garment = made(at, [&] { return trousers(measures, build); });
   }
-  const JsonReader at = reader.at("trousers");
-  const auto measures = read_measures(at, kTrouserLengths);
-  return {measures, made(at, [&] { return trousers(measures, build); })};
-}
-
-Json json_garment(const GarmentCloth& cloth) {
-  if (const auto* skirt = std::get_if<SkirtMeasures>(&cloth.measures))
-    return {{"skirt", json_measures(*skirt, kSkirtLengths)}};
-  return {{"trousers", json_measures(std::get<TrouserMeasures>(cloth.measures), kTrouserLengths)}};
+  return cloth;
 }
 
 }  // namespace pleat

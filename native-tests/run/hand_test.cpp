@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "core/run/simulation.h"
+#include "core/scene/particle_cloth.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 
@@ -15,7 +17,9 @@ constexpr VertexId kLowerCorner{kCells * (kCells + 1)};
 /// Hanging from its upper edge, with any of the steppers.
 Scene hanging_scene(const MethodOptions& method) {
   Scene scene = released_sheet_scene(kCells, "fine cotton");
-  std::get<SheetShape>(scene.cloth).warp_direction = {0, -1, 0};
+  change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+    sheet.shape.warp_direction = {0, -1, 0};
+  });
   scene.method = method;
   return scene;
 }

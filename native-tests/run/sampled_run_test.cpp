@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/scene/particle_cloth.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;
