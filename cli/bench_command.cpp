@@ -194,7 +194,7 @@ Outcome bench_reference(Arguments arguments) {
   Json samples = Json::array();
   for (const Sample& sample : reference->samples) samples.push_back(sample_json(sample));
   const Json json = {{"reference", json_label(reference->label)},
-                     {"rest_diagonal_m", rest_diagonal(scene)},
+                     {"rest_diagonal_m", scene.cloth->rest_diagonal()},
                      {"samples", samples}};
   std::printf("%s\n", json.dump().c_str());
   return Outcome::ok;

@@ -261,7 +261,7 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   std::optional<EnergyLedger> ledger;
   if (wants_drift) ledger.emplace(simulation.model(), simulation.state());
   std::optional<SelfCrossings> crossings;
-  if (frames || std::holds_alternative<GarmentCloth>(scene.cloth))
+  if (frames || scene.cloth->is_worn())
     crossings.emplace(simulation.triangles(), simulation.rest_positions(),
                       simulation.model().hanging);
   const Watchers watchers{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,

@@ -59,7 +59,7 @@ void SceneInput::throw_with_source(const InputError& error) const {
 }
 
 void SceneInput::throw_out_of_memory() const {
-  const std::int64_t n = n_refined_vertices(scene, scene.level);
+  const std::int64_t n = scene.cloth->n_vertices(scene.level);
   throw InputError(file, "not enough memory for " + std::to_string(n) + " vertices");
 }
 

@@ -13,6 +13,7 @@
 #include "core/files/obj_file.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"
+#include "core/scene/mesh_cloth.h"
 #include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_schema.h"
@@ -80,7 +81,8 @@ class Scene {
 
   std::string parse(const std::string& scene_text) const {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_));
+      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_),
+                                                   {}, pleat::plain_scene_parts());
       envelope.set("scene", json_value(pleat::write_scene(scene)));
       envelope.set("summary", summary(pleat::Simulation(scene)));
     });
@@ -91,9 +93,10 @@ class Scene {
   std::string read_obj(const std::string& obj_text, const std::string& mesh_text) const {
     return guarded([&](val& envelope) {
       const auto file = [&](const std::string&) { return obj_text; };
-      const pleat::Scene scene = pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
-                                                   pleat::read_fabrics(fabrics_json_), file);
-      const auto& cloth = std::get<pleat::MeshCloth>(scene.cloth);
+      const pleat::Scene scene =
+          pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
+                            pleat::read_fabrics(fabrics_json_), file, pleat::plain_scene_parts());
+      const auto& cloth = *scene.cloth.as<pleat::MeshCloth>();
       const pleat::Positions& x = cloth.mesh.rest_positions;
       envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
       std::vector<std::string> names;
@@ -239,8 +242,8 @@ class Simulation {
   pleat::Simulation& running() const { return run_.running(); }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
-    return std::make_unique<pleat::Simulation>(
-        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_)));
+    return std::make_unique<pleat::Simulation>(pleat::read_scene(
+        scene_text, pleat::read_fabrics(fabrics_json_), {}, pleat::plain_scene_parts()));
   }
 
   /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state

@@ -282,7 +282,9 @@ class Deformation {
   std::string cloth_section() const {
     return guarded([&](val& envelope) {
       pleat::Scene scene;
-      pleat::MeshCloth mesh{cloth().mesh, {}, {}, cloth().textures};
+      pleat::MeshCloth mesh;
+      mesh.mesh = cloth().mesh;
+      mesh.textures = cloth().textures;
       if (!held_.empty()) mesh.groups.push_back({"held", held_});
       scene.cloth = std::move(mesh);
       envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);

@@ -26,7 +26,7 @@ class Experiment {
     return guarded([&](val&) {
       const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
       const auto read = [fabrics](const pleat::JsonReader& scene) {
-        return pleat::read_scene(scene, fabrics);
+        return pleat::read_scene(scene, fabrics, {}, pleat::plain_scene_parts());
       };
       const pleat::Json plan = pleat::parse_json(plan_text);
       sweep_.emplace(pleat::read_sweep_plan(pleat::JsonReader(plan), read), references_,

@@ -61,7 +61,10 @@ class JsonReader {
   /// Nothing when the key is absent.
   std::optional<JsonReader> find(const char* key) const;
   /// The one of `keys` that is there, the index into `keys`; an error unless it is exactly one.
-  std::size_t only_one_of(std::initializer_list<const char*> keys) const;
+  std::size_t only_one_of(std::span<const char* const> keys) const;
+  std::size_t only_one_of(std::initializer_list<const char*> keys) const {
+    return only_one_of(std::span<const char* const>(keys.begin(), keys.size()));
+  }
 
   double number(const NumberRange& range = kAnyNumber) const;
   std::int64_t integer(std::int64_t low, std::int64_t high) const;

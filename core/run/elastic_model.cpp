@@ -39,10 +39,10 @@ void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
   model.hanging = quads.hanging_vertices();
 }
 
-void add_particles(ClothModel& model, const Scene& scene, const InlineCloth& particles) {
-  model.masses = particles.masses;
-  model.springs = particles.springs;
-  if (scene.model.bending == BendingModel::quadratic) model.bends = particles.bends;
+void add_given(ClothModel& model, const Scene& scene, const GivenSprings& given) {
+  model.masses = given.masses;
+  model.springs = given.springs;
+  if (scene.model.bending == BendingModel::quadratic) model.bends = given.bends;
 }
 
 void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mesh) {
@@ -61,10 +61,9 @@ void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mes
 }  // namespace
 
 void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth) {
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
-    return add_particles(model, scene, *particles);
+  if (cloth.given_springs) return add_given(model, scene, *cloth.given_springs);
   // A quarter of each quad or a third of each triangle at every corner.
-  model.masses = scene.fabric.areal_density * rest_areas(scene, cloth);
+  model.masses = scene.fabric.areal_density * rest_areas(cloth);
   if (scene.model.elasticity == Elasticity::springs)
     add_springs(model, scene, *cloth.quads);
   else

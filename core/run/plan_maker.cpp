@@ -30,7 +30,7 @@ std::vector<double> frame_times(const Scene& scene, const PlanRecipe& recipe) {
 /// The name of an example, and what has to be the same for all.
 std::string description(const Scene& scene) {
   return abbreviated(Json(scene.name)) + " at level " + std::to_string(scene.level) + " with " +
-         std::to_string(n_refined_vertices(scene, 0)) + " unrefined vertices";
+         std::to_string(scene.cloth->n_vertices(0)) + " unrefined vertices";
 }
 
 std::vector<Scene> checked(std::vector<Scene> examples) {

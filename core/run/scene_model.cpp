@@ -8,23 +8,26 @@
 namespace pleat {
 namespace {
 
-Motion following(const std::shared_ptr<const MovingBody>& body, Bone bone) {
+/// What follows each bone of the scene's figure; empty without a figure.
+using BoneFrames = std::vector<std::shared_ptr<const MovingFrame>>;
+
+Motion following(const BoneFrames& frames, Bone bone) {
   Motion motion;
   motion.kind = Motion::Kind::follow;
-  motion.frame = bone_frame(body, bone);
+  motion.frame = frames[static_cast<std::size_t>(bone)];
   return motion;
 }
 
 /// A later rule does not pin again what an earlier one holds, and hanging vertices follow their
 /// parents.
 std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const ClothModel& model,
-                            const std::shared_ptr<const MovingBody>& body) {
+                            const BoneFrames& frames) {
   const Positions& positions = cloth.start;
   std::vector<Pin> pins;
   std::vector<bool> taken(static_cast<std::size_t>(positions.cols()), false);
   for (const PinRule& rule : scene.pins) {
-    const Motion motion = rule.bone ? following(body, *rule.bone) : rule.motion;
-    for (const VertexId v : pinned_vertices(rule, scene, cloth)) {
+    const Motion motion = rule.bone ? following(frames, *rule.bone) : rule.motion;
+    for (const VertexId v : pinned_vertices(rule, cloth)) {
       if (taken[v] || model.hangs(v)) continue;
       taken[v] = true;
       pins.push_back({v, positions.col(v), motion});
@@ -33,20 +36,19 @@ std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const Cl
   return pins;
 }
 
-/// Those that the scene's cloth meets: garments are of the lower body.
+/// The parts of the figure that the scene's cloth meets: garments are of the lower body.
 std::vector<BodyPart> body_parts(const Scene& scene) {
-  std::vector<BodyPart> parts = mannequin(scene.figure->build);
-  return std::holds_alternative<GarmentCloth>(scene.cloth) ? below_waist(std::move(parts)) : parts;
+  std::vector<BodyPart> parts = scene.figure->parts();
+  return scene.cloth->is_worn() ? below_waist(std::move(parts)) : parts;
 }
 
 /// The scene's own solids, then the figure's.
-std::vector<Collider> scene_colliders(const Scene& scene,
-                                      const std::shared_ptr<const MovingBody>& body) {
+std::vector<Collider> scene_colliders(const Scene& scene, const BoneFrames& frames) {
   std::vector<Collider> colliders = scene.colliders;
   if (!scene.figure) return colliders;
   const double friction = scene.figure->friction.value_or(scene.fabric.friction_solid);
   for (const BodyPart& part : body_parts(scene))
-    colliders.push_back(Collider{part.shape, following(body, part.bone), friction});
+    colliders.push_back(Collider{part.shape, following(frames, part.bone), friction});
   return colliders;
 }
 
@@ -67,9 +69,9 @@ double longest_edge(const Positions& positions, const std::array<VertexId, 4>& c
   return longest;
 }
 
-/// Of the largest face around each vertex [m]: of a garment half of the longest edge of quads,
-/// whose threads run along limbs and around them; of other cloth a triangle's circumradius. A
-/// hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
+/// The radius of the largest face around each vertex [m]: of a garment half of the longest edge of
+/// quads, whose threads run along limbs and around them; of other cloth a triangle's circumradius.
+/// A hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
 /// which may be stretched.
 Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
   const Positions& positions = cloth.mesh.rest_positions;
@@ -81,7 +83,7 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
     for (const VertexId v : corners)
       radii[v] = std::max(radii[v], (has_hanging ? 2 * kStretched : 1) * radius);
   };
-  if (std::holds_alternative<GarmentCloth>(scene.cloth)) {
+  if (scene.cloth->is_worn() && cloth.quads) {
     for (const QuadFace& face : cloth.quads->faces())
       if (face.active()) add_face(face.corners, longest_edge(positions, face.corners) / 2);
   } else {
@@ -98,29 +100,22 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
 
 }  // namespace
 
-State scene_state(const Scene& scene, const RestCloth& cloth) {
-  const Positions& positions = cloth.start;
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
-    return {positions, particles->velocities};
-  return {positions, scene.initial_velocity.replicate(1, positions.cols())};
-}
+State scene_state(const RestCloth& cloth) { return {cloth.start, cloth.start_velocities}; }
 
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   ClothModel model;
-  std::shared_ptr<const MovingBody> body;
-  if (scene.figure)
-    body = std::make_shared<MovingBody>(scene.figure->motion, scene.figure->playback);
+  const BoneFrames frames = scene.figure ? scene.figure->bone_frames() : BoneFrames{};
   add_elasticity(model, scene, cloth);
   model.rest_coordinates = cloth.rest_coordinates;
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
-  model.pins = scene_pins(scene, cloth, model, body);
+  model.pins = scene_pins(scene, cloth, model, frames);
   // A sheet's quads are split both ways, so that drag is shared among corners as mass is.
   if (scene.air && cloth.quads)
     model.air.emplace(cloth.quads->crossed_triangles(), *scene.air, model.n_vertices(), 0.5);
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
-  if (std::vector<Collider> colliders = scene_colliders(scene, body); !colliders.empty()) {
+  if (std::vector<Collider> colliders = scene_colliders(scene, frames); !colliders.empty()) {
     const ContactOptions options{scene.fabric.thickness / 2, face_radii(scene, cloth, model)};
     model.contact.emplace(std::move(colliders), options);
   }

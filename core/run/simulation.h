@@ -57,7 +57,7 @@ class Simulation final : public MovingCloth {
   /// Where the scene starts [m].
   const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
   /// Of each vertex [m^2]; particles count by their mass.
-  Eigen::VectorXd rest_areas() const { return pleat::rest_areas(scene_, cloth_); }
+  Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
   std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
   double time() const override {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;

@@ -18,11 +18,8 @@ constexpr std::array<Word<BendingModel>, 6> kBendingModels{{{"quadratic", Bendin
 constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
     {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
 
-bool is_quads(const Scene& scene) {
-  return std::holds_alternative<SheetShape>(scene.cloth) ||
-         std::holds_alternative<GarmentCloth>(scene.cloth);
-}
-bool is_mesh(const Scene& scene) { return std::holds_alternative<MeshCloth>(scene.cloth); }
+bool is_quads(const Scene& scene) { return scene.cloth->quads() != nullptr; }
+bool is_mesh(const Scene& scene) { return scene.cloth->is_surface() && !is_quads(scene); }
 
 BendingModel usual_bending(Elasticity elasticity) {
   return elasticity == Elasticity::springs ? BendingModel::quadratic : BendingModel::fitted;
@@ -38,7 +35,7 @@ std::vector<BendingModel> possible_bending(const Scene& scene) {
 
 void check_elasticity(const JsonReader& reader, const Scene& scene) {
   const bool wants_membrane = scene.model.elasticity == Elasticity::membrane;
-  if (wants_membrane && !is_quads(scene) && !is_mesh(scene))
+  if (wants_membrane && !scene.cloth->is_surface())
     reader.fail("\"springs\" for particles, which have no area");
   if (!wants_membrane && is_mesh(scene))
     reader.fail("\"membrane\" for a mesh, as springs follow the threads of a sheet");
@@ -52,7 +49,7 @@ void check_bending(const JsonReader& reader, const Scene& scene) {
     expected +=
         std::string(law == possible.front() ? " \"" : ", \"") + word_for(kBendingModels, law) + '"';
   reader.fail(expected + " with " + word_for(kElasticities, scene.model.elasticity) +
-              (is_quads(scene) || is_mesh(scene) ? "" : " of particles"));
+              (scene.cloth->is_surface() ? "" : " of particles"));
 }
 
 }  // namespace
@@ -88,8 +85,7 @@ void read_model(const JsonReader& reader, Scene& scene) {
   }
   if (const auto at = reader.find("strain_limit")) {
     model.strain_limit = at->number(kNotNegative);
-    if (!is_quads(scene) && !is_mesh(scene))
-      at->fail("no such key, as particles have springs of their own");
+    if (!scene.cloth->is_surface()) at->fail("no such key, as particles have springs of their own");
   }
   if (const auto at = reader.find("stiffness_exponent")) {
     model.stiffness_exponent = at->number({0, 1});

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/dynamics/stepper_table.h"
 #include "core/files/fabric_file.h"
 #include "core/files/file_source.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_parts.h"
 
 namespace pleat {
 
@@ -18,14 +18,15 @@ class JsonReader;
 /// expected and what was found.
 ///
 /// files  for the meshes that it names. Without it they are refused.
+/// parts  what the program lets a scene be made of. Only who leaves the default contains all of it.
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
-                 const FileSource& files = {}, StepperTable steppers = standard_steppers());
+                 const FileSource& files = {}, const SceneParts& parts = all_scene_parts());
 
 /// The same of a scene that is parsed already.
 ///
 /// root  of the scene's own document
-Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics,
-                 const FileSource& files = {}, StepperTable steppers = standard_steppers());
+Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files = {},
+                 const SceneParts& parts = all_scene_parts());
 
 /// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s
 /// again.

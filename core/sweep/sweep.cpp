@@ -77,7 +77,7 @@ void compare(const SampledRun& run, const Scene& reference_scene, const Referenc
     return;
   }
   row.position_error = errors.position;
-  const double diagonal = rest_diagonal(scene);
+  const double diagonal = scene.cloth->rest_diagonal();
   if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
 }
 
@@ -94,7 +94,7 @@ double expected_work(double n_vertices, const MethodOptions& method) {
 }
 
 double expected_work(const Scene& scene) {
-  const auto n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
+  const auto n_vertices = static_cast<double>(scene.cloth->n_vertices(scene.level));
   return expected_work(n_vertices, scene.method);
 }
 

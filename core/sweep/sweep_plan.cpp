@@ -143,7 +143,7 @@ SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) 
     setting.level = scene.level;
     setting.method = scene.method;
     setting.family = family_of(json);
-    setting.n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
+    setting.n_vertices = static_cast<double>(scene.cloth->n_vertices(scene.level));
   } catch (const InputError& error) {
     if (planned.empty()) throw InputError("/scene" + error.where(), error.what());
     throw_at_change(error, planned);

@@ -4,6 +4,8 @@
 
 #include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
+#include "core/scene/particle_cloth.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 
@@ -16,7 +18,9 @@ constexpr VertexId kLowerCorner{kCells * (kCells + 1)};
 /// Hanging from its upper edge, with any of the steppers.
 Scene hanging_scene(const MethodOptions& method) {
   Scene scene = released_sheet_scene(kCells, "fine cotton");
-  std::get<SheetShape>(scene.cloth).warp_direction = {0, -1, 0};
+  change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+    sheet.shape.warp_direction = {0, -1, 0};
+  });
   scene.method = method;
   return scene;
 }
@@ -97,7 +101,7 @@ TEST_CASE("hand: a pinned vertex stays at its pin", "[run]") {
 
 TEST_CASE("simulation: after its end it says the same at every step and does not move", "[run]") {
   // A mass on a spring so stiff that an overflow follows from the first step.
-  InlineCloth particles;
+  ParticleCloth particles;
   particles.positions = Positions::Zero(3, 2);
   particles.positions(0, 1) = 1e200;
   particles.velocities = Positions::Zero(3, 2);

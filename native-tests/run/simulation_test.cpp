@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/scene/particle_cloth.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/support/assets.h"
 
@@ -37,13 +38,12 @@ TEST_CASE("simulation: an edge of a sheet is pinned whole, whatever the sheet's 
   const double size = GENERATE(0.1, 0.7, 1.0, 4.98);
   const int cells = GENERATE(3, 7, 14);
   CAPTURE(size, cells);
-  for (const SheetPart part : {SheetPart::upper_edge, SheetPart::lower_edge, SheetPart::left_edge,
-                               SheetPart::right_edge}) {
+  for (const char* part : {"upper_edge", "lower_edge", "left_edge", "right_edge"}) {
     Scene scene;
     SheetShape shape;
     shape.width = shape.height = size;
     shape.columns = shape.rows = cells;
-    scene.cloth = shape;
+    scene.cloth = SheetCloth(shape);
     scene.level = 1;
     scene.pins = {{part, {}}};
     CHECK(Simulation(scene).model().pins.size() == static_cast<std::size_t>(2 * cells + 1));
@@ -53,7 +53,7 @@ TEST_CASE("simulation: an edge of a sheet is pinned whole, whatever the sheet's 
 TEST_CASE("simulation: an edge keeps its motion where it shares a corner with one at rest",
           "[run]") {
   Scene scene;
-  scene.pins = {{SheetPart::upper_edge, {}}, {SheetPart::upper_left, {}}};
+  scene.pins = {{"upper_edge", {}}, {"upper_left", {}}};
   CHECK(Simulation(scene).model().pins.size() == 2);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE(
     "simulation: the hanging chain comes to rest with its links stretched by what hangs on them",
     "[run]") {
   const Scene scene = asset_scene("hanging_chain");
-  const auto& chain = std::get<InlineCloth>(scene.cloth);
+  const auto& chain = *scene.cloth.as<ParticleCloth>();
   Simulation simulation(scene);
   run(simulation, 1200);
   const auto n_links = static_cast<int>(chain.springs.size());
@@ -101,7 +101,7 @@ TEST_CASE(
 
 TEST_CASE("simulation: the spring pendulum follows the cosine", "[run]") {
   const Scene scene = asset_scene("spring_pendulum");
-  const auto& pendulum = std::get<InlineCloth>(scene.cloth);
+  const auto& pendulum = *scene.cloth.as<ParticleCloth>();
   const double mass = pendulum.masses[1];
   const double stiffness = pendulum.springs[0].stiffness;
   const double omega = std::sqrt(stiffness / mass);

@@ -150,9 +150,9 @@ Scene released_sheet_scene(int cells, const std::string& fabric) {
   shape.columns = cells;
   shape.warp_direction = {0, 0, 1};
   Scene scene;
-  scene.cloth = shape;
+  scene.cloth = SheetCloth(shape);
   scene.fabric = library_fabric(fabric);
-  scene.pins = {{SheetPart::upper_edge, {}}};
+  scene.pins = {{"upper_edge", {}}};
   return scene;
 }
 

@@ -1,4 +1,4 @@
-#include "core/scene/mesh_section.h"
+#include "core/scene/mesh_cloth.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,9 @@
 #include "core/base/check.h"
 #include "core/files/obj_file.h"
 #include "core/mesh/mesh_fault.h"
+#include "core/mesh/mesh_lines.h"
 #include "core/scene/vertex_arrays.h"
+#include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
@@ -187,35 +189,78 @@ MeshCloth read_inline_mesh(const JsonReader& reader, const std::optional<Vec3>& 
 
 }  // namespace
 
+const char* MeshCloth::key() const { return "mesh"; }
+
+Json MeshCloth::json() const {
+  Json json;
+  json["positions_m"] = json_columns(mesh.rest_positions);
+  json["triangles"] = Json::array();
+  for (const Triangle& triangle : mesh.triangles)
+    json["triangles"].push_back(json_vertices(triangle));
+  json["warp_directions"] = Json::array();
+  for (const Vec3& direction : mesh.warp_directions)
+    json["warp_directions"].push_back(json_vec3(direction));
+  json["groups"] = Json::object();
+  for (const VertexGroup& group : groups)
+    json["groups"][group.name] = json_vertices(group.vertices);
+  json["initial_velocity_m_per_s"] = json_vec3(initial_velocity);
+  if (texture_coordinates.cols() == 0) return json;
+  json["texture_coordinates"] = Json::array();
+  for (const auto& pair : texture_coordinates.colwise())
+    json["texture_coordinates"].push_back({pair.x(), pair.y()});
+  return json;
+}
+
+/// Each level puts a vertex on every edge, halves the edge and joins the three of each triangle.
+std::int64_t MeshCloth::n_vertices(int level) const {
+  std::int64_t n = mesh.n_vertices();
+  auto n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  auto n_edges = static_cast<std::int64_t>(level > 0 ? mesh_edges(mesh.triangles).size() : 0);
+  for (; level > 0; --level) {
+    n += n_edges;
+    n_edges = 2 * n_edges + 3 * n_triangles;
+    n_triangles *= 4;
+  }
+  return n;
+}
+
+RestCloth MeshCloth::at_rest(int level) const {
+  RestCloth cloth;
+  std::vector<std::array<VertexId, 2>> middles;
+  cloth.mesh = subdivided(mesh, level, &middles);
+  cloth.start = cloth.mesh.rest_positions;
+  cloth.start_velocities = initial_velocity.replicate(1, cloth.start.cols());
+  const int n = mesh.n_vertices();
+  for (const VertexGroup& group : groups) cloth.groups.push_back(refined(group, n, middles));
+  if (texture_coordinates.cols() == 0) return cloth;
+  cloth.rest_coordinates.resize(2, cloth.mesh.n_vertices());
+  cloth.rest_coordinates.leftCols(n) = texture_coordinates;
+  Eigen::Index column = n;
+  for (const auto& [a, b] : middles)
+    cloth.rest_coordinates.col(column++) =
+        (cloth.rest_coordinates.col(a) + cloth.rest_coordinates.col(b)) / 2;
+  return cloth;
+}
+
+double MeshCloth::rest_diagonal() const {
+  return mesh.rest_positions.cols() == 0 ? 0 : box_diagonal(mesh.rest_positions);
+}
+
+std::string MeshCloth::read_part(const JsonReader& reader) const {
+  return read_group(reader, groups).name;
+}
+
+std::vector<VertexId> MeshCloth::base_part(const std::string& name) const {
+  return vertices_of(groups, name);
+}
+
 MeshCloth read_mesh_cloth(const JsonReader& reader, const FileSource& files,
                           const std::optional<Vec3>& usual_warp) {
   const bool is_file = reader.only_one_of({"obj", "positions_m"}) == 0;
-  return is_file ? read_obj_mesh(reader, files, usual_warp) : read_inline_mesh(reader, usual_warp);
-}
-
-void read_mesh(const JsonReader& reader, const FileSource& files, Scene& scene) {
-  scene.cloth = read_mesh_cloth(reader, files, std::nullopt);
-  if (const auto at = reader.find("initial_velocity_m_per_s")) scene.initial_velocity = at->vec3();
-}
-
-Json json_mesh(const MeshCloth& cloth, const Vec3& initial_velocity) {
-  Json json;
-  json["positions_m"] = json_columns(cloth.mesh.rest_positions);
-  json["triangles"] = Json::array();
-  for (const Triangle& triangle : cloth.mesh.triangles)
-    json["triangles"].push_back(json_vertices(triangle));
-  json["warp_directions"] = Json::array();
-  for (const Vec3& direction : cloth.mesh.warp_directions)
-    json["warp_directions"].push_back(json_vec3(direction));
-  json["groups"] = Json::object();
-  for (const VertexGroup& group : cloth.groups)
-    json["groups"][group.name] = json_vertices(group.vertices);
-  json["initial_velocity_m_per_s"] = json_vec3(initial_velocity);
-  if (cloth.texture_coordinates.cols() == 0) return json;
-  json["texture_coordinates"] = Json::array();
-  for (const auto& pair : cloth.texture_coordinates.colwise())
-    json["texture_coordinates"].push_back({pair.x(), pair.y()});
-  return json;
+  MeshCloth cloth =
+      is_file ? read_obj_mesh(reader, files, usual_warp) : read_inline_mesh(reader, usual_warp);
+  if (const auto at = reader.find("initial_velocity_m_per_s")) cloth.initial_velocity = at->vec3();
+  return cloth;
 }
 
 }  // namespace pleat
