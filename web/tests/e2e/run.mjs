@@ -121,6 +121,14 @@ await check('a hand stops at the floor, in a scene that has none for the cloth',
     await page.mouse.move(x, box.y + box.height + 200, { steps: 4 });
     const heightOf = async () => (await positionsOf(page))[3 * vertex + 1];
     await until(page, (state) => state.held && state.numbers.time_s > 0.2);
+    const isAtFloor = async () => Math.abs(await heightOf()) < 1e-3;
+    await eventually(isAtFloor, 'the held corner is at the floor');
+    // It stays there while the pointer is below.
+    const { numbers } = await stateOf(page);
+    await eventually(
+      async () => (await stateOf(page)).numbers.time_s > numbers.time_s + 0.2,
+      'the cloth goes on',
+    );
     const height = await heightOf();
     await page.mouse.up();
     expectThat(Math.abs(height) < 1e-3, `the held corner is at ${height} m`);
