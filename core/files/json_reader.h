@@ -74,12 +74,12 @@ class JsonReader {
   bool is_array() const { return json_->is_array(); }
   bool is_null() const { return json_->is_null(); }
   Vec3 vec3() const;
-  /// Of length one, whatever length is given (not zero).
+  /// A vector of length one, whatever length is given (not zero).
   Vec3 direction() const;
   std::vector<JsonReader> elements() const;
-  /// Of an array that has to have this many.
+  /// The elements of an array that has to have this many.
   std::vector<JsonReader> elements(std::size_t n) const;
-  /// Of an object, with their keys in the order of the file.
+  /// The values of an object with their keys, in the order of the file.
   std::vector<std::pair<std::string, JsonReader>> members() const;
 
   template <class Value, std::size_t n>
@@ -101,6 +101,14 @@ class JsonReader {
   const Json* json_;
   std::string pointer_;
 };
+
+/// Three numbers in one range, by their keys in the order of the members of `Three`.
+template <class Three>
+Three read_three(const JsonReader& reader, const std::array<const char*, 3>& keys,
+                 const NumberRange& range) {
+  return {reader.at(keys[0]).number(range), reader.at(keys[1]).number(range),
+          reader.at(keys[2]).number(range)};
+}
 
 /// A vector as the array of numbers that JsonReader::vec3 reads.
 Json json_vec3(const Vec3& v);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,9 @@ struct ObjMesh {
 /// a whole, with no line. Source: Wavefront Technologies, Advanced Visualizer manual, appendix B1:
 /// object files.
 ObjMesh read_obj(std::string_view text);
+
+/// A line of OBJ: a keyword and numbers with the fewest digits that read back to the same bits.
+std::string obj_line(const char* keyword, std::span<const double> numbers);
 
 /// The text from which read_obj reads the same mesh, but for the lines. Numbers have the fewest
 /// digits that read back to the same bits; a group's vertices are points.

@@ -18,13 +18,13 @@ class AdaptiveRun final : public MovingCloth {
   /// Throws InputError for other cloth, options out of range and when the method cannot run on it.
   AdaptiveRun(const Scene& scene, const DynamicOptions& options);
 
-  /// What a frame begins with. Returns true when the mesh has changed. Throws InputError as
+  /// Begins a frame. Returns true when the mesh has changed. Throws InputError as
   /// make_stepper.
   bool adapt();
 
   SolveReport step() override;
 
-  /// Of later changes of the mesh.
+  /// Sets the options of later changes of the mesh.
   void set_options(const DynamicOptions& options);
 
   const QuadMesh* mesh() const override { return &*cloth_.quads; }

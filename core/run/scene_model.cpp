@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// What follows each bone of the scene's figure; empty without a figure.
+/// The frames of the figure's bones, by their numbers; empty without a figure.
 using BoneFrames = std::vector<std::shared_ptr<const MovingFrame>>;
 
 Motion following(const BoneFrames& frames, Bone bone) {

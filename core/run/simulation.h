@@ -48,15 +48,16 @@ class Simulation final : public MovingCloth {
   bool is_disturbed() const { return was_led_astray_ || start_positions_.has_value(); }
 
   const Scene& scene() const { return scene_; }
-  /// For kTransitionTime after carry_over it is on its way to the scene's own.
+  /// The equations of motion; for kTransitionTime after carry_over on their way to the scene's.
   const ClothModel& model() const override { return model_; }
+  /// The edges that stretch is measured by.
   const std::vector<GaugeEdge>& gauge() const override { return gauge_; }
   const State& state() const override { return state_; }
   const QuadMesh* mesh() const override { return cloth_.quads ? &*cloth_.quads : nullptr; }
   const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
   /// Where the scene starts [m].
   const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
-  /// Of each vertex [m^2]; particles count by their mass.
+  /// The rest area of each vertex [m^2]; particles count by their mass.
   Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
   std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
   double time() const override {

@@ -16,7 +16,7 @@
 
 namespace pleat {
 
-/// What holds cloth together that no fabric is needed for.
+/// Masses and springs that cloth has of its own, so that it needs no fabric.
 struct GivenSprings {
   Eigen::VectorXd masses;  ///< [kg], positive, one per vertex
   std::vector<Spring> springs;
@@ -75,7 +75,7 @@ class ClothSource {
 class QuadCloth : public ClothSource {
  public:
   virtual QuadMesh base_quads() const = 0;
-  /// On quads that refine base_quads().
+  /// The cloth on quads that refine base_quads().
   virtual RestCloth at_rest(QuadMesh quads) const = 0;
 
   std::int64_t n_vertices(int level) const override;
@@ -83,13 +83,13 @@ class QuadCloth : public ClothSource {
   const QuadCloth* quads() const final { return this; }
 };
 
-/// At rest on its quads, without groups and not moving.
+/// The cloth at rest on its quads, without groups and not moving.
 RestCloth flat_rest_cloth(QuadMesh quads);
 
 /// A cloth of any kind. Copies share it, as it never changes.
 class SceneCloth {
  public:
-  /// From a cloth of one kind.
+  /// Takes a cloth of one kind.
   template <class Kind, class = std::enable_if_t<std::is_base_of_v<ClothSource, Kind>>>
   SceneCloth(Kind cloth)  // NOLINT(google-explicit-constructor): a cloth is a scene's cloth
       : source_(std::make_shared<const Kind>(std::move(cloth))) {}
@@ -97,7 +97,7 @@ class SceneCloth {
   const ClothSource* operator->() const { return source_.get(); }
   const ClothSource& operator*() const { return *source_; }
 
-  /// For a question about one kind alone: the cloth when it is of that kind, else null.
+  /// The cloth when it is of this kind, else null: for a question about one kind alone.
   template <class Kind>
   const Kind* as() const {
     return dynamic_cast<const Kind*>(source_.get());

@@ -46,7 +46,7 @@ Json json_measures(const Measures& measures, const std::array<LengthField<Measur
   return json;
 }
 
-/// What the garment says of a measure is said at its place in the scene.
+/// Makes a garment; an error about a measure names the measure's place in the scene.
 template <class Make>
 Garment made(const JsonReader& reader, Make&& make) {
   try {

@@ -20,8 +20,8 @@ Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
   return {x.col(t[0]), x.col(t[1]), x.col(t[2])};
 }
 
-/// Of unit length, and in the plane up to rounding however steep the direction was to it; zero when
-/// it is perpendicular to it.
+/// The direction's part in the plane, of unit length. It is in the plane up to rounding however
+/// steep the direction was to it, and zero when that was perpendicular.
 Vec3 in_plane(const Vec3& direction, const Corners& x) {
   const Vec3 nearly = direction_in_plane(direction, x[0], x[1], x[2]);
   return direction_in_plane(nearly, x[0], x[1], x[2]);

@@ -34,7 +34,7 @@ struct PinRule {
   std::optional<Bone> bone = std::nullopt;  ///< of the figure, which it follows instead
 };
 
-/// What holds a cloth together in its own plane.
+/// The law that holds a cloth together in its own plane.
 enum class Elasticity {
   springs,   ///< along the threads and on the diagonals of quads (docs/methods/springs.md)
   membrane,  ///< orthotropic triangles (docs/methods/membrane.md)

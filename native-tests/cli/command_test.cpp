@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/files/frame_file.h"
 #include "core/files/json_text.h"
-#include "core/files/matrix_file.h"
 #include "core/reference/reference.h"
 #include "core/sweep/bench_row.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/matrix_market.h"
 #include "native-tests/support/pleat_command.h"
+#include "native-tests/support/recorded_frames.h"
 
 using namespace pleat;
 namespace fs = std::filesystem;
