@@ -42,7 +42,7 @@ val json_places(const pleat::Positions& places) {
   return json_array(std::vector<double>(places.data(), places.data() + places.size()));
 }
 
-/// For weights, measures and terms alike.
+/// Weights, measures or terms.
 template <class Numbers>
 val json_terms(const Numbers& numbers) {
   val result = val::object();
@@ -212,7 +212,7 @@ class Deformation {
     });
   }
 
-  /// Of the present shape and the one set aside, the one of lower energy.
+  /// Keeps the lower of the present shape and the one set aside.
   std::string keep_better(int pane) {
     return guarded([&](val& envelope) {
       Pane& chosen = at(pane);

@@ -29,7 +29,7 @@ class PageRun {
   /// So many steps, fewer when the numbers end the run, and then `show`. Returns 0, or the status
   /// that ended the run: what either throws ends it as well.
   int step(int n, const std::function<void()>& show);
-  /// Of the last step.
+  /// The last step's report.
   const SolveReport& report() const { return report_; }
 
   /// "status" and "message".

@@ -193,7 +193,7 @@ class GarmentRun {
   val parents() const { return array(&pleat::QuadArrays::parents); }
   val faces() const { return array(&pleat::QuadArrays::faces); }
 
-  /// At each vertex of the shown frame [1/m].
+  /// The curvature of the shown frame at each vertex [1/m].
   val curvature() {
     curvatures_.clear();
     if (curvature_) {
@@ -203,7 +203,7 @@ class GarmentRun {
     return view_of(curvatures_);
   }
 
-  /// At each vertex to the same point of what was last compared with [m].
+  /// How far each vertex is from the same point of what was last compared with [m].
   val distances() const { return view_of(distances_); }
 
  private:
