@@ -185,7 +185,7 @@ async function rowsAtLoad(load, repeat) {
   const contestants = ['fitted', 'hinge'].flatMap((bending) =>
     triangulations.map((triangulation) => contestant(load, bending, triangulation, shapes)),
   );
-  const options = { repeat, times: [kFrame], against, masses: isTip, commit, tell, frames: 0 };
+  const options = { repeat, times: [kFrame], against, masses: isTip, commit, tell, frames: 1 };
   const rows = await measure(contestants, options);
   return rows.map(({ ms_per_frame, ms_per_simulated_second, position_errors_m, ...row }) => ({
     ...row,
