@@ -9,6 +9,7 @@
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
 #include "core/run/sampled_run.h"
@@ -43,6 +44,7 @@ Json sample_json(const Sample& sample) {
 
 struct BenchOptions {
   bool wants_parts = false;
+  bool takes_turns = false;  // with another program, by lines on stdin and stdout
   int n_frames = 60;
   std::vector<double> times;
 };
@@ -50,9 +52,10 @@ struct BenchOptions {
 /// Wall time, stretch and parts of a run, frame by frame, and its positions at the end of some
 /// frames.
 struct FrameSeries {
-  int n_frames = 0;        // whole ones
-  double first_ms = 0;     // with what is built once
-  std::vector<double> ms;  // of the others
+  int n_frames = 0;                  // whole ones
+  double first_ms = 0;               // with what is built once
+  std::vector<double> ms;            // of the others
+  std::vector<double> processor_ms;  // of the same
   std::vector<double> rms_stretch;
   std::vector<double> largest_stretch;
   Json samples = Json::array();
@@ -60,21 +63,38 @@ struct FrameSeries {
   std::array<double, kStageCount> parts_ms{};  // of a frame, without what is built once
 };
 
+/// Lets another program take its turn: says so in a line and waits for one with the number of
+/// frames of the next turn. Without a number the rest are run.
+int await_turn(int n_left) {
+  std::printf("ready\n");
+  std::fflush(stdout);
+  int n_frames = 0;
+  if (std::scanf("%d", &n_frames) != 1) return n_left;
+  return std::clamp(n_frames, 1, n_left);
+}
+
 FrameSeries run_frames(Simulation& simulation, const BenchOptions& options) {
-  const auto& [wants_parts, n_frames, times] = options;
+  const int n_frames = options.n_frames;
+  const std::vector<double>& times = options.times;
   const std::int64_t n_steps = steps_of_frame(simulation.scene().method.step, kFrame);
-  TimedRun run(simulation, wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
+  TimedRun run(simulation, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
   FrameSeries series;
   Progress progress;
   std::size_t next = 0;
+  int turn_end = options.takes_turns ? 1 : n_frames;
   for (int frame = 0; frame < n_frames; ++frame) {
+    if (frame == turn_end) turn_end += await_turn(n_frames - frame);
+    const double processor_begin = process_processor_time().value_or(0);
     const double seconds = run.advance(n_steps);
+    const double processor_seconds = process_processor_time().value_or(0) - processor_begin;
     if (run.has_ended()) break;
     series.n_frames = frame + 1;
-    if (frame > 0)
+    if (frame > 0) {
       series.ms.push_back(1e3 * seconds);
-    else
+      series.processor_ms.push_back(1e3 * processor_seconds);
+    } else {
       series.first_ms = 1e3 * seconds;
+    }
     const Positions& positions = simulation.state().positions;
     const Stretch now = stretch(simulation.gauge(), positions);
     series.rms_stretch.push_back(now.rms);
@@ -105,6 +125,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
                {"n_substeps", simulation.substeps()},
                {"first_ms", series.first_ms},
                {"ms", series.ms},
+               {"processor_ms", series.processor_ms},
                {"rms_stretch", series.rms_stretch},
                {"largest_stretch", series.largest_stretch},
                {"residual", series.report.relative_residual},
@@ -126,6 +147,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
 Outcome bench_run(Arguments arguments) {
   BenchOptions options;
   options.wants_parts = arguments.flag("--parts");
+  options.takes_turns = arguments.flag("--turns");
   options.n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(options.n_frames);
   options.times = take_times(arguments);
   if (!options.times.empty() && options.times.back() > (options.n_frames + 0.5) * kFrame)
@@ -162,12 +184,39 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
   return reference;
 }
 
+std::string millimetres(const std::vector<double>& lengths) {
+  std::string text;
+  for (const double length : lengths) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.3g", text.empty() ? "" : " / ", 1e3 * length);
+    text += number;
+  }
+  return text + " mm";
+}
+
+/// Notes in a run's label how far it is from the same run at twice the step. Nothing when the
+/// numbers ended that one.
+std::optional<Reference> with_step_halved(Reference reference, Scene scene,
+                                          const std::vector<double>& times, ReferenceStore& store) {
+  const Scene fine = scene;
+  scene.method.step *= 2;
+  const std::optional<Reference> coarse = run_reference(scene, times, store);
+  if (!coarse) return std::nullopt;
+  const std::vector<double> changes = sample_distances(fine, coarse->samples, reference.samples);
+  for (std::size_t t = 0; t < changes.size(); ++t) reference.samples[t].uncertainty = changes[t];
+  reference.label.description += "; halving its step changed it by " + millimetres(changes);
+  reference.label.uncertainty = changes.back();
+  return reference;
+}
+
 Outcome bench_reference(Arguments arguments) {
   const std::string kind = arguments.text("--kind").value_or("run");
   if (kind != "run" && kind != "rigid_chain" && kind != "closed_form")
     throw InputError("--kind",
                      "expected run, rigid_chain or closed_form, got " + abbreviated(Json(kind)));
   const auto cache = arguments.text("--cache");
+  const bool halves_step = arguments.flag("--halved");
+  if (halves_step && kind != "run") throw InputError("--halved", kind + " has no step to halve");
   std::vector<double> times = take_times(arguments);
   if (!times.empty())
     for (const char* option : {"--steps", "--duration"})
@@ -186,13 +235,19 @@ Outcome bench_reference(Arguments arguments) {
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
   const std::optional<Reference> reference = with_source_named(input, [&] {
-    if (kind == "run") return run_reference(scene, times, *store);
+    if (kind == "run") {
+      auto run = run_reference(scene, times, *store);
+      return run && halves_step ? with_step_halved(*run, scene, times, *store) : run;
+    }
     return std::optional(kind == "rigid_chain" ? chain_reference(scene, times)
                                                : closed_form_reference(scene, times));
   });
   if (!reference) return Outcome::check_failed;
   Json samples = Json::array();
-  for (const Sample& sample : reference->samples) samples.push_back(sample_json(sample));
+  for (const Sample& sample : reference->samples) {
+    samples.push_back(sample_json(sample));
+    if (halves_step) samples.back()["halving_changed_m"] = sample.uncertainty;
+  }
   const Json json = {{"reference", json_label(reference->label)},
                      {"rest_diagonal_m", scene.cloth->rest_diagonal()},
                      {"samples", samples}};
@@ -203,16 +258,19 @@ Outcome bench_reference(Arguments arguments) {
 }  // namespace
 
 Outcome bench_command(Arguments arguments) {
-  const std::string kind =
-      arguments.first_word("what to measure: run, reference, deform, plans or together");
+  const std::string kind = arguments.first_word(
+      "what to measure: run, reference, deform, plans, together, rows or limit");
   arguments.flag("--json");  // its only form
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
   if (kind == "deform") return bench_deform(std::move(arguments));
   if (kind == "plans") return bench_plans(std::move(arguments));
   if (kind == "together") return bench_together(std::move(arguments));
-  throw InputError("bench", "expected run, reference, deform, plans or together after it, got " +
-                                abbreviated(Json(kind)));
+  if (kind == "rows") return bench_rows(std::move(arguments));
+  if (kind == "limit") return bench_limit(std::move(arguments));
+  throw InputError(
+      "bench", "expected run, reference, deform, plans, together, rows or limit after it, got " +
+                   abbreviated(Json(kind)));
 }
 
 }  // namespace pleat

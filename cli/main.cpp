@@ -70,10 +70,12 @@ pleat deform MESH.obj    the same of any mesh
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
+  --turns                print "ready" after the first frame and wait for a line with the number of
+                         frames of the next turn, until all have been run
 pleat bench reference SCENE.json  positions that are taken for right
   --times T1,T2 (default: the scene's end, or that of --steps N | --duration S)
   --kind run (default), or rigid_chain or closed_form, which take no option of a method
-  --cache DIR            keep runs here
+  --cache DIR            keep runs here;  --halved  how far twice the step is from it
 pleat bench deform SCENE.json     what the shape of least energy costs
   --drag N               then of a hand that takes the handles there in N moves
   --against OTHER.json   the distance to that shape, with the same fabric and form
@@ -85,6 +87,8 @@ pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in
   --adaptive K           one more, split anew in every frame where the first's base cloth bends more
                          than K [1/m]
   --from S               of what is timed and compared (default: half);  --every N  frames compared
+pleat bench rows RUNS.json        rows with speed and error, of runs as bench run prints them
+pleat bench limit RUNS.json       where runs on three meshes lead, each with edges half as long
 pleat help | --version
 
 Changes to the scene, for every command but deform, which takes --fabrics and --json too:

@@ -21,12 +21,6 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
 constexpr double kUncertaintyShare = 4;  // an error is known when it is so many times as large
 
 std::string unconverged_sentence(double distance, double uncertainty) {

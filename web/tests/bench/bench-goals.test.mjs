@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { goal, measure } from '../../../native-tests/bench/bench-rows.mjs';
+import { goal } from '../../../native-tests/bench/bench-rows.mjs';
 
 const ok = { status: 'ok' };
 const verdict = (value, direction, bound, rows = [ok]) =>
@@ -27,33 +27,5 @@ describe('bench goals', () => {
     expect(verdict(1, 'at-most', 2, [ok, { status: 'not_converged' }])).toBe('ok');
     for (const status of ['not_finite', 'not_positive_definite', 'refused', undefined])
       expect(verdict(1, 'at-most', 2, [ok, { status }])).toBe('short');
-  });
-});
-
-describe('bench rows', () => {
-  const against = {
-    reference: { id: 'still' },
-    rest_diagonal_m: 1,
-    samples: [{ positions_m: [0, 0, 0] }, { positions_m: [0, 0, 0] }],
-  };
-  const settings = { repeat: 1, times: [0.5, 1], against, masses: [1], tell: () => undefined };
-  const run = { ms: [1, 2, 3], rms: [0], largest: [0], status: 'ok', message: '' };
-  const rowOf = async (more) => {
-    const contestant = { label: 'one', run: async () => ({ ...run, ...more }) };
-    return (await measure([contestant], settings))[0];
-  };
-
-  it('have no error at a time that the run did not reach, and meet no goal with it', async () => {
-    const row = await rowOf({ samples: [[0, 3, 4]], status: 'not_finite' });
-    expect(row.position_errors_m['0.5 s']).toBe(5);
-    expect(row.position_error_m).toBeNaN();
-    expect(JSON.parse(JSON.stringify(row)).position_error_m).toBeNull();
-    expect(verdict(row.position_error_m, 'at-most', 1)).toBe('short');
-    expect(verdict(1, 'at-most', Math.min(row.position_error_m, 2))).toBe('short');
-  });
-
-  it('have no milliseconds when no frame was timed', async () => {
-    const row = await rowOf({ samples: [], ms: [] });
-    expect(verdict(row.ms_per_frame, 'at-most', 1)).toBe('short');
   });
 });

@@ -1,5 +1,4 @@
 import { describe, expect, it } from 'vitest';
-import { observedLimit } from '../../../native-tests/bench/bench-rows.mjs';
 import { strip, tipErrors, triangulations } from '../../../native-tests/bench/cantilever.mjs';
 import { journalFaults, rowFaults } from '../../../native-tests/bench/killed-sweep.mjs';
 
@@ -48,28 +47,6 @@ describe('strips', () => {
     expect(errors.height_percent_of_length).toBeCloseTo(1, 10);
     expect(errors.extent_percent).toBeCloseTo(0, 10);
     expect(tipErrors([], right).percent).toBeNaN();
-  });
-});
-
-describe('the limit of three meshes', () => {
-  const at = (distance) => [1 + distance, 2, 3, 4, 5 - 2 * distance, 6];
-  const masses = [1, 3];
-
-  it.each([1, 2, 0.5])('is found at the rate %s', (rate) => {
-    const meshes = [0, 1, 2].map((halvings) => at(0.1 * 2 ** (-rate * halvings)));
-    meshes[2].push(7, 8, 9); // a finer mesh has more vertices
-    const found = observedLimit(meshes, masses);
-    expect(found.rate).toBeCloseTo(rate, 10);
-    found.limit.forEach((coordinate, q) => {
-      expect(coordinate).toBeCloseTo(at(0)[q], 10);
-    });
-    expect(found.distances[0] / found.distances[1]).toBeCloseTo(2 ** rate, 10);
-  });
-
-  it('is not there when they do not come nearer', () => {
-    const { limit, rate } = observedLimit([at(0), at(0.1), at(0.3)], masses);
-    expect(rate).toBeCloseTo(-1, 10);
-    expect(limit[0]).toBeNaN();
   });
 });
 
