@@ -1,6 +1,7 @@
 #include "native-tests/support/models.h"
 
 #include "core/fabric/taut_springs.h"
+#include "core/model/system_matrix.h"
 #include "core/run/elastic_model.h"
 #include "native-tests/support/assets.h"
 
@@ -109,6 +110,12 @@ State hanging_state(const Chain& chain) {
 
 Eigen::MatrixXd dense(const SparseMatrix& lower) {
   return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+}
+
+SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
+  SystemMatrix matrix(model);
+  matrix.add_elasticity(positions, 0, 1, ElementHessian::projected);
+  return matrix.lower();
 }
 
 std::vector<MethodOptions> converged_methods(double step) {
