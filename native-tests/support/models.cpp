@@ -75,7 +75,7 @@ ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabr
   model.springs = springs.springs;
   model.bends = springs.bends;
   model.taut_springs = taut_springs(model.springs, 0.02);
-  model.membrane.law.strain_limit = 0.02;
+  model.membrane.law.stiffening_strain = 0.02;
   model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::arc).chord_bends;
   model.hinges = hinges(mesh.triangle_mesh(), fabric.bend_warp);
   return model;
