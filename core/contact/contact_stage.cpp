@@ -66,7 +66,6 @@ ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions
   const auto first_cone = std::stable_partition(first_framed, colliders_.end(), is_no_cone);
   first_framed_ = static_cast<std::size_t>(first_framed - colliders_.begin());
   first_cone_ = static_cast<std::size_t>(first_cone - colliders_.begin());
-  has_framed_ = first_framed_ < colliders_.size();
   solids_.resize(colliders_.size());
   poses_begin_.resize(colliders_.size());
   poses_end_.resize(colliders_.size());

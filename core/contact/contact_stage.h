@@ -126,7 +126,6 @@ class ContactStage {
   std::vector<Collider> colliders_;  // rounded cones last
   std::size_t first_framed_ = 0;     // before it are planes and spheres that do not turn
   std::size_t first_cone_ = 0;
-  bool has_framed_ = false;
   ContactOptions options_;
   double largest_face_radius_ = 0;  // [m]
   bool is_graded_ = false;          // vertices differ in it

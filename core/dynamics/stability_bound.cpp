@@ -75,7 +75,7 @@ Eigen::Matrix<double, 9, 9> rest_stiffness(const MembraneLaw& law, MembraneEleme
 /// hardly does.
 void add_membrane(const ClothModel& model, VertexSums& sums) {
   const Membrane& membrane = model.membrane;
-  const double stiffening = membrane.law.strain_limit > 0 ? kTautFactor : 1;
+  const double stiffening = membrane.law.stiffening_strain > 0 ? kTautFactor : 1;
   for (const MembraneElement& element : membrane.elements) {
     const Eigen::Matrix<double, 9, 9> material = rest_stiffness(membrane.law, element);
     for (int i = 0; i < 3; ++i) {

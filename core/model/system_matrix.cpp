@@ -322,12 +322,6 @@ SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Po
   return matrix.lower();
 }
 
-SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
-  SystemMatrix matrix(model);
-  matrix.add_elasticity(positions, 0, 1, ElementHessian::projected);
-  return matrix.lower();
-}
-
 SparseMatrix mass_matrix(const ClothModel& model) {
   const int n = 3 * model.n_vertices();
   SparseMatrix matrix(n, n);

@@ -97,9 +97,6 @@ class SystemMatrix {
 SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
                               ElementHessian hessian);
 
-/// C = -d(damping force)/dv, lower triangle, 3n x 3n [N s/m].
-SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
-
 /// M, lumped, 3n x 3n [kg].
 SparseMatrix mass_matrix(const ClothModel& model);
 

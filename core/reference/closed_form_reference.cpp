@@ -54,7 +54,8 @@ int n_held_rows(const SheetShape& shape, const QuadMesh& mesh, const std::vector
 /// K along warp [N/m]. Edges have what the diagonals leave of it, also when these are left out.
 double hanging_stiffness(const Scene& scene, const SheetShape& shape) {
   const double shear = scene.fabric.shear;
-  if (scene.model.strain_limit > 0) refuse("/model/strain_limit", "one stiffness throughout");
+  if (scene.model.stiffening_strain > 0)
+    refuse("/model/stiffening_strain", "one stiffness throughout");
   if (scene.model.elasticity == Elasticity::membrane) {
     if (shear > 0)
       refuse("/fabric/shear_n_per_m", "no stiffness against shear, which would draw the sides in,");

@@ -31,8 +31,8 @@ void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
   SpringLattice lattice = spring_lattice(quads, scene.fabric, lattice_law(scene.model.bending),
                                          scene.model.stiffness_exponent);
   if (!scene.model.shear) drop_shear(lattice.springs);
-  if (scene.model.strain_limit > 0)
-    model.taut_springs = taut_springs(lattice.springs, scene.model.strain_limit);
+  if (scene.model.stiffening_strain > 0)
+    model.taut_springs = taut_springs(lattice.springs, scene.model.stiffening_strain);
   model.springs = std::move(lattice.springs);
   model.bends = std::move(lattice.bends);
   model.chord_bends = std::move(lattice.chord_bends);
@@ -48,7 +48,7 @@ void add_given(ClothModel& model, const Scene& scene, const GivenSprings& given)
 void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mesh) {
   const FabricConstants& fabric = scene.fabric;
   model.membrane = {membrane_law(fabric), membrane_elements(mesh)};
-  model.membrane.law.strain_limit = scene.model.strain_limit;
+  model.membrane.law.stiffening_strain = scene.model.stiffening_strain;
   model.membrane_relaxation = 2 * fabric.damping_ratio / kReferenceFrequency;
   const double mean_rigidity = std::sqrt(fabric.bend_warp * fabric.bend_weft);
   if (fabric.bend_warp == 0 && fabric.bend_weft == 0) return;

@@ -133,8 +133,8 @@ BuildReport build_report(const ClothModel& model) {
   note(!model.springs.empty(), "springs");
   note(has_membrane, "membrane");
   note(has_dampers || (has_membrane && model.membrane_relaxation > 0), "dampers");
-  note(!model.taut_springs.empty() || (has_membrane && model.membrane.law.strain_limit > 0),
-       "strain limit");
+  note(!model.taut_springs.empty() || (has_membrane && model.membrane.law.stiffening_strain > 0),
+       "stretch stiffening");
   note(!model.bends.empty() || !model.chord_bends.empty() || !model.hinges.empty() ||
            model.has_fitted_bending(),
        "bending");

@@ -62,7 +62,7 @@ ModelOptions usual_model(const Scene& scene) {
 }
 
 void read_model(const JsonReader& reader, Scene& scene) {
-  reader.allow_keys({"elasticity", "bending", "shear", "damping", "strain_limit", "torsion",
+  reader.allow_keys({"elasticity", "bending", "shear", "damping", "stiffening_strain", "torsion",
                      "stiffness_exponent"});
   ModelOptions& model = scene.model;
   if (const auto at = reader.find("elasticity")) {
@@ -83,8 +83,8 @@ void read_model(const JsonReader& reader, Scene& scene) {
     model.damping_direction = at->word(kDampingDirections);
     if (!has_springs) at->fail("no such key, as a membrane is damped in its strains alone");
   }
-  if (const auto at = reader.find("strain_limit")) {
-    model.strain_limit = at->number(kNotNegative);
+  if (const auto at = reader.find("stiffening_strain")) {
+    model.stiffening_strain = at->number(kNotNegative);
     if (!scene.cloth->is_surface()) at->fail("no such key, as particles have springs of their own");
   }
   if (const auto at = reader.find("stiffness_exponent")) {
@@ -106,7 +106,7 @@ Json json_model(const ModelOptions& model) {
     json["damping"] = word_for(kDampingDirections, model.damping_direction);
   }
   if (model.stiffness_exponent > 0) json["stiffness_exponent"] = model.stiffness_exponent;
-  if (model.strain_limit > 0) json["strain_limit"] = model.strain_limit;
+  if (model.stiffening_strain > 0) json["stiffening_strain"] = model.stiffening_strain;
   if (model.bending == BendingModel::fitted) json["torsion"] = model.torsion;
   return json;
 }

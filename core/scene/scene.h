@@ -53,9 +53,10 @@ struct ModelOptions {
   Elasticity elasticity = Elasticity::springs;
   BendingModel bending = BendingModel::quadratic;
   DampingDirection damping_direction = DampingDirection::along_spring;  ///< of springs
-  bool shear = true;        ///< springs on both diagonals of each quad
-  double strain_limit = 0;  ///< along the threads; beyond it kTautFactor times as stiff; 0: never
-  double torsion = 1;       ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
+  bool shear = true;  ///< springs on both diagonals of each quad
+  double stiffening_strain =
+      0;               ///< along the threads; beyond it kTautFactor times as stiff; 0: never
+  double torsion = 1;  ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
   double stiffness_exponent = 0;  ///< springs of faces of level l are 2^(this l) times as stiff
 };
 

@@ -1,6 +1,7 @@
 #include "native-tests/support/models.h"
 
 #include "core/fabric/taut_springs.h"
+#include "core/model/system_matrix.h"
 #include "core/run/elastic_model.h"
 #include "native-tests/support/assets.h"
 
@@ -74,7 +75,7 @@ ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabr
   model.springs = springs.springs;
   model.bends = springs.bends;
   model.taut_springs = taut_springs(model.springs, 0.02);
-  model.membrane.law.strain_limit = 0.02;
+  model.membrane.law.stiffening_strain = 0.02;
   model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::arc).chord_bends;
   model.hinges = hinges(mesh.triangle_mesh(), fabric.bend_warp);
   return model;
@@ -109,6 +110,12 @@ State hanging_state(const Chain& chain) {
 
 Eigen::MatrixXd dense(const SparseMatrix& lower) {
   return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+}
+
+SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
+  SystemMatrix matrix(model);
+  matrix.add_elasticity(positions, 0, 1, ElementHessian::projected);
+  return matrix.lower();
 }
 
 std::vector<MethodOptions> converged_methods(double step) {

@@ -90,10 +90,10 @@ void StepperXpbd::set_motion(int slot, const Vec3& position, const Vec3& velocit
   for (int k = 0; k < 3; ++k) {
     const double local = position[k] - origin_[k];
     const auto rounded = static_cast<float>(local);
-    const auto rest = static_cast<float>(local - rounded);
+    const auto remainder = static_cast<float>(local - rounded);
     array(begin + k)[slot] = rounded;
-    array(move + k)[slot] = rest;
-    array(rounded_off + k)[slot] = static_cast<float>(rest - h * velocity[k]);
+    array(move + k)[slot] = remainder;
+    array(rounded_off + k)[slot] = static_cast<float>(remainder - h * velocity[k]);
   }
 }
 
@@ -113,18 +113,18 @@ void StepperXpbd::predict() {
   for (int k = 0; k < 3; ++k) {
     float* const begins = array(begin + k);
     float* const moves = array(move + k);
-    float* const rests = array(rounded_off + k);
+    float* const remainders = array(rounded_off + k);
     const Float4 fall = Float4::all(fall_[static_cast<std::size_t>(k)]);
     for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
       const Float4 from = Float4::load(begins + slot);
       const Float4 moved = Float4::load(moves + slot);
-      const Float4 goes_on = moved - Float4::load(rests + slot) +
+      const Float4 goes_on = moved - Float4::load(remainders + slot) +
                              where_positive(Float4::load(inverse_masses + slot), fall);
       const Float4 to = from + moved;
-      const Float4 rest = moved - (to - from);
+      const Float4 remainder = moved - (to - from);
       to.store(begins + slot);
-      rest.store(rests + slot);
-      (rest + goes_on).store(moves + slot);
+      remainder.store(remainders + slot);
+      (remainder + goes_on).store(moves + slot);
     }
   }
 }
