@@ -34,9 +34,11 @@ TEST_CASE("shipped references: they are of the scenes as they are shipped", "[re
 // Each sample says how far halving the step from 1/960 s to 1/1920 s moved it: of a method of
 // second order three times the error that is left. A run with steps of 1/1440 s, which had no part
 // in the file, has 16/9 of that error and so lies about a quarter of what the file states away,
-// plus what 32-bit positions round. This holds the scene, its laws of force with their constants
-// and the method to the file as far as the first tenth of a second shows them, to a micrometre; it
-// says nothing about later samples, whose error the file's own halving of steps tells.
+// plus what 32-bit positions round. The time of a first contact is no better known than a step, so
+// twice what is stated is allowed.
+// This holds the scene, the method and the laws of force to the file as far as the first tenth of a
+// second shows them: 1 % in the constants of stretch or shear or 10 % in that of bending is too
+// much. It says nothing about later samples, whose error is told by the file's own halving alone.
 TEST_CASE("shipped references: a run on the spot agrees within what they state",
           "[reference][long]") {
   const std::string name = GENERATE(from_range(std::begin(kShipped), std::end(kShipped)));
@@ -56,6 +58,6 @@ TEST_CASE("shipped references: a run on the spot agrees within what they state",
     CAPTURE(s);
     const Sample& expected = shipped.samples[s];
     const Positions& found = run.samples()[s].positions;
-    CHECK(position_error(found, expected.positions, areas) < expected.uncertainty + kRounding);
+    CHECK(position_error(found, expected.positions, areas) < 2 * expected.uncertainty + kRounding);
   }
 }

@@ -1,6 +1,7 @@
 #include "core/run/example_study.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/base/check.h"
 #include "core/files/plan_file.h"
@@ -15,13 +16,20 @@ Scene sheet_scene(int level) {
   return scene;
 }
 
-/// The fine mesh with its far edge bent up, by an angle that grows with the frame.
-Positions bent(const QuadMesh& mesh, int frame) {
+/// The flat fine mesh rolled up along its length without stretch, the more the later the frame.
+Positions rolled(const QuadMesh& mesh, int frame) {
   Positions x = mesh.rest_positions();
-  const double extent = x.row(0).maxCoeff() - x.row(0).minCoeff();
+  const Vec3 low = x.rowwise().minCoeff();
+  const Vec3 extent = x.rowwise().maxCoeff() - low;
+  Eigen::Index along = 0;
+  Eigen::Index across = 0;
+  const double length = extent.maxCoeff(&along);
+  extent.minCoeff(&across);
+  const double radius = length / (0.5 * (1 + frame));
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    const double share = (x(0, i) - x.row(0).minCoeff()) / extent;
-    x(1, i) += 0.1 * (1 + frame) * extent * share * share * share;
+    const double angle = (x(along, i) - low[along]) / radius;
+    x(along, i) = low[along] + radius * std::sin(angle);
+    x(across, i) += radius * (1 - std::cos(angle));
   }
   return x;
 }
@@ -34,18 +42,18 @@ TEST_CASE("example study: limits are those of all frames, and need one", "[run]"
   for (Eigen::Index i = 0; i < features.cols(); ++i) features(0, i) = static_cast<double>(i);
   study.add_example("by hand", features, {});
   CHECK(study.plan({}).curvature_limits.empty());
-  study.add_frame(bent(study.fine(), 0));
-  const double first = study.plan({}).curvature_limits.back();
-  study.add_frame(bent(study.fine(), 1));
-  CHECK(study.plan({}).curvature_limits.back() > first);
+  study.add_frame(rolled(study.fine(), 0));
+  const double first = study.plan({}).curvature_limits.front();
+  study.add_frame(rolled(study.fine(), 1));
+  CHECK(study.plan({}).curvature_limits.front() > first);
 }
 
 TEST_CASE("example study: features are those of the frames from one on", "[run]") {
   ExampleStudy all(sheet_scene(1));
   ExampleStudy last_two(sheet_scene(1));
   for (int frame = 0; frame < 4; ++frame) {
-    all.add_frame(bent(all.fine(), frame));
-    if (frame >= 2) last_two.add_frame(bent(all.fine(), frame));
+    all.add_frame(rolled(all.fine(), frame));
+    if (frame >= 2) last_two.add_frame(rolled(all.fine(), frame));
   }
   CHECK(all.features(2) == last_two.features());
   CHECK(all.features() != last_two.features());
