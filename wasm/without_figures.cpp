@@ -5,7 +5,7 @@
 namespace pleat {
 namespace {
 
-[[noreturn]] void unreachable() { throw ContractError("a scene without a figure asks for one"); }
+[[noreturn]] void no_figure() { throw ContractError("a scene without a figure asks for one"); }
 
 }  // namespace
 
@@ -13,14 +13,14 @@ Bone read_bone(const JsonReader& reader) {
   throw InputError(reader.pointer(),
                    "expected no bone, as this view shows none; pleat run takes it");
 }
-const char* bone_name(Bone) { unreachable(); }
+const char* bone_name(Bone) { no_figure(); }
 
 MovingBody::MovingBody(const BodyMotion& motion, const Playback&) : curves_(motion.keys) {
-  unreachable();
+  no_figure();
 }
 std::shared_ptr<const MovingFrame> bone_frame(std::shared_ptr<const MovingBody>, Bone) {
-  unreachable();
+  no_figure();
 }
-MotionCurves::MotionCurves(const ChannelKeys&) { unreachable(); }
+MotionCurves::MotionCurves(const ChannelKeys&) { no_figure(); }
 
 }  // namespace pleat

@@ -7,6 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/files/json_reader.h"
+#include "core/files/obj_file.h"
 #include "core/files/whole_file.h"
 
 namespace pleat {
@@ -38,15 +39,6 @@ double double_at(std::string_view bytes, std::size_t offset) {
   double number = 0;
   std::memcpy(&number, &bits, sizeof number);
   return number;
-}
-
-std::string numbers_line(const char* keyword, const double* numbers, int n) {
-  std::string line = keyword;
-  for (int k = 0; k < n; ++k) {
-    line += ' ';
-    line += Json(numbers[k]).dump();
-  }
-  return line + '\n';
 }
 
 std::string frame_path(const std::string& folder, int frame, const char* extension) {

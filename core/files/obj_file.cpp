@@ -298,12 +298,6 @@ ObjMesh ObjParser::finish() {
   return std::move(mesh_);
 }
 
-std::string numbers_line(const char* keyword, const double* numbers, int n) {
-  std::string line = keyword;
-  for (int k = 0; k < n; ++k) line += ' ' + Json(numbers[k]).dump();
-  return line + '\n';
-}
-
 /// Numbers every pair of texture coordinates where it first comes up.
 class TextureLines {
  public:
@@ -329,6 +323,12 @@ std::string group_lines(const VertexGroup& group) {
 }
 
 }  // namespace
+
+std::string numbers_line(const char* keyword, const double* numbers, int n) {
+  std::string line = keyword;
+  for (int k = 0; k < n; ++k) line += ' ' + Json(numbers[k]).dump();
+  return line + '\n';
+}
 
 std::string write_obj(const ObjMesh& mesh) {
   TextureLines textures;

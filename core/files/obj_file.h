@@ -35,4 +35,7 @@ ObjMesh read_obj(std::string_view text);
 /// digits that read back to the same bits; a group's vertices are points.
 std::string write_obj(const ObjMesh& mesh);
 
+/// A statement of OBJ: `keyword` and `n` numbers, written as by write_obj.
+std::string numbers_line(const char* keyword, const double* numbers, int n);
+
 }  // namespace pleat
