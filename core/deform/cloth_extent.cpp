@@ -7,14 +7,14 @@
 namespace pleat {
 namespace {
 
-struct Corners {
+struct CornerPoints {
   Vec3 a, b, c;  // [m]
 
   double area() const { return (b - a).cross(c - a).norm() / 2; }
   Vec3 sum() const { return a + b + c; }
 };
 
-Corners corners(const TriangleMesh& mesh, const Triangle& t, const Vec3& middle) {
+CornerPoints corner_points(const TriangleMesh& mesh, const Triangle& t, const Vec3& middle) {
   const Positions& x = mesh.rest_positions;
   return {x.col(t[0]) - middle, x.col(t[1]) - middle, x.col(t[2]) - middle};
 }
@@ -24,7 +24,7 @@ Vec3 middle_of(const TriangleMesh& mesh, double area) {
   const Vec3 origin = mesh.rest_positions.col(mesh.triangles[0][0]);
   Vec3 moment = Vec3::Zero();
   for (const Triangle& t : mesh.triangles) {
-    const Corners x = corners(mesh, t, origin);
+    const CornerPoints x = corner_points(mesh, t, origin);
     moment += x.area() / 3 * x.sum();
   }
   return origin + moment / area;
@@ -41,7 +41,7 @@ double cloth_extent(const TriangleMesh& mesh) {
   const Vec3 middle = middle_of(mesh, area);
   double integral = 0;
   for (const Triangle& t : mesh.triangles) {
-    const Corners x = corners(mesh, t, middle);
+    const CornerPoints x = corner_points(mesh, t, middle);
     integral += x.area() / 12 *
                 (x.a.squaredNorm() + x.b.squaredNorm() + x.c.squaredNorm() + x.sum().squaredNorm());
   }

@@ -6,14 +6,14 @@
 namespace pleat {
 namespace {
 
-constexpr int kMaxIterations = 2000;  // of CG; reaching it is reported as not converged
+constexpr int kMaxSolverIterations = 2000;  // of CG; reaching it is reported as not converged
 
 }  // namespace
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       matrix_(model),
-      solver_(make_solver(options, kMaxIterations)),
+      solver_(make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()),
       velocity_changes_(Positions::Zero(3, model.n_vertices())),
       positions_begin_(3, model.n_vertices()) {

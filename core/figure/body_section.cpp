@@ -9,7 +9,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kFullTurn = 6.283185307179586;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Interval {
@@ -107,7 +107,7 @@ std::vector<Vec3> evenly_spaced(std::span<const Vec3> line, int n_points) {
 Outline outline(std::span<const BodyPart> parts, double height, int n_directions) {
   Outline result = Outline::Constant(n_directions, -kInfinity);
   for (int k = 0; k < n_directions; ++k) {
-    const double angle = kTwoPi * k / n_directions;
+    const double angle = kFullTurn * k / n_directions;
     const Vec3 direction(std::cos(angle), 0, -std::sin(angle));
     for (const BodyPart& part : parts)
       result[k] = std::max(result[k], reach(part.shape, height, direction));
@@ -117,14 +117,14 @@ Outline outline(std::span<const BodyPart> parts, double height, int n_directions
 }
 
 // A convex curve is as long as its mean reach times 2 pi (Cauchy).
-double girth(const Outline& outline) { return kTwoPi * outline.mean(); }
+double girth(const Outline& outline) { return kFullTurn * outline.mean(); }
 
 // Tangents at neighbouring directions, an angle d apart, meet at (h' - h cos d) / sin d from where
 // the first one's direction leaves the axis; h, h' are their reaches. The polygon of these points
 // lies around the curve, by at most d^2 / 8 of its radius of curvature.
 std::vector<Vec3> ring(const Outline& outline, double offset, double height, int n_points) {
   const auto n = outline.size();
-  const double turn = kTwoPi / static_cast<double>(n);
+  const double turn = kFullTurn / static_cast<double>(n);
   std::vector<Vec3> corners = {{outline[0] + offset, height, 0}};
   for (Eigen::Index k = 0; k < n; ++k) {
     const double a = turn * static_cast<double>(k);

@@ -33,7 +33,7 @@ constexpr Measures kSlim{0.790,          {0.105, 0.061}, {0.092, 0.044}, {0.112,
                          0.056,          0.033,          0.044,          0.037,
                          0.040,          0.024,          0.050};
 
-constexpr double kWaistHeight = 0.984;  // [m], as the three below
+constexpr double kWaistJointHeight = 0.984;  // [m], as the three below
 constexpr double kChestHeight = 1.176;
 constexpr double kShoulderHeight = 1.305;
 constexpr double kTorsoX = -0.01;  // of waist, chest and shoulders; hips and thighs are at 0
@@ -63,7 +63,7 @@ void add_torso(const Measures& m, std::vector<BodyPart>& parts) {
   // Measured hips stand lower, but their ball would then fill the crotch; the thighs make up what
   // is missing of their girth.
   const Vec3 hips(0, m.crotch_height + m.hips.radius, 0);
-  const Vec3 waist(kTorsoX, kWaistHeight, 0);
+  const Vec3 waist(kTorsoX, kWaistJointHeight, 0);
   const Vec3 chest(kTorsoX, kChestHeight, 0);
   const Vec3 shoulders(kTorsoX, kShoulderHeight, 0);
   parts.push_back({"hips", cone(hips, m.hips, waist, m.waist, across), Bone::pelvis});

@@ -12,7 +12,7 @@
 namespace pleat {
 namespace {
 
-constexpr const char* kScene = R"({
+constexpr const char* kDeformScene = R"({
   "name": "small sheet",
   "cloth": {"sheet": {"width_m": 0.4, "height_m": 0.4, "vertices": [9, 9],
                       "triangulation": "alternating"}},
@@ -29,7 +29,7 @@ struct Workplace {
   std::string out = (folder / "out.obj").string();
 
   Workplace() {
-    write(scene, kScene);
+    write(scene, kDeformScene);
     write(mesh,
           "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\no left end\nf 1 3 2\no\ng side\nf 2 3 4\n"
           "g corner\np 4\n");

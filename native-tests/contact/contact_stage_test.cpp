@@ -9,11 +9,7 @@
 #include "native-tests/support/particle.h"
 
 namespace pleat {
-namespace {
-
-const Vec3 kUp{0, 1, 0};
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("contact: a vertex that meets nothing is left to the bit", "[contact]") {
   ContactStage stage({floor_collider(0.3), ball_collider({0, 5, 0}, 1, 0.3)}, {});

@@ -6,11 +6,7 @@
 #include "native-tests/support/particle.h"
 
 namespace pleat {
-namespace {
-
-const Vec3 kUp{0, 1, 0};
-
-}  // namespace
+namespace {}  // namespace
 
 // Falling 0.1 m at 4 m/s takes 1/4 of the substep; friction 0.5 then takes 2 of the 5 m/s along the
 // floor.

@@ -12,7 +12,6 @@
 namespace pleat {
 namespace {
 
-const Vec3 kUp{0, 1, 0};
 const VertexId kVertex{0};
 
 /// A limb along y, its thin end up.

@@ -11,11 +11,7 @@
 #include "native-tests/support/particle.h"
 
 namespace pleat {
-namespace {
-
-const Vec3 kUp{0, 1, 0};
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("contact: a plane is never penetrated at 50 m/s", "[contact]") {
   const double h = GENERATE(1.0 / 30, 1.0 / 240);

@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<CurvePoint>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Without order; the last two share the x of the first.
 Points scattered_points(std::uint64_t seed) {
@@ -230,11 +230,11 @@ TEST_CASE("smoothing spline: beyond its knots it stays at the last one's value",
 TEST_CASE("smoothing spline: points that no curve goes through are refused", "[deform]") {
   CHECK_THROWS_AS(smoothing_spline({}, 1), ContractError);
   CHECK_THROWS_AS(best_smoothing_spline(Points{{0, 1}, {1, 2}, {1, 3}}), ContractError);
-  CHECK_THROWS_AS(smoothing_spline(Points{{0, 1}, {1, kNaN}, {2, 3}}, 1), ContractError);
+  CHECK_THROWS_AS(smoothing_spline(Points{{0, 1}, {1, kNotANumber}, {2, 3}}, 1), ContractError);
   CHECK_THROWS_AS(smoothing_spline(Points{{0, 1}, {kInfinity, 2}, {2, 3}}, 1), ContractError);
   CHECK_THROWS_AS(smoothing_spline(waves(5), -1), ContractError);
-  CHECK_THROWS_AS(smoothing_spline(waves(5), kNaN), ContractError);
-  CHECK_THROWS_AS(smoothing_spline(waves(5), 1).value(kNaN), ContractError);
+  CHECK_THROWS_AS(smoothing_spline(waves(5), kNotANumber), ContractError);
+  CHECK_THROWS_AS(smoothing_spline(waves(5), 1).value(kNotANumber), ContractError);
 }
 
 }  // namespace pleat

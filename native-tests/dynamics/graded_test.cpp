@@ -65,7 +65,7 @@ void pin_some_parents(Graded& sheet, const Motion& motion) {
   for (const VertexId parent : sheet.model.hanging.back().parents) pin(parent);
 }
 
-State advanced(ClothModel& model, const MethodOptions& options, State state, int n_steps) {
+State after_steps(ClothModel& model, const MethodOptions& options, State state, int n_steps) {
   const auto stepper = make_stepper(model, options);
   for (int s = 0; s < n_steps; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
   return state;
@@ -204,7 +204,7 @@ TEST_CASE("graded: implicit solves the dense equations of the free vertices", "[
   const Eigen::VectorXd dv = S * bordered.fullPivLu().solve(rhs).head(n);
   const Positions expected = sheet.state.velocities + columns(dv);
 
-  const State end = advanced(model, method(&steppers::implicit_euler, h), sheet.state, 1);
+  const State end = after_steps(model, method(&steppers::implicit_euler, h), sheet.state, 1);
   CHECK(relative_error(end.velocities, expected) < 1e-10);
   CHECK(relative_error(end.positions, Positions(sheet.state.positions + h * expected)) < 1e-10);
 }
@@ -215,8 +215,8 @@ TEST_CASE("graded: implicit with cg reports the residual of the free vertices", 
   options.solver = SolverKind::cg;
   options.tolerance = 1e-10;
   const State exact =
-      advanced(sheet.model, method(&steppers::implicit_euler, 0.01), sheet.state, 3);
-  const State found = advanced(sheet.model, options, sheet.state, 3);
+      after_steps(sheet.model, method(&steppers::implicit_euler, 0.01), sheet.state, 3);
+  const State found = after_steps(sheet.model, options, sheet.state, 3);
   CHECK(relative_error(found.positions, exact.positions) < 1e-9);
 }
 
@@ -228,7 +228,7 @@ TEST_CASE("graded: projective with many rounds solves newton's equations", "[dyn
   sheet.model.gravity = {0, -9.81, 0};
   pin_some_parents(sheet, {});
   const double h = 0.01;
-  const State newton = advanced(sheet.model, method(&steppers::newton, h), sheet.state, 1);
+  const State newton = after_steps(sheet.model, method(&steppers::newton, h), sheet.state, 1);
   const auto projective = make_stepper(sheet.model, method(&steppers::projective, h));
   State found = sheet.state;
   const SolveReport report = projective->advance(found, 0);
@@ -244,7 +244,7 @@ TEST_CASE("graded: every stepper keeps the momentum of a sheet in flight", "[dyn
     CAPTURE(seed, options.stepper->name);
     // 20 steps; xpbd rounds to float32.
     const double tolerance = options.stepper == &steppers::xpbd ? 1e-4 : 1e-11;
-    const State end = advanced(sheet.model, options, sheet.state, 20);
+    const State end = after_steps(sheet.model, options, sheet.state, 20);
     CHECK((momentum(sheet.model, end) - before).norm() < tolerance * before.norm());
   }
 }
@@ -255,7 +255,7 @@ TEST_CASE("graded: the angular momentum is kept as on uniform sheets", "[dynamic
   for (const auto& [kind, tolerance] :
        {std::pair{&steppers::explicit_euler, 1e-11}, std::pair{&steppers::rk4, 1e-6}}) {
     CAPTURE(name(kind));
-    const State end = advanced(sheet.model, method(kind, 0.001), sheet.state, 20);
+    const State end = after_steps(sheet.model, method(kind, 0.001), sheet.state, 20);
     CHECK((angular_momentum(sheet.model, end) - before).norm() < tolerance * before.norm());
   }
 }
@@ -297,8 +297,8 @@ TEST_CASE("graded: a state is put between its parents to begin with", "[dynamics
   loose.velocities.col(sheet.model.hanging[0].vertex) += Vec3(1, 1, 1);
   for (const MethodOptions& options : all_methods(0.001)) {
     CAPTURE(options.stepper->name);
-    const State placed = advanced(sheet.model, options, sheet.state, 1);
-    CHECK(advanced(sheet.model, options, loose, 1).positions == placed.positions);
+    const State placed = after_steps(sheet.model, options, sheet.state, 1);
+    CHECK(after_steps(sheet.model, options, loose, 1).positions == placed.positions);
   }
 }
 
@@ -316,8 +316,8 @@ TEST_CASE("graded: refined everywhere it is the uniform sheet", "[dynamics]") {
   state.velocities.row(2) = state.positions.row(0);
   for (const MethodOptions& options : all_methods(0.001)) {
     CAPTURE(options.stepper->name);
-    CHECK(advanced(model, options, state, 5).positions ==
-          advanced(expected_model, options, expected, 5).positions);
+    CHECK(after_steps(model, options, state, 5).positions ==
+          after_steps(expected_model, options, expected, 5).positions);
   }
 }
 
@@ -360,14 +360,14 @@ TEST_CASE("graded: xpbd with many substeps comes near to newton's small steps", 
   const double duration = 0.1;
   MethodOptions fine = method(&steppers::newton, duration / 100);
   fine.rule = NewtonRule::midpoint;
-  const State exact = advanced(sheet.model, fine, sheet.state, 100);
+  const State exact = after_steps(sheet.model, fine, sheet.state, 100);
   const double moved = (exact.positions - sheet.state.positions).colwise().norm().maxCoeff();
   std::vector<double> errors;
   for (const int substeps : {100, 200, 400}) {
     MethodOptions xpbd = method(&steppers::xpbd, duration);
     xpbd.substeps = substeps;
     xpbd.iterations = 1;
-    const State found = advanced(sheet.model, xpbd, sheet.state, 1);
+    const State found = after_steps(sheet.model, xpbd, sheet.state, 1);
     errors.push_back((found.positions - exact.positions).colwise().norm().maxCoeff() / moved);
   }
   CAPTURE(errors);
@@ -411,7 +411,7 @@ TEST_CASE("graded: accurate methods agree", "[dynamics]") {
   const auto at_end = [&](const StepperType* kind, int n_steps) {
     MethodOptions options = method(kind, duration / n_steps);
     if (kind == &steppers::newton) options.rule = NewtonRule::midpoint;
-    return advanced(sheet.model, options, sheet.state, n_steps).positions;
+    return after_steps(sheet.model, options, sheet.state, n_steps).positions;
   };
   const Positions exact = at_end(&steppers::rk4, 200);
   const double coarse = (at_end(&steppers::newton, 50) - exact).norm();
@@ -435,7 +435,7 @@ TEST_CASE("graded: newton finds the rest of a held sheet", "[dynamics]") {
   pin_some_parents(sheet, {});
   MethodOptions options = method(&steppers::newton, 1);
   options.rule = NewtonRule::equilibrium;
-  const State end = advanced(sheet.model, options, sheet.state, 1);
+  const State end = after_steps(sheet.model, options, sheet.state, 1);
   Positions forces = columns(elastic_forces(sheet.model, end.positions));
   add_gravity(sheet.model, forces);
   pull_to_parents(sheet.model.hanging, forces);
@@ -488,8 +488,8 @@ TEST_CASE("graded: the same start gives the same bits", "[dynamics]") {
   for (const MethodOptions& options : all_methods(0.001)) {
     CAPTURE(options.stepper->name);
     Graded sheet = graded(4);
-    const State first = advanced(sheet.model, options, sheet.state, 5);
-    const State second = advanced(sheet.model, options, sheet.state, 5);
+    const State first = after_steps(sheet.model, options, sheet.state, 5);
+    const State second = after_steps(sheet.model, options, sheet.state, 5);
     CHECK(first.positions == second.positions);
     CHECK(first.velocities == second.velocities);
   }

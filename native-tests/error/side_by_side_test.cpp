@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-Scene sheet_scene(int level) {
+Scene canvas_scene(int level) {
   Scene scene = released_sheet_scene(4, "canvas");
   scene.level = level;
   return scene;
@@ -35,7 +35,7 @@ std::vector<ContestantResult> run(const std::vector<Contestant>& contestants,
 }  // namespace
 
 TEST_CASE("side by side: the same run twice has no error, another mesh has one", "[error]") {
-  const auto results = run({{sheet_scene(1), {}}, {sheet_scene(1), {}}, {sheet_scene(0), {}}});
+  const auto results = run({{canvas_scene(1), {}}, {canvas_scene(1), {}}, {canvas_scene(0), {}}});
   REQUIRE(results.size() == 3);
   for (const ContestantResult& result : results) {
     CHECK(result.n_frames == 15);
@@ -52,21 +52,21 @@ TEST_CASE("side by side: the same run twice has no error, another mesh has one",
 
 TEST_CASE("side by side: an adaptive run that never splits is as wrong as the coarse mesh",
           "[error]") {
-  const auto results =
-      run({{sheet_scene(1), {}}, {sheet_scene(0), {}}, {sheet_scene(1), DynamicOptions{1e6, 1}}});
+  const auto results = run(
+      {{canvas_scene(1), {}}, {canvas_scene(0), {}}, {canvas_scene(1), DynamicOptions{1e6, 1}}});
   CHECK(results[2].n_vertices == 25);
   CHECK(results[2].refinement_ms.size() == 9);
   CHECK(results[2].errors.position == Approx(results[1].errors.position).epsilon(0.05));
 }
 
 TEST_CASE("side by side: an adaptive run has more vertices where it splits", "[error]") {
-  const auto results = run({{sheet_scene(1), {}}, {sheet_scene(1), DynamicOptions{0.05, 1}}});
+  const auto results = run({{canvas_scene(1), {}}, {canvas_scene(1), DynamicOptions{0.05, 1}}});
   CHECK(results[1].n_vertices > 30);
   CHECK(results[1].n_vertices <= 81);
 }
 
 TEST_CASE("side by side: vertices inside of a solid are counted, pinned ones apart", "[error]") {
-  Scene scene = sheet_scene(0);
+  Scene scene = canvas_scene(0);
   scene.colliders = {Collider{Sphere{Vec3(0, 0, 0), 0.1}, {}, 0.3}};
   const auto results = run({{scene, {}}});
   CHECK(results[0].all_inside.n_frames == 15);  // the pinned corner is its centre
@@ -78,7 +78,7 @@ TEST_CASE("side by side: vertices inside of a solid are counted, pinned ones apa
 TEST_CASE("side by side: the parts of timed frames fit into their time", "[error]") {
   FrameOptions options = half_a_second();
   options.begin = options.duration - 2 * options.frame_time;  // two of fifteen frames
-  const auto results = run({{sheet_scene(1), {}}}, options);
+  const auto results = run({{canvas_scene(1), {}}}, options);
   double parts = 0;
   for (const double part : results[0].parts_ms) parts += part;
   REQUIRE(results[0].frame_ms.size() == 2);
@@ -87,9 +87,9 @@ TEST_CASE("side by side: the parts of timed frames fit into their time", "[error
 }
 
 TEST_CASE("side by side: a run that ends early leaves the others their errors", "[error]") {
-  Scene wild = sheet_scene(0);
+  Scene wild = canvas_scene(0);
   change_cloth<SheetCloth>(wild, [](SheetCloth& sheet) { sheet.initial_velocity = {1e13, 0, 0}; });
-  const auto results = run({{sheet_scene(1), {}}, {wild, {}}, {sheet_scene(0), {}}});
+  const auto results = run({{canvas_scene(1), {}}, {wild, {}}, {canvas_scene(0), {}}});
   CHECK(results[1].report.ends_run());
   CHECK(std::isnan(results[1].errors.position));
   CHECK(results[2].errors.position > 0);
@@ -98,10 +98,10 @@ TEST_CASE("side by side: a run that ends early leaves the others their errors", 
 TEST_CASE("side by side: frames that steps do not divide are refused", "[error]") {
   FrameOptions options = half_a_second();
   options.frame_time = 0.01;
-  CHECK_THROWS_AS(SideBySide({{sheet_scene(0), {}}}, options), InputError);
+  CHECK_THROWS_AS(SideBySide({{canvas_scene(0), {}}}, options), InputError);
   options = half_a_second();
   options.begin = 0.5;
-  CHECK_THROWS_AS(SideBySide({{sheet_scene(0), {}}}, options), InputError);
+  CHECK_THROWS_AS(SideBySide({{canvas_scene(0), {}}}, options), InputError);
 }
 
 }  // namespace pleat

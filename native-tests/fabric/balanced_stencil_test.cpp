@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kEdge = 0.1;  // [m]
+constexpr double kSpacing = 0.1;  // [m]
 
 double quadratic(const Vec3& x) {
   return 0.5 * x.x() * x.x() + 0.7 * x.x() * x.y() - 1.3 * x.y() * x.y() + 2 * x.x() - 3;
@@ -73,7 +73,7 @@ double sag(Triangulation pattern, int n) {
 
 TEST_CASE("balanced_stencil: second derivatives of a quadratic are exact", "[fabric]") {
   const auto pattern = GENERATE(from_range(kTriangulations));
-  const TriangleMesh mesh = triangulated_sheet(pattern, 8, 9, kEdge);
+  const TriangleMesh mesh = triangulated_sheet(pattern, 8, 9, kSpacing);
   for (const CurvatureStencil& stencil : balanced_stencils(mesh)) {
     Vec3 found = Vec3::Zero();
     for (std::size_t k = 0; k < stencil.vertices.size(); ++k)
@@ -86,8 +86,8 @@ TEST_CASE("balanced_stencil: second derivatives of a quadratic are exact", "[fab
 
 TEST_CASE("balanced_stencil: constant curvature needs no forces away from the border", "[fabric]") {
   const auto pattern = GENERATE(from_range(kTriangulations));
-  const TriangleMesh mesh = triangulated_sheet(pattern, 12, 12, kEdge);
-  const std::vector<VertexId> inner = inner_vertices(mesh, 3.2 * kEdge);
+  const TriangleMesh mesh = triangulated_sheet(pattern, 12, 12, kSpacing);
+  const std::vector<VertexId> inner = inner_vertices(mesh, 3.2 * kSpacing);
   REQUIRE(inner.size() >= 9);
   Eigen::Matrix<double, 3, Eigen::Dynamic> sums =
       Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, mesh.n_vertices());
@@ -105,7 +105,7 @@ TEST_CASE("balanced_stencil: constant curvature needs no forces away from the bo
 
 TEST_CASE("balanced_stencil: parallelograms keep the stencils of the fit", "[fabric]") {
   const auto pattern = GENERATE(Triangulation::one_way, Triangulation::equilateral);
-  const TriangleMesh mesh = triangulated_sheet(pattern, 8, 8, kEdge);
+  const TriangleMesh mesh = triangulated_sheet(pattern, 8, 8, kSpacing);
   int n_compact = 0;
   for (const CurvatureStencil& stencil : balanced_stencils(mesh))
     n_compact += stencil.vertices.size() == 6 ? 1 : 0;

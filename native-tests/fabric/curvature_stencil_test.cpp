@@ -10,12 +10,13 @@
 namespace pleat {
 namespace {
 
-constexpr double kEdge = 0.1;    // [m]
-constexpr double kExact = 1e-9;  // of 1/kEdge^2 times the values: rounding of second differences
+constexpr double kMeshWidth = 0.1;  // [m]
+constexpr double kExact =
+    1e-9;  // of 1/kMeshWidth^2 times the values: rounding of second differences
 
 /// A flat mesh whose warp runs at `angle` [rad] from x.
 TriangleMesh turned_sheet(Triangulation pattern, int rows, int columns, double angle) {
-  TriangleMesh mesh = triangulated_sheet(pattern, rows, columns, kEdge);
+  TriangleMesh mesh = triangulated_sheet(pattern, rows, columns, kMeshWidth);
   mesh.warp_directions.assign(mesh.triangles.size(), {std::cos(angle), std::sin(angle), 0});
   return mesh;
 }
@@ -78,8 +79,8 @@ TEST_CASE("curvature_stencil: needles are exact and finite", "[fabric]") {
   CAPTURE(pattern, thinness);
   TriangleMesh mesh = turned_sheet(pattern, 4, 4, 0);
   mesh.rest_positions.row(1) *= thinness;
-  // Second differences of values near 1 over a height of kEdge * thinness.
-  CHECK(largest_miss(mesh) < 1e-11 / std::pow(kEdge * thinness, 2));
+  // Second differences of values near 1 over a height of kMeshWidth * thinness.
+  CHECK(largest_miss(mesh) < 1e-11 / std::pow(kMeshWidth * thinness, 2));
 }
 
 TEST_CASE("curvature_stencil: affine functions have no curvature in any mesh however small",

@@ -13,7 +13,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kEdge = 0.1;  // [m]
+constexpr double kSide = 0.1;  // [m]
 const MembraneLaw kLaw{60, 45, 8, 0};
 const MembraneLaw kBilinear{60, 45, 8, 0.1};
 
@@ -80,7 +80,7 @@ TEST_CASE("membrane: homogeneous strain has the closed form's energy and border 
   const auto [name, warp, weft, shear] = GENERATE(table<std::string, double, double, double>(
       {{"uniaxial", 1.2, 1, 0}, {"shear", 1, 1, 0.3}, {"biaxial", 1.1, 0.9, 0}}));
   CAPTURE(pattern, name);
-  const TriangleMesh mesh = triangulated_sheet(pattern, 5, 6, kEdge);
+  const TriangleMesh mesh = triangulated_sheet(pattern, 5, 6, kSide);
   const Membrane membrane = membrane_of(mesh, kLaw);
   const Mat3 turn = Eigen::AngleAxisd(0.4, Vec3(1, -1, 2).normalized()).toRotationMatrix();
   const Mat3 F = turn * plane_map(warp, shear, 0, weft);
@@ -99,7 +99,7 @@ TEST_CASE("membrane: homogeneous strain has the closed form's energy and border 
 TEST_CASE("membrane: moving and turning costs nothing and pulls nowhere", "[fabric]") {
   const auto pattern = GENERATE(from_range(kTriangulations));
   CAPTURE(pattern);
-  const TriangleMesh mesh = triangulated_sheet(pattern, 4, 4, kEdge);
+  const TriangleMesh mesh = triangulated_sheet(pattern, 4, 4, kSide);
   const Membrane membrane = membrane_of(mesh, kBilinear);
   const Mat3 turn = Eigen::AngleAxisd(2.5, Vec3(3, 1, 2).normalized()).toRotationMatrix();
   const Positions moved = (turn * mesh.rest_positions).colwise() + Vec3(1, -2, 3);
@@ -109,8 +109,8 @@ TEST_CASE("membrane: moving and turning costs nothing and pulls nowhere", "[fabr
 }
 
 TEST_CASE("membrane: a sheet folded in space is at rest when its rest shape is", "[fabric]") {
-  TriangleMesh mesh = triangulated_sheet(Triangulation::one_way, 1, 1, kEdge);
-  mesh.rest_positions.col(3) << 0, 0, kEdge;
+  TriangleMesh mesh = triangulated_sheet(Triangulation::one_way, 1, 1, kSide);
+  mesh.rest_positions.col(3) << 0, 0, kSide;
   mesh.warp_directions = {Vec3::UnitX(), Vec3(1, -1, 0).normalized()};
   const Membrane membrane = membrane_of(mesh, kLaw);
   CHECK(membrane_energy(membrane, mesh.rest_positions) < 1e-25);

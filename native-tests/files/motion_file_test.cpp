@@ -44,7 +44,7 @@ const BadMotion kBadMotions[] = {
     {"/name", "7", "/name", "expected a text in quotes, got 7"},
 };
 
-void check_refused(const json& document, const BadMotion& bad) {
+void check_motion_refused(const json& document, const BadMotion& bad) {
   try {
     read_motion(document.dump());
     FAIL_CHECK("was accepted");
@@ -83,7 +83,7 @@ TEST_CASE("motion file: bad values are refused with their place", "[files]") {
     CAPTURE(bad.pointer, bad.replacement);
     json document = walk_document();
     document[json::json_pointer(bad.pointer)] = json::parse(bad.replacement);
-    check_refused(document, bad);
+    check_motion_refused(document, bad);
   }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("motion file: a missing joint is refused by name", "[files]") {
   CAPTURE(missing.replacement);
   json document = walk_document();
   document[json::json_pointer(missing.pointer)].erase(missing.replacement);
-  check_refused(document, missing);
+  check_motion_refused(document, missing);
 }
 
 TEST_CASE("motion file: a motion of constants alone is a pose", "[files]") {

@@ -14,7 +14,7 @@ constexpr int kRound = 8;  // faces around the tube
 constexpr int kDown = 5;
 
 /// A cone-shaped tube, open above and below, wound outward.
-QuadPatch tube() {
+QuadPatch cone_tube() {
   QuadPatch patch;
   patch.rest_positions.resize(3, kRound * (kDown + 1));
   patch.rest_coordinates.resize(2, kRound * (kDown + 1));
@@ -36,7 +36,7 @@ QuadPatch tube() {
 
 QuadMesh randomly_refined(std::uint64_t seed, int n_splits) {
   Random random(seed);
-  QuadMesh mesh = QuadMesh::from_patch(tube());
+  QuadMesh mesh = QuadMesh::from_patch(cone_tube());
   for (int i = 0; i < n_splits; ++i) {
     const FaceId face(random.below(static_cast<std::int64_t>(mesh.faces().size())));
     if (mesh.faces()[face].level < 5) mesh.refine(std::array{face});
@@ -128,16 +128,16 @@ TEST_CASE("graded mesh: a hanging vertex lies in the middle of parents that do n
 }
 
 TEST_CASE("graded mesh: refinement keeps the area to rounding", "[mesh]") {
-  const QuadMesh base = QuadMesh::from_patch(tube());
+  const QuadMesh base = QuadMesh::from_patch(cone_tube());
   const QuadMesh mesh = randomly_refined(6, 60);
   CHECK(mesh.vertex_areas().sum() == Approx(base.vertex_areas().sum()).epsilon(1e-14));
   for (const HangingVertex& h : mesh.hanging_vertices()) CHECK(mesh.vertex_areas()[h.vertex] == 0);
 }
 
 TEST_CASE("graded mesh: faces refined one by one make the uniform mesh", "[mesh]") {
-  QuadMesh uniform = QuadMesh::from_patch(tube());
+  QuadMesh uniform = QuadMesh::from_patch(cone_tube());
   uniform.refine_uniformly(1);
-  QuadMesh graded = QuadMesh::from_patch(tube());
+  QuadMesh graded = QuadMesh::from_patch(cone_tube());
   std::vector<FaceId> all;
   for (int f = 0; f < graded.n_base_faces(); ++f) all.emplace_back(f);
   graded.refine(all);
@@ -146,7 +146,7 @@ TEST_CASE("graded mesh: faces refined one by one make the uniform mesh", "[mesh]
 }
 
 TEST_CASE("graded mesh: round a tube the coordinate grows up to the seam", "[mesh]") {
-  QuadMesh mesh = QuadMesh::from_patch(tube());
+  QuadMesh mesh = QuadMesh::from_patch(cone_tube());
   mesh.refine_uniformly(2);
   std::map<long, std::map<double, double>> rows;  // by coordinate down: angle to coordinate round
   for (int i = 0; i < mesh.n_vertices(); ++i) {
@@ -167,19 +167,19 @@ TEST_CASE("graded mesh: round a tube the coordinate grows up to the seam", "[mes
 }
 
 TEST_CASE("graded mesh: unsound faces are named", "[mesh]") {
-  QuadPatch twice = tube();
+  QuadPatch twice = cone_tube();
   twice.quads[7][2] = twice.quads[7][0];
   CHECK_THROWS_WITH(QuadMesh::from_patch(twice), Catch::Contains("four different corners"));
-  QuadPatch turned = tube();
+  QuadPatch turned = cone_tube();
   std::swap(turned.quads[3][1], turned.quads[3][3]);
   CHECK_THROWS_AS(QuadMesh::from_patch(turned), InputError);
-  QuadPatch flat = tube();
+  QuadPatch flat = cone_tube();
   for (int k = 0; k < 4; ++k) flat.rest_positions.col(flat.quads[2][k]).setConstant(1);
   CHECK_THROWS_WITH(QuadMesh::from_patch(flat), Catch::Contains("area"));
-  QuadPatch third = tube();
+  QuadPatch third = cone_tube();
   third.quads.push_back(third.quads[4]);
   CHECK_THROWS_WITH(QuadMesh::from_patch(third), Catch::Contains("at most two faces"));
-  QuadPatch alone = tube();
+  QuadPatch alone = cone_tube();
   alone.quads.resize(alone.quads.size() - kRound);
   CHECK_THROWS_WITH(QuadMesh::from_patch(alone), Catch::Contains("a vertex without"));
 }

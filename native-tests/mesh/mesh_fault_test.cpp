@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-VertexId v(int i) { return VertexId(i); }
+VertexId vertex(int i) { return VertexId(i); }
 
 /// Five vertices, no three on a line.
 Positions five() {
@@ -25,8 +25,10 @@ TEST_CASE("mesh_fault: a sheet at any size is sound, and so is a closed box", "[
   const double size = GENERATE(1e-8, 1.0, 1e8);
   const TriangleMesh mesh = square_sheet(4).triangle_mesh();
   CHECK_FALSE(mesh_fault(size * mesh.rest_positions, mesh.triangles, 0));
-  const std::vector<Triangle> closed{
-      {v(0), v(2), v(1)}, {v(0), v(1), v(3)}, {v(1), v(2), v(3)}, {v(2), v(0), v(3)}};
+  const std::vector<Triangle> closed{{vertex(0), vertex(2), vertex(1)},
+                                     {vertex(0), vertex(1), vertex(3)},
+                                     {vertex(1), vertex(2), vertex(3)},
+                                     {vertex(2), vertex(0), vertex(3)}};
   CHECK_FALSE(mesh_fault(size * five().leftCols(4), closed, 0));
 }
 
@@ -37,23 +39,29 @@ TEST_CASE("mesh_fault: the first fault is told with its place", "[mesh]") {
     std::string sentence;
   };
   const std::vector<Case> cases = {
-      {{{v(0), v(1), v(2)}, {v(1), v(0), v(3)}, {v(0), v(1), v(4)}},
+      {{{vertex(0), vertex(1), vertex(2)},
+        {vertex(1), vertex(0), vertex(3)},
+        {vertex(0), vertex(1), vertex(4)}},
        2,
        -1,
        "expected at most two triangles at an edge, got a third at that from vertex 1 to 2"},
-      {{{v(0), v(1), v(2)}, {v(0), v(1), v(3)}, {v(2), v(1), v(4)}},
+      {{{vertex(0), vertex(1), vertex(2)},
+        {vertex(0), vertex(1), vertex(3)},
+        {vertex(2), vertex(1), vertex(4)}},
        1,
        -1,
        "expected neighbours wound alike, got two triangles that both go from vertex 1 to 2"},
-      {{{v(0), v(1), v(2)}, {v(2), v(1), v(0)}, {v(2), v(1), v(4)}},
+      {{{vertex(0), vertex(1), vertex(2)},
+        {vertex(2), vertex(1), vertex(0)},
+        {vertex(2), vertex(1), vertex(4)}},
        1,
        -1,
        "expected each triangle once, got two with the vertices 2, 1 and 3"},
-      {{{v(0), v(1), v(2)}, {v(2), v(1), v(4)}},
+      {{{vertex(0), vertex(1), vertex(2)}, {vertex(2), vertex(1), vertex(4)}},
        -1,
        3,
        "expected every vertex in a triangle, got vertex 4 in none"},
-      {{{v(0), v(1), v(2)}, {v(3), v(4), v(3)}},
+      {{{vertex(0), vertex(1), vertex(2)}, {vertex(3), vertex(4), vertex(3)}},
        1,
        -1,
        "expected a triangle with an area, got the vertices 4, 5 and 4 on a line"},
@@ -86,8 +94,8 @@ TEST_CASE("mesh_fault: a band is sound with a whole turn or none, a Moebius band
     const int next = (2 * i + 2) % (2 * kQuads);
     const int near_low = 2 * i, near_high = 2 * i + 1;
     const int far_low = swaps ? next + 1 : next, far_high = swaps ? next : next + 1;
-    triangles.push_back({v(near_low), v(far_low), v(near_high)});
-    triangles.push_back({v(far_low), v(far_high), v(near_high)});
+    triangles.push_back({vertex(near_low), vertex(far_low), vertex(near_high)});
+    triangles.push_back({vertex(far_low), vertex(far_high), vertex(near_high)});
   }
   CHECK(mesh_fault(x, triangles, 0).has_value() == half_turn);
 }
@@ -95,7 +103,7 @@ TEST_CASE("mesh_fault: a band is sound with a whole turn or none, a Moebius band
 TEST_CASE("mesh_fault: a triangle slimmer than a millionth has no area", "[mesh]") {
   Positions x(3, 3);
   x << 0, 1, 0.5, 0, 0, 0, 0, 0, 0;
-  const std::vector<Triangle> one{{v(0), v(1), v(2)}};
+  const std::vector<Triangle> one{{vertex(0), vertex(1), vertex(2)}};
   x(2, 2) = 1.1e-6;
   CHECK_FALSE(mesh_fault(x, one, 0));
   x(2, 2) = 0.9e-6;

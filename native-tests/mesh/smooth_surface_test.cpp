@@ -12,16 +12,16 @@ namespace pleat {
 namespace {
 
 constexpr double kRadius = 0.3;  // [m]
-constexpr int kRound = 24;       // faces around the tube
-constexpr int kDown = 8;
+constexpr int kFacesRound = 24;  // faces around the tube
+constexpr int kFacesDown = 8;
 
 /// Vertices at these angles round a cylinder, closed or not.
 QuadMesh tube(const std::vector<double>& angles, bool is_closed) {
   const int round = static_cast<int>(angles.size());
   QuadPatch patch;
-  patch.rest_positions.resize(3, round * (kDown + 1));
-  patch.rest_coordinates.resize(2, round * (kDown + 1));
-  for (int r = 0; r <= kDown; ++r) {
+  patch.rest_positions.resize(3, round * (kFacesDown + 1));
+  patch.rest_coordinates.resize(2, round * (kFacesDown + 1));
+  for (int r = 0; r <= kFacesDown; ++r) {
     for (int c = 0; c < round; ++c) {
       const double angle = angles[static_cast<std::size_t>(c)];
       patch.rest_positions.col(r * round + c) << kRadius * std::sin(angle), -0.07 * r,
@@ -30,7 +30,7 @@ QuadMesh tube(const std::vector<double>& angles, bool is_closed) {
     }
   }
   const auto id = [round](int r, int c) { return VertexId(r * round + c % round); };
-  for (int r = 0; r < kDown; ++r)
+  for (int r = 0; r < kFacesDown; ++r)
     for (int c = 0; c < (is_closed ? round : round - 1); ++c)
       patch.quads.push_back({id(r, c), id(r + 1, c), id(r + 1, c + 1), id(r, c + 1)});
   return QuadMesh::from_patch(patch);
@@ -38,9 +38,9 @@ QuadMesh tube(const std::vector<double>& angles, bool is_closed) {
 
 /// All round, every other by a share of the step further on.
 std::vector<double> angles_round(double shift) {
-  std::vector<double> angles(kRound);
-  for (int c = 0; c < kRound; ++c)
-    angles[static_cast<std::size_t>(c)] = 2 * M_PI * (c + (c % 2) * shift) / kRound;
+  std::vector<double> angles(kFacesRound);
+  for (int c = 0; c < kFacesRound; ++c)
+    angles[static_cast<std::size_t>(c)] = 2 * M_PI * (c + (c % 2) * shift) / kFacesRound;
   return angles;
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("smooth surface: a refined tube is round", "[mesh]") {
   const QuadMesh base = tube();
   QuadMesh fine = base;
   fine.refine_uniformly(2);
-  const double a = 2 * M_PI / kRound;
+  const double a = 2 * M_PI / kFacesRound;
   const double middle = std::cos(a / 2) + std::pow(std::sin(a / 2), 2) / 2;
   CHECK(farthest_from_cylinder(fine.rest_positions()) ==
         Approx(kRadius * (1 - std::cos(a / 2))).epsilon(1e-9));

@@ -17,7 +17,7 @@ using namespace pleat;
 
 namespace {
 
-const std::vector<double> kTimes = {1, 2.5};
+const std::vector<double> kRestTimes = {1, 2.5};
 
 std::vector<VertexId> first_vertices(int count) {
   std::vector<VertexId> vertices;
@@ -98,7 +98,7 @@ TEST_CASE("closed_form_reference: a hanging sheet of springs is in balance", "[r
     scene.model.shear = true;
     scene.fabric.shear = 0;
   }
-  const Reference reference = closed_form_reference(scene, kTimes);
+  const Reference reference = closed_form_reference(scene, kRestTimes);
   REQUIRE(reference.samples.size() == 2);
   CHECK(reference.label.converged);
   CHECK(reference.samples.front().time == 1);
@@ -112,20 +112,20 @@ TEST_CASE("closed_form_reference: a chain is in balance, whatever the order of i
   SECTION("between two supports") {}
   SECTION("below one") { scene.pins = {{std::vector<VertexId>{VertexId(10)}, {}}}; }
   SECTION("under a weight that points elsewhere") { scene.gravity = {1, -3, 2}; }
-  const Reference reference = closed_form_reference(scene, kTimes);
+  const Reference reference = closed_form_reference(scene, kRestTimes);
   CHECK(imbalance(scene, rest_positions(reference)) < 1e-9);
 }
 
 TEST_CASE("closed_form_reference: the chain that comes with the program hangs in balance",
           "[reference]") {
   const Scene scene = read_scene(scene_text("hanging_chain"), fabric_library());
-  CHECK(imbalance(scene, rest_positions(closed_form_reference(scene, kTimes))) < 1e-12);
+  CHECK(imbalance(scene, rest_positions(closed_form_reference(scene, kRestTimes))) < 1e-12);
 }
 
 TEST_CASE("closed_form_reference: a strip held by two rows is an elastica from between them",
           "[reference]") {
   const Scene scene = cantilever_scene(12);
-  const Reference reference = closed_form_reference(scene, kTimes);
+  const Reference reference = closed_form_reference(scene, kRestTimes);
   const Positions& x = rest_positions(reference);
   const double row = 0.3 / 12;
   const Cantilever strip{0.3 - row / 2, scene.fabric.areal_density * 9.81, scene.fabric.bend_warp};
@@ -137,18 +137,18 @@ TEST_CASE("closed_form_reference: a strip held by two rows is an elastica from b
 
 TEST_CASE("closed_form_reference: a static shape does not depend on the method", "[reference]") {
   Scene scene = hanging_scene(3);
-  const std::string id = closed_form_reference(scene, kTimes).label.id;
+  const std::string id = closed_form_reference(scene, kRestTimes).label.id;
   scene.method.stepper = &steppers::xpbd;
-  CHECK(closed_form_reference(scene, kTimes).label.id == id);
+  CHECK(closed_form_reference(scene, kRestTimes).label.id == id);
   scene.fabric.areal_density *= 1.01;
-  CHECK(closed_form_reference(scene, kTimes).label.id != id);
+  CHECK(closed_form_reference(scene, kRestTimes).label.id != id);
 }
 
 TEST_CASE("closed_form_reference: scenes without a closed form are refused by what they lack",
           "[reference]") {
   const auto where = [](const Scene& scene) -> std::string {
     try {
-      closed_form_reference(scene, kTimes);
+      closed_form_reference(scene, kRestTimes);
     } catch (const InputError& error) {
       return error.where();
     }

@@ -10,11 +10,11 @@ using namespace pleat;
 
 namespace {
 
-const std::vector<double> kTimes = {0.5, 1};
+const std::vector<double> kSampleTimes = {0.5, 1};
 
 Reference small_reference() {
   Reference reference{{"made-0123", "by hand", true}, {}};
-  for (const double time : kTimes) {
+  for (const double time : kSampleTimes) {
     Sample sample{time, Positions(3, 2), {0.01, 0.1 / 3}};
     sample.positions << 1.0 / 3, -0.0, 1e-300, 4, 5e17, time;
     reference.samples.push_back(sample);
@@ -58,29 +58,29 @@ TEST_CASE("reference: a header that promises more than follows allocates nothing
 
 TEST_CASE("reference: every change of scene, method or times has another id", "[reference]") {
   const Scene scene = released_sheet_scene(3, "fine cotton");
-  const std::string id = reference_id("run", scene, kTimes);
-  CHECK(id == reference_id("run", scene, kTimes));
+  const std::string id = reference_id("run", scene, kSampleTimes);
+  CHECK(id == reference_id("run", scene, kSampleTimes));
   CHECK(id.rfind("run-", 0) == 0);
 
   Scene changed = scene;
   changed.gravity.y() = -9.8100000000000005 - 1e-15;
-  CHECK(reference_id("run", changed, kTimes) != id);
+  CHECK(reference_id("run", changed, kSampleTimes) != id);
   changed = scene;
   changed.level = 1;
-  CHECK(reference_id("run", changed, kTimes) != id);
+  CHECK(reference_id("run", changed, kSampleTimes) != id);
   changed = scene;
   changed.method.tolerance = 1e-4;
-  CHECK(reference_id("run", changed, kTimes) != id);
+  CHECK(reference_id("run", changed, kSampleTimes) != id);
   CHECK(reference_id("run", scene, std::vector<double>{0.5}) != id);
 }
 
 TEST_CASE("reference: a library's fabric counts by its numbers", "[reference]") {
   Scene scene = released_sheet_scene(3, "fine cotton");
-  const std::string id = reference_id("run", scene, kTimes);
+  const std::string id = reference_id("run", scene, kSampleTimes);
   scene.fabric_is_named = true;
-  CHECK(reference_id("run", scene, kTimes) == id);
+  CHECK(reference_id("run", scene, kSampleTimes) == id);
   scene.fabric.shear *= 1 + 1e-15;
-  CHECK(reference_id("run", scene, kTimes) != id);
+  CHECK(reference_id("run", scene, kSampleTimes) != id);
 }
 
 TEST_CASE("reference: what moves no vertex leaves the id as it is", "[reference]") {
@@ -90,7 +90,7 @@ TEST_CASE("reference: what moves no vertex leaves the id as it is", "[reference]
   renamed.caption = "look";
   renamed.duration = 17;
   renamed.record.every = 1;
-  CHECK(reference_id("run", renamed, kTimes) == reference_id("run", scene, kTimes));
+  CHECK(reference_id("run", renamed, kSampleTimes) == reference_id("run", scene, kSampleTimes));
 }
 
 // Fowler, Noll & Vo's published values of the 64-bit hash.

@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-Scene swinging_scene(int level) {
+Scene swinging_sheet_scene(int level) {
   Scene scene = released_sheet_scene(3, "fine cotton");
   scene.level = level;
   scene.method.solver = SolverKind::eigen;
@@ -31,7 +31,7 @@ Reference run_of(const Scene& scene, int n_steps) {
 }  // namespace
 
 TEST_CASE("reference_track: a run is at no distance from itself until it ends", "[reference]") {
-  const Scene scene = swinging_scene(1);
+  const Scene scene = swinging_sheet_scene(1);
   ReferenceTrack track(run_of(scene, 5));
   Simulation simulation(scene);
   for (int s = 0; s < 5; ++s) {
@@ -47,7 +47,7 @@ TEST_CASE("reference_track: a run is at no distance from itself until it ends", 
 }
 
 TEST_CASE("reference_track: distances are those of each vertex", "[reference]") {
-  const Scene scene = swinging_scene(1);
+  const Scene scene = swinging_sheet_scene(1);
   Reference reference = run_of(scene, 1);
   reference.samples[0].positions.col(7) += Vec3(0, 0.25, 0);
   ReferenceTrack track(reference);
@@ -63,13 +63,13 @@ TEST_CASE("reference_track: distances are those of each vertex", "[reference]") 
 
 TEST_CASE("reference_track: coarser and finer cloth is compared along the mesh", "[reference]") {
   Reference reference{{"made-1", "by hand", true}, {}};
-  const Scene scene = swinging_scene(1);
+  const Scene scene = swinging_sheet_scene(1);
   Simulation still(scene);
   reference.samples.push_back({1, still.rest_positions(), {}});
   ReferenceTrack track(reference);
   for (const int level : {0, 1, 2}) {
     CAPTURE(level);
-    Scene other = swinging_scene(level);
+    Scene other = swinging_sheet_scene(level);
     other.gravity.setZero();
     Simulation simulation(other);
     REQUIRE(simulation.step().ok());
@@ -120,7 +120,7 @@ TEST_CASE("reference_track: cloth that was led astray has no distance", "[refere
 }
 
 TEST_CASE("reference_track: level, method, name and duration are not its content", "[reference]") {
-  const Scene scene = swinging_scene(1);
+  const Scene scene = swinging_sheet_scene(1);
   Scene other = scene;
   other.level = 3;
   other.method.stepper = &steppers::xpbd;
@@ -130,7 +130,7 @@ TEST_CASE("reference_track: level, method, name and duration are not its content
 }
 
 TEST_CASE("reference_track: a changed scene never meets an old reference", "[reference]") {
-  const Scene scene = swinging_scene(1);
+  const Scene scene = swinging_sheet_scene(1);
   const ReferenceTrack track(run_of(scene, 1));
   const int change = GENERATE(range(0, 7));
   Scene other = scene;
@@ -151,7 +151,7 @@ TEST_CASE("reference_track: a reference without samples is refused", "[reference
 }
 
 TEST_CASE("reference: 32-bit positions come back to seven digits", "[reference]") {
-  const Reference written = run_of(swinging_scene(0), 2);
+  const Reference written = run_of(swinging_sheet_scene(0), 2);
   const Reference read = read_reference(write_reference(written, Precision::float32));
   REQUIRE(read.samples.size() == 2);
   CHECK(read.content == written.content);
@@ -162,7 +162,7 @@ TEST_CASE("reference: 32-bit positions come back to seven digits", "[reference]"
 }
 
 TEST_CASE("reference: positions that are not finite are refused", "[reference]") {
-  Reference written = run_of(swinging_scene(0), 1);
+  Reference written = run_of(swinging_sheet_scene(0), 1);
   written.samples[0].positions(0, 0) = std::nan("");
   CHECK_THROWS_AS(read_reference(write_reference(written)), InputError);
 }

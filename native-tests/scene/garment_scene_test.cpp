@@ -24,7 +24,7 @@ Scene garment_scene(const std::string& name) {
   return read_scene(file_beside_garments(name + ".json"), fabric_library(), file_beside_garments);
 }
 
-std::string refusal(const std::string& text) {
+std::string garment_refusal(const std::string& text) {
   try {
     read_scene(text, fabric_library(), file_beside_garments);
   } catch (const InputError& error) {
@@ -123,24 +123,24 @@ TEST_CASE("garment scene: both ends of an edge are held off as its half asks", "
 }
 
 TEST_CASE("garment scene: what makes no scene is refused at its place", "[scene]") {
-  CHECK(refusal(with("skirt_walk", "/cloth/garment/skirt/length_m", "-0.4"))
+  CHECK(garment_refusal(with("skirt_walk", "/cloth/garment/skirt/length_m", "-0.4"))
             .find("/cloth/garment/skirt/length_m") != std::string::npos);
-  CHECK(refusal(with("skirt_walk", "/cloth/garment/skirt/waist_ease_m", "0.9"))
+  CHECK(garment_refusal(with("skirt_walk", "/cloth/garment/skirt/waist_ease_m", "0.9"))
             .find("/cloth/garment/skirt/waist_ease_m") != std::string::npos);
-  CHECK_FALSE(refusal(with("skirt_walk", "/figure/motion", "\"absent.json\"")).empty());
-  CHECK(refusal(with("skirt_walk", "/pins/0/bone", "\"tail\"")).find("/pins/0/bone") == 0);
-  CHECK(refusal(with("skirt_walk", "/refinement", R"({"plan": {}})")).find("/refinement/plan") ==
-        0);
+  CHECK_FALSE(garment_refusal(with("skirt_walk", "/figure/motion", "\"absent.json\"")).empty());
+  CHECK(garment_refusal(with("skirt_walk", "/pins/0/bone", "\"tail\"")).find("/pins/0/bone") == 0);
+  CHECK(garment_refusal(with("skirt_walk", "/refinement", R"({"plan": {}})"))
+            .find("/refinement/plan") == 0);
   auto json = nlohmann::json::parse(file_beside_garments("skirt_walk.json"));
   json.erase("figure");
-  CHECK(refusal(json.dump()).find("no figure") != std::string::npos);
+  CHECK(garment_refusal(json.dump()).find("no figure") != std::string::npos);
 }
 
 TEST_CASE("garment scene: a plan for another mesh is refused", "[scene]") {
   Scene scene = garment_scene("skirt_walk");
   scene.plan = patchy_plan(*base_quads(scene));
   scene.plan->base_mesh ^= 1;
-  CHECK(refusal(write_scene(scene)).find("/refinement/plan") == 0);
+  CHECK(garment_refusal(write_scene(scene)).find("/refinement/plan") == 0);
 }
 
 TEST_CASE("garment scene: a membrane is refused on a planned mesh", "[scene]") {
@@ -148,7 +148,7 @@ TEST_CASE("garment scene: a membrane is refused on a planned mesh", "[scene]") {
   scene.plan = patchy_plan(*base_quads(scene));
   auto json = nlohmann::json::parse(write_scene(scene));
   json["model"] = {{"elasticity", "membrane"}};
-  CHECK_THAT(refusal(json.dump()),
+  CHECK_THAT(garment_refusal(json.dump()),
              Catch::StartsWith("/refinement/plan: expected no plan with a membrane"));
 }
 

@@ -339,7 +339,7 @@ const char* const kRichScene = R"({
   "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable"},
   "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
 
-Scene read(const std::string& text) { return read_scene(text, fabric_library()); }
+Scene read_text(const std::string& text) { return read_scene(text, fabric_library()); }
 
 }  // namespace
 
@@ -349,7 +349,7 @@ TEST_CASE("scene file: bad input is refused with its place, what was expected an
   for (const BadScene& bad : kBadScenes) {
     CAPTURE(bad.text);
     try {
-      read(bad.text);
+      read_text(bad.text);
       FAIL_CHECK("was accepted");
     } catch (const InputError& error) {
       CHECK(error.where() == bad.where);
@@ -359,7 +359,7 @@ TEST_CASE("scene file: bad input is refused with its place, what was expected an
 }
 
 TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scene]") {
-  const Scene scene = read(kRichScene);
+  const Scene scene = read_text(kRichScene);
   const SheetShape& sheet = scene.cloth.as<SheetCloth>()->shape;
   CHECK(scene.name == "rich");
   CHECK(sheet.width == 0.3);
@@ -408,7 +408,7 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
 
 TEST_CASE("scene file: every setting of a method is read", "[scene]") {
   const auto method = [](const std::string& text) {
-    return read(R"({"cloth": {"sheet": {}}, "method": )" + text + "}").method;
+    return read_text(R"({"cloth": {"sheet": {}}, "method": )" + text + "}").method;
   };
   const MethodOptions xpbd =
       method(R"({"stepper": "xpbd", "substeps": 9, "iterations": 7, "constraints": "rigid"})");
@@ -425,7 +425,7 @@ TEST_CASE("scene file: a positive number may be as large as any, but not zero", 
   const auto stiffness = [](const char* number) {
     const std::string begin = R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]],
         "masses_kg": [1, 1], "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": )";
-    const Scene scene = read(begin + number + "}]}}}");
+    const Scene scene = read_text(begin + number + "}]}}}");
     return scene.cloth.as<ParticleCloth>()->springs.at(0).stiffness;
   };
   CHECK(stiffness("1e12") == 1e12);
@@ -442,13 +442,13 @@ TEST_CASE("scene file: times are rounded to whole steps, at least one, and stay 
 }
 
 TEST_CASE("scene file: a collider without friction takes the fabric's", "[scene]") {
-  const Scene scene = read(kRichScene);
+  const Scene scene = read_text(kRichScene);
   CHECK(scene.colliders[1].friction == fabric_library().find("silk").friction_solid.value);
 }
 
 TEST_CASE("scene file: a spring without rest length is unstretched at time 0", "[scene]") {
-  const Scene scene =
-      read(R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [3, 4, 0]], "masses_kg": [1, 2],
+  const Scene scene = read_text(
+      R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [3, 4, 0]], "masses_kg": [1, 2],
                                "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 10}]}}})");
   const auto& cloth = *scene.cloth.as<ParticleCloth>();
   CHECK(cloth.springs.at(0).rest_length == 5);
@@ -457,7 +457,8 @@ TEST_CASE("scene file: a spring without rest length is unstretched at time 0", "
 }
 
 TEST_CASE("scene file: almost perpendicular directions become perpendicular", "[scene]") {
-  const Scene scene = read(R"({"cloth": {"sheet": {"warp_direction": [0.7071068, 0.7071068, 1e-7],
+  const Scene scene =
+      read_text(R"({"cloth": {"sheet": {"warp_direction": [0.7071068, 0.7071068, 1e-7],
                                "weft_direction": [0, 1e-7, 1]}}})");
   const SheetShape& sheet = scene.cloth.as<SheetCloth>()->shape;
   CHECK(std::abs(sheet.warp_direction.dot(sheet.weft_direction)) < 1e-15);
@@ -469,8 +470,8 @@ TEST_CASE("scene file: what was written is read back to the bit", "[scene]") {
   for (const char* name : kSceneFiles) texts.push_back(scene_text(name));
   for (const std::string& text : texts) {
     CAPTURE(text);
-    const std::string written = write_scene(read(text));
-    CHECK(write_scene(read(written)) == written);
+    const std::string written = write_scene(read_text(text));
+    CHECK(write_scene(read_text(written)) == written);
   }
 }
 
@@ -479,20 +480,20 @@ TEST_CASE("scene file: a number keeps every bit through the file", "[scene]") {
   const double seventh = 1.0 / 7;
   scene.gravity = {seventh, -seventh * 1e-300, 5e-324};
   scene.method.step = seventh;
-  const Scene again = read(write_scene(scene));
+  const Scene again = read_text(write_scene(scene));
   CHECK(again.gravity == scene.gravity);
   CHECK(again.method.step == scene.method.step);
 }
 
 TEST_CASE("scene file: every default is the one of the structs", "[scene]") {
-  CHECK(write_scene(read(R"({"cloth": {"sheet": {}}})")) == write_scene(Scene{}));
+  CHECK(write_scene(read_text(R"({"cloth": {"sheet": {}}})")) == write_scene(Scene{}));
 }
 
 TEST_CASE("scene file: the scenes that come with the program have a name and a caption",
           "[scene]") {
   for (const char* name : kSceneFiles) {
     CAPTURE(name);
-    const Scene scene = read(scene_text(name));
+    const Scene scene = read_text(scene_text(name));
     CHECK(scene.name != "unnamed");
     CHECK(scene.caption.size() > 40);
     CHECK(scene.caption.back() == '.');
@@ -503,13 +504,14 @@ TEST_CASE("scene file: the example of the documentation is a scene", "[scene]") 
   const std::string page = repository_file("docs/methods/scene_format.md");
   const std::string fence = "```json\n";
   const std::size_t begin = page.find(fence) + fence.size();
-  const Scene scene = read(page.substr(begin, page.find("```", begin) - begin));
+  const Scene scene = read_text(page.substr(begin, page.find("```", begin) - begin));
   CHECK(write_scene(scene).find("\"swinging sheet\"") != std::string::npos);
   CHECK(scene.pins.size() == 1);
 }
 
 TEST_CASE("scene file: each number of a scene's own fabric arrives in its place", "[scene]") {
-  const Scene scene = read(R"({"cloth": {"sheet": {}}, "fabric": {"areal_density_kg_per_m2": 0.2,
+  const Scene scene =
+      read_text(R"({"cloth": {"sheet": {}}, "fabric": {"areal_density_kg_per_m2": 0.2,
       "thickness_m": 0.001, "stretch_warp_n_per_m": 3000, "stretch_weft_n_per_m": 2000,
       "shear_n_per_m": 40, "bend_warp_n_m": 5e-6, "bend_weft_n_m": 6e-6, "damping_ratio": 0.07,
       "friction_solid": 0.8}})");

@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-ObjMesh shipped(const std::string& name) {
+ObjMesh shipped_mesh(const std::string& name) {
   return read_obj(repository_file("assets/meshes/" + name + ".obj"));
 }
 
@@ -84,7 +84,7 @@ std::pair<double, double> stretch_of_pattern(const ObjMesh& mesh) {
 }  // namespace
 
 TEST_CASE("shipped mesh: the T-shirt has 1714 vertices and four openings with names", "[scene]") {
-  const ObjMesh shirt = shipped("t_shirt");
+  const ObjMesh shirt = shipped_mesh("t_shirt");
   CHECK(shirt.positions.cols() == 1714);
   CHECK(euler_characteristic(shirt) == 2 - 4);
   std::set<std::vector<VertexId>> named;
@@ -96,7 +96,7 @@ TEST_CASE("shipped mesh: the T-shirt has 1714 vertices and four openings with na
 }
 
 TEST_CASE("shipped mesh: the T-shirt is a shirt for a person", "[scene]") {
-  const ObjMesh shirt = shipped("t_shirt");
+  const ObjMesh shirt = shipped_mesh("t_shirt");
   CHECK(middle(shirt, "neck").y() - middle(shirt, "hem").y() == Approx(0.65).margin(0.1));
   CHECK(middle(shirt, "left_sleeve").x() == Approx(0.4).margin(0.05));
   CHECK(middle(shirt, "right_sleeve").x() == Approx(-middle(shirt, "left_sleeve").x()));
@@ -127,7 +127,7 @@ TEST_CASE("shipped mesh: the T-shirt is a shirt for a person", "[scene]") {
 
 TEST_CASE("shipped mesh: the half skirt is a tube of 1361 vertices with corners of its hem",
           "[scene]") {
-  const ObjMesh skirt = shipped("half_skirt");
+  const ObjMesh skirt = shipped_mesh("half_skirt");
   CHECK(skirt.positions.cols() == 1361);
   CHECK(euler_characteristic(skirt) == 0);
   CHECK(border_loops(skirt) ==
@@ -150,7 +150,7 @@ TEST_CASE("shipped mesh: the half skirt is a tube of 1361 vertices with corners 
 }
 
 TEST_CASE("shipped mesh: the irregular sheet is Delaunay's and has 329 vertices", "[scene]") {
-  const ObjMesh sheet = shipped("delaunay_sheet");
+  const ObjMesh sheet = shipped_mesh("delaunay_sheet");
   CHECK(sheet.positions.cols() == 329);
   CHECK(euler_characteristic(sheet) == 1);
   CHECK(smallest_angle(sheet) > 20);

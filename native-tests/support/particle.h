@@ -6,6 +6,7 @@
 namespace pleat {
 
 constexpr double kGravity = 9.81;  // [m/s^2]
+inline const Vec3 kUp{0, 1, 0};
 
 /// What rounding may leave of a distance when coordinates are near 1 m [m].
 constexpr double kRoundingDepth = 1e-14;

@@ -33,14 +33,14 @@ Vec3Lanes<Float1> value(const SlotSum& sum, const std::array<Pointer, 3>& arrays
 }
 
 /// What the sum moves by per pull.
-Float1 inverse_mass(const SlotSum& sum, const LaneView& view) {
+Float1 inverse_mass_of(const SlotSum& sum, const LaneView& view) {
   float total = 0;
   for (std::size_t t = 0; t < sum.n_terms; ++t)
     total += sum.factors[t] * sum.factors[t] * view.inverse_masses[sum.slots[t]];
   return {total};
 }
 
-void move(const SlotSum& sum, const Vec3Lanes<Float1>& pull, const LaneView& view) {
+void move_by(const SlotSum& sum, const Vec3Lanes<Float1>& pull, const LaneView& view) {
   for (std::size_t t = 0; t < sum.n_terms; ++t) {
     const int slot = sum.slots[t];
     const Float1 share{sum.factors[t] * view.inverse_masses[slot]};
@@ -98,12 +98,12 @@ void HangingProgram::project_bends(const LaneView& view) {
     float* const multiplier = bend_multipliers_.data() + 3 * i;
     const Vec3Lanes<Float1> error = bend_error<!first>(sum, compliance, multiplier, view);
     const Float1 gain =
-        Float1{-1} / (inverse_mass(sum, view) + Float1{compliance + kRigidCompliance});
+        Float1{-1} / (inverse_mass_of(sum, view) + Float1{compliance + kRigidCompliance});
     const Vec3Lanes<Float1> change = gain * error;
     add_to_multiplier<first>(change.x, multiplier);
     add_to_multiplier<first>(change.y, multiplier + 1);
     add_to_multiplier<first>(change.z, multiplier + 2);
-    move(sum, change, view);
+    move_by(sum, change, view);
   }
 }
 
@@ -112,10 +112,10 @@ void HangingProgram::project_springs(const LaneView& view) {
   float* multiplier = spring_multipliers_.data();
   for (const JoinedSpring& spring : springs_) {
     const SlotSum& sum = spring.sum;
-    move(sum,
-         pull_of<Float1, law, first>(value(sum, view.begins), value(sum, view.moves),
-                                     inverse_mass(sum, view), spring.block, 0, multiplier),
-         view);
+    move_by(sum,
+            pull_of<Float1, law, first>(value(sum, view.begins), value(sum, view.moves),
+                                        inverse_mass_of(sum, view), spring.block, 0, multiplier),
+            view);
     multiplier += multiplier_floats(law);
   }
 }

@@ -9,7 +9,6 @@
 namespace pleat {
 namespace {
 
-constexpr int kLanes = Float4::kLanes;
 /// A piece of fewer columns would lie within one shifted group of its neighbour.
 constexpr int kSmallestStride = 3;
 /// Rest coordinates closer than this share of the extent are the same row.
@@ -66,7 +65,8 @@ Rows one_row(int n_vertices) {
 int stride_of(const Rows& rows) {
   std::size_t longest = 0;
   for (const std::vector<int>& row : rows) longest = std::max(longest, row.size());
-  return std::max(kSmallestStride, (static_cast<int>(longest) + kLanes - 1) / kLanes);
+  return std::max(kSmallestStride,
+                  (static_cast<int>(longest) + Float4::kLanes - 1) / Float4::kLanes);
 }
 
 }  // namespace
@@ -74,24 +74,24 @@ int stride_of(const Rows& rows) {
 LaneLayout lane_layout(const ClothModel& model) {
   const int n = model.n_vertices();
   Rows rows = model.rest_coordinates.cols() == n ? grid_rows(model) : one_row(n);
-  const double places = static_cast<double>(rows.size()) * kLanes * stride_of(rows);
+  const double places = static_cast<double>(rows.size()) * Float4::kLanes * stride_of(rows);
   if (n > kSmallSheet && places > kMostPlacesPerVertex * n) rows = one_row(n);
 
   LaneLayout layout;
   layout.stride = stride_of(rows);
   layout.places.resize(static_cast<std::size_t>(n));
-  const int row_slots = kLanes * layout.stride;
+  const int row_slots = Float4::kLanes * layout.stride;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t c = 0; c < rows[r].size(); ++c) {
       const int row = static_cast<int>(r);
       const int column = static_cast<int>(c);
-      const int slot =
-          kLanes + row * row_slots + kLanes * (column % layout.stride) + column / layout.stride;
+      const int slot = Float4::kLanes + row * row_slots +
+                       Float4::kLanes * (column % layout.stride) + column / layout.stride;
       layout.places[static_cast<std::size_t>(rows[r][c])] = {row, column, slot};
     }
   }
   layout.n_rows = static_cast<int>(rows.size());
-  layout.n_slots = layout.n_rows * row_slots + 2 * kLanes;
+  layout.n_slots = layout.n_rows * row_slots + 2 * Float4::kLanes;
   return layout;
 }
 
