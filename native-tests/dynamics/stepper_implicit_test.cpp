@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "core/model/elasticity.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/model/elasticity.h"
 #include "core/model/system_matrix.h"
 #include "native-tests/support/models.h"
 
