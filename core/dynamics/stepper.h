@@ -34,10 +34,10 @@ class Stepper {
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;
-  /// For steppers that keep rest lengths in a layout of their own.
+  /// Overridden by steppers that keep rest lengths in a layout of their own.
   virtual void refresh_rest_lengths() {}
 
-  /// By which solids held the vertices in the last substep [N]; without columns for steppers that
+  /// Forces by which solids held the vertices in the last substep [N]; no columns for steppers that
   /// do not remember them and for models without contact.
   const Positions& contact_forces() const { return contact_forces_; }
   /// The same for the substep before the first. Of no effect where none are remembered.
@@ -65,8 +65,14 @@ class Stepper {
   /// vertices follow by themselves.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
 
-  /// The shared way a substep ends for steppers that work on `State` itself: contact on every
-  /// vertex that does not hang.
+  /// Contact on all vertices that neither hang nor are pinned, for what the stepper proposes at the
+  /// end of the substep. Returns how they were touched; valid until the next call. The model has
+  /// contact.
+  std::span<const ContactStage::Touch> correct_for_contact(const Positions& positions_begin,
+                                                           Positions& positions,
+                                                           Positions& velocities);
+  /// The shared way a substep ends for steppers that work on `State` itself: contact, and pins,
+  /// which win over solids.
   ///
   /// resistances   how much each vertex resists a change of its velocity [kg]
   /// travel_share  how far a force f moves a vertex within the substep, in shares of h^2 f / its
@@ -90,17 +96,22 @@ class Stepper {
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
-  /// What is remembered of the last substep, for each vertex: by which force [N] solids held it,
-  /// and how the last of them did.
+  /// What is remembered of the last substep: by which force [N] solids held each vertex, and how
+  /// the last of them touched it.
   Positions contact_forces_;
   std::vector<ContactStage::Touch> touches_;
 
  private:
   void place_solids(double time_begin, double time_end);
+  void let_go(State& state, double h, const Eigen::VectorXd& resistances, double travel_share);
+  void remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
+                double h);
 
   MethodOptions options_;
   int substeps_;
   ContactMemory memory_;
+  std::vector<char> is_exempt_;  // of contact, for each vertex
+  Positions solved_velocities_;  // before contact [m/s]; of steppers that remember
   State last_finite_;
 };
 

@@ -44,7 +44,7 @@ Deformation deformation(const MembraneElement& element,
 }
 
 /// The Green strain at the stiffening strain e, (1 + e)^2 = 1 + 2 E; beyond all strains for the
-/// linear law. Elsewhere the `knee`.
+/// linear law. The `knee` of the functions below.
 double green_stiffening_strain(const MembraneLaw& law) {
   const double e = law.stiffening_strain;
   return e > 0 ? e + e * e / 2 : std::numeric_limits<double>::infinity();

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
+#include "core/model/elements.h"
 #include "core/run/elastic_model.h"
 
 namespace pleat {
@@ -124,20 +127,22 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
 
 BuildReport build_report(const ClothModel& model) {
   BuildReport report;
-  const auto note = [&report](bool built, const char* part) {
-    (built ? report.built : report.left_out).emplace_back(part);
+  const auto note = [&report](bool is_built, std::string_view part) {
+    (is_built ? report.built : report.left_out).emplace_back(part);
   };
-  const bool has_dampers = std::any_of(model.springs.begin(), model.springs.end(),
-                                       [](const Spring& s) { return s.damping > 0; });
-  const bool has_membrane = !model.membrane.elements.empty();
-  note(!model.springs.empty(), "springs");
-  note(has_membrane, "membrane");
-  note(has_dampers || (has_membrane && model.membrane_relaxation > 0), "dampers");
-  note(!model.taut_springs.empty() || (has_membrane && model.membrane.law.stiffening_strain > 0),
-       "stretch stiffening");
-  note(!model.bends.empty() || !model.chord_bends.empty() || !model.hinges.empty() ||
-           model.has_fitted_bending(),
-       "bending");
+  // Several kinds of element may build the same part.
+  std::vector<std::pair<std::string_view, bool>> parts;
+  for_each_element_kind(model, [&parts](const auto& kind) {
+    kind.for_each_part([&parts](bool is_built, std::string_view name) {
+      const auto known = std::find_if(parts.begin(), parts.end(),
+                                      [&](const auto& part) { return part.first == name; });
+      if (known == parts.end())
+        parts.emplace_back(name, is_built);
+      else
+        known->second = known->second || is_built;
+    });
+  });
+  for (const auto& [name, is_built] : parts) note(is_built, name);
   note(!model.gravity.isZero(), "gravity");
   note(!model.pins.empty(), "pins");
   note(model.air.has_value(), "air drag");

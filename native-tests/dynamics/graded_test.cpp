@@ -8,6 +8,7 @@
 #include "core/base/check.h"
 #include "core/dynamics/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/model/elasticity.h"
 #include "core/model/energy_ledger.h"
 #include "core/model/hanging_vertices.h"
 #include "core/model/system_matrix.h"
@@ -496,7 +497,7 @@ TEST_CASE("graded: the same start gives the same bits", "[dynamics]") {
 }
 
 TEST_CASE("graded: nothing is allocated per step after the first", "[dynamics]") {
-  if (!kCountsAllocations) return;
+  if (!counts_allocations()) return;
   for (MethodOptions options : all_methods(0.001)) {
     CAPTURE(options.stepper->name);
     if (options.stepper == &steppers::implicit_euler) options.solver = SolverKind::cg;

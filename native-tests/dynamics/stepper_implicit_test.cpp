@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/dynamics/stepper_table.h"
+#include "core/model/elasticity.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {

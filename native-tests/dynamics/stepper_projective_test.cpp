@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/model/elasticity.h"
 #include "core/model/system_matrix.h"
 #include "native-tests/support/models.h"
 

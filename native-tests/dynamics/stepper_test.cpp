@@ -190,7 +190,7 @@ TEST_CASE("steppers: a step that overflows leaves the last finite state", "[dyna
 }
 
 TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]") {
-  if (!kCountsAllocations) return;
+  if (!counts_allocations()) return;
   const bool with_air = GENERATE(false, true);
   const bool with_contact = GENERATE(false, true);
   const bool is_membrane = GENERATE(false, true);
