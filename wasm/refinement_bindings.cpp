@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/error/error_norms.h"
 #include "core/error/self_crossings.h"
 #include "core/error/surface_distance.h"
 #include "core/figure/mannequin.h"
