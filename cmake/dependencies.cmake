@@ -20,6 +20,7 @@ if(EMSCRIPTEN)
     target_compile_definitions(pleat_cholmod PUBLIC NPARTITION NCAMD NSUPERNODAL NMODIFY NMATRIXOPS NTIMER
                                              PRIVATE NPRINT)
     target_compile_options(pleat_cholmod PRIVATE -w -O3 -msimd128)
+    set_target_properties(pleat_cholmod PROPERTIES UNITY_BUILD OFF)
   endif()
 else()
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -25,11 +25,11 @@ TriangleMesh sheet(int cells) {
 }
 
 /// Corners and middle of a sheet, each with what is within `radius` of it [m].
-struct Hold {
+struct HeldPatch {
   std::vector<VertexId> vertices;
   std::vector<char> is_middle;
 
-  Hold(const TriangleMesh& mesh, double radius) {
+  HeldPatch(const TriangleMesh& mesh, double radius) {
     const Positions& x = mesh.rest_positions;
     const Vec3 low = x.rowwise().minCoeff();
     const Vec3 size = x.rowwise().maxCoeff() - low;
@@ -53,7 +53,7 @@ struct Hold {
 
 DeformSolver pulled(const TriangleMesh& mesh, EnergyForm form, const DeformWeights& weights,
                     const Vec3& move) {
-  const Hold hold(mesh, 0.05 * kSide);
+  const HeldPatch hold(mesh, 0.05 * kSide);
   DeformSolver solver(mesh, form, weights);
   solver.hold(hold.vertices);
   solver.move_held(hold.places(mesh, move));
@@ -128,7 +128,7 @@ TEST_CASE("deform_solver: the energy falls in every step", "[deform]") {
 
 TEST_CASE("deform_solver: what is held is where it was moved, to the bit", "[deform]") {
   const TriangleMesh mesh = sheet(10);
-  const Hold hold(mesh, 0.05 * kSide);
+  const HeldPatch hold(mesh, 0.05 * kSide);
   const Positions places = hold.places(mesh, Vec3(0.03, 0, 0.08));
   DeformSolver solver(mesh, EnergyForm::consistent, kCotton);
   solver.hold(hold.vertices);
@@ -169,7 +169,7 @@ TEST_CASE("deform_solver: with recovery alone only what is held moves", "[deform
 
 TEST_CASE("deform_solver: a kept factor serves while the hand moves on", "[deform]") {
   const TriangleMesh mesh = sheet(16);
-  const Hold hold(mesh, 0.05 * kSide);
+  const HeldPatch hold(mesh, 0.05 * kSide);
   DeformSolver solver = pulled(mesh, EnergyForm::consistent, kCanvas, Vec3(0, 0, 0.08));
   solver.solve();
   const int n_before = solver.n_linearisations();
@@ -198,7 +198,7 @@ TEST_CASE("deform_solver: pulled far out and back it ends no higher than from re
   const DeformWeights weights = GENERATE(from_range(kFabrics));
   CAPTURE(weights.recovery);
   const TriangleMesh mesh = sheet(12);
-  const Hold hold(mesh, 0.05 * kSide);
+  const HeldPatch hold(mesh, 0.05 * kSide);
   const Positions end = hold.places(mesh, Vec3(0, 0, 0.05));
   DeformSolver solver(mesh, EnergyForm::consistent, weights);
   solver.hold(hold.vertices);
@@ -300,7 +300,7 @@ TEST_CASE("deform_solver: cloth far from the origin has the same shape there", "
   TriangleMesh mesh = sheet(12);
   DeformSolver here = pulled(mesh, form, weights, pull);
   CHECK(here.solve(kFarAhead).ok());
-  const Hold hold(mesh, 0.05 * kSide);
+  const HeldPatch hold(mesh, 0.05 * kSide);
   mesh.rest_positions.colwise() += Vec3(far, far / 3, -far);
   DeformSolver there(mesh, form, weights);
   there.hold(hold.vertices);
@@ -353,7 +353,7 @@ TEST_CASE("deform_solver: cloth that lies askew has the same shape, askew", "[de
   TriangleMesh askew = level;
   askew.rest_positions = turn * level.rest_positions;
   for (Vec3& warp : askew.warp_directions) warp = turn * warp;
-  const Hold hold(level, 0.05 * kSide);
+  const HeldPatch hold(level, 0.05 * kSide);
   const auto shape = [&](const TriangleMesh& mesh, const Positions& places) {
     DeformSolver solver(mesh, form, weights);
     solver.hold(hold.vertices);

@@ -20,7 +20,7 @@ double sum(const StageTimer& parts) {
 Scene lost_scene() {
   Scene scene;
   scene.cloth = InlineCloth{Positions::Zero(3, 1), Positions::Zero(3, 1), Eigen::VectorXd::Ones(1)};
-  scene.method.stepper = StepperKind::explicit_euler;
+  scene.method.stepper = &steppers::explicit_euler;
   scene.method.step = 100;
   scene.gravity = Vec3(0, 1e308, 0);
   return scene;
