@@ -24,8 +24,6 @@ double parsed_number(const std::string& text) {
   return text.empty() || *stop != '\0' || !std::isfinite(value) ? std::nan("") : value;
 }
 
-std::string quoted(const std::string& text) { return abbreviated(Json(text)); }
-
 }  // namespace
 
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high) {
@@ -34,19 +32,19 @@ int parse_whole_number(const std::string& text, const std::string& where, int lo
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stop != end || value < low || value > high)
     throw InputError(where, "expected a whole number from " + std::to_string(low) + " to " +
-                                std::to_string(high) + ", got " + quoted(text));
+                                std::to_string(high) + ", got " + quotation(text));
   return value;
 }
 
 double parse_positive_number(const std::string& text, const std::string& where) {
   const double value = parsed_number(text);
-  if (!(value > 0)) throw InputError(where, "expected a number > 0, got " + quoted(text));
+  if (!(value > 0)) throw InputError(where, "expected a number > 0, got " + quotation(text));
   return value;
 }
 
 double parse_number_from_zero(const std::string& text, const std::string& where) {
   const double value = parsed_number(text);
-  if (!(value >= 0)) throw InputError(where, "expected a number >= 0, got " + quoted(text));
+  if (!(value >= 0)) throw InputError(where, "expected a number >= 0, got " + quotation(text));
   return value;
 }
 

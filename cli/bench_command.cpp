@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -9,17 +8,20 @@
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
+#include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
 #include "core/run/sampled_run.h"
+#include "core/run/timed_run.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
-constexpr double kSlice = 0.1;       // [s] between reports of progress
 
 std::vector<double> take_times(Arguments& arguments) {
   std::vector<double> times;
@@ -40,50 +42,59 @@ Json sample_json(const Sample& sample) {
           {"positions_m", std::vector<double>(begin, begin + sample.positions.size())}};
 }
 
-std::int64_t steps_of_frame(const MethodOptions& method) {
-  constexpr double kTolerance = 1e-9;  // [s]
-  const std::int64_t n_steps = whole_steps(kFrame, method.step);
-  if (std::abs(static_cast<double>(n_steps) * method.step - kFrame) > kTolerance)
-    throw InputError("/method/step_s",
-                     "expected 1/60 s or a whole part of it, got " + Json(method.step).dump());
-  return n_steps;
-}
+struct BenchOptions {
+  bool wants_parts = false;
+  bool takes_turns = false;  // with another program, by lines on stdin and stdout
+  int n_frames = 60;
+  std::vector<double> times;
+};
 
 /// Wall time, stretch and parts of a run, frame by frame, and its positions at the end of some
 /// frames.
 struct FrameSeries {
-  int n_frames = 0;        // whole ones
-  double first_ms = 0;     // with what is built once
-  std::vector<double> ms;  // of the others
+  int n_frames = 0;                  // whole ones
+  double first_ms = 0;               // with what is built once
+  std::vector<double> ms;            // of the others
+  std::vector<double> processor_ms;  // of the same
   std::vector<double> rms_stretch;
   std::vector<double> largest_stretch;
   Json samples = Json::array();
-  SolveReport report;  // residual the largest, iterations the sum
+  SolveReport report;                          // of all steps
+  std::array<double, kStageCount> parts_ms{};  // of a frame, without what is built once
 };
 
-FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<double>& times) {
-  const std::int64_t n_steps = steps_of_frame(simulation.scene().method);
+/// Lets another program take its turn: says so in a line and waits for one with the number of
+/// frames of the next turn. Without a number the rest are run.
+int await_turn(int n_left) {
+  std::printf("ready\n");
+  std::fflush(stdout);
+  int n_frames = 0;
+  if (std::scanf("%d", &n_frames) != 1) return n_left;
+  return std::clamp(n_frames, 1, n_left);
+}
+
+FrameSeries run_frames(Simulation& simulation, const BenchOptions& options) {
+  const int n_frames = options.n_frames;
+  const std::vector<double>& times = options.times;
+  const std::int64_t n_steps = steps_of_frame(simulation.scene().method.step, kFrame);
+  TimedRun run(simulation, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
   FrameSeries series;
   Progress progress;
   std::size_t next = 0;
+  int turn_end = options.takes_turns ? 1 : n_frames;
   for (int frame = 0; frame < n_frames; ++frame) {
-    const Stopwatch watch;
-    for (std::int64_t step = 0; step < n_steps && !series.report.ends_run(); ++step) {
-      SolveReport report = simulation.step();
-      series.report.iterations += report.iterations;
-      series.report.relative_residual =
-          std::max(series.report.relative_residual, report.relative_residual);
-      if (report.ok()) continue;
-      series.report.status = report.status;
-      series.report.message = std::move(report.message);
-    }
-    const double seconds = watch.elapsed();
-    if (series.report.ends_run()) break;
+    if (frame == turn_end) turn_end += await_turn(n_frames - frame);
+    const double processor_begin = process_processor_time().value_or(0);
+    const double seconds = run.advance(n_steps);
+    const double processor_seconds = process_processor_time().value_or(0) - processor_begin;
+    if (run.has_ended()) break;
     series.n_frames = frame + 1;
-    if (frame > 0)
+    if (frame > 0) {
       series.ms.push_back(1e3 * seconds);
-    else
+      series.processor_ms.push_back(1e3 * processor_seconds);
+    } else {
       series.first_ms = 1e3 * seconds;
+    }
     const Positions& positions = simulation.state().positions;
     const Stretch now = stretch(simulation.gauge(), positions);
     series.rms_stretch.push_back(now.rms);
@@ -94,28 +105,17 @@ FrameSeries run_frames(Simulation& simulation, int n_frames, const std::vector<d
     }
     progress.show(static_cast<double>(series.n_frames) / n_frames, simulation.scene().name);
   }
+  series.report = run.report();
+  if (run.n_timed() > 0)
+    series.parts_ms =
+        run.parts().mean_ms(static_cast<double>(run.n_timed()) / static_cast<double>(n_steps));
   return series;
 }
 
-Json parts_json(const StageTimer& parts, int n_frames) {
-  Json json = Json::object();
-  for (int s = 0; s < kStageCount; ++s)
-    json[name(static_cast<Stage>(s))] = 1e3 * parts.total(static_cast<Stage>(s)) / n_frames;
-  return json;
-}
-
-struct BenchOptions {
-  bool wants_parts = false;
-  int n_frames = 60;
-  std::vector<double> times;
-};
-
 Outcome run_bench(const Scene& scene, const BenchOptions& options) {
-  steps_of_frame(scene.method);
+  steps_of_frame(scene.method.step, kFrame);
   Simulation simulation(scene);
-  StageTimer parts;
-  if (options.wants_parts) simulation.observe(&parts);
-  const FrameSeries series = run_frames(simulation, options.n_frames, options.times);
+  const FrameSeries series = run_frames(simulation, options);
   const int n_frames = std::max(1, series.n_frames);
   const auto& masses = simulation.model().masses;
   Json json = {{"scene", scene.name},
@@ -125,6 +125,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
                {"n_substeps", simulation.substeps()},
                {"first_ms", series.first_ms},
                {"ms", series.ms},
+               {"processor_ms", series.processor_ms},
                {"rms_stretch", series.rms_stretch},
                {"largest_stretch", series.largest_stretch},
                {"residual", series.report.relative_residual},
@@ -135,7 +136,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
                {"core", core_version()},
                {"samples", series.samples},
                {"masses_kg", std::vector<double>(masses.data(), masses.data() + masses.size())}};
-  if (options.wants_parts) json["parts_ms"] = parts_json(parts, n_frames);
+  if (options.wants_parts) json["parts_ms"] = json_parts(series.parts_ms);
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
   if (!series.report.ends_run()) return Outcome::ok;
@@ -146,6 +147,7 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
 Outcome bench_run(Arguments arguments) {
   BenchOptions options;
   options.wants_parts = arguments.flag("--parts");
+  options.takes_turns = arguments.flag("--turns");
   options.n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(options.n_frames);
   options.times = take_times(arguments);
   if (!options.times.empty() && options.times.back() > (options.n_frames + 0.5) * kFrame)
@@ -166,13 +168,7 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
   const std::string id = reference_id("run", scene, times);
   if (auto known = store.find(id)) return known;
   SampledRun run(scene, times, SampledRun::Parts::untimed);
-  {
-    Progress progress;
-    while (!run.done()) {
-      run.advance(kSlice);
-      progress.show(run.progress(), scene.name);
-    }
-  }
+  finish(run, scene.name);
   if (run.failed()) {
     std::fprintf(stderr, "pleat: no reference, as its run ended early: %s\n",
                  run.report().message.c_str());
@@ -180,11 +176,36 @@ std::optional<Reference> run_reference(const Scene& scene, const std::vector<dou
   }
   const MethodOptions& method = run.simulation().scene().method;
   const Reference reference{{id,
-                             std::string(name(method.stepper)) + " with " + name(method.solver) +
+                             std::string(method.stepper->name) + " with " + name(method.solver) +
                                  ", step " + step_phrase(method.step / run.simulation().substeps()),
                              false},
                             run.samples()};
   store.keep(reference);
+  return reference;
+}
+
+std::string millimetres(const std::vector<double>& lengths) {
+  std::string text;
+  for (const double length : lengths) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.3g", text.empty() ? "" : " / ", 1e3 * length);
+    text += number;
+  }
+  return text + " mm";
+}
+
+/// Notes in a run's label how far it is from the same run at twice the step. Nothing when the
+/// numbers ended that one.
+std::optional<Reference> with_step_halved(Reference reference, Scene scene,
+                                          const std::vector<double>& times, ReferenceStore& store) {
+  const Scene fine = scene;
+  scene.method.step *= 2;
+  const std::optional<Reference> coarse = run_reference(scene, times, store);
+  if (!coarse) return std::nullopt;
+  const std::vector<double> changes = sample_distances(fine, coarse->samples, reference.samples);
+  for (std::size_t t = 0; t < changes.size(); ++t) reference.samples[t].uncertainty = changes[t];
+  reference.label.description += "; halving its step changed it by " + millimetres(changes);
+  reference.label.uncertainty = changes.back();
   return reference;
 }
 
@@ -194,6 +215,8 @@ Outcome bench_reference(Arguments arguments) {
     throw InputError("--kind",
                      "expected run, rigid_chain or closed_form, got " + abbreviated(Json(kind)));
   const auto cache = arguments.text("--cache");
+  const bool halves_step = arguments.flag("--halved");
+  if (halves_step && kind != "run") throw InputError("--halved", kind + " has no step to halve");
   std::vector<double> times = take_times(arguments);
   if (!times.empty())
     for (const char* option : {"--steps", "--duration"})
@@ -212,15 +235,21 @@ Outcome bench_reference(Arguments arguments) {
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache) store = std::make_unique<ReferenceFolder>(*cache);
   const std::optional<Reference> reference = with_source_named(input, [&] {
-    if (kind == "run") return run_reference(scene, times, *store);
+    if (kind == "run") {
+      auto run = run_reference(scene, times, *store);
+      return run && halves_step ? with_step_halved(*run, scene, times, *store) : run;
+    }
     return std::optional(kind == "rigid_chain" ? chain_reference(scene, times)
                                                : closed_form_reference(scene, times));
   });
   if (!reference) return Outcome::check_failed;
   Json samples = Json::array();
-  for (const Sample& sample : reference->samples) samples.push_back(sample_json(sample));
+  for (const Sample& sample : reference->samples) {
+    samples.push_back(sample_json(sample));
+    if (halves_step) samples.back()["halving_changed_m"] = sample.uncertainty;
+  }
   const Json json = {{"reference", json_label(reference->label)},
-                     {"rest_diagonal_m", rest_diagonal(scene)},
+                     {"rest_diagonal_m", scene.cloth->rest_diagonal()},
                      {"samples", samples}};
   std::printf("%s\n", json.dump().c_str());
   return Outcome::ok;
@@ -229,16 +258,19 @@ Outcome bench_reference(Arguments arguments) {
 }  // namespace
 
 Outcome bench_command(Arguments arguments) {
-  const std::string kind =
-      arguments.first_word("what to measure: run, reference, deform, plans or together");
+  const std::string kind = arguments.first_word(
+      "what to measure: run, reference, deform, plans, together, rows or limit");
   arguments.flag("--json");  // its only form
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
   if (kind == "deform") return bench_deform(std::move(arguments));
   if (kind == "plans") return bench_plans(std::move(arguments));
   if (kind == "together") return bench_together(std::move(arguments));
-  throw InputError("bench", "expected run, reference, deform, plans or together after it, got " +
-                                abbreviated(Json(kind)));
+  if (kind == "rows") return bench_rows(std::move(arguments));
+  if (kind == "limit") return bench_limit(std::move(arguments));
+  throw InputError(
+      "bench", "expected run, reference, deform, plans, together, rows or limit after it, got " +
+                   abbreviated(Json(kind)));
 }
 
 }  // namespace pleat

@@ -1,20 +1,23 @@
+#include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/error/error_norms.h"
 #include "core/error/side_by_side.h"
 #include "core/files/plan_file.h"
+#include "core/reference/reference.h"
 #include "core/run/plan_maker.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {
-
-constexpr double kSlice = 0.1;  // [s] between reports of progress
 
 std::optional<double> take_number(Arguments& arguments, const char* option) {
   const auto text = arguments.text(option);
@@ -48,11 +51,7 @@ Json plans_json(const PlanMaker& maker, const std::vector<PlanOptions>& options)
 Outcome print_plans(const Scene& scene, const PlanRecipe& recipe,
                     const std::vector<PlanOptions>& options) {
   PlanMaker maker({scene}, recipe);
-  Progress progress;
-  while (!maker.done()) {
-    maker.advance(kSlice);
-    progress.show(maker.progress(), scene.name);
-  }
+  finish(maker, scene.name);
   const PlanCost& cost = maker.cost();
   Json json = {{"scene", scene.name},
                {"n_fine_vertices", rest_cloth(scene).mesh.n_vertices()},
@@ -68,13 +67,6 @@ Outcome print_plans(const Scene& scene, const PlanRecipe& recipe,
   return Outcome::ok;
 }
 
-Json parts_json(const std::array<double, kStageCount>& parts_ms) {
-  Json json = Json::object();
-  for (int s = 0; s < kStageCount; ++s)
-    json[name(static_cast<Stage>(s))] = parts_ms[static_cast<std::size_t>(s)];
-  return json;
-}
-
 Json fit_json(const FitSummary& fit) {
   return {{"share_outside", fit.outside},
           {"worst_share", fit.last.worst_share},
@@ -86,32 +78,58 @@ Json insides_json(const Insides& inside) {
   return {{"n_frames", inside.n_frames}, {"most", inside.most}, {"deepest_m", inside.deepest}};
 }
 
-Json result_json(const Contestant& contestant, const ContestantResult& result) {
+/// JSON has no NaN.
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// A frame's mean time is that of its dynamics, its contact and the change of its mesh.
+Json row_json(const Contestant& contestant, const ContestantResult& result,
+              const ReferenceLabel& against) {
   const Scene& scene = contestant.scene;
+  const double contact = result.parts_ms[static_cast<std::size_t>(Stage::contact)];
+  const double refinement = result.refinement_ms.empty() ? 0 : mean(result.refinement_ms);
   Json json = {{"scene", scene.name},
                {"method", json_method(scene.method)},
                {"n_vertices", result.n_vertices},
-               {"status", name(result.report.status)},
-               {"message", result.report.message},
-               {"residual", result.report.relative_residual},
+               {"ms_per_frame", number_json(median(result.frame_ms))},
+               {"dynamics_ms", number_json(mean(result.frame_ms) - contact - refinement)},
+               {"contact_ms", contact},
+               {"refinement_ms", refinement},
+               {"n_timed_frames", result.frame_ms.size()},
                {"n_frames", result.n_frames},
-               {"frame_ms", result.frame_ms},
-               {"parts_ms", parts_json(result.parts_ms)},
-               {"refinement_ms", result.refinement_ms},
+               {"parts_ms", json_parts(result.parts_ms)},
+               {"residual", result.report.relative_residual},
                {"errors",
-                {{"position_m", result.errors.position},
-                 {"surface_m", result.errors.surface_rms},
-                 {"surface_95_m", result.errors.surface_95},
-                 {"bend_per_m", result.errors.bend_distribution},
-                 {"bend_over_time_per_m", result.bend_over_time},
-                 {"bend_of_regions_per_m", result.errors.bend_regions}}},
+                {{"position_m", number_json(result.errors.position)},
+                 {"surface_m", number_json(result.errors.surface_rms)},
+                 {"surface_95_m", number_json(result.errors.surface_95)},
+                 {"bend_per_m", number_json(result.errors.bend_distribution)},
+                 {"bend_over_time_per_m", number_json(result.bend_over_time)},
+                 {"bend_of_regions_per_m", number_json(result.errors.bend_regions)}}},
                {"rms_stretch", result.rms_stretch},
                {"largest_stretch", result.largest_stretch},
                {"inside", insides_json(result.all_inside)},
-               {"unpinned_inside", insides_json(result.unpinned_inside)}};
-  if (result.fit) json["fit"] = fit_json(*result.fit);
-  if (contestant.adaptive) json["split_curvature_per_m"] = contestant.adaptive->split_curvature;
+               {"unpinned_inside", insides_json(result.unpinned_inside)},
+               {"fit", result.fit ? fit_json(*result.fit) : Json()},
+               {"split_curvature_per_m",
+                contestant.adaptive ? Json(contestant.adaptive->split_curvature) : Json()},
+               {"reference", json_label(against)},
+               {"status", name(result.report.status)},
+               {"message", result.report.message},
+               {"target", build_target()}};
   return json;
+}
+
+/// What all runs of a bench are held against: the first one.
+ReferenceLabel label_of_first(const Scene& scene, int n_vertices, const FrameOptions& options) {
+  char run[96];
+  std::snprintf(run, sizeof run, ", %d vertices, its own run of %g s", n_vertices,
+                options.duration);
+  const double times[] = {options.begin, options.duration};
+  return {reference_id("together", scene, times), scene.name + run};
 }
 
 Outcome print_together(const std::vector<Contestant>& contestants, const FrameOptions& options) {
@@ -124,10 +142,12 @@ Outcome print_together(const std::vector<Contestant>& contestants, const FrameOp
     }
   }
   const std::vector<ContestantResult> results = runs.results();
+  const ReferenceLabel against =
+      label_of_first(contestants.front().scene, results.front().n_vertices, options);
   Json rows = Json::array();
   Outcome outcome = Outcome::ok;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    rows.push_back(result_json(contestants[i], results[i]));
+    rows.push_back(row_json(contestants[i], results[i], against));
     if (results[i].report.ends_run()) outcome = Outcome::check_failed;
   }
   Json json = {{"runs", rows},

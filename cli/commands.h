@@ -19,5 +19,7 @@ Outcome deform_command(Arguments arguments);
 Outcome bench_deform(Arguments arguments);    ///< bench deform
 Outcome bench_plans(Arguments arguments);     ///< bench plans
 Outcome bench_together(Arguments arguments);  ///< bench together
+Outcome bench_rows(Arguments arguments);      ///< bench rows
+Outcome bench_limit(Arguments arguments);     ///< bench limit
 
 }  // namespace pleat

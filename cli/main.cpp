@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/files/json_text.h"
 
 namespace pleat {
@@ -28,8 +29,8 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --set POINTER=V1,V2    values in the scene, such as /method/substeps=1,4; with several of these
                          every value of one with every value of the others
   --levels 0,1,2         the same for /refinement/level (default: the scene's)
-  --steppers A,B         usual settings of explicit, rk4, implicit, newton, projective, xpbd (default:
-                         those that suit the model; with --set the scene's own method)
+  --steppers A,B         usual settings of these (default: those that suit the model; with --set the
+                         scene's own method)
   --reference KIND       finest (default): the finest level by implicit; newton: the same exactly,
                          with step and mesh checked; same_mesh: what steps alone do wrong;
                          closed_form: a shape at rest; rigid_chain: a sheet swinging from its edge
@@ -69,10 +70,12 @@ pleat deform MESH.obj    the same of any mesh
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
+  --turns                print "ready" after the first frame and wait for a line with the number of
+                         frames of the next turn, until all have been run
 pleat bench reference SCENE.json  positions that are taken for right
   --times T1,T2 (default: the scene's end, or that of --steps N | --duration S)
   --kind run (default), or rigid_chain or closed_form, which take no option of a method
-  --cache DIR            keep runs here
+  --cache DIR            keep runs here;  --halved  how far twice the step is from it
 pleat bench deform SCENE.json     what the shape of least energy costs
   --drag N               then of a hand that takes the handles there in N moves
   --against OTHER.json   the distance to that shape, with the same fabric and form
@@ -84,6 +87,8 @@ pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in
   --adaptive K           one more, split anew in every frame where the first's base cloth bends more
                          than K [1/m]
   --from S               of what is timed and compared (default: half);  --every N  frames compared
+pleat bench rows RUNS.json        rows with speed and error, of runs as bench run prints them
+pleat bench limit RUNS.json       where runs on three meshes lead, each with edges half as long
 pleat help | --version
 
 Changes to the scene, for every command but deform, which takes --fabrics and --json too:
@@ -92,9 +97,8 @@ Changes to the scene, for every command but deform, which takes --fabrics and --
 and for every command but sweep, which has --levels and --steppers:
   --level N  --stepper NAME  --substeps N  --iterations N
 --json prints for machines.
-With another --stepper than the scene's, explicit takes as many substeps as it needs and the others
-one in place of that; projective takes a direct solver in place of cg. --fabric leaves out all of
-the scene's own numbers. Exit status: 0 done, 1 ran but a check failed or the output was lost, 2 bad
+With another --stepper than the scene's, settings that it does not read or does not take are left
+out. --fabric leaves out all of the scene's own numbers. Exit status: 0 done, 1 ran but a check failed or the output was lost, 2 bad
 input, 3 a fault of the program.
 )";
 
@@ -108,6 +112,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
     std::fputs(kHelp, stdout);
+    std::printf("\nSteppers:\n%s", stepper_help(standard_steppers()).c_str());
     return Outcome::ok;
   }
   if (command == "--version") {

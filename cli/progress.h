@@ -26,6 +26,20 @@ class Progress {
   bool line_is_open_ = false;
 };
 
+/// Work in slices of this length shows its progress in between [s].
+constexpr double kProgressSlice = 0.1;
+
+/// Brings work to its end that has `done`, `advance(budget)` and `progress`, and shows how far it
+/// has come.
+template <class Work>
+void finish(Work& work, const std::string& message) {
+  Progress progress;
+  while (!work.done()) {
+    work.advance(kProgressSlice);
+    progress.show(work.progress(), message);
+  }
+}
+
 /// Says on stderr in which step the numbers ended a run, why, and what comes of it.
 void print_early_end(const Simulation& simulation, const SolveReport& report,
                      const char* consequence);

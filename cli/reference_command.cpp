@@ -12,7 +12,6 @@
 namespace pleat {
 namespace {
 
-constexpr double kSlice = 0.1;            // [s] between reports of progress
 constexpr double kUsualStep = 1.0 / 960;  // [s]
 
 ReferenceKind take_kind(Arguments& arguments) {
@@ -51,11 +50,7 @@ void print_reference(const Reference& reference) {
 
 Reference made(const ReferenceRecipe& recipe, const std::vector<double>& times) {
   const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times);
-  Progress progress;
-  while (!maker->done()) {
-    maker->advance(kSlice);
-    progress.show(maker->progress(), recipe.scene.name);
-  }
+  finish(*maker, recipe.scene.name);
   return maker->reference();
 }
 

@@ -13,7 +13,6 @@
 namespace pleat {
 namespace {
 
-constexpr double kSlice = 0.1;      // [s] between reports of progress
 constexpr int kUsualFineLevel = 2;  // of an example, where neither it nor --level says one
 
 /// The option that sets what the planner names.
@@ -88,11 +87,7 @@ Outcome refine_command(Arguments arguments) {
   if (out) check_writable(*out);
   return with_source_named(RefineInput{input}, [&] {
     PlanMaker maker(scenes, recipe);
-    Progress progress;
-    while (!maker.done()) {
-      maker.advance(kSlice);
-      progress.show(maker.progress(), input.scene.name);
-    }
+    finish(maker, input.scene.name);
     print_plan(maker.plan(), maker.cost(), scenes.front());
     if (out) write_file(*out, plan_text(maker.plan()));
     return Outcome::ok;

@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/error/self_crossings.h"
 #include "core/files/frame_file.h"
 #include "core/files/matrix_file.h"
@@ -15,6 +16,7 @@
 #include "core/model/system_matrix.h"
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
+#include "core/run/timed_run.h"
 #include "core/scene/method_section.h"
 
 namespace pleat {
@@ -22,7 +24,7 @@ namespace {
 
 /// What a whole run showed.
 struct RunSummary {
-  SolveReport report;  // of the worst step; residual the largest, iterations the sum
+  SolveReport report;  // of all steps
   Stretch last_stretch;
   double largest_stretch = 0;
   double rms_stretch_sum = 0;       // over steps
@@ -86,59 +88,54 @@ void write_stiffness(const Simulation& simulation, const std::filesystem::path& 
                        simulation.model(), simulation.state().positions, ElementHessian::exact)));
 }
 
-void add_step(const Simulation& simulation, SolveReport report, RunSummary& summary) {
-  summary.report.iterations += report.iterations;
-  summary.report.relative_residual =
-      std::max(summary.report.relative_residual, report.relative_residual);
-  if (!report.ok()) {
-    summary.report.status = report.status;
-    summary.report.message = std::move(report.message);
-  }
+void add_step(const Simulation& simulation, RunSummary& summary) {
   summary.last_stretch = stretch(simulation.gauge(), simulation.state().positions);
   summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
   summary.rms_stretch_sum += summary.last_stretch.rms;
 }
 
-/// What is done beside a run; any may be null.
-struct Company {
+/// Who watches a run; any may be null.
+struct Watchers {
   FrameWriter* frames = nullptr;
   SelfCrossings* crossings = nullptr;
   EnergyLedger* ledger = nullptr;
 };
 
-/// What is done in every frame.
-void add_frame(const Simulation& simulation, const Company& company, RunSummary& summary) {
+/// What every frame is watched for.
+void add_frame(const Simulation& simulation, const Watchers& watchers, RunSummary& summary) {
   const Positions& positions = simulation.state().positions;
-  if (company.frames != nullptr) company.frames->write(positions, simulation.time());
-  if (company.crossings == nullptr) return;
-  summary.last_crossings = company.crossings->count(positions);
+  if (watchers.frames != nullptr) watchers.frames->write(positions, simulation.time());
+  if (watchers.crossings == nullptr) return;
+  summary.last_crossings = watchers.crossings->count(positions);
   summary.largest_crossings = std::max(summary.largest_crossings, summary.last_crossings);
 }
 
 /// Runs to the scene's end or until the numbers end it.
-RunSummary run_to_end(Simulation& simulation, const Company& company) {
+RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
   const Scene& scene = simulation.scene();
   const double step = scene.method.step;
   const std::int64_t n_steps = whole_steps(scene.duration, step);
   const std::int64_t steps_per_frame = whole_steps(scene.record.every, step);
   RunSummary summary;
+  TimedRun run(simulation, TimedRun::Parts::untimed);
   Progress progress;
   State begin;
-  add_frame(simulation, company, summary);
+  add_frame(simulation, watchers, summary);
   while (simulation.n_steps() < n_steps) {
-    if (company.ledger != nullptr) begin = simulation.state();
-    const SolveReport report = simulation.step();
-    const bool ended = report.ends_run();
-    add_step(simulation, report, summary);
-    if (company.ledger != nullptr && !ended)
-      company.ledger->record(begin, simulation.state(), simulation.time(), step);
+    if (watchers.ledger != nullptr) begin = simulation.state();
+    run.step();
+    const bool ended = run.has_ended();
+    add_step(simulation, summary);
+    if (watchers.ledger != nullptr && !ended)
+      watchers.ledger->record(begin, simulation.state(), simulation.time(), step);
     // The last finite frame of a run that ended early is kept, unless it was written already.
     const bool is_frame = (simulation.n_steps() % steps_per_frame == 0) != ended;
-    if (is_frame) add_frame(simulation, company, summary);
+    if (is_frame) add_frame(simulation, watchers, summary);
     if (ended) break;
     progress.show(static_cast<double>(simulation.n_steps()) / static_cast<double>(n_steps),
                   scene.name);
   }
+  summary.report = run.report();
   return summary;
 }
 
@@ -153,7 +150,8 @@ Json drift_json(const EnergyLedger& ledger) {
           {"work_of_contact_j", works.contact}};
 }
 
-Json metrics_json(const Simulation& simulation, const RunSummary& summary, const Company& company) {
+Json metrics_json(const Simulation& simulation, const RunSummary& summary,
+                  const Watchers& watchers) {
   const Scene& scene = simulation.scene();
   const ClothModel& model = simulation.model();
   const BuildReport built = build_report(model);
@@ -183,11 +181,11 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, const
                {"largest_stretch_at_end", summary.last_stretch.largest},
                {"mean_rms_stretch", summary.rms_stretch_sum / n_steps},
                {"largest_stretch", summary.largest_stretch}};
-  if (company.crossings != nullptr) {
+  if (watchers.crossings != nullptr) {
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
   }
-  if (company.ledger != nullptr) json["energy"] = drift_json(*company.ledger);
+  if (watchers.ledger != nullptr) json["energy"] = drift_json(*watchers.ledger);
   json["core"] = core_version();
   return json;
 }
@@ -201,20 +199,20 @@ std::string joined(const std::vector<std::string>& words) {
 /// So many that the first step, and with it the first sign of progress, may take minutes.
 bool chooses_substeps(const Scene& scene) { return scene.method.substeps == 0; }
 
-/// What a long run is waited for.
+/// Says what a long run is of.
 void print_beginning(const Simulation& simulation) {
   std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n",
-               name(simulation.scene().method.stepper), simulation.substeps(),
+               simulation.scene().method.stepper->name, simulation.substeps(),
                simulation.model().n_vertices());
 }
 
 void print_summary(const Simulation& simulation, const RunSummary& summary,
-                   const Company& company) {
+                   const Watchers& watchers) {
   const Scene& scene = simulation.scene();
   const BuildReport built = build_report(simulation.model());
   std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n",
               printable(scene.name).c_str(), printable(scene.fabric.name).c_str(), scene.level,
-              simulation.model().n_vertices(), name(scene.method.stepper), scene.method.step,
+              simulation.model().n_vertices(), scene.method.stepper->name, scene.method.step,
               simulation.substeps());
   std::printf("built: %s\nleft out: %s\n", joined(built.built).c_str(),
               joined(built.left_out).c_str());
@@ -226,11 +224,11 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   if (!summary.report.message.empty() && !summary.report.ends_run())
     std::printf("%s\n", summary.report.message.c_str());
   std::printf("largest residual %.3g\n", summary.report.relative_residual);
-  if (company.crossings != nullptr)
+  if (watchers.crossings != nullptr)
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),
                 static_cast<long long>(summary.largest_crossings));
-  if (const EnergyLedger* ledger = company.ledger)
+  if (const EnergyLedger* ledger = watchers.ledger)
     std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n", ledger->drift(),
                 100 * ledger->relative_drift());
 }
@@ -263,19 +261,19 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   std::optional<EnergyLedger> ledger;
   if (wants_drift) ledger.emplace(simulation.model(), simulation.state());
   std::optional<SelfCrossings> crossings;
-  if (frames || std::holds_alternative<GarmentCloth>(scene.cloth))
+  if (frames || scene.cloth->is_worn())
     crossings.emplace(simulation.triangles(), simulation.rest_positions(),
                       simulation.model().hanging);
-  const Company company{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,
-                        ledger ? &*ledger : nullptr};
-  RunSummary summary = run_to_end(simulation, company);
+  const Watchers watchers{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,
+                          ledger ? &*ledger : nullptr};
+  RunSummary summary = run_to_end(simulation, watchers);
   if (frames) summary.n_frames = frames->n_frames();
 
-  const Json metrics = metrics_json(simulation, summary, company);
+  const Json metrics = metrics_json(simulation, summary, watchers);
   if (for_machines)
     std::printf("%s\n", metrics.dump().c_str());
   else
-    print_summary(simulation, summary, company);
+    print_summary(simulation, summary, watchers);
   if (out) write_file(out->metrics, format_json(metrics));
   if (dump) write_stiffness(simulation, dump->stiffness_end);
   if (!summary.report.ends_run()) return Outcome::ok;

@@ -59,7 +59,7 @@ void SceneInput::throw_with_source(const InputError& error) const {
 }
 
 void SceneInput::throw_out_of_memory() const {
-  const std::int64_t n = n_refined_vertices(scene, scene.level);
+  const std::int64_t n = scene.cloth->n_vertices(scene.level);
   throw InputError(file, "not enough memory for " + std::to_string(n) + " vertices");
 }
 
@@ -80,9 +80,13 @@ FileSource files_beside(const std::string& scene_file) {
   };
 }
 
+Json text_value(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 Json option_value(const std::string& text) {
   const Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  return value.is_number() ? value : Json(text);
+  return value.is_number() ? value : text_value(text);
 }
 
 SceneChanges take_scene_changes(Arguments& arguments) {
@@ -108,16 +112,15 @@ SceneInput read_scene_input(const std::string& file, const SceneChanges& changes
   input.file = file;
   input.options = changes.options;
   try {
-    Json json = parse_json(read_file(file));
+    Json& json = input.json;
+    json = parse_json(read_file(file));
     override_scene(json, changes.overrides);
     if (changes.n_steps)
       override_scene(json,
                      std::array{SceneOverride{"/duration_s", duration_of(*changes.n_steps, json)}});
     if (json.is_object() && json.contains("duration_s"))
       input.has_duration = is_duration(json["duration_s"]);
-    // An option may hold bytes that are no text.
-    input.text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    input.scene = read_scene(input.text, fabrics, files_beside(input.file));
+    input.scene = read_scene(JsonReader(json), fabrics, files_beside(input.file));
   } catch (const FileError&) {
     throw;
   } catch (const InputError& error) {

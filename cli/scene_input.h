@@ -29,7 +29,7 @@ struct SceneChanges {
 /// A scene and where its values came from.
 struct SceneInput {
   Scene scene;
-  std::string text;  ///< JSON that it was read from: the file's with the options' changes
+  Json json;  ///< that it was read from: the file's with the options' changes
   std::string file;
   std::vector<std::string_view> options;  ///< that changed the scene
   bool has_duration = true;               ///< that is one, whatever the step
@@ -44,6 +44,9 @@ struct SceneInput {
 
 /// Names of files in a scene are relative to its own folder.
 FileSource files_beside(const std::string& scene_file);
+
+/// A text with signs in the place of bytes that are none, as JSON takes no others.
+Json text_value(const std::string& text);
 
 /// A number where the text is one, else the text itself.
 Json option_value(const std::string& text);

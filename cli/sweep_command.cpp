@@ -17,8 +17,6 @@
 namespace pleat {
 namespace {
 
-constexpr double kSlice = 0.1;  // [s] between reports of progress
-
 /// Runs what no earlier start has run. `folder` may be null.
 void work_through(Sweep& sweep, const SweepInput& input, SweepFolder* folder) {
   if (folder != nullptr) {
@@ -28,7 +26,7 @@ void work_through(Sweep& sweep, const SweepInput& input, SweepFolder* folder) {
   Progress progress;
   int n_rounds = sweep.n_rounds_done();
   while (!sweep.done()) {
-    with_source_named(input, [&] { sweep.advance(kSlice); });
+    with_source_named(input, [&] { sweep.advance(kProgressSlice); });
     progress.show(sweep.progress(), sweep.message());
     if (folder == nullptr || sweep.n_rounds_done() == n_rounds) continue;
     n_rounds = sweep.n_rounds_done();

@@ -35,7 +35,7 @@ std::string core_of(const std::string& identity) {
 
 std::string json_lines(const std::vector<BenchRow>& rows) {
   std::string lines;
-  for (const BenchRow& row : rows) lines += write_bench_row(row) + "\n";
+  for (const BenchRow& row : rows) lines += json_bench_row(row).dump() + "\n";
   return lines;
 }
 

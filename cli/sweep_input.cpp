@@ -2,85 +2,47 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <vector>
 
 #include "core/base/check.h"
 #include "core/scene/method_section.h"
+#include "core/sweep/usual_settings.h"
 
 namespace pleat {
 namespace {
 
-/// The settings of a stepper worth comparing, with the scene's own step: each about three times as
-/// dear as the one before.
-std::vector<MethodOptions> usual_settings(StepperKind stepper, const MethodOptions& scene_method) {
-  MethodOptions method;  // what the scene says of another stepper does not hold for this one
-  if (scene_method.stepper == stepper) method = scene_method;
-  method.step = scene_method.step;
-  method.stepper = stepper;
-  method.iterations = 1;
-  std::vector<int> substeps;
-  switch (stepper) {
-    case StepperKind::explicit_euler:
-    case StepperKind::rk4:
-      substeps = {0};
-      break;
-    case StepperKind::newton:
-      method.solver = best_direct_solver();
-      method.tolerance = kNewtonTolerance;
-      substeps = {1, 4};
-      break;
-    case StepperKind::implicit_euler:
-      substeps = {1, 4};
-      break;
-    case StepperKind::projective:
-      method.solver = best_direct_solver();
-      method.iterations = 5;
-      substeps = {1, 4};
-      break;
-    case StepperKind::xpbd:
-      substeps = {10, 30, 100};
-      break;
-  }
-  std::vector<MethodOptions> settings;
-  for (const int n : substeps) {
-    settings.push_back(method);
-    settings.back().substeps = n;
-  }
-  return settings;
-}
-
-/// Those worth comparing on a scene: fast ones for springs, exact ones for a membrane.
-std::vector<std::string> usual_steppers(const Scene& scene) {
-  if (scene.model.elasticity == Elasticity::membrane) return {"implicit", "newton"};
-  return {"explicit", "implicit", "projective", "xpbd"};
-}
-
-/// The settings of the steppers named, of the usual ones where none is.
-Json stepper_settings(std::vector<std::string> names, const Scene& scene) {
-  if (names.empty()) names = usual_steppers(scene);
-  Json settings = Json::array();
-  std::set<std::string> known;
+/// The steppers named, the usual ones where none is.
+std::vector<const StepperType*> chosen_steppers(const std::vector<std::string>& names,
+                                                const Scene& scene) {
+  if (names.empty()) return usual_steppers(standard_steppers(), scene);
+  std::vector<const StepperType*> chosen;
   for (const std::string& wanted : names) {
-    if (!known.insert(wanted).second)
+    const StepperType* type = find_stepper(standard_steppers(), wanted);
+    if (type == nullptr)
+      throw InputError("--steppers", "expected some of " + stepper_names(standard_steppers()) +
+                                         ", got " + abbreviated(Json(wanted)));
+    if (std::find(chosen.begin(), chosen.end(), type) != chosen.end())
       throw InputError("--steppers", "expected each stepper once, got " + wanted + " twice");
-    const auto* kind = std::find_if(kStepperKinds.begin(), kStepperKinds.end(),
-                                    [&](StepperKind one) { return wanted == name(one); });
-    if (kind == kStepperKinds.end())
-      throw InputError("--steppers",
-                       "expected explicit, rk4, implicit, newton, projective or xpbd, got " +
-                           abbreviated(Json(wanted)));
-    for (const MethodOptions& method : usual_settings(*kind, scene.method))
-      settings.push_back({{"/method", json_method(method)}});
+    chosen.push_back(type);
   }
+  return chosen;
+}
+
+Json stepper_settings(const std::vector<std::string>& names, const Scene& scene) {
+  Json settings = Json::array();
+  for (const StepperType* type : chosen_steppers(names, scene))
+    for (const MethodOptions& method : usual_settings(*type, scene.method))
+      settings.push_back({{"/method", json_method(method)}});
   return settings;
 }
 
 /// Values between commas: as JSON where all of them are, else numbers and texts.
 Json value_list(const std::string& text) {
-  Json values = Json::parse("[" + text + "]", nullptr, /*allow_exceptions=*/false);
-  if (!values.is_discarded()) return values;
-  values = Json::array();
+  try {
+    return parse_json("[" + text + "]");
+  } catch (const InputError&) {
+  }
+  Json values = Json::array();
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     values.push_back(option_value(text.substr(begin, end - begin)));
@@ -89,7 +51,7 @@ Json value_list(const std::string& text) {
   return values;
 }
 
-/// What the options say of a plan.
+/// What the options say about a plan.
 struct SweepOptions {
   Json values = Json::object();  // of the grid
   std::map<std::string, const char*> grid;
@@ -99,10 +61,11 @@ struct SweepOptions {
   std::vector<std::string_view> given;
 
   void add_list(const char* option, const std::string& pointer, const std::string& list) {
-    if (!grid.emplace(pointer, option).second)
+    const auto key = text_value(pointer).get<std::string>();
+    if (!grid.emplace(key, option).second)
       throw InputError(option,
-                       "expected each pointer once, got " + abbreviated(Json(pointer)) + " twice");
-    values[pointer] = value_list(list);
+                       "expected each pointer once, got " + abbreviated(Json(key)) + " twice");
+    values[key] = value_list(list);
     given.emplace_back(option);
   }
   bool is_given(std::string_view option) const {
@@ -134,22 +97,22 @@ SweepOptions take_plan_options(Arguments& arguments) {
   return options;
 }
 
-/// Broken files are no plans: who reads them as a scene says what is wrong.
-bool is_plan_file(const std::string& file) {
+/// The plan of a file, or nothing. Broken files are no plans: who reads them as a scene says what
+/// is wrong.
+std::optional<Json> plan_in_file(const std::string& file) {
   try {
-    const Json json = parse_json(read_file(file));
-    return json.is_object() && json.contains("scene");
+    Json json = parse_json(read_file(file));
+    if (json.is_object() && json.contains("scene")) return json;
   } catch (const FileError&) {
     throw;
   } catch (const InputError&) {
-    return false;
   }
+  return std::nullopt;
 }
 
-/// The text of a plan's file with the scene that it may name in its place.
-std::string whole_plan(SweepInput& input) {
-  Json json = parse_json(read_file(input.file));
-  if (!json["scene"].is_string()) return json.dump();
+/// A file's plan with the scene that it may name in its place.
+Json whole_plan(Json json, SweepInput& input) {
+  if (!json["scene"].is_string()) return json;
   const std::filesystem::path folder = std::filesystem::path(input.file).parent_path();
   input.scene_file = (folder / json["scene"].get<std::string>()).string();
   try {
@@ -159,16 +122,16 @@ std::string whole_plan(SweepInput& input) {
   } catch (const InputError& error) {
     throw InputError(input.scene_file + ": " + error.where(), error.what());
   }
-  return json.dump();
+  return json;
 }
 
-std::string plan_of_options(const SweepOptions& options, const SceneInput& scene) {
-  Json plan = {{"scene", parse_json(scene.text)}, {"grid", options.values}};
+Json plan_of_options(const SweepOptions& options, const SceneInput& scene) {
+  Json plan = {{"scene", scene.json}, {"grid", options.values}};
   if (!options.steppers.empty() || !options.is_given("--set"))
     plan["settings"] = stepper_settings(options.steppers, scene.scene);
   if (options.n_repeats) plan["repeats"] = *options.n_repeats;
-  if (options.reference) plan["reference"] = *options.reference;
-  return plan.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (options.reference) plan["reference"] = text_value(*options.reference);
+  return plan;
 }
 
 }  // namespace
@@ -205,15 +168,17 @@ SweepInput take_sweep(Arguments& arguments) {
   SweepInput input;
   input.file = arguments.word("a scene's or a plan's file");
   input.grid = options.grid;
-  const bool is_plan = is_plan_file(input.file);
+  const std::optional<Json> plan_file = plan_in_file(input.file);
   for (const auto* given : {&options.given, &changes.options})
-    if (is_plan && !given->empty())
+    if (plan_file && !given->empty())
       throw InputError(std::string(given->front()), "a plan's file says this itself");
-  if (!is_plan) input.scene = read_scene_input(input.file, changes, fabrics);
+  if (!plan_file) input.scene = read_scene_input(input.file, changes, fabrics);
   with_source_named(input, [&] {
-    const std::string text = is_plan ? whole_plan(input) : plan_of_options(options, *input.scene);
-    input.plan = read_sweep_plan(
-        text, [fabrics](std::string_view scene) { return read_scene(scene, fabrics); });
+    const Json plan =
+        plan_file ? whole_plan(*plan_file, input) : plan_of_options(options, *input.scene);
+    input.plan = read_sweep_plan(JsonReader(plan), [fabrics](const JsonReader& scene) {
+      return read_scene(scene, fabrics);
+    });
   });
   return input;
 }

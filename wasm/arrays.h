@@ -11,10 +11,11 @@ namespace pleat {
 /// Three numbers a vertex [m].
 Positions positions_in(const emscripten::val& places);
 
-/// Dead after the next call that allocates.
-template <class Number>
-emscripten::val view_of(const std::vector<Number>& numbers) {
-  return emscripten::val(emscripten::typed_memory_view(numbers.size(), numbers.data()));
+/// A view of a vector or matrix of numbers. Dead after the next call that allocates.
+template <class Numbers>
+emscripten::val view_of(const Numbers& numbers) {
+  return emscripten::val(
+      emscripten::typed_memory_view(static_cast<std::size_t>(numbers.size()), numbers.data()));
 }
 
 }  // namespace pleat

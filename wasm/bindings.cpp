@@ -1,6 +1,6 @@
-// What a page shows a cloth with: scenes and a simulation. Cold calls take and return JSON text in
-// an envelope (envelope.h); hot calls return numbers and views. A view of memory dies when memory
-// grows: take it anew after each call.
+// Scenes and a running simulation for a page. Cold calls take and return JSON text in an envelope
+// (envelope.h); hot calls return numbers and views. A view of memory dies when memory grows: take
+// it anew after each call.
 #include <emscripten/bind.h>
 
 #include <algorithm>
@@ -13,10 +13,13 @@
 #include "core/files/obj_file.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"
-#include "core/run/simulation.h"
-#include "core/run/stage_timer.h"
+#include "core/scene/mesh_cloth.h"
+#include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_schema.h"
+#include "wasm/arrays.h"
 #include "wasm/envelope.h"
+#include "wasm/page_run.h"
 
 namespace {
 
@@ -25,6 +28,8 @@ using pleat::guarded;
 using pleat::json_array;
 using pleat::json_triple;
 using pleat::json_value;
+using pleat::positions_in;
+using pleat::view_of;
 
 val summary(const pleat::Simulation& simulation) {
   const pleat::ClothModel& model = simulation.model();
@@ -63,13 +68,21 @@ class Scene {
 
   std::string schema() const {
     return guarded([](val& envelope) {
-      envelope.set("schema", json_value(std::string(pleat::scene_schema())));
+      envelope.set("schema", json_value(std::string(pleat::scene_schema_file())));
+    });
+  }
+
+  /// What a page says of each stepper and draws it with.
+  std::string steppers() const {
+    return guarded([](val& envelope) {
+      envelope.set("steppers", json_value(pleat::json_steppers(pleat::standard_steppers()).dump()));
     });
   }
 
   std::string parse(const std::string& scene_text) const {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_));
+      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_),
+                                                   {}, pleat::plain_scene_parts());
       envelope.set("scene", json_value(pleat::write_scene(scene)));
       envelope.set("summary", summary(pleat::Simulation(scene)));
     });
@@ -80,9 +93,10 @@ class Scene {
   std::string read_obj(const std::string& obj_text, const std::string& mesh_text) const {
     return guarded([&](val& envelope) {
       const auto file = [&](const std::string&) { return obj_text; };
-      const pleat::Scene scene = pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
-                                                   pleat::read_fabrics(fabrics_json_), file);
-      const auto& cloth = std::get<pleat::MeshCloth>(scene.cloth);
+      const pleat::Scene scene =
+          pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
+                            pleat::read_fabrics(fabrics_json_), file, pleat::plain_scene_parts());
+      const auto& cloth = *scene.cloth.as<pleat::MeshCloth>();
       const pleat::Positions& x = cloth.mesh.rest_positions;
       envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
       std::vector<std::string> names;
@@ -110,8 +124,7 @@ class Simulation {
   std::string load(const std::string& scene_text) {
     return guarded([&](val& envelope) {
       take(build(scene_text));
-      is_disturbed_ = false;
-      envelope.set("summary", summary(*simulation_));
+      envelope.set("summary", summary(running()));
     });
   }
 
@@ -119,51 +132,32 @@ class Simulation {
     return guarded([&](val& envelope) {
       auto fresh = build(scene_text);
       fresh->carry_over(running());
-      const bool was_of_it =
-          pleat::content_id(running().scene()) == pleat::content_id(fresh->scene());
       take(std::move(fresh));
-      is_disturbed_ = is_disturbed_ || !was_of_it;
-      envelope.set("summary", summary(*simulation_));
+      envelope.set("summary", summary(running()));
     });
   }
 
   /// Starts from these places, now and at each reset.
   std::string start_from(const val& places) {
     return guarded([&](val&) {
-      const auto numbers = emscripten::convertJSArrayToNumberVector<double>(places);
-      running().start_from(Eigen::Map<const pleat::Positions>(
-          numbers.data(), 3, static_cast<Eigen::Index>(numbers.size() / 3)));
-      is_disturbed_ = true;
+      run_.start_from(positions_in(places));
       frame();
     });
   }
 
   std::string reset() {
     return guarded([&](val&) {
-      running().reset();
-      is_disturbed_ = false;
-      report_ = {};
-      clear_timing();
+      run_.reset();
       frame();
     });
   }
 
   int step(int n) {
-    try {
-      for (int i = 0; i < n && !has_ended(); ++i) timed_step();
-      frame();
-    } catch (const std::exception& error) {
-      report_.status = pleat::SolveStatus::not_finite;
-      report_.message = error.what();
-    }
-    return has_ended() ? static_cast<int>(report_.status) : 0;
+    return run_.step(n, [this] { frame(); });
   }
 
   std::string status() const {
-    return guarded([&](val& envelope) {
-      envelope.set("status", std::string(name(report_.status)));
-      envelope.set("message", report_.message);
-    });
+    return guarded([&](val& envelope) { run_.put_status(envelope); });
   }
 
   std::string numbers() {
@@ -173,16 +167,9 @@ class Simulation {
       envelope.set("step", static_cast<double>(running().n_steps()));
       envelope.set("largest_stretch", stretch.largest);
       envelope.set("rms_stretch", stretch.rms);
-      envelope.set("residual", report_.relative_residual);
-      envelope.set("iterations", report_.iterations);
-      val parts = val::object();
-      for (int s = 0; s < pleat::kStageCount; ++s) {
-        const auto stage = static_cast<pleat::Stage>(s);
-        if (timer_.total(stage) > 0) parts.set(std::string(name(stage)), 1e3 * timer_.total(stage));
-      }
-      envelope.set("parts_ms", parts);
-      envelope.set("steps_ms", 1e3 * timed_seconds_);
-      envelope.set("steps_timed", n_timed_);
+      envelope.set("residual", run_.report().relative_residual);
+      envelope.set("iterations", run_.report().iterations);
+      run_.put_costs(envelope);
       envelope.set("reference", matches_ ? compare() : val::null());
     });
   }
@@ -221,109 +208,70 @@ class Simulation {
   }
 
   std::string grab(int vertex) {
-    return guarded([&](val&) {
-      running().grab(pleat::VertexId(vertex));
-      is_disturbed_ = true;
-    });
+    return guarded([&](val&) { running().grab(pleat::VertexId(vertex)); });
   }
   void move_grab(double x, double y, double z) {
-    if (simulation_ && simulation_->is_grabbed()) simulation_->move_grab({x, y, z});
+    if (run_.is_loaded() && running().is_grabbed()) running().move_grab({x, y, z});
   }
   void release_grab() {
-    if (simulation_) simulation_->release_grab();
+    if (run_.is_loaded()) running().release_grab();
   }
 
-  val positions() const {
-    return val(emscripten::typed_memory_view(positions_.size(), positions_.data()));
-  }
-  val triangles() const {
-    return val(emscripten::typed_memory_view(triangles_.size(), triangles_.data()));
-  }
+  val positions() const { return view_of(positions_); }
+  val triangles() const { return view_of(triangles_); }
   val stretch() {
-    if (!simulation_)
-      return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
-    const std::vector<float>& strains = strain_map_->update(simulation_->state().positions);
-    return val(emscripten::typed_memory_view(strains.size(), strains.data()));
+    if (!run_.is_loaded()) return view_of(kNoFloats);
+    return view_of(strain_map_->update(running().state().positions));
   }
   /// Empty without a reference for the scene at its time.
   val distances() {
-    if (!matches_ || is_disturbed_ || !reference_->distance(*simulation_))
-      return val(emscripten::typed_memory_view(0, static_cast<const float*>(nullptr)));
-    const std::vector<float>& distances = reference_->distances();
-    return val(emscripten::typed_memory_view(distances.size(), distances.data()));
+    if (!matches_ || !reference_->distance(running())) return view_of(kNoFloats);
+    return view_of(reference_->distances());
   }
   val exact_positions() const {
-    if (!simulation_)
-      return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
-    const pleat::Positions& x = simulation_->state().positions;
-    return val(emscripten::typed_memory_view(static_cast<std::size_t>(x.size()), x.data()));
+    return run_.is_loaded() ? view_of(running().state().positions) : view_of(kNoDoubles);
   }
   val masses() const {
-    if (!simulation_)
-      return val(emscripten::typed_memory_view(0, static_cast<const double*>(nullptr)));
-    const Eigen::VectorXd& m = simulation_->model().masses;
-    return val(emscripten::typed_memory_view(static_cast<std::size_t>(m.size()), m.data()));
+    return run_.is_loaded() ? view_of(running().model().masses) : view_of(kNoDoubles);
   }
 
  private:
-  pleat::Simulation& running() const {
-    if (!simulation_) throw pleat::InputError("", "expected a loaded scene, got none");
-    return *simulation_;
-  }
+  static inline const std::vector<float> kNoFloats;
+  static inline const std::vector<double> kNoDoubles;
 
-  bool has_ended() const { return report_.ends_run(); }
+  pleat::Simulation& running() const { return run_.running(); }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
-    return std::make_unique<pleat::Simulation>(
-        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_)));
+    return std::make_unique<pleat::Simulation>(pleat::read_scene(
+        scene_text, pleat::read_fabrics(fabrics_json_), {}, pleat::plain_scene_parts()));
   }
 
   /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state
   /// as it was.
   void take(std::unique_ptr<pleat::Simulation> fresh) {
-    simulation_ = std::move(fresh);
-    simulation_->observe(&timer_);
+    run_.take(std::move(fresh));
     match();
-    report_ = {};
-    clear_timing();
-    strain_map_ =
-        std::make_unique<pleat::StrainMap>(simulation_->gauge(), simulation_->model().n_vertices());
+    strain_map_.emplace(running().gauge(), running().model().n_vertices());
     triangles_.clear();
-    for (const pleat::Triangle& t : simulation_->triangles())
+    for (const pleat::Triangle& t : running().triangles())
       for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
     frame();
   }
 
-  void match() { matches_ = reference_ && simulation_ && reference_->is_of(simulation_->scene()); }
+  void match() {
+    matches_ = reference_ && run_.is_loaded() && reference_->is_of(running().scene());
+  }
 
-  /// Of the loaded scene, which the reference is of. A cloth that was led astray has no distance.
+  /// The reference is that of the loaded scene.
   val compare() {
-    std::optional<pleat::ReferenceTrack::Distance> distance;
-    if (!is_disturbed_) distance = reference_->distance(*simulation_);
+    const auto distance = reference_->distance(running());
     val result = val::object();
     result.set("distance_m", distance ? val(distance->rms) : val::null());
     result.set("uncertainty_m", distance ? val(distance->uncertainty) : val::null());
     result.set("end_s", reference_->end());
     result.set("description", reference_->label().description);
-    result.set("disturbed", is_disturbed_);
+    result.set("disturbed", running().is_disturbed());
     return result;
-  }
-
-  /// The first step, in which steppers build what they keep, is not on the clock: the read-out and
-  /// the rows of a sweep mean the same by the cost of a step.
-  void timed_step() {
-    const bool is_first = running().n_steps() == 0;
-    const pleat::Stopwatch watch;
-    report_ = running().step();
-    if (is_first) return clear_timing();
-    timed_seconds_ += watch.elapsed();
-    ++n_timed_;
-  }
-
-  void clear_timing() {
-    timer_.clear();
-    timed_seconds_ = 0;
-    n_timed_ = 0;
   }
 
   void frame() {
@@ -332,15 +280,10 @@ class Simulation {
   }
 
   std::string fabrics_json_;
-  pleat::StageTimer timer_;
-  std::unique_ptr<pleat::Simulation> simulation_;
-  std::unique_ptr<pleat::StrainMap> strain_map_;
+  pleat::PageRun run_;
+  std::optional<pleat::StrainMap> strain_map_;
   std::optional<pleat::ReferenceTrack> reference_;
-  bool matches_ = false;       // it is of the loaded scene
-  bool is_disturbed_ = false;  // since the start a hand or another scene moved the cloth
-  pleat::SolveReport report_;
-  double timed_seconds_ = 0;  // wall time of n_timed_ whole steps, parts and the rest [s]
-  int n_timed_ = 0;
+  bool matches_ = false;          // it is of the loaded scene
   std::vector<float> positions_;  // 3 per vertex [m]
   std::vector<std::uint32_t> triangles_;
 };
@@ -352,6 +295,7 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .constructor<std::string>()
       .function("fabrics", &Scene::fabrics)
       .function("schema", &Scene::schema)
+      .function("steppers", &Scene::steppers)
       .function("parse", &Scene::parse)
       .function("readObj", &Scene::read_obj);
   emscripten::class_<Simulation>("Simulation")

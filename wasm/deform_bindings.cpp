@@ -1,6 +1,4 @@
-// What a page shows deformed cloth with. Cold calls take and return JSON text in an envelope
-// (envelope.h); hot calls return numbers and views. A view of memory dies when memory grows: take
-// it anew after each call.
+// Deformed cloth for a page. Calls are as in bindings.cpp; a view dies when memory grows.
 #include <emscripten/bind.h>
 
 #include <memory>
@@ -9,7 +7,7 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/deform/deform_solver.h"
+#include "core/deform/deform_settling.h"
 #include "core/scene/deform_scene.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/vertex_place.h"
@@ -19,15 +17,20 @@
 namespace {
 
 using emscripten::val;
+using pleat::DeformSettling;
 using pleat::DeformSolver;
 using pleat::guarded;
 using pleat::json_array;
 using pleat::json_value;
 using pleat::positions_in;
 using pleat::VertexId;
+using pleat::view_of;
 
 /// What a step came to.
 enum class Progress { moved = 0, linearised = 1, converged = 2, stuck = 3 };
+
+/// Where a pane is on its way to the least energy.
+enum class Settling { from_here = 0, from_rest = 1, converged = 2, not_converged = 3 };
 
 val json_ids(const std::vector<VertexId>& vertices) {
   std::vector<double> ids;
@@ -39,7 +42,7 @@ val json_places(const pleat::Positions& places) {
   return json_array(std::vector<double>(places.data(), places.data() + places.size()));
 }
 
-/// Of weights, measures and terms alike.
+/// Weights, measures or terms.
 template <class Numbers>
 val json_terms(const Numbers& numbers) {
   val result = val::object();
@@ -145,9 +148,9 @@ class Deformation {
         const bool is_fresh = p >= panes_.size();
         fresh.call<void>("push", is_fresh);
         if (is_fresh)
-          panes_.push_back({DeformSolver(cloth().mesh, form, weights[p]), {}, {}});
+          panes_.push_back(std::make_unique<Pane>(DeformSolver(cloth().mesh, form, weights[p])));
         else
-          panes_[p].solver.set_weights(weights[p]);
+          panes_[p]->solver.set_weights(weights[p]);
       }
       envelope.set("fresh", fresh);
     });
@@ -161,7 +164,7 @@ class Deformation {
       for (const int v : emscripten::convertJSArrayToNumberVector<int>(vertices))
         held.emplace_back(v);
       const pleat::Positions at = positions_in(places);
-      for (const Pane& pane : panes_) check(pane.solver.weights(), held, at);
+      for (const auto& pane : panes_) check(pane->solver.weights(), held, at);
       held_ = std::move(held);
       places_ = at;
     });
@@ -209,7 +212,7 @@ class Deformation {
     });
   }
 
-  /// Of the present shape and the one set aside, the one of lower energy.
+  /// Keeps the lower of the present shape and the one set aside.
   std::string keep_better(int pane) {
     return guarded([&](val& envelope) {
       Pane& chosen = at(pane);
@@ -217,6 +220,34 @@ class Deformation {
       if (was_better) chosen.solver.take_back(std::move(*chosen.aside));
       chosen.aside.reset();
       envelope.set("from_rest", !was_better);
+    });
+  }
+
+  /// The pane begins its way to the least energy: from its shape, and where it tries both, then
+  /// from rest as well.
+  std::string begin_settling(int pane, bool tries_rest) {
+    return guarded([&](val&) {
+      Pane& chosen = at(pane);
+      chosen.settling.emplace(chosen.solver, tries_rest ? DeformSettling::Ways::from_here_and_rest
+                                                        : DeformSettling::Ways::from_here);
+    });
+  }
+
+  /// One step on that way.
+  int settle(int pane) {
+    try {
+      DeformSettling& settling = settling_of(pane);
+      settling.step();
+      return static_cast<int>(stage_of(settling));
+    } catch (const std::exception&) {
+      return static_cast<int>(Settling::not_converged);
+    }
+  }
+
+  /// Gives up a way from rest, with the lower of both shapes; nothing on the other way.
+  std::string end_trial(int pane) {
+    return guarded([&](val&) {
+      if (at(pane).settling) settling_of(pane).end_trial();
     });
   }
 
@@ -251,29 +282,29 @@ class Deformation {
   std::string cloth_section() const {
     return guarded([&](val& envelope) {
       pleat::Scene scene;
-      pleat::MeshCloth mesh{cloth().mesh, {}, {}, cloth().textures};
+      pleat::MeshCloth mesh;
+      mesh.mesh = cloth().mesh;
+      mesh.textures = cloth().textures;
       if (!held_.empty()) mesh.groups.push_back({"held", held_});
       scene.cloth = std::move(mesh);
       envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
     });
   }
 
-  val triangles() const {
-    return val(emscripten::typed_memory_view(triangles_.size(), triangles_.data()));
-  }
+  val triangles() const { return view_of(triangles_); }
   val positions(int pane) {
     const pleat::Positions& x = at(pane).solver.positions();
     frame_.assign(x.data(), x.data() + x.size());
-    return val(emscripten::typed_memory_view(frame_.size(), frame_.data()));
+    return view_of(frame_);
   }
-  val exact_positions(int pane) {
-    const pleat::Positions& x = at(pane).solver.positions();
-    return val(emscripten::typed_memory_view(static_cast<std::size_t>(x.size()), x.data()));
-  }
+  val exact_positions(int pane) { return view_of(at(pane).solver.positions()); }
 
  private:
   struct Pane {
+    explicit Pane(DeformSolver with) : solver(std::move(with)) {}
+
     DeformSolver solver;
+    std::optional<DeformSettling> settling;  // of the solver
     std::optional<pleat::DeformShape> aside;
     double aside_energy = 0;
   };
@@ -285,7 +316,17 @@ class Deformation {
 
   Pane& at(int pane) {
     PLEAT_CHECK(pane >= 0 && pane < static_cast<int>(panes_.size()), "a pane that is shown");
-    return panes_[static_cast<std::size_t>(pane)];
+    return *panes_[static_cast<std::size_t>(pane)];
+  }
+
+  DeformSettling& settling_of(int pane) {
+    PLEAT_CHECK(at(pane).settling.has_value(), "a pane that began to settle");
+    return *at(pane).settling;
+  }
+
+  static Settling stage_of(const DeformSettling& settling) {
+    if (!settling.done()) return settling.is_on_trial() ? Settling::from_rest : Settling::from_here;
+    return settling.report().ok() ? Settling::converged : Settling::not_converged;
   }
 
   /// Throws InputError where there is no one shape of least energy.
@@ -309,7 +350,7 @@ class Deformation {
   pleat::FabricLibrary fabrics_;
   pleat::MeasureFit fit_;
   std::optional<pleat::DeformScene> scene_;
-  std::vector<Pane> panes_;
+  std::vector<std::unique_ptr<Pane>> panes_;
   std::vector<VertexId> held_;
   pleat::Positions places_;  // of what is held [m]
   std::vector<float> frame_;
@@ -330,6 +371,9 @@ EMSCRIPTEN_BINDINGS(deform) {
       .function("restart", &Deformation::restart)
       .function("tryFromRest", &Deformation::try_from_rest)
       .function("keepBetter", &Deformation::keep_better)
+      .function("beginSettling", &Deformation::begin_settling)
+      .function("settle", &Deformation::settle)
+      .function("endTrial", &Deformation::end_trial)
       .function("report", &Deformation::report)
       .function("fitMeasures", &Deformation::fit_measures)
       .function("clothSection", &Deformation::cloth_section)

@@ -7,17 +7,17 @@
 
 namespace pleat {
 
-/// What is drawn of a mesh of quads, and told of its faces.
+/// A mesh of quads as it is drawn, and its faces.
 struct QuadArrays {
-  /// Of each active face, in their order: two, or more where vertices hang on its edges, so that
+  /// Two for each active face in their order, or more where vertices hang on its edges, so that
   /// neighbours share all edges and nothing shines through.
   std::vector<std::uint32_t> triangles;
   std::vector<std::uint32_t> triangle_faces;  ///< of each triangle, counted among active faces
   std::vector<std::uint32_t> edges;           ///< pairs of vertices, each once
   std::vector<std::uint32_t> hanging;
-  /// Of each active face: itself, level, parent (or -1), corners.
+  /// Each active face: its number, level, parent (or -1), corners.
   std::vector<std::int32_t> faces;
-  /// Of each vertex: up to four whose mean it is at rest, -1 for none; parents come first.
+  /// Up to four vertices whose mean each vertex is at rest, -1 for none; parents come first.
   std::vector<std::int32_t> parents;
 };
 

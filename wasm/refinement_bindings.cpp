@@ -1,5 +1,5 @@
-// What a page shows garments with, on any of their meshes, in motion. Calls as in bindings.cpp; a
-// view dies when memory grows.
+// Garments in motion for a page, on any of their meshes. Calls are as in bindings.cpp; a view dies
+// when memory grows.
 #include <emscripten/bind.h>
 
 #include <algorithm>
@@ -17,11 +17,10 @@
 #include "core/figure/moving_body.h"
 #include "core/model/stretch.h"
 #include "core/refinement/fit_monitor.h"
-#include "core/run/simulation.h"
-#include "core/run/stage_timer.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
 #include "wasm/handed_over.h"
+#include "wasm/page_run.h"
 #include "wasm/quad_arrays.h"
 
 namespace {
@@ -77,20 +76,13 @@ class GarmentRun {
 
   std::string reset() {
     return guarded([&](val&) {
-      running().reset();
+      run_.reset();
       begin();
     });
   }
 
   int step(int n) {
-    try {
-      for (int i = 0; i < n && !report_.ends_run(); ++i) timed_step();
-      show(running().state().positions, running().time());
-    } catch (const std::exception& error) {
-      report_.status = pleat::SolveStatus::not_finite;
-      report_.message = error.what();
-    }
-    return report_.ends_run() ? static_cast<int>(report_.status) : 0;
+    return run_.step(n, [this] { show(running().state().positions, running().time()); });
   }
 
   /// Shows a frame that was computed elsewhere; the next step goes on from where steps had come.
@@ -112,24 +104,12 @@ class GarmentRun {
   }
 
   std::string status() const {
-    return guarded([&](val& envelope) {
-      envelope.set("status", std::string(name(report_.status)));
-      envelope.set("message", report_.message);
-    });
+    return guarded([&](val& envelope) { run_.put_status(envelope); });
   }
 
   /// Wall time of the steps, in parts, since the last load or reset.
   std::string costs() const {
-    return guarded([&](val& envelope) {
-      val parts = val::object();
-      for (int s = 0; s < pleat::kStageCount; ++s) {
-        const auto stage = static_cast<pleat::Stage>(s);
-        if (timer_.total(stage) > 0) parts.set(std::string(name(stage)), 1e3 * timer_.total(stage));
-      }
-      envelope.set("parts_ms", parts);
-      envelope.set("steps_ms", 1e3 * timed_seconds_);
-      envelope.set("steps_timed", n_timed_);
-    });
+    return guarded([&](val& envelope) { run_.put_costs(envelope); });
   }
 
   /// The shown frame is the next one that the plan's monitor sees.
@@ -213,7 +193,7 @@ class GarmentRun {
   val parents() const { return array(&pleat::QuadArrays::parents); }
   val faces() const { return array(&pleat::QuadArrays::faces); }
 
-  /// At each vertex of the shown frame [1/m].
+  /// The curvature of the shown frame at each vertex [1/m].
   val curvature() {
     curvatures_.clear();
     if (curvature_) {
@@ -223,7 +203,7 @@ class GarmentRun {
     return view_of(curvatures_);
   }
 
-  /// At each vertex to the same point of what was last compared with [m].
+  /// How far each vertex is from the same point of what was last compared with [m].
   val distances() const { return view_of(distances_); }
 
  private:
@@ -239,16 +219,12 @@ class GarmentRun {
                                       std::to_string(places.cols()) + " places");
   }
 
-  pleat::Simulation& running() const {
-    if (!simulation_) throw pleat::InputError("", "expected a loaded scene, got none");
-    return *simulation_;
-  }
+  pleat::Simulation& running() const { return run_.running(); }
   const pleat::QuadMesh& mesh() const { return *running().mesh(); }
 
   void take(std::unique_ptr<pleat::Simulation> fresh) {
-    simulation_ = std::move(fresh);
-    simulation_->observe(&timer_);
-    const pleat::Scene& scene = simulation_->scene();
+    run_.take(std::move(fresh));
+    const pleat::Scene& scene = running().scene();
     arrays_ = pleat::quad_arrays(mesh());
     curvature_.emplace(mesh());
     fine_.reset();
@@ -264,25 +240,11 @@ class GarmentRun {
   }
 
   void begin() {
-    const pleat::Scene& scene = simulation_->scene();
+    const pleat::Scene& scene = running().scene();
     monitor_.reset();
     if (scene.plan && !scene.plan->curvature_limits.empty()) monitor_.emplace(mesh(), *scene.plan);
-    report_ = {};
-    timer_.clear();
-    timed_seconds_ = 0;
-    n_timed_ = 0;
     distances_.clear();
-    show(simulation_->state().positions, simulation_->time());
-  }
-
-  /// The first step, in which steppers build what they keep, is not on the clock.
-  void timed_step() {
-    const bool is_first = running().n_steps() == 0;
-    const pleat::Stopwatch watch;
-    report_ = running().step();
-    if (is_first) return timer_.clear();
-    timed_seconds_ += watch.elapsed();
-    ++n_timed_;
+    show(running().state().positions, running().time());
   }
 
   void show(const pleat::Positions& x, double time) {
@@ -306,8 +268,7 @@ class GarmentRun {
   }
 
   std::string fabrics_json_;
-  pleat::StageTimer timer_;
-  std::unique_ptr<pleat::Simulation> simulation_;
+  pleat::PageRun run_;
   std::shared_ptr<const pleat::MovingBody> body_;
   std::vector<pleat::BodyPart> parts_;  // of it that are drawn
   std::optional<pleat::QuadArrays> arrays_;
@@ -318,11 +279,8 @@ class GarmentRun {
   int fine_level_ = 0;
   Eigen::VectorXd fine_areas_;
   std::optional<pleat::MeshSample> sample_;  // of the fine mesh
-  pleat::SolveReport report_;
-  double timed_seconds_ = 0;  // wall time of n_timed_ whole steps [s]
-  int n_timed_ = 0;
-  pleat::Positions shown_;  // [m]
-  double time_ = 0;         // of what is shown [s]
+  pleat::Positions shown_;                   // [m]
+  double time_ = 0;                          // of what is shown [s]
   std::vector<float> positions_;
   std::vector<float> curvatures_;
   std::vector<float> distances_;

@@ -1,5 +1,5 @@
-// What a page measures speed and error with. A module of its own: only who presses the button has
-// to fetch it.
+// Sweeps of speed and error for a page. They are a module of their own: only who presses the button
+// fetches it.
 #include <emscripten/bind.h>
 
 #include <optional>
@@ -25,10 +25,12 @@ class Experiment {
   std::string start(const std::string& plan_text) {
     return guarded([&](val&) {
       const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
-      const auto read = [fabrics](std::string_view text) {
-        return pleat::read_scene(text, fabrics);
+      const auto read = [fabrics](const pleat::JsonReader& scene) {
+        return pleat::read_scene(scene, fabrics, {}, pleat::plain_scene_parts());
       };
-      sweep_.emplace(pleat::read_sweep_plan(plan_text, read), references_, pleat::core_version());
+      const pleat::Json plan = pleat::parse_json(plan_text);
+      sweep_.emplace(pleat::read_sweep_plan(pleat::JsonReader(plan), read), references_,
+                     pleat::core_version());
     });
   }
 
@@ -36,7 +38,7 @@ class Experiment {
     return guarded([&](val& envelope) {
       if (!sweep_) throw pleat::InputError("", "expected a started experiment, got none");
       sweep_->advance(1e-3 * budget_ms);
-      const val report = pleat::json_value(sweep_->report_json());
+      const val report = pleat::json_value(sweep_->report().dump());
       for (const char* key : {"done", "progress", "rows", "front", "message"})
         envelope.set(key, report[key]);
     });

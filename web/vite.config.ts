@@ -13,6 +13,8 @@ export default defineConfig({
   build: {
     target: 'es2022',
     assetsInlineLimit: 0, // the content policy allows no data: but images
-    chunkSizeWarningLimit: 800, // three.js; the budget below is what counts
+    chunkSizeWarningLimit: 800, // three.js; the budget is what counts
+    // Else the text of the fabric file is copied into each place that sends it to a worker.
+    rolldownOptions: { optimization: { inlineConst: false } },
   },
 });

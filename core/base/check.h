@@ -37,10 +37,3 @@ class InputError : public std::runtime_error {
   do {                                                                                         \
     if (!(condition)) ::pleat::throw_contract_error(#condition, __FILE__, __LINE__, sentence); \
   } while (false)
-
-/// Checked in Debug only, for inner loops.
-#ifdef NDEBUG
-#define PLEAT_DCHECK(condition, sentence) static_cast<void>(0)
-#else
-#define PLEAT_DCHECK(condition, sentence) PLEAT_CHECK(condition, sentence)
-#endif

@@ -35,8 +35,8 @@ Gap gap(const SweptSolid& solid, const Vec3& place);
 /// Takes from the clearance.
 void shrink(SweptSolid& solid, const Clearance& inset);
 
-/// Of the balls that fill the shape [m]: at a rounded cone's ends, else twice the same; infinite
-/// for a plane.
+/// The radii of the balls that fill the shape [m]: at a rounded cone's ends, else twice the same;
+/// infinite for a plane.
 std::array<double, 2> end_radii(const SolidShape& shape);
 
 }  // namespace pleat

@@ -66,7 +66,6 @@ ContactStage::ContactStage(std::vector<Collider> colliders, const ContactOptions
   const auto first_cone = std::stable_partition(first_framed, colliders_.end(), is_no_cone);
   first_framed_ = static_cast<std::size_t>(first_framed - colliders_.begin());
   first_cone_ = static_cast<std::size_t>(first_cone - colliders_.begin());
-  has_framed_ = first_framed_ < colliders_.size();
   solids_.resize(colliders_.size());
   poses_begin_.resize(colliders_.size());
   poses_end_.resize(colliders_.size());
@@ -218,7 +217,7 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
   return earliest;
 }
 
-/// Of the bare solid.
+/// True on and outside of the solid itself, without clearance.
 bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
   SweptSolid bare = solid.swept;
   shrink(bare, clearance(solid.radii, largest_face_radius_));
@@ -236,11 +235,12 @@ bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
 // well; then it is clear of both. Where solids leave it no place with its clearance, the middle of
 // the last two places is as far inside of either's, and may yet be outside of the solids
 // themselves.
-ContactStage::Touch ContactStage::resolve(VertexId vertex, const Vec3& position_begin,
-                                          Vec3& position, Vec3& velocity) {
-  Touch touch;
+std::optional<ContactStage::Touch> ContactStage::resolve_vertex(VertexId vertex,
+                                                                const Vec3& position_begin,
+                                                                Vec3& position, Vec3& velocity) {
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
-  if (!meeting.solid || !velocity.allFinite()) return touch;
+  if (!meeting.solid || !velocity.allFinite()) return std::nullopt;
+  Touch touch;
   const Solid* before = nullptr;
   Vec3 place_before = position;
   for (int n_meetings = 0; meeting.solid; ++n_meetings) {
@@ -260,7 +260,7 @@ ContactStage::Touch ContactStage::resolve(VertexId vertex, const Vec3& position_
     const Vec3 tangential_velocity = relative_velocity - normal_speed * normal;
     const double left =
         slip(solid.friction, std::max(-normal_speed, 0.0), tangential_velocity.norm());
-    touch = {static_cast<int>(&solid - solids_.data()), normal, left == 0};
+    touch = {vertex, static_cast<int>(&solid - solids_.data()), normal, left == 0};
     position = meeting.impact.point + (1 - meeting.impact.fraction) * left * path;
     velocity = solid_velocity + left * tangential_velocity + std::max(normal_speed, 0.0) * normal;
 
@@ -282,6 +282,29 @@ ContactStage::Touch ContactStage::resolve(VertexId vertex, const Vec3& position_
   return touch;
 }
 
+std::span<const ContactStage::Touch> ContactStage::resolve(
+    const Eigen::Ref<const Positions>& positions_begin, std::span<const char> is_exempt,
+    Eigen::Ref<Positions> positions, Eigen::Ref<Positions> velocities) {
+  const Eigen::Index n_vertices = positions.cols();
+  PLEAT_CHECK(positions_begin.cols() == n_vertices && velocities.cols() == n_vertices &&
+                  is_exempt.size() == static_cast<std::size_t>(n_vertices),
+              "contact takes a whole state");
+  touches_.clear();
+  touches_.reserve(static_cast<std::size_t>(n_vertices));
+  for (Eigen::Index i = 0; i < n_vertices; ++i) {
+    if (is_exempt[static_cast<std::size_t>(i)] != 0) continue;
+    Vec3 position = positions.col(i);
+    Vec3 velocity = velocities.col(i);
+    const std::optional<Touch> touch =
+        resolve_vertex(VertexId(i), positions_begin.col(i), position, velocity);
+    if (!touch) continue;
+    positions.col(i) = position;
+    velocities.col(i) = velocity;
+    touches_.push_back(*touch);
+  }
+  return touches_;
+}
+
 Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) const {
   const Solid& solid = solids_[static_cast<std::size_t>(touch.solid)];
   return solid.turns ? Vec3((solid.carry * place_begin - place_begin) / substep_) : solid.velocity;
@@ -289,6 +312,21 @@ Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) c
 
 SolidShape ContactStage::placed(const Collider& collider, double time) {
   return pleat::placed(collider.shape, collider.motion.pose(time));
+}
+
+std::vector<ContactStage::Support> ContactStage::supports(
+    const Eigen::Ref<const Positions>& positions, double time) const {
+  std::vector<Support> found;
+  for (const Collider& collider : colliders_) {
+    const SweptSolid bare = swept(placed(collider, time), Clearance{}, Vec3::Zero());
+    for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+      const Clearance held = clearance(collider, VertexId(i));
+      const Gap point = gap(bare, positions.col(i));
+      if (point.distance <= std::max(held.at_a, held.at_b) + kTouchDistance)
+        found.push_back({VertexId(i), point.normal, collider.friction});
+    }
+  }
+  return found;
 }
 
 Penetration ContactStage::penetration(const Eigen::Ref<const Positions>& positions,

@@ -14,11 +14,15 @@ namespace pleat {
 
 struct ContactOptions {
   double half_thickness = 0;  ///< vertices keep at least this distance [m]
-  /// For each vertex, within which distance of a corner every point of the faces there lies [m]: of
-  /// a triangle the circumradius, of an edge half its length; empty: no face is any larger than a
-  /// vertex. See clearance().
+  /// One per vertex: the distance from a corner within which every point of the faces there lies
+  /// [m], a triangle's circumradius or half of an edge's length. Empty: no face is any larger than
+  /// a vertex. See clearance().
   Eigen::VectorXd face_radii;
 };
+
+/// How far from where a solid holds it a vertex still counts as on it [m]: contact puts vertices
+/// there to rounding, so this is generous.
+constexpr double kTouchDistance = 1e-6;
 
 /// How deep a cloth is inside of solids.
 struct Penetration {
@@ -28,7 +32,7 @@ struct Penetration {
 };
 
 /// Keeps the vertices of a cloth out of solids, for every stepper alike: it takes the state that a
-/// substep proposes and corrects it, vertex by vertex.
+/// substep proposes and corrects it.
 ///
 /// The path of a vertex relative to the moving solid is swept over the substep, so that nothing
 /// fast or thin is tunnelled. From the impact on, the vertex moves in the tangent plane: its normal
@@ -57,20 +61,29 @@ class ContactStage {
   /// time_begin.
   void begin_substep(double time_begin, double time_end);
 
-  /// How a solid acted on a vertex; false when none did.
+  /// How a solid acted on a vertex. It names the solid, whose velocity is asked for anew in the
+  /// substep after.
   struct Touch {
+    VertexId vertex;
     int solid = -1;        ///< the last one that acted
     Vec3 normal{0, 0, 0};  ///< unit, away from it
     bool sticks = false;   ///< friction took all of the velocity across the normal
-    explicit operator bool() const { return solid >= 0; }
   };
 
-  /// position_begin  where the vertex was at time_begin [m]
-  /// position        where the stepper puts it at time_end [m]; corrected
-  /// velocity        at time_end [m/s]; corrected
-  /// Allocates only where there are rounded cones, once for each
-  /// vertex. A vertex that is not finite is left as it is.
-  Touch resolve(VertexId vertex, const Vec3& position_begin, Vec3& position, Vec3& velocity);
+  /// Corrects the whole state that a stepper proposes for the end of the substep.
+  ///
+  /// positions_begin  of all vertices at time_begin [m]
+  /// is_exempt        for each vertex whether contact leaves it alone
+  /// positions        at time_end [m]; corrected
+  /// velocities       at time_end [m/s]; corrected
+  ///
+  /// Returns how vertices were touched, in the order of the vertices; valid until the next call.
+  /// Where nothing touched a vertex, it is left to the bit, as is one that is not finite. Allocates
+  /// nothing after the first call with as many vertices. Throws ContractError unless all have the
+  /// same number of vertices.
+  std::span<const Touch> resolve(const Eigen::Ref<const Positions>& positions_begin,
+                                 std::span<const char> is_exempt, Eigen::Ref<Positions> positions,
+                                 Eigen::Ref<Positions> velocities);
 
   /// Mean velocity over the substep of the touched solid's point that is at a place [m] when it
   /// begins [m/s].
@@ -83,6 +96,17 @@ class ContactStage {
   /// How far the vertices are inside of the solids as these are at a time [s], clearance not
   /// counted.
   Penetration penetration(const Eigen::Ref<const Positions>& positions, double time) const;
+
+  /// A vertex on a solid that may push it and rub at it.
+  struct Support {
+    VertexId vertex;
+    Vec3 normal{0, 0, 0};  ///< unit, away from the solid
+    double friction = 0;   ///< Coulomb coefficient
+  };
+
+  /// The vertices that are at a time [s] no further from a solid than it holds them, and
+  /// kTouchDistance; once for each solid. It knows positions alone, and nothing of substeps.
+  std::vector<Support> supports(const Eigen::Ref<const Positions>& positions, double time) const;
 
   /// Rounded cones come last.
   const std::vector<Collider>& colliders() const { return colliders_; }
@@ -107,6 +131,8 @@ class ContactStage {
     void keep_earlier(const Solid& other, const std::optional<Impact>& met);
   };
 
+  std::optional<Touch> resolve_vertex(VertexId vertex, const Vec3& position_begin, Vec3& position,
+                                      Vec3& velocity);
   Clearance clearance(const std::array<double, 2>& radii, double face_radius) const;
   template <class Shape, class Action>
   auto with_held(const Solid& solid, const Shape& shape, VertexId vertex,
@@ -126,7 +152,6 @@ class ContactStage {
   std::vector<Collider> colliders_;  // rounded cones last
   std::size_t first_framed_ = 0;     // before it are planes and spheres that do not turn
   std::size_t first_cone_ = 0;
-  bool has_framed_ = false;
   ContactOptions options_;
   double largest_face_radius_ = 0;  // [m]
   bool is_graded_ = false;          // vertices differ in it
@@ -134,7 +159,8 @@ class ContactStage {
   std::vector<Solid> solids_;       // one per collider
   std::vector<Pose> poses_begin_;   // one per collider
   std::vector<Pose> poses_end_;
-  DistanceBudget budget_;  // of the rounded cones
+  DistanceBudget budget_;       // of the rounded cones
+  std::vector<Touch> touches_;  // of the last call of resolve
   std::int64_t n_unresolved_ = 0;
 };
 

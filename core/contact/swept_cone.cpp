@@ -16,7 +16,7 @@ constexpr int kMaxSteps = 40;
 /// A local direction that is perpendicular to every row of balls.
 const Vec3 kOff{1, 0, 0};
 
-/// Of a row's side where it faces a unit direction off the row.
+/// The normal of a row's side that faces a unit direction off the row.
 Vec3 side_normal(const BallRow& row, const Vec3& off) {
   return row.cosine * off - row.sine * row.direction;
 }

@@ -52,7 +52,6 @@ class DeformEnergy {
   /// These vertices do not count in E_P; the others do.
   void hold(const std::vector<VertexId>& vertices);
 
-  double length_unit() const { return unit_; }  ///< l [m]
   const Positions& rest_positions() const { return rest_; }
 
   DeformTerms terms(const Eigen::Ref<const Positions>& positions) const;

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/deform/cloth_extent.h"
+#include "core/deform/deform_settling.h"
 #include "core/deform/rigid_motion.h"
 
 namespace pleat {
@@ -332,15 +333,18 @@ SolveReport DeformSolver::step(Linearise allowed) {
   return {};
 }
 
+SolveReport DeformSolver::step_towards_end(int max_linearisations) {
+  const bool is_last = n_recent_linearisations() >= max_linearisations;
+  SolveReport report = step(is_last ? Linearise::never : Linearise::when_needed);
+  if (report.ok() && is_last && is_stale_)
+    return {SolveStatus::not_converged, 0, 0, "the cap of linearisations is reached"};
+  return report;
+}
+
 SolveReport DeformSolver::solve(int max_linearisations) {
   SolveReport report;
-  while (!converged_ && report.ok()) {
-    const bool is_last = n_linearisations_ - n_before_ >= max_linearisations;
-    report = step(is_last ? Linearise::never : Linearise::when_needed);
-    if (report.ok() && is_last && is_stale_)
-      report = {SolveStatus::not_converged, 0, 0, "the cap of linearisations is reached"};
-  }
-  report.iterations = n_linearisations_ - n_before_;
+  while (!converged_ && report.ok()) report = step_towards_end(max_linearisations);
+  report.iterations = n_recent_linearisations();
   return report;
 }
 
@@ -354,15 +358,9 @@ void DeformSolver::take_back(DeformShape shape) {
 }
 
 SolveReport DeformSolver::settle(int max_linearisations) {
-  const SolveReport here = solve(max_linearisations);
-  DeformShape kept = shape();
-  const double kept_energy = energy();
-  restart();
-  SolveReport report = solve(max_linearisations);
-  report.iterations += here.iterations;
-  if (energy() < kept_energy) return report;
-  take_back(std::move(kept));
-  return {here.status, report.iterations, 0, here.message};
+  DeformSettling settling(*this, DeformSettling::Ways::from_here_and_rest, max_linearisations);
+  while (!settling.done()) settling.step();
+  return settling.report();
 }
 
 }  // namespace pleat

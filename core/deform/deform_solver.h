@@ -76,6 +76,9 @@ class DeformSolver {
   /// One step; nothing once converged. Not ok when the energy could not be made smaller.
   SolveReport step(Linearise allowed = Linearise::when_needed);
 
+  /// One step of `solve`: not ok when there is no use in more.
+  SolveReport step_towards_end(int max_linearisations = kMaxLinearisations);
+
   /// Steps until converged. Having linearised so many times, it goes on while the last factor
   /// serves and then reports not_converged. The report's iterations are linearisations, with the
   /// one that a move may have needed.
@@ -95,7 +98,9 @@ class DeformSolver {
   bool converged() const { return converged_; }
   /// Made so far, for steps and for moves.
   int n_linearisations() const { return n_linearisations_; }
-  /// Since something was last moved, held or weighted otherwise.
+  /// Of them, since something was last moved, held or weighted otherwise.
+  int n_recent_linearisations() const { return n_linearisations_ - n_before_; }
+  /// Likewise since then.
   const std::vector<DeformStep>& steps() const { return steps_; }
   const Positions& positions() const { return positions_; }
   const std::vector<VertexId>& held() const { return held_; }

@@ -7,20 +7,19 @@ ContactHold::ContactHold(const ClothModel& model)
   held_.reserve(static_cast<std::size_t>(model.n_vertices()));
 }
 
-void ContactHold::add(const std::vector<ContactStage::Touch>& touches, const State& state,
+void ContactHold::add(std::span<const ContactStage::Touch> touches, const State& state,
                       SystemMatrix& matrix, Eigen::Ref<Positions> rhs) {
+  for (Eigen::Index i = 0; i < rhs.cols(); ++i)
+    resistances_[i] = matrix.diagonal_trace(VertexId(i)) / 3;
   held_.clear();
-  for (Eigen::Index i = 0; i < rhs.cols(); ++i) {
-    const VertexId vertex(static_cast<int>(i));
-    resistances_[i] = matrix.diagonal_trace(vertex) / 3;
-    const ContactStage::Touch& touch = touches[static_cast<std::size_t>(i)];
-    if (!touch) continue;
+  for (const ContactStage::Touch& touch : touches) {
+    const VertexId v = touch.vertex;
     const Mat3 held_parts =
         touch.sticks ? Mat3(Mat3::Identity()) : Mat3(touch.normal * touch.normal.transpose());
-    const Held held{vertex, resistances_[i] * held_parts,
-                    contact_.solid_velocity(touch, state.positions.col(i))};
-    matrix.add_diagonal(vertex, held.resistance);
-    rhs.col(i) += held.resistance * (held.velocity - state.velocities.col(i));
+    const Held held{v, resistances_[v] * held_parts,
+                    contact_.solid_velocity(touch, state.positions.col(v))};
+    matrix.add_diagonal(v, held.resistance);
+    rhs.col(v) += held.resistance * (held.velocity - state.velocities.col(v));
     held_.push_back(held);
   }
 }

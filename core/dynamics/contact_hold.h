@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/contact/contact_stage.h"
@@ -24,8 +25,8 @@ class ContactHold {
 
   /// A dv = rhs is a linearised step of h [s] from this state, A [kg] as far as it is assembled;
   /// the contact stage is at this substep. Adds what holds the touched vertices.
-  void add(const std::vector<ContactStage::Touch>& touches, const State& state,
-           SystemMatrix& matrix, Eigen::Ref<Positions> rhs);
+  void add(std::span<const ContactStage::Touch> touches, const State& state, SystemMatrix& matrix,
+           Eigen::Ref<Positions> rhs);
 
   /// Adds the forces that they exert at the velocities of the solution [m/s].
   void add_forces(const Positions& velocities, double h, Positions& forces) const;

@@ -5,8 +5,8 @@
 namespace pleat {
 
 /// Largest step of symplectic Euler that is surely stable [s]: h^2 k + 2 h c < 2 m for every
-/// vertex, k and c summed over its elements (Gershgorin). Infinite without elements. The classical
-/// Runge-Kutta method is stable in steps of this length too.
+/// vertex, k and c summed over its elements (Gershgorin). Infinite without elements, 0 with hinges.
+/// The classical Runge-Kutta method is stable in steps of this length too.
 double largest_stable_step(const ClothModel& model);
 
 /// Substeps of a step of an explicit method: as many as the options say, or, when they leave it

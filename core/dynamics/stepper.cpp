@@ -1,14 +1,9 @@
 #include "core/dynamics/stepper.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_explicit.h"
-#include "core/dynamics/stepper_implicit.h"
-#include "core/dynamics/stepper_newton.h"
-#include "core/dynamics/stepper_projective.h"
-#include "core/dynamics/stepper_rk4.h"
-#include "core/dynamics/xpbd/stepper_xpbd.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
@@ -42,31 +37,6 @@ SolveReport lost_report(VertexId vertex, double time) {
 
 }  // namespace
 
-const char* name(StepperKind kind) {
-  switch (kind) {
-    case StepperKind::explicit_euler:
-      return "explicit";
-    case StepperKind::rk4:
-      return "rk4";
-    case StepperKind::implicit_euler:
-      return "implicit";
-    case StepperKind::newton:
-      return "newton";
-    case StepperKind::projective:
-      return "projective";
-    case StepperKind::xpbd:
-      return "xpbd";
-  }
-  return "";
-}
-
-void MethodOptions::validate() const {
-  PLEAT_CHECK(step > 0, "a step is positive");
-  PLEAT_CHECK(substeps >= (is_explicit() ? 0 : 1), "at least one substep");
-  PLEAT_CHECK(iterations >= 1, "at least one iteration");
-  PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
-}
-
 Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
                  ContactMemory memory)
     : model_(model),
@@ -75,9 +45,12 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
       memory_(model.contact ? memory : ContactMemory::none) {
   options.validate();
   model.validate();
+  if (!model.contact) return;
+  const auto n_vertices = static_cast<std::size_t>(model.n_vertices());
+  is_exempt_.resize(n_vertices);
   if (memory_ == ContactMemory::none) return;
   contact_forces_ = Positions::Zero(3, model.n_vertices());
-  touches_.resize(static_cast<std::size_t>(model.n_vertices()));
+  touches_.reserve(n_vertices);
 }
 
 void Stepper::start_from_contact_forces(const Eigen::Ref<const Positions>& forces) {
@@ -105,13 +78,9 @@ SolveReport Stepper::advance(State& state, double time) {
     place_solids(time_end - h, time_end);
     SolveReport part = substep(state, time_end, h);
     place_between_parents(model_.hanging, state);
-    part.iterations += report.iterations;
-    if (!report.ok() &&
-        part.ok()) {  // a cap met in an earlier substep is not hidden by a later one
-      part.status = report.status;
-      part.message = std::move(report.message);
-    }
-    report = std::move(part);
+    const double last_residual = part.relative_residual;
+    report.add(std::move(part));
+    report.relative_residual = last_residual;
     if (report.ends_run()) break;
   }
   store(state, report);
@@ -151,70 +120,61 @@ void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Posit
                            forces);
 }
 
-// With f the remembered force, zero without memory, and r the vertex's resistance, the place and
-// velocity without f are x - h^2 f/r (times travel_share) and v - h f/r: what the vertex would do
-// were it let go. The contact acts on those, so it never pulls and stays inside Coulomb's cone. f
-// then grows by the force m dv/h that makes of the proposed velocity the corrected one, and
-// vanishes where the vertex leaves. With r = m, that is of a free particle, it is the whole new
-// force.
+std::span<const ContactStage::Touch> Stepper::correct_for_contact(const Positions& positions_begin,
+                                                                  Positions& positions,
+                                                                  Positions& velocities) {
+  std::fill(is_exempt_.begin(), is_exempt_.end(), char{0});
+  for (const HangingVertex& h : model_.hanging) is_exempt_[h.vertex] = 1;
+  for (const Pin& pin : model_.pins) is_exempt_[pin.vertex] = 1;
+  return model_.contact->resolve(positions_begin, is_exempt_, positions, velocities);
+}
+
+// With f the remembered force and r the vertex's resistance, the place and velocity without f are
+// x - h^2 f/r (times travel_share) and v - h f/r: what the vertex would do were it let go. The
+// contact acts on those, so it never pulls and stays inside Coulomb's cone. f then grows by the
+// force m dv/h that makes of the solved velocity the corrected one, and vanishes where the vertex
+// leaves. With r = m, that is of a free particle, it is the whole new force.
+void Stepper::let_go(State& state, double h, const Eigen::VectorXd& resistances,
+                     double travel_share) {
+  solved_velocities_ = state.velocities;
+  for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+    if (model_.hangs(VertexId(i))) continue;
+    const Vec3 change = h / resistances[i] * contact_forces_.col(i);
+    state.velocities.col(i) -= change;
+    state.positions.col(i) -= travel_share * h * change;
+  }
+}
+
+void Stepper::remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
+                       double h) {
+  touches_.assign(touches.begin(), touches.end());
+  Eigen::Index first_untouched = 0;
+  const auto forget_until = [&](Eigen::Index end) {
+    contact_forces_.middleCols(first_untouched, end - first_untouched).setZero();
+  };
+  for (const ContactStage::Touch& touch : touches) {
+    const VertexId v = touch.vertex;
+    forget_until(v);
+    contact_forces_.col(v) +=
+        model_.masses[v] / h * (velocities.col(v) - solved_velocities_.col(v));
+    first_untouched = v + 1;
+  }
+  forget_until(contact_forces_.cols());
+}
+
 void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double time_end,
                                double h, const Eigen::VectorXd& resistances, double travel_share) {
   if (!model_.contact) return;
   const StageScope scope(observer_, Stage::contact);
   const bool remembers = memory_ != ContactMemory::none;
-  for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-    if (model_.hangs(VertexId(i))) continue;
-    Vec3 position = state.positions.col(i);
-    Vec3 velocity = state.velocities.col(i);
-    if (remembers) {
-      const Vec3 change = h / resistances[i] * contact_forces_.col(i);
-      velocity -= change;
-      position -= travel_share * h * change;
-    }
-    const ContactStage::Touch touch =
-        model_.contact->resolve(VertexId(i), positions_begin.col(i), position, velocity);
-    if (remembers) {
-      if (touch)
-        contact_forces_.col(i) += model_.masses[i] / h * (velocity - state.velocities.col(i));
-      else
-        contact_forces_.col(i).setZero();
-      touches_[static_cast<std::size_t>(i)] = touch;
-    }
-    state.positions.col(i) = position;
-    state.velocities.col(i) = velocity;
-  }
-  // A pin wins over a solid: it is where the scene puts it.
+  if (remembers) let_go(state, h, resistances, travel_share);
+  const auto touches = correct_for_contact(positions_begin, state.positions, state.velocities);
+  if (remembers) remember(touches, state.velocities, h);
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) =
         (state.positions.col(pin.vertex) - positions_begin.col(pin.vertex)) / h;
-    if (!remembers) continue;
-    contact_forces_.col(pin.vertex).setZero();
-    touches_[static_cast<std::size_t>(pin.vertex)] = {};
   }
-}
-
-std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options) {
-  const bool needs_springs =
-      options.stepper == StepperKind::projective || options.stepper == StepperKind::xpbd;
-  if (needs_springs && !model.is_plain_spring_lattice())
-    throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
-                                   name(options.stepper) + ", which works on nothing else");
-  switch (options.stepper) {
-    case StepperKind::explicit_euler:
-      return std::make_unique<StepperExplicit>(model, options);
-    case StepperKind::rk4:
-      return std::make_unique<StepperRk4>(model, options);
-    case StepperKind::implicit_euler:
-      return std::make_unique<StepperImplicit>(model, options);
-    case StepperKind::newton:
-      return std::make_unique<StepperNewton>(model, options);
-    case StepperKind::projective:
-      return std::make_unique<StepperProjective>(model, options);
-    case StepperKind::xpbd:
-      return std::make_unique<StepperXpbd>(model, options);
-  }
-  throw ContractError("unknown stepper");
 }
 
 }  // namespace pleat

@@ -1,68 +1,19 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/base/stage_observer.h"
-#include "core/linalg/linear_solver.h"
+#include "core/dynamics/method_options.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
 
 namespace pleat {
 
-enum class StepperKind { explicit_euler, rk4, implicit_euler, newton, projective, xpbd };
-
-constexpr std::array<StepperKind, 6> kStepperKinds = {
-    StepperKind::explicit_euler, StepperKind::rk4,        StepperKind::implicit_euler,
-    StepperKind::newton,         StepperKind::projective, StepperKind::xpbd};
-
-/// The most substeps of a step: with steps of 1/60 s, 17 ns each.
-constexpr int kMaxSubsteps = 1000000;
-
 /// Further from the origin [m], or faster [m/s], than any cloth: a run that has come here has
 /// diverged, though its numbers are finite still.
 constexpr double kLargestCoordinate = 1e12;
-
-/// As scenes write it: "explicit", "rk4", "implicit", "newton", "projective", "xpbd".
-const char* name(StepperKind kind);
-
-enum class Constraints {
-  compliant,  ///< compliance 1/k
-  rigid,      ///< compliance 0
-};
-
-/// What `newton` solves for in a substep.
-enum class NewtonRule {
-  backward_euler,  ///< first order, loses energy
-  midpoint,        ///< implicit midpoint: second order, keeps all energy: for small steps
-  equilibrium,     ///< rest under the forces at the end of the substep, whatever the mass
-};
-
-/// Settings of a method. Each stepper reads what applies to it.
-struct MethodOptions {
-  StepperKind stepper = StepperKind::implicit_euler;
-  double step = 1.0 / 60;  ///< [s], positive
-  int substeps = 1;    ///< at least 1; 0 for explicit_euler and rk4: as many as stability asks for
-  int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
-  SolverKind solver = SolverKind::cg;  ///< implicit_euler; newton and projective take no cg
-  /// implicit_euler with cg: relative residual at which it stops. newton: the last correction, in
-  /// shares of the cloth's extent, which then is already made. In (0, 1).
-  double tolerance = 1e-3;
-  NewtonRule rule = NewtonRule::backward_euler;      ///< newton
-  Constraints constraints = Constraints::compliant;  ///< xpbd
-
-  /// Throws ContractError.
-  void validate() const;
-  /// True for methods that need a stability bound.
-  bool is_explicit() const {
-    return stepper == StepperKind::explicit_euler || stepper == StepperKind::rk4;
-  }
-};
-
-/// Of newton, which makes references.
-constexpr double kNewtonTolerance = 1e-10;
 
 /// Advances a state by one step. Every stepper works on the same model, so that they can be
 /// compared.
@@ -83,10 +34,10 @@ class Stepper {
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;
-  /// For steppers that keep rest lengths in a layout of their own.
+  /// Overridden by steppers that keep rest lengths in a layout of their own.
   virtual void refresh_rest_lengths() {}
 
-  /// By which solids held the vertices in the last substep [N]; without columns for steppers that
+  /// Forces by which solids held the vertices in the last substep [N]; no columns for steppers that
   /// do not remember them and for models without contact.
   const Positions& contact_forces() const { return contact_forces_; }
   /// The same for the substep before the first. Of no effect where none are remembered.
@@ -114,8 +65,14 @@ class Stepper {
   /// vertices follow by themselves.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
 
-  /// The shared way a substep ends for steppers that work on `State` itself: contact on every
-  /// vertex that does not hang.
+  /// Contact on all vertices that neither hang nor are pinned, for what the stepper proposes at the
+  /// end of the substep. Returns how they were touched; valid until the next call. The model has
+  /// contact.
+  std::span<const ContactStage::Touch> correct_for_contact(const Positions& positions_begin,
+                                                           Positions& positions,
+                                                           Positions& velocities);
+  /// The shared way a substep ends for steppers that work on `State` itself: contact, and pins,
+  /// which win over solids.
   ///
   /// resistances   how much each vertex resists a change of its velocity [kg]
   /// travel_share  how far a force f moves a vertex within the substep, in shares of h^2 f / its
@@ -139,23 +96,23 @@ class Stepper {
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
-  /// What is remembered of the last substep, for each vertex: by which force [N] solids held it,
-  /// and how the last of them did.
+  /// What is remembered of the last substep: by which force [N] solids held each vertex, and how
+  /// the last of them touched it.
   Positions contact_forces_;
   std::vector<ContactStage::Touch> touches_;
 
  private:
   void place_solids(double time_begin, double time_end);
+  void let_go(State& state, double h, const Eigen::VectorXd& resistances, double travel_share);
+  void remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
+                double h);
 
   MethodOptions options_;
   int substeps_;
   ContactMemory memory_;
+  std::vector<char> is_exempt_;  // of contact, for each vertex
+  Positions solved_velocities_;  // before contact [m/s]; of steppers that remember
   State last_finite_;
 };
-
-/// Throws InputError when the method cannot run on this model (explicit or rk4 beyond the stability
-/// bound or kMaxSubsteps; a solver that this build or the method does not have; projective or xpbd
-/// on anything but a plain lattice of springs; newton's equilibrium with solids).
-std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options);
 
 }  // namespace pleat

@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/random.h"
+#include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
 namespace pleat {
@@ -105,8 +106,8 @@ void StepperNewton::place_first_guess(const State& state, double time_end) {
   place_between_parents(model_.hanging, positions_);
 }
 
-/// At the present iterate, where drag is expanded. `magnitude` (may be null) gets the sum of the
-/// terms' sizes.
+/// What a substep minimises, with drag expanded about the present iterate. `magnitude` (may be
+/// null) gets the sum of the terms' sizes.
 double StepperNewton::potential(const Positions& positions, double* magnitude) {
   change_ = flat(positions) - flat(begin_);
   flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
@@ -176,7 +177,7 @@ SolveReport StepperNewton::solve_with_kept_factor() {
   Eigen::Map<Eigen::VectorXd> x = flat(direction_);
   x.setZero();
   residual_ = right_side_;
-  // In proportion to what is left of the gradient, so that Newton's convergence stays quadratic.
+  // Falls with what is left of the gradient, so that Newton's convergence stays quadratic.
   const double share_left = right_side_.norm() / first_gradient_norm_;
   const double enough = kLinearTolerance * std::min(1.0, share_left) * right_side_.norm();
   double product = 0;

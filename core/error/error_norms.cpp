@@ -2,14 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/check.h"
 
 namespace pleat {
+
 double root_mean_square(std::span<const double> values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
   return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 double position_error(const Eigen::Ref<const Positions>& positions,
@@ -21,6 +30,22 @@ double position_error(const Eigen::Ref<const Positions>& positions,
   for (Eigen::Index i = 0; i < n; ++i)
     sum += areas[i] * (positions.col(i) - reference.col(i)).squaredNorm();
   return std::sqrt(sum / areas.sum());
+}
+
+// With d_k = |x_k - x_{k+1}| falling by 2^p at each halving, x - x_3 = (x_3 - x_2) / (2^p - 1).
+MeshLimit observed_limit(const std::array<Positions, 3>& meshes,
+                         const Eigen::Ref<const Eigen::VectorXd>& areas) {
+  const Eigen::Index n = meshes[0].cols();
+  PLEAT_CHECK(meshes[1].cols() >= n && meshes[2].cols() >= n, "finer meshes have more vertices");
+  MeshLimit limit;
+  for (std::size_t k = 0; k < 2; ++k)
+    limit.distances[k] = position_error(meshes[k].leftCols(n), meshes[k + 1].leftCols(n), areas);
+  limit.rate = std::log2(limit.distances[0] / limit.distances[1]);
+  const double share =
+      limit.rate > 0 ? 1 / (std::exp2(limit.rate) - 1) : std::numeric_limits<double>::quiet_NaN();
+  const auto fine = meshes[2].leftCols(n);
+  limit.positions = fine + share * (fine - meshes[1].leftCols(n));
+  return limit;
 }
 
 }  // namespace pleat

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "core/base/vec.h"
 
@@ -9,16 +11,34 @@ namespace pleat {
 /// Of one value or more.
 double root_mean_square(std::span<const double> values);
 
+/// The middle value, of an even number the mean of the two middle ones; NaN of none.
+double median(std::vector<double> values);
+
 /// RMS distance of the same material points of one cloth in two states at the same time [m].
 ///
 /// positions, reference  [m]; column i is the same material point in both. One may be the finer
 /// mesh: vertex i of a mesh
 ///                       is vertex i of its refinements, so the first columns are compared.
-/// areas                 rest area of each compared point, all positive: weights, in any unit.
+/// areas                 rest area of each compared point: weights, in any unit, none negative.
 ///
-/// Throws ContractError unless `areas` has the smaller of both column counts.
+/// NaN where all are zero. Throws ContractError unless `areas` has the smaller of both column
+/// counts.
 double position_error(const Eigen::Ref<const Positions>& positions,
                       const Eigen::Ref<const Positions>& reference,
                       const Eigen::Ref<const Eigen::VectorXd>& areas);
+
+/// Where positions on three meshes lead, each with edges half as long as the one before.
+struct MeshLimit {
+  Positions positions;              ///< [m], of the vertices of the coarsest mesh
+  double rate = 0;                  ///< distances fall by two to this power at each halving
+  std::array<double, 2> distances;  ///< from each mesh to the next [m]
+};
+
+/// Richardson's extrapolation at the observed rate log2(d1/d2) of the distances d1 and d2 between
+/// successive meshes. NaN where they do not fall.
+///
+/// areas  weights of the vertices of the coarsest mesh, as of position_error
+MeshLimit observed_limit(const std::array<Positions, 3>& meshes,
+                         const Eigen::Ref<const Eigen::VectorXd>& areas);
 
 }  // namespace pleat

@@ -55,7 +55,7 @@ RunComparison::RunComparison(const Scene& scene, int reference_level)
     : own_(rest_cloth(scene, scene.level)),
       reference_(rest_cloth(scene, reference_level)),
       own_is_finer_(scene.level > reference_level),
-      areas_(own_is_finer_ ? rest_areas(scene, reference_) : rest_areas(scene, own_)) {
+      areas_(own_is_finer_ ? rest_areas(reference_) : rest_areas(own_)) {
   const RestCloth& coarse = own_is_finer_ ? reference_ : own_;
   const RestCloth& fine = own_is_finer_ ? own_ : reference_;
   middles_ = middles_between(coarse, std::abs(scene.level - reference_level));
@@ -68,7 +68,7 @@ RunComparison::RunComparison(const Scene& scene, const Scene& reference)
     : own_(rest_cloth(scene)),
       reference_(rest_cloth(reference)),
       own_is_finer_(false),
-      areas_(rest_areas(reference, reference_)) {
+      areas_(rest_areas(reference_)) {
   PLEAT_CHECK(!own_.mesh.triangles.empty() && !reference_.mesh.triangles.empty(),
               "cloth with triangles");
   map_.emplace(own_.mesh, reference_.mesh.rest_positions);
@@ -133,11 +133,10 @@ double RunComparison::bend_over_time(std::span<const Sample> run,
 std::vector<double> sample_distances(const Scene& scene, std::span<const Sample> run,
                                      std::span<const Sample> reference) {
   PLEAT_CHECK(!run.empty() && !reference.empty(), "two runs have samples to compare");
-  int level = 0;
-  Eigen::VectorXd areas = rest_areas(scene, rest_cloth(scene, level));
   const Eigen::Index n = std::min(run[0].positions.cols(), reference[0].positions.cols());
-  while (areas.size() < n) areas = rest_areas(scene, rest_cloth(scene, ++level));
-  return position_errors(run, reference, areas);
+  int level = 0;
+  while (scene.cloth->n_vertices(level) < n) ++level;
+  return position_errors(run, reference, rest_areas(rest_cloth(scene, level)));
 }
 
 }  // namespace pleat

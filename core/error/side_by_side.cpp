@@ -13,52 +13,20 @@ constexpr double kRounding = 1e-9;  // of a frame
 
 bool is_whole(double ratio) { return std::abs(ratio - std::round(ratio)) < kRounding * ratio; }
 
-int steps_of_frame(const Scene& scene, double frame_time) {
-  const double ratio = frame_time / scene.method.step;
-  if (ratio < 0.5 || !is_whole(ratio))
-    throw InputError("/method/step_s", "expected a whole part of a frame of " +
-                                           std::to_string(frame_time) + " s, got " +
-                                           std::to_string(scene.method.step));
-  return static_cast<int>(std::lround(ratio));
+std::unique_ptr<MovingCloth> moving_cloth(const Contestant& contestant) {
+  if (contestant.adaptive)
+    return std::make_unique<AdaptiveRun>(contestant.scene, *contestant.adaptive);
+  return std::make_unique<Simulation>(contestant.scene);
 }
-
-/// A simulation or an adaptive run, for those who only watch it.
-class Cloth {
- public:
-  explicit Cloth(const Contestant& contestant) {
-    if (contestant.adaptive)
-      adaptive_ = std::make_unique<AdaptiveRun>(contestant.scene, *contestant.adaptive);
-    else
-      fixed_ = std::make_unique<Simulation>(contestant.scene);
-  }
-
-  bool is_adaptive() const { return adaptive_ != nullptr; }
-  void adapt() { adaptive_->adapt(); }
-  SolveReport step() { return adaptive_ ? adaptive_->step() : fixed_->step(); }
-  const QuadMesh* mesh() const { return adaptive_ ? &adaptive_->mesh() : fixed_->mesh(); }
-  const State& state() const { return adaptive_ ? adaptive_->state() : fixed_->state(); }
-  const ClothModel& model() const { return adaptive_ ? adaptive_->model() : fixed_->model(); }
-  double time() const { return adaptive_ ? adaptive_->time() : fixed_->time(); }
-  const std::vector<GaugeEdge>& gauge() const {
-    return adaptive_ ? adaptive_->gauge() : fixed_->gauge();
-  }
-  void observe(StageObserver* observer) {
-    adaptive_ ? adaptive_->observe(observer) : fixed_->observe(observer);
-  }
-
- private:
-  std::unique_ptr<Simulation> fixed_;
-  std::unique_ptr<AdaptiveRun> adaptive_;
-};
 
 Positions unpinned_columns(const ClothModel& model, const Positions& columns) {
   std::vector<bool> is_pinned(static_cast<std::size_t>(columns.cols()), false);
   for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
-  Positions rest(3, columns.cols() - static_cast<Eigen::Index>(model.pins.size()));
+  Positions unpinned(3, columns.cols() - static_cast<Eigen::Index>(model.pins.size()));
   Eigen::Index next = 0;
   for (Eigen::Index v = 0; v < columns.cols(); ++v)
-    if (!is_pinned[static_cast<std::size_t>(v)]) rest.col(next++) = columns.col(v);
-  return rest;
+    if (!is_pinned[static_cast<std::size_t>(v)]) unpinned.col(next++) = columns.col(v);
+  return unpinned;
 }
 
 /// RunComparison::errors of one time after another, averaged.
@@ -104,67 +72,64 @@ void Insides::add(const Penetration& frame) {
 struct SideBySide::Run {
   Run(const Contestant& contestant, const FrameOptions& options)
       : entry(contestant),
-        cloth(contestant),
-        n_steps(steps_of_frame(contestant.scene, options.frame_time)) {
-    cloth.observe(&timer);
+        n_steps(steps_of_frame(contestant.scene.method.step, options.frame_time)),
+        cloth(moving_cloth(contestant)),
+        adaptive(dynamic_cast<AdaptiveRun*>(cloth.get())),
+        steps(*cloth, TimedRun::Parts::timed) {
     const std::optional<RefinementPlan>& plan = contestant.scene.plan;
-    if (!contestant.adaptive && plan && !plan->curvature_limits.empty()) {
-      monitor.emplace(*cloth.mesh(), *plan);
+    if (!adaptive && plan && !plan->curvature_limits.empty()) {
+      monitor.emplace(*cloth->mesh(), *plan);
       result.fit.emplace();
     }
   }
 
-  void go(bool is_timed);
-  void look(bool is_compared, bool is_monitored, const QuadMesh* reference_mesh);
+  void run_frame(bool is_timed);
+  void observe_frame(bool is_compared, bool is_monitored, const QuadMesh* reference_mesh);
   void keep_sample(const QuadMesh* reference_mesh);
   ContestantResult summary() const;
 
   Contestant entry;
-  Cloth cloth;
-  int n_steps;  // of a frame
-  StageTimer timer;
+  std::int64_t n_steps;  // of a frame
+  std::unique_ptr<MovingCloth> cloth;
+  AdaptiveRun* adaptive;  // the cloth, or null
+  TimedRun steps;
   std::optional<FitMonitor> monitor;
   std::vector<Sample> samples;
   double n_vertices_sum = 0;  // over frames
   ContestantResult result;
 };
 
-void SideBySide::Run::go(bool is_timed) {
-  if (!is_timed) timer.clear();
+void SideBySide::Run::run_frame(bool is_timed) {
   const Stopwatch watch;
-  if (cloth.is_adaptive()) {
-    cloth.adapt();
+  if (adaptive != nullptr) {
+    adaptive->adapt();
     if (is_timed) result.refinement_ms.push_back(1e3 * watch.elapsed());
   }
-  for (int step = 0; step < n_steps && !result.report.ends_run(); ++step) {
-    SolveReport report = cloth.step();
-    result.report.iterations += report.iterations;
-    result.report.relative_residual =
-        std::max(result.report.relative_residual, report.relative_residual);
-    if (report.ok()) continue;
-    result.report.status = report.status;
-    result.report.message = std::move(report.message);
-  }
-  if (is_timed) result.frame_ms.push_back(1e3 * watch.elapsed());
+  steps.advance(n_steps);
+  if (is_timed)
+    result.frame_ms.push_back(1e3 * watch.elapsed());
+  else
+    steps.clear_costs();
 }
 
 void SideBySide::Run::keep_sample(const QuadMesh* reference_mesh) {
-  const Positions& own = cloth.state().positions;
-  Sample sample{cloth.time(), own, stretch(cloth.gauge(), own)};
-  if (cloth.is_adaptive()) sample.positions = on_finer_mesh(own, *cloth.mesh(), *reference_mesh);
+  const Positions& own = cloth->state().positions;
+  Sample sample{cloth->time(), own, stretch(cloth->gauge(), own)};
+  if (adaptive != nullptr) sample.positions = on_finer_mesh(own, *cloth->mesh(), *reference_mesh);
   samples.push_back(std::move(sample));
 }
 
-void SideBySide::Run::look(bool is_compared, bool is_monitored, const QuadMesh* reference_mesh) {
-  const State& state = cloth.state();
+void SideBySide::Run::observe_frame(bool is_compared, bool is_monitored,
+                                    const QuadMesh* reference_mesh) {
+  const State& state = cloth->state();
   ++result.n_frames;
-  n_vertices_sum += cloth.model().n_vertices();
+  n_vertices_sum += cloth->model().n_vertices();
   result.largest_stretch =
-      std::max(result.largest_stretch, stretch(cloth.gauge(), state.positions).largest);
-  if (const auto& contact = cloth.model().contact) {
-    result.all_inside.add(contact->penetration(state.positions, cloth.time()));
-    const Positions unpinned = unpinned_columns(cloth.model(), state.positions);
-    result.unpinned_inside.add(contact->penetration(unpinned, cloth.time()));
+      std::max(result.largest_stretch, stretch(cloth->gauge(), state.positions).largest);
+  if (const auto& contact = cloth->model().contact) {
+    result.all_inside.add(contact->penetration(state.positions, cloth->time()));
+    const Positions unpinned = unpinned_columns(cloth->model(), state.positions);
+    result.unpinned_inside.add(contact->penetration(unpinned, cloth->time()));
   }
   if (monitor && is_monitored) {
     result.fit->last = monitor->look(state.positions);
@@ -175,9 +140,9 @@ void SideBySide::Run::look(bool is_compared, bool is_monitored, const QuadMesh* 
 
 ContestantResult SideBySide::Run::summary() const {
   ContestantResult all = result;
+  all.report = steps.report();
   const auto n_timed = static_cast<double>(std::max<std::size_t>(1, all.frame_ms.size()));
-  for (int s = 0; s < kStageCount; ++s)
-    all.parts_ms[static_cast<std::size_t>(s)] = 1e3 * timer.total(static_cast<Stage>(s)) / n_timed;
+  all.parts_ms = steps.parts().mean_ms(n_timed);
   for (const Sample& sample : samples)
     all.rms_stretch += sample.stretch.rms / static_cast<double>(samples.size());
   if (all.fit && all.fit->last.n_frames > 0) all.fit->outside /= all.fit->last.n_frames;
@@ -192,7 +157,7 @@ SideBySide::SideBySide(const std::vector<Contestant>& contestants, const FrameOp
   for (const Contestant& contestant : contestants)
     runs_.push_back(std::make_unique<Run>(contestant, options_));
   for (const auto& run : runs_)
-    if (run->cloth.mesh() == nullptr)
+    if (run->cloth->mesh() == nullptr)
       throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
 }
 
@@ -207,10 +172,11 @@ void SideBySide::advance() {
   const int n_left = options_.n_frames() - frame_;
   const bool is_compared = is_timed && n_left % options_.error_every == 0;
   for (const auto& run : runs_) {
-    if (run->result.report.ends_run()) continue;
-    run->go(is_timed);
-    if (run->result.report.ends_run()) continue;
-    run->look(is_compared, time > options_.settled + rounding, runs_.front()->cloth.mesh());
+    if (run->steps.has_ended()) continue;
+    run->run_frame(is_timed);
+    if (run->steps.has_ended()) continue;
+    run->observe_frame(is_compared, time > options_.settled + rounding,
+                       runs_.front()->cloth->mesh());
   }
 }
 
@@ -221,7 +187,7 @@ std::vector<ContestantResult> SideBySide::results() const {
   for (const auto& run : runs_) {
     results.push_back(run->summary());
     if (run->samples.size() != reference.samples.size() || run->samples.empty()) continue;
-    const Scene& scene = run->cloth.is_adaptive() ? reference.entry.scene : run->entry.scene;
+    const Scene& scene = run->adaptive != nullptr ? reference.entry.scene : run->entry.scene;
     const RunComparison comparison(scene, reference.entry.scene);
     results.back().errors = mean_errors(comparison, run->samples, reference.samples);
     results.back().bend_over_time = comparison.bend_over_time(run->samples, reference.samples);

@@ -9,6 +9,7 @@
 #include "core/error/run_comparison.h"
 #include "core/refinement/fit_monitor.h"
 #include "core/run/adaptive_run.h"
+#include "core/run/timed_run.h"
 
 namespace pleat {
 

@@ -11,8 +11,8 @@
 namespace pleat {
 namespace {
 
-/// What yarns that stretch instead of straightening add beyond the strain limit, in shares of the
-/// stiffness before it.
+/// What yarns that stretch instead of straightening add beyond the stiffening strain, in shares of
+/// the stiffness before it.
 constexpr double kStiffening = kTautFactor - 1;
 
 /// The columns of F = dx/d(u, v) and the Green strain E = 1/2 (F^T F - I).
@@ -43,32 +43,33 @@ Deformation deformation(const MembraneElement& element,
   return {x_u, x_v, 0.5 * (x_u.squaredNorm() - 1), 0.5 * (x_v.squaredNorm() - 1), x_u.dot(x_v)};
 }
 
-/// The Green strain at the limit, (1 + e)^2 = 1 + 2 E; beyond all strains for the linear law.
-double green_limit(const MembraneLaw& law) {
-  const double e = law.strain_limit;
+/// The Green strain at the stiffening strain e, (1 + e)^2 = 1 + 2 E; beyond all strains for the
+/// linear law. The `knee` of the functions below.
+double green_stiffening_strain(const MembraneLaw& law) {
+  const double e = law.stiffening_strain;
   return e > 0 ? e + e * e / 2 : std::numeric_limits<double>::infinity();
 }
 
-double energy_density(const MembraneLaw& law, double limit, const Deformation& d) {
-  const double past_u = std::max(0.0, d.e_uu - limit);
-  const double past_v = std::max(0.0, d.e_vv - limit);
+double energy_density(const MembraneLaw& law, double knee, const Deformation& d) {
+  const double past_u = std::max(0.0, d.e_uu - knee);
+  const double past_v = std::max(0.0, d.e_vv - knee);
   return 0.5 * (law.stretch_warp * (d.e_uu * d.e_uu + kStiffening * past_u * past_u) +
                 law.stretch_weft * (d.e_vv * d.e_vv + kStiffening * past_v * past_v) +
                 law.shear * (2 * d.e_uu * d.e_vv + d.e_uv * d.e_uv));
 }
 
 /// Second Piola-Kirchhoff stress dW/dE [N/m].
-Tensor stress(const MembraneLaw& law, double limit, const Deformation& d) {
-  const double past_u = std::max(0.0, d.e_uu - limit);
-  const double past_v = std::max(0.0, d.e_vv - limit);
+Tensor stress(const MembraneLaw& law, double knee, const Deformation& d) {
+  const double past_u = std::max(0.0, d.e_uu - knee);
+  const double past_v = std::max(0.0, d.e_vv - knee);
   return {law.stretch_warp * (d.e_uu + kStiffening * past_u) + law.shear * d.e_vv,
           law.stretch_weft * (d.e_vv + kStiffening * past_v) + law.shear * d.e_uu,
           law.shear * d.e_uv};
 }
 
-Moduli moduli(const MembraneLaw& law, double limit, const Deformation& d) {
-  return {law.stretch_warp * (d.e_uu > limit ? 1 + kStiffening : 1),
-          law.stretch_weft * (d.e_vv > limit ? 1 + kStiffening : 1), law.shear};
+Moduli moduli(const MembraneLaw& law, double knee, const Deformation& d) {
+  return {law.stretch_warp * (d.e_uu > knee ? 1 + kStiffening : 1),
+          law.stretch_weft * (d.e_vv > knee ? 1 + kStiffening : 1), law.shear};
 }
 
 /// The tensor without its negative eigenvalue: (S - l2 I) l1 / (l1 - l2) when l1 > 0 > l2.
@@ -156,19 +157,19 @@ MembraneLaw membrane_law(const FabricConstants& fabric) {
 }
 
 double membrane_energy(const Membrane& membrane, const Eigen::Ref<const Positions>& positions) {
-  const double limit = green_limit(membrane.law);
+  const double knee = green_stiffening_strain(membrane.law);
   double energy = 0;
   for (const MembraneElement& element : membrane.elements)
-    energy += element.area * energy_density(membrane.law, limit, deformation(element, positions));
+    energy += element.area * energy_density(membrane.law, knee, deformation(element, positions));
   return energy;
 }
 
 void add_membrane_forces(const Membrane& membrane, const Eigen::Ref<const Positions>& positions,
                          Eigen::Ref<Positions> forces) {
-  const double limit = green_limit(membrane.law);
+  const double knee = green_stiffening_strain(membrane.law);
   for (const MembraneElement& element : membrane.elements) {
     const Deformation d = deformation(element, positions);
-    const Tensor S = stress(membrane.law, limit, d);
+    const Tensor S = stress(membrane.law, knee, d);
     const Vec3 pull_u = element.area * (S.uu * d.x_u + S.uv * d.x_v);  // columns of A F S
     const Vec3 pull_v = element.area * (S.uv * d.x_u + S.vv * d.x_v);
     const auto& g = element.gradients;
@@ -184,10 +185,10 @@ Eigen::Matrix<double, 9, 9> membrane_stiffness(const MembraneLaw& law,
                                                const MembraneElement& element,
                                                const Eigen::Ref<const Positions>& positions,
                                                ElementHessian hessian) {
-  const double limit = green_limit(law);
+  const double knee = green_stiffening_strain(law);
   const Deformation d = deformation(element, positions);
-  const Tensor S = stress(law, limit, d);
-  return second_derivative(element, d, moduli(law, limit, d),
+  const Tensor S = stress(law, knee, d);
+  return second_derivative(element, d, moduli(law, knee, d),
                            hessian == ElementHessian::projected ? positive_part(S) : S);
 }
 

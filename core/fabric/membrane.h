@@ -16,7 +16,7 @@ struct MembraneLaw {
   double shear = 0;         ///< G [N/m], not negative, at most sqrt(K_u K_v)
   /// Engineering strain along warp or weft beyond which the thread is ten times as stiff, in
   /// tension only; 0: linear throughout.
-  double strain_limit = 0;
+  double stiffening_strain = 0;
 };
 
 struct MembraneElement {
@@ -41,7 +41,7 @@ struct Membrane {
 /// direction.
 std::vector<MembraneElement> membrane_elements(const TriangleMesh& mesh);
 
-/// The moduli that the spring lattice has, without a strain limit. Throws InputError naming the
+/// The moduli that the spring lattice has, without stiffening. Throws InputError naming the
 /// fabric when its shear stiffness is beyond sqrt(K_u K_v), where biaxial strain would yield
 /// energy.
 MembraneLaw membrane_law(const FabricConstants& fabric);
@@ -60,7 +60,7 @@ Eigen::Matrix<double, 9, 9> membrane_stiffness(const MembraneLaw& law,
                                                const Eigen::Ref<const Positions>& positions,
                                                ElementHessian hessian);
 
-/// The part of the stiffness that resists a change of strain, without the strain limit [N/m]. Times
+/// The part of the stiffness that resists a change of strain, without stiffening [N/m]. Times
 /// a relaxation time [s] it is the damping of a Kelvin-Voigt material [N s/m]: positive
 /// semidefinite, and rotation is not braked.
 Eigen::Matrix<double, 9, 9> membrane_viscosity(const MembraneLaw& law,

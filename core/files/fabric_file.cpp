@@ -67,12 +67,11 @@ SourcedValue read_value(const JsonReader& reader, const NumberRange& range,
   return value;
 }
 
-/// For recovery, stretch and bending; refused when all are zero.
+/// Numbers for recovery, stretch and bending; refused when all are zero.
 template <class Three>
-Three read_three(const JsonReader& table, const std::array<const char*, 3>& keys,
-                 const NumberRange& range) {
-  const Three three{table.at(keys[0]).number(range), table.at(keys[1]).number(range),
-                    table.at(keys[2]).number(range)};
+Three read_nonzero(const JsonReader& table, const std::array<const char*, 3>& keys,
+                   const NumberRange& range) {
+  const auto three = read_three<Three>(table, keys, range);
   if (three.recovery + three.stretch + three.bending == 0)
     table.at(keys[0]).fail(std::string("this, ") + keys[1] + " or " + keys[2] + " above 0");
   return three;
@@ -83,10 +82,10 @@ void read_table(const JsonReader& table, Fabric& fabric) {
                     "vn_stretch", "vn_bend", "weight_recovery_percent", "weight_stretch_percent",
                     "weight_bend_percent"});
   fabric.measured =
-      read_three<GeometricMeasures>(table, {"v_recovery", "v_stretch", "v_bend"}, kMeasure);
+      read_nonzero<GeometricMeasures>(table, {"v_recovery", "v_stretch", "v_bend"}, kMeasure);
   fabric.normalised =
-      read_three<GeometricMeasures>(table, {"vn_recovery", "vn_stretch", "vn_bend"}, kShare);
-  const auto percent = read_three<DeformWeights>(
+      read_nonzero<GeometricMeasures>(table, {"vn_recovery", "vn_stretch", "vn_bend"}, kShare);
+  const auto percent = read_nonzero<DeformWeights>(
       table, {"weight_recovery_percent", "weight_stretch_percent", "weight_bend_percent"},
       kPercent);
   fabric.published_weights = {percent.recovery / 100, percent.stretch / 100, percent.bending / 100};

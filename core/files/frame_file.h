@@ -10,7 +10,7 @@
 
 namespace pleat {
 
-/// What all frames of a run share.
+/// The part that all frames of a run share.
 struct FrameMesh {
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty
   std::vector<Triangle> triangles;   ///< may be empty
@@ -58,13 +58,5 @@ class FrameWriter {
 /// The files in the folder that bear names of frames, sorted; none when there is no such folder.
 /// Throws FileError when it cannot be read.
 std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder);
-
-struct RecordedFrames {
-  std::vector<double> times;  ///< [s]
-  std::vector<Positions> positions;
-};
-
-/// Reads frames.bin. Throws InputError naming the file when it is not one or was cut.
-RecordedFrames read_frames(const std::string& path);
 
 }  // namespace pleat

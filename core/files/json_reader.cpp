@@ -58,19 +58,19 @@ JsonReader JsonReader::at(const char* key) const {
   return *value;
 }
 
-std::size_t JsonReader::only_one_of(std::initializer_list<const char*> keys) const {
+std::size_t JsonReader::only_one_of(std::span<const char* const> keys) const {
   std::optional<std::size_t> found;
   std::size_t index = 0;
   for (const char* key : keys) {
     if (find(key)) {
       if (found)
-        throw InputError(pointer_, "expected only one of the keys " +
-                                       listed({keys.begin(), keys.size()}) + ", got several");
+        throw InputError(pointer_,
+                         "expected only one of the keys " + listed(keys) + ", got several");
       found = index;
     }
     ++index;
   }
-  if (!found) fail("one of the keys " + listed({keys.begin(), keys.size()}));
+  if (!found) fail("one of the keys " + listed(keys));
   return *found;
 }
 

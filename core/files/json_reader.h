@@ -49,6 +49,7 @@ class JsonReader {
   explicit JsonReader(const Json& document) : JsonReader(document, "") {}
 
   const std::string& pointer() const { return pointer_; }
+  const Json& json() const { return *json_; }
 
   /// Refuses anything but an object with no other keys than these.
   void allow_keys(std::span<const char* const> keys) const;
@@ -60,7 +61,10 @@ class JsonReader {
   /// Nothing when the key is absent.
   std::optional<JsonReader> find(const char* key) const;
   /// The one of `keys` that is there, the index into `keys`; an error unless it is exactly one.
-  std::size_t only_one_of(std::initializer_list<const char*> keys) const;
+  std::size_t only_one_of(std::span<const char* const> keys) const;
+  std::size_t only_one_of(std::initializer_list<const char*> keys) const {
+    return only_one_of(std::span<const char* const>(keys.begin(), keys.size()));
+  }
 
   double number(const NumberRange& range = kAnyNumber) const;
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
@@ -70,12 +74,12 @@ class JsonReader {
   bool is_array() const { return json_->is_array(); }
   bool is_null() const { return json_->is_null(); }
   Vec3 vec3() const;
-  /// Of length one, whatever length is given (not zero).
+  /// A vector of length one, whatever length is given (not zero).
   Vec3 direction() const;
   std::vector<JsonReader> elements() const;
-  /// Of an array that has to have this many.
+  /// The elements of an array that has to have this many.
   std::vector<JsonReader> elements(std::size_t n) const;
-  /// Of an object, with their keys in the order of the file.
+  /// The values of an object with their keys, in the order of the file.
   std::vector<std::pair<std::string, JsonReader>> members() const;
 
   template <class Value, std::size_t n>
@@ -97,6 +101,14 @@ class JsonReader {
   const Json* json_;
   std::string pointer_;
 };
+
+/// Three numbers in one range, by their keys in the order of the members of `Three`.
+template <class Three>
+Three read_three(const JsonReader& reader, const std::array<const char*, 3>& keys,
+                 const NumberRange& range) {
+  return {reader.at(keys[0]).number(range), reader.at(keys[1]).number(range),
+          reader.at(keys[2]).number(range)};
+}
 
 /// A vector as the array of numbers that JsonReader::vec3 reads.
 Json json_vec3(const Vec3& v);

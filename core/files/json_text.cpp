@@ -211,6 +211,8 @@ std::string abbreviated(const Json& json) {
   return cut(scalar_text(json));
 }
 
+std::string quotation(std::string_view text) { return abbreviated(Json(std::string(text))); }
+
 std::string format_json(const Json& json) {
   std::string text;
   append(json, 0, 0, text);

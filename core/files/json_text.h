@@ -24,6 +24,9 @@ std::string cut(const std::string& text);
 /// One value on one line, cut.
 std::string abbreviated(const Json& json);
 
+/// A text in quotation marks on one line, cut.
+std::string quotation(std::string_view text);
+
 /// A key as one token of a JSON pointer (RFC 6901: "~" and "/" are escaped), cut like a value.
 std::string pointer_token(std::string_view key);
 

@@ -15,8 +15,4 @@ std::string matrix_market_text(const SparseMatrix& lower);
 /// A diagonal matrix in the same format.
 std::string matrix_market_text(const Eigen::VectorXd& diagonal);
 
-/// The lower triangle of a symmetric real coordinate matrix. Throws InputError with the line for
-/// anything else.
-SparseMatrix read_matrix_market(const std::string& text);
-
 }  // namespace pleat

@@ -11,7 +11,7 @@
 namespace pleat {
 namespace {
 
-/// In the order of MotionChannel.
+/// The keys of the file in the order of MotionChannel.
 constexpr std::array<const char*, kMotionChannels> kKeys = {"pelvis_tilt_rad",
                                                             "pelvis_obliquity_rad",
                                                             "pelvis_rotation_rad",

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f";
 
-/// What a simulation has no use for.
+/// Statements that a simulation has no use for.
 constexpr std::string_view kPassedOver[] = {
     "vn",    "vp",       "s",        "usemtl", "mtllib",     "usemap",   "maplib",
     "bevel", "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj"};
 
-/// What curves and surfaces are made of.
+/// Statements that make curves and surfaces.
 constexpr std::string_view kFreeForm[] = {
     "cstype", "deg", "bmat", "step",  "curv",  "curv2", "surf", "parm", "trim", "hole", "scrv",
     "sp",     "end", "con",  "ctech", "stech", "mg",    "bsp",  "bzp",  "cdc",  "cdp",  "res"};
@@ -31,14 +31,12 @@ bool is_among(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-std::string quoted(std::string_view text) { return abbreviated(Json(std::string(text))); }
-
-/// With U+FFFD for bytes that are no UTF-8, so that it can stand in a scene file.
+/// A name with U+FFFD for bytes that are no UTF-8, so that it can stand in a scene file.
 std::string as_utf8(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Up to a comment, which a "#" at the begin of a word begins.
+/// The line up to a comment, which a "#" at the begin of a word begins.
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   std::size_t at = line.find_first_not_of(kBlanks);
@@ -121,8 +119,9 @@ double ObjParser::number(std::string_view word) const {
   const double value = std::strtod(text.c_str(), &end);
   // strtod takes "nan", "inf" and "0x1p3" too.
   if (*end != '\0' || text.find_first_not_of("+-.0123456789eE") != std::string::npos)
-    fail("a number", quoted(word));
-  if (!(std::abs(value) <= kLargestNumber)) fail("a number of at most 1e12 in size", quoted(word));
+    fail("a number", quotation(word));
+  if (!(std::abs(value) <= kLargestNumber))
+    fail("a number of at most 1e12 in size", quotation(word));
   return value;
 }
 
@@ -139,7 +138,8 @@ std::int64_t ObjParser::whole_number(std::string_view text, const char* what) co
   std::int64_t value = 0;
   const char* end = text.data() + text.size();
   const auto [at, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || at != end) fail(std::string("the number of a ") + what, quoted(text));
+  if (error != std::errc() || at != end)
+    fail(std::string("the number of a ") + what, quotation(text));
   return value;
 }
 
@@ -150,7 +150,7 @@ std::int64_t ObjParser::index(std::string_view text, std::int64_t count, const c
   if (given == 0 || value < 0 || value >= count)
     fail(std::string("the number of a ") + what + ", 1 to " + std::to_string(count) +
              " or as many back from -1, as so many stand above",
-         quoted(text));
+         quotation(text));
   return value;
 }
 
@@ -275,9 +275,10 @@ void ObjParser::take(std::string_view line, int number) {
   } else if (statement == "g" || statement == "o") {
     take_names();
   } else if (is_among(kFreeForm, statement)) {
-    fail("triangles or polygons (f), as free-form curves and surfaces are none", quoted(statement));
+    fail("triangles or polygons (f), as free-form curves and surfaces are none",
+         quotation(statement));
   } else if (!is_among(kPassedOver, statement)) {
-    fail("a statement of OBJ, such as v, vt, f or g", quoted(statement));
+    fail("a statement of OBJ, such as v, vt, f or g", quotation(statement));
   }
 }
 
@@ -304,7 +305,7 @@ class TextureLines {
   int number(const Eigen::Vector2d& pair) {
     const auto [place, is_new] =
         numbers_.try_emplace({pair.x(), pair.y()}, static_cast<int>(numbers_.size()) + 1);
-    if (is_new) text_ += numbers_line("vt", pair.data(), 2);
+    if (is_new) text_ += obj_line("vt", {pair.data(), 2});
     return place->second;
   }
   const std::string& text() const { return text_; }
@@ -324,9 +325,9 @@ std::string group_lines(const VertexGroup& group) {
 
 }  // namespace
 
-std::string numbers_line(const char* keyword, const double* numbers, int n) {
+std::string obj_line(const char* keyword, std::span<const double> numbers) {
   std::string line = keyword;
-  for (int k = 0; k < n; ++k) line += ' ' + Json(numbers[k]).dump();
+  for (const double number : numbers) line += ' ' + Json(number).dump();
   return line + '\n';
 }
 
@@ -344,7 +345,7 @@ std::string write_obj(const ObjMesh& mesh) {
   }
   std::string text;
   for (Eigen::Index v = 0; v < mesh.positions.cols(); ++v)
-    text += numbers_line("v", mesh.positions.col(v).data(), 3);
+    text += obj_line("v", {mesh.positions.col(v).data(), 3});
   text += textures.text() + faces;
   for (const VertexGroup& group : mesh.groups) text += group_lines(group);
   return text;

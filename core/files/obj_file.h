@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,11 +32,11 @@ struct ObjMesh {
 /// object files.
 ObjMesh read_obj(std::string_view text);
 
+/// A line of OBJ: a keyword and numbers with the fewest digits that read back to the same bits.
+std::string obj_line(const char* keyword, std::span<const double> numbers);
+
 /// The text from which read_obj reads the same mesh, but for the lines. Numbers have the fewest
 /// digits that read back to the same bits; a group's vertices are points.
 std::string write_obj(const ObjMesh& mesh);
-
-/// A statement of OBJ: `keyword` and `n` numbers, written as by write_obj.
-std::string numbers_line(const char* keyword, const double* numbers, int n);
 
 }  // namespace pleat

@@ -1,5 +1,8 @@
 #include "core/linalg/solve_report.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace pleat {
 
 const char* name(SolveStatus status) {
@@ -14,6 +17,14 @@ const char* name(SolveStatus status) {
       return "not_finite";
   }
   return "";
+}
+
+void SolveReport::add(SolveReport part) {
+  iterations += part.iterations;
+  relative_residual = std::max(relative_residual, part.relative_residual);
+  if (part.ok()) return;
+  status = part.status;
+  message = std::move(part.message);
 }
 
 }  // namespace pleat

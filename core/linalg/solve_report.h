@@ -23,6 +23,11 @@ struct SolveReport {
   bool ok() const { return status == SolveStatus::ok; }
   /// True when the numbers cannot go on from the result.
   bool ends_run() const { return !ok() && status != SolveStatus::not_converged; }
+
+  /// Makes this the report of a task with one part more: iterations are summed, the residual is the
+  /// largest, status and message are those of the last part that was not ok. A cap met in an
+  /// earlier part is not hidden by a later one that is ok.
+  void add(SolveReport part);
 };
 
 }  // namespace pleat

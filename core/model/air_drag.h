@@ -24,7 +24,7 @@ class AirDrag {
   /// Takes the law above at these places and velocities, for `forces` and `resistance`.
   void evaluate(const Eigen::Ref<const Positions>& positions,
                 const Eigen::Ref<const Positions>& velocities);
-  /// On each vertex [N].
+  /// The force on each vertex [N].
   const Positions& forces() const { return drag_; }
   /// D >= -df/dv lumped to the vertex [N s/m].
   Mat3 resistance(VertexId vertex) const;

@@ -50,7 +50,7 @@ struct ClothModel {
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
 
   int n_vertices() const { return static_cast<int>(masses.size()); }
-  /// In the middle of its parents, which have its mass.
+  /// True where a vertex is in the middle of its parents, which have its mass.
   bool hangs(VertexId vertex) const { return masses[vertex] == 0; }
   bool has_fitted_bending() const { return fitted_bending.rows() > 0; }
   /// True when springs and quadratic bending are all that holds it together: what position-based

@@ -10,9 +10,6 @@
 namespace pleat {
 namespace {
 
-constexpr double kTouchDistance =
-    1e-6;  // [m]: contact puts vertices on the surface to rounding, so this is generous
-
 double kinetic_energy(const Eigen::VectorXd& masses, const Positions& velocities) {
   return 0.5 * masses.dot(velocities.colwise().squaredNorm().transpose());
 }
@@ -69,20 +66,12 @@ Vec3 EnergyLedger::missing_impulse(VertexId vertex, const State& begin, const St
 
 void EnergyLedger::record_contact(const State& begin, const State& end, double time_end,
                                   double step) {
-  const ContactStage& contact = *model_.contact;
-  for (const Collider& collider : contact.colliders()) {
-    const SweptSolid solid =
-        swept(ContactStage::placed(collider, time_end), Clearance{}, Vec3::Zero());
-    for (Eigen::Index i = 0; i < end.positions.cols(); ++i) {
-      if (is_pinned_[static_cast<std::size_t>(i)]) continue;
-      const Clearance clearance = contact.clearance(collider, VertexId(i));
-      const double reach = std::max(clearance.at_a, clearance.at_b) + kTouchDistance;
-      const Gap point = gap(solid, end.positions.col(i));
-      if (point.distance > reach) continue;
-      const Vec3 impulse = coulomb_part(missing_impulse(VertexId(i), begin, end, step),
-                                        point.normal, collider.friction);
-      works_.contact += impulse.dot(begin.velocities.col(i) + end.velocities.col(i)) / 2;
-    }
+  for (const ContactStage::Support& support : model_.contact->supports(end.positions, time_end)) {
+    const VertexId v = support.vertex;
+    if (is_pinned_[v]) continue;
+    const Vec3 impulse =
+        coulomb_part(missing_impulse(v, begin, end, step), support.normal, support.friction);
+    works_.contact += impulse.dot(begin.velocities.col(v) + end.velocities.col(v)) / 2;
   }
 }
 
@@ -97,7 +86,7 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
   works_.air += step / 2 * (begin_.air_power + end_.air_power);
   std::fill(is_pinned_.begin(), is_pinned_.end(), char{0});
   for (const Pin& pin : model_.pins) {
-    is_pinned_[static_cast<std::size_t>(pin.vertex.value)] = 1;
+    is_pinned_[pin.vertex] = 1;
     works_.pins += missing_impulse(pin.vertex, begin, end, step)
                        .dot(begin.velocities.col(pin.vertex) + end.velocities.col(pin.vertex)) /
                    2;

@@ -53,7 +53,7 @@ class FreeCombinations {
   Combination operator()(std::span<const VertexId> vertices, std::span<const double> factors) const;
 
  private:
-  /// Of which two each vertex is in the middle: of itself twice when it does not hang.
+  /// The two that each vertex is in the middle of: itself twice when it does not hang.
   std::vector<std::array<VertexId, 2>> ends_;
 };
 

@@ -11,21 +11,8 @@ namespace {
 
 /// Calls join(a, b) for every pair of vertices that an element joins, in the order of assembly.
 template <class Join>
-void for_each_pair(const ClothModel& model, Join&& join) {
-  const auto join_all = [&join](const auto& vertices) {
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-      for (std::size_t j = i + 1; j < vertices.size(); ++j) join(vertices[i], vertices[j]);
-  };
-  for (const Spring& spring : model.springs) join(spring.a, spring.b);
-  for (const Spring& spring : model.taut_springs) join(spring.a, spring.b);
-  for (const BendElement& bend : model.bends) join_all(bend.vertices);
-  for (const ChordBend& bend : model.chord_bends) join(bend.a, bend.b);
-  for (const MembraneElement& element : model.membrane.elements) join_all(element.vertices);
-  for (const Hinge& hinge : model.hinges) join_all(hinge.vertices);
-  const SparseMatrix& bending = model.fitted_bending;
-  for (int column = 0; column < bending.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry)
-      if (entry.row() > column) join(VertexId(entry.row()), VertexId(column));
+void for_each_pair(const ClothModel& model, const Join& join) {
+  for_each_element_kind(model, [&join](const auto& kind) { kind.for_each_pair(join); });
 }
 
 }  // namespace
@@ -168,23 +155,41 @@ void SystemMatrix::add_to_diagonal(VertexId vertex, double factor) {
   for (int c = 0; c < 3; ++c) matrix_.valuePtr()[matrix_.outerIndexPtr()[3 * vertex + c]] += factor;
 }
 
-void SystemMatrix::add_spring(const Spring& spring, const Slot& slot, const Mat3& block) {
-  add_diagonal(spring.a, block);
-  add_diagonal(spring.b, block);
-  add_block(slot, -block);
-}
+/// Every call for a pair takes the next pair of `for_each_pair`.
+class SystemMatrix::Blocks {
+ public:
+  explicit Blocks(SystemMatrix& matrix) : matrix_(matrix), next_(matrix.slots_.data()) {}
 
-template <std::size_t n>
-void SystemMatrix::add_element(const std::array<VertexId, n>& vertices, const Slot*& slots,
-                               const Eigen::Matrix<double, 3 * n, 3 * n>& block) {
-  for (std::size_t i = 0; i < n; ++i) {
-    add_diagonal(vertices[i], block.template block<3, 3>(3 * i, 3 * i));
-    for (std::size_t j = i + 1; j < n; ++j, ++slots) {
-      const Mat3 pair = block.template block<3, 3>(3 * i, 3 * j);
-      add_block(*slots, vertices[i] > vertices[j] ? pair : Mat3(pair.transpose()));
+  /// The energy depends on x_a - x_b alone: the block on the diagonals of both, minus it between.
+  void add_difference(VertexId a, VertexId b, const Mat3& block) {
+    matrix_.add_diagonal(a, block);
+    matrix_.add_diagonal(b, block);
+    matrix_.add_block(*next_++, -block);
+  }
+  /// A pair that adds nothing at these positions.
+  void skip_pair() { ++next_; }
+
+  /// All blocks of an element, whose pairs come row by row.
+  template <std::size_t n>
+  void add_element(const std::array<VertexId, n>& vertices,
+                   const Eigen::Matrix<double, 3 * n, 3 * n>& block) {
+    for (std::size_t i = 0; i < n; ++i) {
+      matrix_.add_diagonal(vertices[i], block.template block<3, 3>(3 * i, 3 * i));
+      for (std::size_t j = i + 1; j < n; ++j) {
+        const Mat3 pair = block.template block<3, 3>(3 * i, 3 * j);
+        matrix_.add_block(*next_++, vertices[i] > vertices[j] ? pair : Mat3(pair.transpose()));
+      }
     }
   }
-}
+
+  /// Multiples of the identity [N/m].
+  void add_to_diagonal(VertexId vertex, double factor) { matrix_.add_to_diagonal(vertex, factor); }
+  void add_to_pair(double factor) { matrix_.add_multiple_of_identity(*next_++, factor); }
+
+ private:
+  SystemMatrix& matrix_;
+  const Slot* next_;
+};
 
 void SystemMatrix::set_zero() { matrix_.coeffs().setZero(); }
 
@@ -201,54 +206,10 @@ void SystemMatrix::add_masses(double factor) {
 void SystemMatrix::add_elasticity(const Eigen::Ref<const Positions>& positions,
                                   double stiffness_factor, double damping_factor,
                                   ElementHessian hessian) {
-  const Slot* slots = slots_.data();
-  for (const Spring& spring : model_.springs) {
-    const SpringAxis axis = spring_axis(spring, positions);
-    add_spring(spring, *slots++,
-               stiffness_factor * spring_stiffness(spring, axis, hessian) +
-                   damping_factor * spring_damping(spring, axis, model_.damping_direction));
-  }
-  for (const Spring& spring : model_.taut_springs) {
-    const SpringAxis axis = spring_axis(spring, positions);
-    if (axis.length > spring.rest_length)
-      add_spring(spring, *slots, stiffness_factor * spring_stiffness(spring, axis, hessian));
-    ++slots;
-  }
-  for (const BendElement& bend : model_.bends) {
-    const auto& w = bend.weights;
-    const double s = stiffness_factor * bend.stiffness;
-    for (int i = 0; i < 3; ++i) {
-      add_to_diagonal(bend.vertices[i], s * w[i] * w[i]);
-      for (int j = i + 1; j < 3; ++j) add_multiple_of_identity(*slots++, s * w[i] * w[j]);
-    }
-  }
-  for (const ChordBend& bend : model_.chord_bends) {
-    const Mat3 block = stiffness_factor * chord_stiffness(bend, positions, hessian);
-    add_diagonal(bend.a, block);
-    add_diagonal(bend.b, block);
-    add_block(*slots++, -block);
-  }
-  const double viscosity_factor = damping_factor * model_.membrane_relaxation;
-  for (const MembraneElement& element : model_.membrane.elements) {
-    Eigen::Matrix<double, 9, 9> block =
-        stiffness_factor * membrane_stiffness(model_.membrane.law, element, positions, hessian);
-    if (viscosity_factor > 0)
-      block += viscosity_factor * membrane_viscosity(model_.membrane.law, element, positions);
-    add_element(element.vertices, slots, block);
-  }
-  for (const Hinge& hinge : model_.hinges)
-    add_element(hinge.vertices, slots,
-                stiffness_factor * hinge_stiffness(hinge, positions, hessian));
-  const SparseMatrix& bending = model_.fitted_bending;
-  for (int column = 0; column < bending.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator entry(bending, column); entry; ++entry) {
-      const double q = stiffness_factor * entry.value();
-      if (entry.row() > column)
-        add_multiple_of_identity(*slots++, q);
-      else
-        add_to_diagonal(VertexId(column), q);
-    }
-  }
+  Blocks blocks(*this);
+  const MatrixShares shares{stiffness_factor, damping_factor, hessian};
+  for_each_element_kind(model_,
+                        [&](const auto& kind) { kind.add_to_matrix(positions, shares, blocks); });
 }
 
 // With x_h = (y_p + y_q)/2 the block A_hj gives half of itself to (p, j) and (q, j), and as A_jh
@@ -319,12 +280,6 @@ SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Po
                               ElementHessian hessian) {
   SystemMatrix matrix(model);
   matrix.add_elasticity(positions, 1, 0, hessian);
-  return matrix.lower();
-}
-
-SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
-  SystemMatrix matrix(model);
-  matrix.add_elasticity(positions, 0, 1, ElementHessian::projected);
   return matrix.lower();
 }
 

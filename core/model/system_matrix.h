@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "core/linalg/sparse.h"
-#include "core/model/elasticity.h"
+#include "core/model/elements.h"
 
 namespace pleat {
 
 /// A symmetric 3n x 3n matrix with a 3x3 block for every pair of vertices that an element of a
 /// model joins. The pattern is built once; values are added element by element straight into place.
-/// Of a model with hanging vertices it is A_x, as if they moved freely, until it is reduced.
+/// With hanging vertices it is A_x, as if they moved freely, until it is reduced.
 class SystemMatrix {
  public:
   /// model  outlives the matrix and keeps its elements.
@@ -25,7 +25,7 @@ class SystemMatrix {
   /// [N/m], C = -d(damping force)/dv [N s/m].
   void add_elasticity(const Eigen::Ref<const Positions>& positions, double stiffness_factor,
                       double damping_factor, ElementHessian hessian);
-  /// Of a vertex's block on the diagonal.
+  /// The trace of a vertex's block on the diagonal.
   double diagonal_trace(VertexId vertex) const;
   /// Adds a block to the diagonal.
   void add_diagonal(VertexId vertex, const Mat3& block);
@@ -70,6 +70,9 @@ class SystemMatrix {
     Slot between_parents;
   };
 
+  /// Where kinds of elements put their blocks.
+  class Blocks;
+
   void join_parents();
   void find_hanging_slots();
   Mat3 take_block(const Slot& slot, VertexId row);
@@ -79,15 +82,11 @@ class SystemMatrix {
   void add_block(const Slot& slot, const Mat3& block);
   void add_multiple_of_identity(const Slot& slot, double factor);
   void add_to_diagonal(VertexId vertex, double factor);
-  void add_spring(const Spring& spring, const Slot& slot, const Mat3& block);
-  template <std::size_t n>
-  void add_element(const std::array<VertexId, n>& vertices, const Slot*& slots,
-                   const Eigen::Matrix<double, 3 * n, 3 * n>& block);
 
   const ClothModel& model_;
   std::vector<std::vector<VertexId>> below_;  // by column: rows of its blocks, ascending
   SparseMatrix matrix_;
-  std::vector<Slot> slots_;  // of the pairs that elements join, in the order of assembly
+  std::vector<Slot> slots_;  // one for each pair that an element joins, in the order of assembly
   std::vector<HangingBlocks> hanging_blocks_;  // in the order of their elimination
   std::vector<VertexId> prescribed_;
   std::vector<PrescribedBlock> prescribed_blocks_;
@@ -96,9 +95,6 @@ class SystemMatrix {
 /// K = -d(elastic force)/dx at these positions, lower triangle, 3n x 3n [N/m].
 SparseMatrix stiffness_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
                               ElementHessian hessian);
-
-/// C = -d(damping force)/dv, lower triangle, 3n x 3n [N s/m].
-SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
 
 /// M, lumped, 3n x 3n [kg].
 SparseMatrix mass_matrix(const ClothModel& model);

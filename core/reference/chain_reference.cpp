@@ -19,22 +19,21 @@ const SheetShape& swinging_sheet(const Scene& scene) {
     throw InputError(where,
                      std::string("expected ") + expected + " for comparison with a rigid chain");
   };
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  if (shape == nullptr) refuse("/cloth", "a sheet");
-  if (scene.initial_velocity != Vec3::Zero()) refuse("/cloth/sheet", "a sheet released at rest");
+  const auto* cloth = scene.cloth.as<SheetCloth>();
+  if (cloth == nullptr) refuse("/cloth", "a sheet");
+  if (cloth->initial_velocity != Vec3::Zero()) refuse("/cloth/sheet", "a sheet released at rest");
   if (scene.air) refuse("/world/air", "no air");
   if (!scene.colliders.empty()) refuse("/world/colliders", "no solids");
   const auto is_upper_edge = [](const PinRule& rule) {
-    const auto* part = std::get_if<SheetPart>(&rule.where);
-    return part != nullptr && *part == SheetPart::upper_edge &&
-           rule.motion.kind == Motion::Kind::hold;
+    const auto* part = std::get_if<std::string>(&rule.where);
+    return part != nullptr && *part == "upper_edge" && rule.motion.kind == Motion::Kind::hold;
   };
   if (scene.pins.size() != 1 || !is_upper_edge(scene.pins.front()))
     refuse("/pins", "the whole upper edge held and nothing else");
-  if (std::abs(shape->weft_direction.dot(scene.gravity)) >
+  if (std::abs(cloth->shape.weft_direction.dot(scene.gravity)) >
       kRightAngleTolerance * scene.gravity.norm())
     refuse("/cloth/sheet/weft_direction", "a horizontal direction");
-  return *shape;
+  return cloth->shape;
 }
 
 /// The row of the sheet that each vertex lies in, counted from the pinned edge.

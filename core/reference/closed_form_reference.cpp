@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/reference/closed_forms.h"
 #include "core/run/scene_model.h"
+#include "core/scene/particle_cloth.h"
 
 namespace pleat {
 namespace {
@@ -53,7 +54,8 @@ int n_held_rows(const SheetShape& shape, const QuadMesh& mesh, const std::vector
 /// K along warp [N/m]. Edges have what the diagonals leave of it, also when these are left out.
 double hanging_stiffness(const Scene& scene, const SheetShape& shape) {
   const double shear = scene.fabric.shear;
-  if (scene.model.strain_limit > 0) refuse("/model/strain_limit", "one stiffness throughout");
+  if (scene.model.stiffening_strain > 0)
+    refuse("/model/stiffening_strain", "one stiffness throughout");
   if (scene.model.elasticity == Elasticity::membrane) {
     if (shear > 0)
       refuse("/fabric/shear_n_per_m", "no stiffness against shear, which would draw the sides in,");
@@ -117,8 +119,8 @@ RestShape cantilever_sheet(const Scene& scene, const SheetShape& shape, const Qu
   return rest;
 }
 
-RestShape sheet_at_rest(const Scene& scene, const SheetShape& shape, const ClothModel& model) {
-  const QuadMesh mesh = *rest_cloth(scene, scene.level).quads;
+RestShape sheet_at_rest(const Scene& scene, const SheetShape& shape, const QuadMesh& mesh,
+                        const ClothModel& model) {
   const int n_held = n_held_rows(shape, mesh, model.pins, scene.level);
   const double row = shape.height / (shape.rows << scene.level);
   const double held = (n_held - 1) * row;
@@ -139,7 +141,7 @@ struct Chain {
 };
 
 /// From the end `begin` on; nothing unless it passes every particle.
-Chain chain_from(VertexId begin, const InlineCloth& cloth) {
+Chain chain_from(VertexId begin, const ParticleCloth& cloth) {
   const auto n_particles = static_cast<std::size_t>(cloth.positions.cols());
   std::vector<std::array<const Spring*, 2>> ends_at(n_particles, {nullptr, nullptr});
   for (const Spring& spring : cloth.springs) {
@@ -160,7 +162,8 @@ Chain chain_from(VertexId begin, const InlineCloth& cloth) {
   return chain.particles.size() == n_particles ? chain : Chain{};
 }
 
-RestShape particles_at_rest(const Scene& scene, const InlineCloth& cloth, const ClothModel& model) {
+RestShape particles_at_rest(const Scene& scene, const ParticleCloth& cloth,
+                            const ClothModel& model) {
   if (!model.bends.empty()) refuse("/cloth/particles/bends", "no bending");
   if (model.pins.empty() || model.pins.size() > 2)
     refuse("/pins", "one or both ends of a chain held");
@@ -208,13 +211,14 @@ RestShape particles_at_rest(const Scene& scene, const InlineCloth& cloth, const 
 }  // namespace
 
 Reference closed_form_reference(const Scene& scene, std::span<const double> times) {
-  if (std::holds_alternative<MeshCloth>(scene.cloth)) refuse("/cloth", "a sheet or particles");
-  const ClothModel model = scene_model(scene, rest_cloth(scene, scene.level));
+  const auto* sheet = scene.cloth.as<SheetCloth>();
+  const auto* particles = scene.cloth.as<ParticleCloth>();
+  if (sheet == nullptr && particles == nullptr) refuse("/cloth", "a sheet or particles");
+  const RestCloth cloth = rest_cloth(scene, scene.level);
+  const ClothModel model = scene_model(scene, cloth);
   check_surroundings(scene, model);
-  const auto* shape = std::get_if<SheetShape>(&scene.cloth);
-  const RestShape rest = shape
-                             ? sheet_at_rest(scene, *shape, model)
-                             : particles_at_rest(scene, std::get<InlineCloth>(scene.cloth), model);
+  const RestShape rest = sheet != nullptr ? sheet_at_rest(scene, sheet->shape, *cloth.quads, model)
+                                          : particles_at_rest(scene, *particles, model);
   Scene content = scene;
   content.method = MethodOptions{};  // the shape at rest does not depend on it
   Reference reference;

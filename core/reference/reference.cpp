@@ -15,23 +15,6 @@
 namespace pleat {
 namespace {
 
-std::uint64_t fnv_1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return hash;
-}
-
-/// The scene without what moves no vertex; a library's fabric as its numbers, which may change.
-Scene moving_part(Scene scene) {
-  const Scene unset;
-  scene.name = unset.name;
-  scene.caption = unset.caption;
-  scene.duration = unset.duration;
-  scene.record = unset.record;
-  scene.fabric_is_named = false;
-  return scene;
-}
-
 constexpr std::array<Word<Precision>, 2> kPrecisions{
     {{"float64", Precision::float64}, {"float32", Precision::float32}}};
 
@@ -126,21 +109,6 @@ std::string step_phrase(double step) {
   else
     std::snprintf(text, sizeof text, "%.3g s", step);
   return text;
-}
-
-std::string content_hash(std::string_view bytes) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  const std::uint64_t hash = fnv_1a(bytes);
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash >> shift) & 0xF];
-  return text;
-}
-
-std::string content_id(const Scene& scene) {
-  Json content = parse_json(write_scene(moving_part(scene)));
-  content.erase("refinement");
-  content.erase("method");
-  return content_hash(content.dump());
 }
 
 std::string reference_id(std::string_view prefix, const Scene& scene,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/files/json_reader.h"
+#include "core/run/content_id.h"
 #include "core/run/sampled_run.h"
 
 namespace pleat {
@@ -37,14 +38,6 @@ struct Reference {
   std::vector<Sample> samples;
   std::string content{};  ///< content_id of the scene, or empty
 };
-
-/// Sixteen hexadecimal digits of 64-bit FNV-1a.
-std::string content_hash(std::string_view bytes);
-
-/// Names what a reference is of: cloth, fabric, model, pins and world, whatever the level, the
-/// method and how long it runs. The core's version is no part of it, so that references can be
-/// shipped; a test makes the begin of each anew.
-std::string content_id(const Scene& scene);
 
 /// Id of a run of this scene at these times [s] by this version of the core: another scene, method,
 /// number of its fabric or core has another one; another name, caption, duration or way to record

@@ -38,6 +38,7 @@ std::size_t ReferenceTrack::sample_after(double time) const {
 
 std::optional<ReferenceTrack::Distance> ReferenceTrack::distance(const Simulation& simulation) {
   distances_.clear();
+  if (simulation.is_disturbed()) return std::nullopt;
   const std::size_t after = sample_after(simulation.time());
   if (after == reference_.samples.size()) return std::nullopt;
   const Sample& next = reference_.samples[after];

@@ -25,7 +25,8 @@ class ReferenceTrack {
     double uncertainty = 0;  ///< of the reference then [m]; NaN: unknown
   };
 
-  /// From the simulation's present state to the reference at its time; nothing beyond its end.
+  /// From the simulation's present state to the reference at its time; nothing beyond its end and
+  /// for a disturbed simulation (Simulation::is_disturbed).
   /// Between samples the reference goes straight. A sheet that is finer than it is compared with
   /// it along its mesh lines, another mesh at the vertices that both have.
   ///

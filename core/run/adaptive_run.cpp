@@ -1,23 +1,24 @@
 #include "core/run/adaptive_run.h"
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 
 namespace pleat {
 namespace {
 
-QuadMesh quads_of(const Scene& scene) {
-  std::optional<QuadMesh> base = base_quads(scene);
-  if (!base)
+const QuadCloth& quad_cloth(const Scene& scene) {
+  const QuadCloth* cloth = scene.cloth->quads();
+  if (cloth == nullptr)
     throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
-  return *std::move(base);
+  return *cloth;
 }
 
 }  // namespace
 
 AdaptiveRun::AdaptiveRun(const Scene& scene, const DynamicOptions& options)
-    : scene_(scene), base_(quads_of(scene)), refinement_(base_, options) {
-  build(rest_cloth(scene_, base_));
-  state_ = scene_state(scene_, cloth_);
+    : scene_(scene), base_(quad_cloth(scene).base_quads()), refinement_(base_, options) {
+  build(quad_cloth(scene_).at_rest(base_));
+  state_ = scene_state(cloth_);
   for (const Pin& pin : model_->pins) state_.positions.col(pin.vertex) = pin.position(0);
 }
 
@@ -25,17 +26,17 @@ void AdaptiveRun::build(RestCloth cloth) {
   stepper_.reset();  // it refers to the model
   cloth_ = std::move(cloth);
   model_ = std::make_unique<ClothModel>(scene_model(scene_, cloth_));
-  gauge_ = gauge_edges(mesh());
+  gauge_ = gauge_edges(*mesh());
   stepper_ = make_stepper(*model_, scene_.method);
   stepper_->observe(observer_);
 }
 
 bool AdaptiveRun::adapt() {
   DynamicRefinement::Result adapted =
-      refinement_.adapted({mesh(), std::move(state_.positions), std::move(state_.velocities)});
+      refinement_.adapted({*mesh(), std::move(state_.positions), std::move(state_.velocities)});
   state_ = {std::move(adapted.state.positions), std::move(adapted.state.velocities)};
   if (adapted.n_split == 0 && adapted.n_merged == 0) return false;
-  build(rest_cloth(scene_, std::move(adapted.state.mesh)));
+  build(quad_cloth(scene_).at_rest(std::move(adapted.state.mesh)));
   return true;
 }
 

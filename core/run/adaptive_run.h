@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/model/stretch.h"
 #include "core/refinement/dynamic_refinement.h"
+#include "core/run/moving_cloth.h"
 #include "core/run/scene_model.h"
 
 namespace pleat {
@@ -12,28 +12,27 @@ namespace pleat {
 /// A scene in motion whose mesh is refined and merged, frame by frame, to the shape that it has:
 /// each change builds equations and stepper anew. What held vertices against solids is forgotten
 /// then, for one substep.
-class AdaptiveRun {
+class AdaptiveRun final : public MovingCloth {
  public:
   /// scene  of a sheet or garment; it begins unrefined, whatever its level or plan
   /// Throws InputError for other cloth, options out of range and when the method cannot run on it.
   AdaptiveRun(const Scene& scene, const DynamicOptions& options);
 
-  /// What a frame begins with. Returns true when the mesh has changed. Throws InputError as
+  /// Begins a frame. Returns true when the mesh has changed. Throws InputError as
   /// make_stepper.
   bool adapt();
 
-  /// One step of scene.method.step; see Stepper::advance.
-  SolveReport step();
+  SolveReport step() override;
 
-  /// Of later changes of the mesh.
+  /// Sets the options of later changes of the mesh.
   void set_options(const DynamicOptions& options);
 
-  const QuadMesh& mesh() const { return *cloth_.quads; }
-  const ClothModel& model() const { return *model_; }
-  const State& state() const { return state_; }
-  const std::vector<GaugeEdge>& gauge() const { return gauge_; }
-  double time() const { return static_cast<double>(n_steps_) * scene_.method.step; }  ///< [s]
-  void observe(StageObserver* observer);
+  const QuadMesh* mesh() const override { return &*cloth_.quads; }
+  const ClothModel& model() const override { return *model_; }
+  const State& state() const override { return state_; }
+  const std::vector<GaugeEdge>& gauge() const override { return gauge_; }
+  double time() const override { return static_cast<double>(n_steps_) * scene_.method.step; }
+  void observe(StageObserver* observer) override;
 
  private:
   void build(RestCloth cloth);

@@ -31,24 +31,24 @@ void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
   SpringLattice lattice = spring_lattice(quads, scene.fabric, lattice_law(scene.model.bending),
                                          scene.model.stiffness_exponent);
   if (!scene.model.shear) drop_shear(lattice.springs);
-  if (scene.model.strain_limit > 0)
-    model.taut_springs = taut_springs(lattice.springs, scene.model.strain_limit);
+  if (scene.model.stiffening_strain > 0)
+    model.taut_springs = taut_springs(lattice.springs, scene.model.stiffening_strain);
   model.springs = std::move(lattice.springs);
   model.bends = std::move(lattice.bends);
   model.chord_bends = std::move(lattice.chord_bends);
   model.hanging = quads.hanging_vertices();
 }
 
-void add_particles(ClothModel& model, const Scene& scene, const InlineCloth& particles) {
-  model.masses = particles.masses;
-  model.springs = particles.springs;
-  if (scene.model.bending == BendingModel::quadratic) model.bends = particles.bends;
+void add_given(ClothModel& model, const Scene& scene, const GivenSprings& given) {
+  model.masses = given.masses;
+  model.springs = given.springs;
+  if (scene.model.bending == BendingModel::quadratic) model.bends = given.bends;
 }
 
 void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mesh) {
   const FabricConstants& fabric = scene.fabric;
   model.membrane = {membrane_law(fabric), membrane_elements(mesh)};
-  model.membrane.law.strain_limit = scene.model.strain_limit;
+  model.membrane.law.stiffening_strain = scene.model.stiffening_strain;
   model.membrane_relaxation = 2 * fabric.damping_ratio / kReferenceFrequency;
   const double mean_rigidity = std::sqrt(fabric.bend_warp * fabric.bend_weft);
   if (fabric.bend_warp == 0 && fabric.bend_weft == 0) return;
@@ -61,10 +61,9 @@ void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mes
 }  // namespace
 
 void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth) {
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
-    return add_particles(model, scene, *particles);
+  if (cloth.given_springs) return add_given(model, scene, *cloth.given_springs);
   // A quarter of each quad or a third of each triangle at every corner.
-  model.masses = scene.fabric.areal_density * rest_areas(scene, cloth);
+  model.masses = scene.fabric.areal_density * rest_areas(cloth);
   if (scene.model.elasticity == Elasticity::springs)
     add_springs(model, scene, *cloth.quads);
   else

@@ -5,7 +5,6 @@
 
 #include "core/base/check.h"
 #include "core/files/json_text.h"
-#include "core/refinement/fit_monitor.h"
 #include "core/refinement/mesh_match.h"
 #include "core/scene/cloth_section.h"
 
@@ -28,21 +27,15 @@ std::vector<double> frame_times(const Scene& scene, const PlanRecipe& recipe) {
   return times;
 }
 
-QuadMesh example_base(const Scene& scene) {
-  std::optional<QuadMesh> base = base_quads(scene);
-  if (!base)
-    throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");
-  if (scene.plan)
-    throw InputError("/refinement/plan", "expected an example refined uniformly, got a plan");
-  if (scene.level < 1)
-    throw InputError("/refinement/level", "expected an example refined once at least, got level 0");
-  return *std::move(base);
-}
-
-/// Of an example: its name, and what has to be the same.
+/// The name of an example, and what has to be the same for all.
 std::string description(const Scene& scene) {
   return abbreviated(Json(scene.name)) + " at level " + std::to_string(scene.level) + " with " +
-         std::to_string(n_refined_vertices(scene, 0)) + " unrefined vertices";
+         std::to_string(scene.cloth->n_vertices(0)) + " unrefined vertices";
+}
+
+std::vector<Scene> checked(std::vector<Scene> examples) {
+  PLEAT_CHECK(!examples.empty(), "a plan has an example");
+  return examples;
 }
 
 }  // namespace
@@ -53,15 +46,12 @@ double settled_time(const Scene& scene) {
 }
 
 PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)
-    : scenes_(std::move(examples)), recipe_(recipe) {
-  PLEAT_CHECK(!scenes_.empty() && recipe.frame_time > 0, "a plan has an example with frames");
-  base_ = example_base(scenes_.front());
+    : scenes_(checked(std::move(examples))), recipe_(recipe), study_(scenes_.front()) {
+  PLEAT_CHECK(recipe.frame_time > 0, "frames follow one another");
   recipe.patterns.validate();
-  check_plan_options(recipe.plan, recipe.patterns.n_patterns, base_, scenes_.front().level);
-  fine_ = base_;
-  fine_.refine_uniformly(scenes_.front().level);
+  check_plan_options(recipe.plan, recipe.patterns.n_patterns, study_.base(), scenes_.front().level);
   for (const Scene& scene : scenes_)
-    if (base_fingerprint(example_base(scene)) != base_fingerprint(base_) ||
+    if (base_fingerprint(example_base(scene)) != base_fingerprint(study_.base()) ||
         scene.level != scenes_.front().level)
       throw InputError("/cloth", "expected examples of one cloth at one level, got " +
                                      description(scene) + " beside " +
@@ -71,32 +61,24 @@ PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)
 }
 
 void PlanMaker::begin_example() {
-  const Scene& scene = scenes_[examples_.size()];
+  const Scene& scene = scenes_[study_.n_examples()];
   run_ =
       std::make_unique<SampledRun>(scene, frame_times(scene, recipe_), SampledRun::Parts::untimed);
 }
 
 void PlanMaker::end_example() {
-  const Scene& scene = scenes_[examples_.size()];
+  const Scene& scene = scenes_[study_.n_examples()];
   if (run_->failed())
     throw InputError("", "expected an example that runs to its end, got \"" + scene.name +
                              "\": " + run_->report().message);
-  BendFeatureSum sum(fine_);
-  for (const Sample& sample : run_->samples()) {
-    sum.add(sample.positions);
-    frames_.push_back(sample.positions);
-  }
-  const BendFeatures features = sum.features();
-  examples_.push_back({scene.name, features, bend_patterns(features, recipe_.patterns)});
+  const std::size_t first_frame = study_.frames().size();
+  for (const Sample& sample : run_->samples()) study_.add_frame(sample.positions);
+  study_.add_example(scene.name, study_.features(first_frame), recipe_.patterns);
 }
 
 RefinementPlan PlanMaker::plan_for(const PlanOptions& options) const {
-  PLEAT_CHECK(examples_.size() == scenes_.size(), "a plan is made of whole examples");
-  RefinementPlan plan = refinement_plan(base_, fine_, examples_, options);
-  ExampleEnvelope envelope(planned_mesh(base_, plan), fine_, plan);
-  for (const Positions& frame : frames_) envelope.add(frame);
-  plan.curvature_limits = envelope.limits();
-  return plan;
+  PLEAT_CHECK(study_.n_examples() == scenes_.size(), "a plan is made of whole examples");
+  return study_.plan(options);
 }
 
 void PlanMaker::advance(double budget) {
@@ -107,13 +89,13 @@ void PlanMaker::advance(double budget) {
   if (!run_->done()) return;
   const Stopwatch planning;
   end_example();
-  if (examples_.size() < scenes_.size()) {
+  if (study_.n_examples() < scenes_.size()) {
     begin_example();
   } else {
     run_.reset();
     plan_ = plan_for(recipe_.plan);
-    cost_.n_frames = static_cast<int>(frames_.size());
-    cost_.megabytes = 24e-6 * static_cast<double>(fine_.n_vertices()) * cost_.n_frames;
+    cost_.n_frames = static_cast<int>(study_.frames().size());
+    cost_.megabytes = 24e-6 * static_cast<double>(study_.fine().n_vertices()) * cost_.n_frames;
     done_ = true;
   }
   cost_.planning_seconds += planning.elapsed();
@@ -121,7 +103,7 @@ void PlanMaker::advance(double budget) {
 
 double PlanMaker::progress() const {
   if (done_) return 1;
-  return (static_cast<double>(examples_.size()) + run_->progress()) /
+  return (static_cast<double>(study_.n_examples()) + run_->progress()) /
          static_cast<double>(scenes_.size());
 }
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/refinement/refinement_plan.h"
+#include "core/run/example_study.h"
 #include "core/run/sampled_run.h"
 
 namespace pleat {
@@ -54,11 +54,8 @@ class PlanMaker {
 
   std::vector<Scene> scenes_;
   PlanRecipe recipe_;
-  QuadMesh base_;
-  QuadMesh fine_;
+  ExampleStudy study_;
   std::unique_ptr<SampledRun> run_;
-  std::vector<BendExample> examples_;
-  std::vector<Positions> frames_;  // of all examples
   RefinementPlan plan_;
   PlanCost cost_;
   bool done_ = false;

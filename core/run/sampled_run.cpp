@@ -24,19 +24,22 @@ Positions interpolated(const State& begin, const State& end, double step, double
 }  // namespace
 
 SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts parts)
-    : simulation_(scene), times_(std::move(times)) {
+    : simulation_(scene),
+      run_(simulation_,
+           parts == Parts::untimed ? TimedRun::Parts::untimed : TimedRun::Parts::timed),
+      times_(std::move(times)) {
   PLEAT_CHECK(!times_.empty() && times_.front() > 0 && std::is_sorted(times_.begin(), times_.end()),
               "sample times are positive and ascend");
-  if (parts == Parts::untimed) return;
-  simulation_.observe(&parts_);
-  ledger_.emplace(simulation_.model(), simulation_.state());
+  if (parts == Parts::timed_with_ledger) ledger_.emplace(simulation_.model(), simulation_.state());
 }
 
 double SampledRun::relative_drift() const {
   return ledger_ ? ledger_->relative_drift() : std::numeric_limits<double>::quiet_NaN();
 }
 
-bool SampledRun::failed() const { return report_.ends_run(); }
+double SampledRun::timed_duration() const {
+  return static_cast<double>(run_.n_timed()) * simulation_.scene().method.step;
+}
 
 bool SampledRun::sample_is_due() const {
   const double step = simulation_.scene().method.step;
@@ -63,22 +66,7 @@ void SampledRun::step() {
   const double time_begin = simulation_.time();
   const bool sampling = sample_is_due();
   if (sampling || ledger_) begin_ = simulation_.state();
-  const bool timed = simulation_.n_steps() > 0;
-  const Stopwatch watch;
-  SolveReport report = simulation_.step();
-  if (timed) {
-    timed_seconds_ += watch.elapsed();
-    timed_duration_ += simulation_.scene().method.step;
-  } else {
-    parts_.clear();
-  }
-  report_.iterations += report.iterations;
-  report_.relative_residual = std::max(report_.relative_residual, report.relative_residual);
-  if (!report.ok()) {
-    report_.status = report.status;
-    report_.message = std::move(report.message);
-  }
-  if (failed()) return;
+  if (run_.step().ends_run()) return;
   if (sampling) take_samples(begin_, time_begin);
   if (ledger_)
     ledger_->record(begin_, simulation_.state(), simulation_.time(),

@@ -8,7 +8,7 @@
 #include "core/model/energy_ledger.h"
 #include "core/model/stretch.h"
 #include "core/run/simulation.h"
-#include "core/run/stage_timer.h"
+#include "core/run/timed_run.h"
 
 namespace pleat {
 
@@ -28,8 +28,7 @@ struct Sample {
 /// clock, and so is the first step, in which steppers build what they keep.
 class SampledRun {
  public:
-  /// Timing the parts of a step costs time itself, and accounting for the energy costs memory and
-  /// caches.
+  /// Timing the parts of a step costs time itself, accounting for the energy memory and caches.
   enum class Parts { untimed, timed_with_ledger };
 
   /// times  [s], positive, ascending, at least one.
@@ -40,7 +39,7 @@ class SampledRun {
 
   /// True at the last sample, or when the numbers ended the run before.
   bool done() const { return failed() || samples_.size() == times_.size(); }
-  bool failed() const;
+  bool failed() const { return run_.has_ended(); }
 
   /// Steps until done or until `budget` [s] is spent, at least once.
   void advance(double budget);
@@ -51,10 +50,12 @@ class SampledRun {
   const std::vector<Sample>& samples() const { return samples_; }
   /// ok, or what ended the run, or not_converged when that ever happened. Its residual is the
   /// largest of all steps, its iterations their sum.
-  const SolveReport& report() const { return report_; }
-  double timed_seconds() const { return timed_seconds_; }    ///< by the clock
-  double timed_duration() const { return timed_duration_; }  ///< simulated meanwhile [s]
-  const StageTimer& parts() const { return parts_; }  ///< over the same steps; zero when untimed
+  const SolveReport& report() const { return run_.report(); }
+  double timed_seconds() const { return run_.seconds(); }  ///< by the clock
+  double timed_duration() const;                           ///< simulated meanwhile [s]
+  const StageTimer& parts() const {
+    return run_.parts();
+  }  ///< over the same steps; zero when untimed
   /// See EnergyLedger; NaN when untimed.
   double relative_drift() const;
 
@@ -64,14 +65,11 @@ class SampledRun {
   bool sample_is_due() const;
 
   Simulation simulation_;
+  TimedRun run_;
   std::vector<double> times_;
   std::vector<Sample> samples_;
   State begin_;
-  SolveReport report_;
-  StageTimer parts_;
   std::optional<EnergyLedger> ledger_;
-  double timed_seconds_ = 0;
-  double timed_duration_ = 0;
 };
 
 }  // namespace pleat

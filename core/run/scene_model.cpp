@@ -2,29 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
+#include "core/model/elements.h"
 #include "core/run/elastic_model.h"
 
 namespace pleat {
 namespace {
 
-Motion following(const std::shared_ptr<const MovingBody>& body, Bone bone) {
+/// The frames of the figure's bones, by their numbers; empty without a figure.
+using BoneFrames = std::vector<std::shared_ptr<const MovingFrame>>;
+
+Motion following(const BoneFrames& frames, Bone bone) {
   Motion motion;
   motion.kind = Motion::Kind::follow;
-  motion.frame = bone_frame(body, bone);
+  motion.frame = frames[static_cast<std::size_t>(bone)];
   return motion;
 }
 
 /// A later rule does not pin again what an earlier one holds, and hanging vertices follow their
 /// parents.
 std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const ClothModel& model,
-                            const std::shared_ptr<const MovingBody>& body) {
+                            const BoneFrames& frames) {
   const Positions& positions = cloth.start;
   std::vector<Pin> pins;
   std::vector<bool> taken(static_cast<std::size_t>(positions.cols()), false);
   for (const PinRule& rule : scene.pins) {
-    const Motion motion = rule.bone ? following(body, *rule.bone) : rule.motion;
-    for (const VertexId v : pinned_vertices(rule, scene, cloth)) {
+    const Motion motion = rule.bone ? following(frames, *rule.bone) : rule.motion;
+    for (const VertexId v : pinned_vertices(rule, cloth)) {
       if (taken[v] || model.hangs(v)) continue;
       taken[v] = true;
       pins.push_back({v, positions.col(v), motion});
@@ -33,20 +39,19 @@ std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const Cl
   return pins;
 }
 
-/// Those that the scene's cloth meets: garments are of the lower body.
+/// The parts of the figure that the scene's cloth meets: garments are of the lower body.
 std::vector<BodyPart> body_parts(const Scene& scene) {
-  std::vector<BodyPart> parts = mannequin(scene.figure->build);
-  return std::holds_alternative<GarmentCloth>(scene.cloth) ? below_waist(std::move(parts)) : parts;
+  std::vector<BodyPart> parts = scene.figure->parts();
+  return scene.cloth->is_worn() ? below_waist(std::move(parts)) : parts;
 }
 
 /// The scene's own solids, then the figure's.
-std::vector<Collider> scene_colliders(const Scene& scene,
-                                      const std::shared_ptr<const MovingBody>& body) {
+std::vector<Collider> scene_colliders(const Scene& scene, const BoneFrames& frames) {
   std::vector<Collider> colliders = scene.colliders;
   if (!scene.figure) return colliders;
   const double friction = scene.figure->friction.value_or(scene.fabric.friction_solid);
   for (const BodyPart& part : body_parts(scene))
-    colliders.push_back(Collider{part.shape, following(body, part.bone), friction});
+    colliders.push_back(Collider{part.shape, following(frames, part.bone), friction});
   return colliders;
 }
 
@@ -67,9 +72,9 @@ double longest_edge(const Positions& positions, const std::array<VertexId, 4>& c
   return longest;
 }
 
-/// Of the largest face around each vertex [m]: of a garment half of the longest edge of quads,
-/// whose threads run along limbs and around them; of other cloth a triangle's circumradius. A
-/// hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
+/// The radius of the largest face around each vertex [m]: of a garment half of the longest edge of
+/// quads, whose threads run along limbs and around them; of other cloth a triangle's circumradius.
+/// A hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
 /// which may be stretched.
 Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
   const Positions& positions = cloth.mesh.rest_positions;
@@ -81,7 +86,7 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
     for (const VertexId v : corners)
       radii[v] = std::max(radii[v], (has_hanging ? 2 * kStretched : 1) * radius);
   };
-  if (std::holds_alternative<GarmentCloth>(scene.cloth)) {
+  if (scene.cloth->is_worn() && cloth.quads) {
     for (const QuadFace& face : cloth.quads->faces())
       if (face.active()) add_face(face.corners, longest_edge(positions, face.corners) / 2);
   } else {
@@ -98,29 +103,22 @@ Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const Clo
 
 }  // namespace
 
-State scene_state(const Scene& scene, const RestCloth& cloth) {
-  const Positions& positions = cloth.start;
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
-    return {positions, particles->velocities};
-  return {positions, scene.initial_velocity.replicate(1, positions.cols())};
-}
+State scene_state(const RestCloth& cloth) { return {cloth.start, cloth.start_velocities}; }
 
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   ClothModel model;
-  std::shared_ptr<const MovingBody> body;
-  if (scene.figure)
-    body = std::make_shared<MovingBody>(scene.figure->motion, scene.figure->playback);
+  const BoneFrames frames = scene.figure ? scene.figure->bone_frames() : BoneFrames{};
   add_elasticity(model, scene, cloth);
   model.rest_coordinates = cloth.rest_coordinates;
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
-  model.pins = scene_pins(scene, cloth, model, body);
+  model.pins = scene_pins(scene, cloth, model, frames);
   // A sheet's quads are split both ways, so that drag is shared among corners as mass is.
   if (scene.air && cloth.quads)
     model.air.emplace(cloth.quads->crossed_triangles(), *scene.air, model.n_vertices(), 0.5);
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
-  if (std::vector<Collider> colliders = scene_colliders(scene, body); !colliders.empty()) {
+  if (std::vector<Collider> colliders = scene_colliders(scene, frames); !colliders.empty()) {
     const ContactOptions options{scene.fabric.thickness / 2, face_radii(scene, cloth, model)};
     model.contact.emplace(std::move(colliders), options);
   }
@@ -129,20 +127,22 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
 
 BuildReport build_report(const ClothModel& model) {
   BuildReport report;
-  const auto note = [&report](bool built, const char* part) {
-    (built ? report.built : report.left_out).emplace_back(part);
+  const auto note = [&report](bool is_built, std::string_view part) {
+    (is_built ? report.built : report.left_out).emplace_back(part);
   };
-  const bool has_dampers = std::any_of(model.springs.begin(), model.springs.end(),
-                                       [](const Spring& s) { return s.damping > 0; });
-  const bool has_membrane = !model.membrane.elements.empty();
-  note(!model.springs.empty(), "springs");
-  note(has_membrane, "membrane");
-  note(has_dampers || (has_membrane && model.membrane_relaxation > 0), "dampers");
-  note(!model.taut_springs.empty() || (has_membrane && model.membrane.law.strain_limit > 0),
-       "strain limit");
-  note(!model.bends.empty() || !model.chord_bends.empty() || !model.hinges.empty() ||
-           model.has_fitted_bending(),
-       "bending");
+  // Several kinds of element may build the same part.
+  std::vector<std::pair<std::string_view, bool>> parts;
+  for_each_element_kind(model, [&parts](const auto& kind) {
+    kind.for_each_part([&parts](bool is_built, std::string_view name) {
+      const auto known = std::find_if(parts.begin(), parts.end(),
+                                      [&](const auto& part) { return part.first == name; });
+      if (known == parts.end())
+        parts.emplace_back(name, is_built);
+      else
+        known->second = known->second || is_built;
+    });
+  });
+  for (const auto& [name, is_built] : parts) note(is_built, name);
   note(!model.gravity.isZero(), "gravity");
   note(!model.pins.empty(), "pins");
   note(model.air.has_value(), "air drag");

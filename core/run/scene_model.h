@@ -9,13 +9,12 @@ namespace pleat {
 
 /// The equations of motion that a scene asks for, and nothing else.
 ///
-/// cloth  of this scene
+/// cloth  the scene's, at rest
 /// Throws InputError for a fabric whose shear the cells cannot carry.
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth);
 
-/// The state at time 0: where the cloth starts, with the initial velocity, or as the inline
-/// particles say.
-State scene_state(const Scene& scene, const RestCloth& cloth);
+/// The state at time 0.
+State scene_state(const RestCloth& cloth);
 
 /// What scene_model built, and what it left out because the scene does not ask for it.
 struct BuildReport {

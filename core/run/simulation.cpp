@@ -3,33 +3,26 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
+#include "core/run/content_id.h"
 
 namespace pleat {
-namespace {
-
-std::vector<GaugeEdge> cloth_gauge(const Scene& scene, const RestCloth& cloth) {
-  if (cloth.quads) return gauge_edges(*cloth.quads);
-  if (const auto* particles = std::get_if<InlineCloth>(&scene.cloth))
-    return gauge_edges(particles->springs);
-  return gauge_edges(cloth.mesh);
-}
-
-}  // namespace
 
 Simulation::Simulation(const Scene& scene)
     : scene_(scene),
       cloth_(rest_cloth(scene)),
       model_(scene_model(scene, cloth_)),
-      gauge_(cloth_gauge(scene, cloth_)) {
+      gauge_(gauge_edges(cloth_)) {
   start();
 }
 
 /// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.
 void Simulation::start() {
-  state_ = scene_state(scene_, cloth_);
+  state_ = scene_state(cloth_);
   if (start_positions_) state_.positions = *start_positions_;
   time_begin_ = 0;
   n_steps_ = 0;
+  was_led_astray_ = false;
   ended_ = {};
   for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(0);
   stepper_ = make_stepper(model_, scene_.method);
@@ -75,11 +68,11 @@ SolveReport Simulation::step() {
 }
 
 void Simulation::carry_over(const Simulation& old) {
-  const auto* shape = std::get_if<SheetShape>(&scene_.cloth);
-  const auto* old_shape = std::get_if<SheetShape>(&old.scene_.cloth);
-  PLEAT_CHECK(
-      shape && old_shape && shape->columns == old_shape->columns && shape->rows == old_shape->rows,
-      "motion is carried over between refinements of one sheet");
+  const auto* own = scene_.cloth.as<SheetCloth>();
+  const auto* olds = old.scene_.cloth.as<SheetCloth>();
+  PLEAT_CHECK(own && olds && own->shape.columns == olds->shape.columns &&
+                  own->shape.rows == olds->shape.rows,
+              "motion is carried over between refinements of one sheet");
   end_transition();
   const MovingSheet from{*old.cloth_.quads, old.model_, old.state_};
   state_ = carried_state(from, *cloth_.quads);
@@ -88,6 +81,7 @@ void Simulation::carry_over(const Simulation& old) {
   stepper_->start_from_contact_forces(carried_forces(old.stepper_->contact_forces(), from, to));
   time_begin_ = old.time();
   n_steps_ = 0;
+  was_led_astray_ = old.is_disturbed() || content_id(old.scene_) != content_id(scene_);
   if (old.grab_ && old.grab_->vertex < model_.n_vertices()) {
     grab(old.grab_->vertex);
     move_grab(old.grab_->target);
@@ -103,11 +97,12 @@ void Simulation::end_transition() {
 void Simulation::grab(VertexId vertex) {
   PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
   release_grab();
+  was_led_astray_ = true;
   std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
   for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
   grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
-  const bool is_one_piece = !std::holds_alternative<InlineCloth>(scene_.cloth);
-  const double radius = is_one_piece ? kHandRadius * rest_diagonal(scene_) : 0;
+  const double radius =
+      scene_.cloth->is_surface() ? kHandRadius * scene_.cloth->rest_diagonal() : 0;
   const Positions& rest = rest_positions();
   std::vector<bool> in_hand(pinned.size(), false);
   for (int i = 0; i < model_.n_vertices(); ++i)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/stretch.h"
+#include "core/run/moving_cloth.h"
 #include "core/run/scene_model.h"
 #include "core/run/transition.h"
 #include "core/scene/scene.h"
@@ -14,14 +14,14 @@
 namespace pleat {
 
 /// A scene in motion.
-class Simulation {
+class Simulation final : public MovingCloth {
  public:
   /// Throws InputError when the scene's method cannot run on it.
   explicit Simulation(const Scene& scene);
 
   /// One step of scene.method.step. After a report that is not ok or not_converged the state is the
   /// last finite one and further steps return the same report.
-  SolveReport step();
+  SolveReport step() override;
   void reset();
 
   /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
@@ -43,24 +43,28 @@ class Simulation {
   void move_grab(const Vec3& target);
   void release_grab();
 
+  /// True when since the start a hand, other places to start from or another scene's cloth has led
+  /// this one astray: it does not show what its scene alone would.
+  bool is_disturbed() const { return was_led_astray_ || start_positions_.has_value(); }
+
   const Scene& scene() const { return scene_; }
-  /// For kTransitionTime after carry_over it is on its way to the scene's own.
-  const ClothModel& model() const { return model_; }
-  /// What stretch is measured by.
-  const std::vector<GaugeEdge>& gauge() const { return gauge_; }
-  const State& state() const { return state_; }
-  const QuadMesh* mesh() const { return cloth_.quads ? &*cloth_.quads : nullptr; }  ///< of a sheet
+  /// The equations of motion; for kTransitionTime after carry_over on their way to the scene's.
+  const ClothModel& model() const override { return model_; }
+  /// The edges that stretch is measured by.
+  const std::vector<GaugeEdge>& gauge() const override { return gauge_; }
+  const State& state() const override { return state_; }
+  const QuadMesh* mesh() const override { return cloth_.quads ? &*cloth_.quads : nullptr; }
   const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
   /// Where the scene starts [m].
   const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
-  /// Of each vertex [m^2]; particles count by their mass.
-  Eigen::VectorXd rest_areas() const { return pleat::rest_areas(scene_, cloth_); }
+  /// The rest area of each vertex [m^2]; particles count by their mass.
+  Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
   std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
-  double time() const {
+  double time() const override {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
-  }  ///< [s]
+  }
   int substeps() const { return stepper_->substeps(); }
-  void observe(StageObserver* observer);
+  void observe(StageObserver* observer) override;
 
  private:
   struct Grab {
@@ -83,6 +87,7 @@ class Simulation {
   StageObserver* observer_ = nullptr;
   double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
   std::int64_t n_steps_ = 0;
+  bool was_led_astray_ = false;
   std::optional<Grab> grab_;
   std::optional<Transition> transition_;
   SolveReport ended_;

@@ -23,6 +23,12 @@ void StageTimer::charge_running() {
   last_ = now;
 }
 
+std::array<double, kStageCount> StageTimer::mean_ms(double n) const {
+  std::array<double, kStageCount> means = totals_;
+  for (double& mean : means) mean *= 1e3 / n;
+  return means;
+}
+
 void StageTimer::begin(Stage stage) {
   PLEAT_CHECK(depth_ < kMaxDepth, "parts of a step are nested at most four deep");
   charge_running();

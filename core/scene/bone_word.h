@@ -5,7 +5,7 @@
 
 namespace pleat {
 
-/// As files write it: "pelvis", "thigh_right".
+/// The bone that a file names: "pelvis", "thigh_right".
 Bone read_bone(const JsonReader& reader);
 
 }  // namespace pleat

@@ -8,7 +8,7 @@
 #include "core/deform/fabric_weights.h"
 #include "core/deform/held_parts.h"
 #include "core/mesh/sheet_pattern.h"
-#include "core/scene/mesh_section.h"
+#include "core/scene/mesh_cloth.h"
 #include "core/scene/target_section.h"
 #include "core/scene/vertex_place.h"
 
@@ -101,23 +101,23 @@ void read_cloth(const JsonReader& reader, const FileSource& files, DeformScene& 
 
 double sum(const DeformWeights& w) { return w.recovery + w.stretch + w.bending; }
 
-/// Three numbers, one for each term.
+/// One number for each term.
 template <class Numbers>
-Numbers read_three(const JsonReader& reader, const NumberRange& range) {
-  reader.allow_keys({"recovery", "stretch", "bending"});
-  return {reader.at("recovery").number(range), reader.at("stretch").number(range),
-          reader.at("bending").number(range)};
+Numbers read_numbers(const JsonReader& reader, const NumberRange& range) {
+  constexpr std::array<const char*, 3> kKeys{"recovery", "stretch", "bending"};
+  reader.allow_keys(kKeys);
+  return read_three<Numbers>(reader, kKeys, range);
 }
 
 DeformWeights read_weights(const JsonReader& reader) {
-  const auto weights = read_three<DeformWeights>(reader, kNotNegative);
+  const auto weights = read_numbers<DeformWeights>(reader, kNotNegative);
   if (sum(weights) == 0)
     throw InputError(reader.pointer(), "expected a weight > 0, got three zeros");
   return weights;
 }
 
 FittedWeights read_measures(const JsonReader& reader, const FabricLibrary& fabrics) {
-  const auto measures = read_three<GeometricMeasures>(reader, kPositive);
+  const auto measures = read_numbers<GeometricMeasures>(reader, kPositive);
   try {
     return MeasureFit(fabrics.fabrics).fit(measures);
   } catch (const InputError& error) {
@@ -194,8 +194,6 @@ std::vector<DeformHandle> read_handles(const JsonReader& reader, const Posing* p
   return handles;
 }
 
-std::string quoted(const std::string& name) { return abbreviated(Json(name)); }
-
 /// A place and who holds a vertex there; a handle by its number, pins by -1.
 struct Holder {
   int handle = -1;
@@ -217,12 +215,12 @@ std::map<VertexId, Holder> holders(const DeformScene& scene) {
       if (is_new || (first.target - target).norm() <= kRounding * box_diagonal(rest)) continue;
       throw InputError(
           "/handles/" + std::to_string(h),
-          "expected one place for each vertex, got handle " + quoted(handle.name) +
+          "expected one place for each vertex, got handle " + quotation(handle.name) +
               " with vertex " + std::to_string(v) + ", which " +
               (first.handle < 0
                    ? "is pinned where it rests"
                    : "handle " +
-                         quoted(scene.handles[static_cast<std::size_t>(first.handle)].name) +
+                         quotation(scene.handles[static_cast<std::size_t>(first.handle)].name) +
                          " takes elsewhere"));
     }
   }

@@ -27,7 +27,7 @@ struct DeformTermChoice {
   bool stretch = true;
   bool bending = true;
 
-  /// Those of terms that do not count are zero.
+  /// The weights, zero for terms that do not count.
   DeformWeights chosen(const DeformWeights& weights) const;
 };
 
@@ -49,7 +49,7 @@ struct DeformScene {
   DeformWeights weights() const { return terms.chosen(fabric_weights); }
 };
 
-/// What pins and handles hold together.
+/// The vertices that pins or handles hold.
 struct HeldVertices {
   std::vector<VertexId> vertices;  ///< ascending, each once
   Positions targets;               ///< one column each [m]

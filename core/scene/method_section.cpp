@@ -4,16 +4,6 @@ namespace pleat {
 namespace {
 
 constexpr std::int64_t kMaxIterations = 100000;
-constexpr NumberRange kTolerance{0, 1, NumberRange::Ends::excluded};
-// A looser newton is no newton: its equations would be as wrong as those of one linearisation.
-constexpr NumberRange kNewtonTolerances{0, 1e-6, NumberRange::Ends::low_excluded};
-
-constexpr std::array<Word<StepperKind>, 6> kSteppers{{{"explicit", StepperKind::explicit_euler},
-                                                      {"rk4", StepperKind::rk4},
-                                                      {"implicit", StepperKind::implicit_euler},
-                                                      {"newton", StepperKind::newton},
-                                                      {"projective", StepperKind::projective},
-                                                      {"xpbd", StepperKind::xpbd}}};
 
 constexpr std::array<Word<SolverKind>, 3> kSolvers{
     {{"cholmod", SolverKind::cholmod}, {"eigen", SolverKind::eigen}, {"cg", SolverKind::cg}}};
@@ -34,46 +24,146 @@ constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::o
 constexpr const char* kStableSubsteps =
     "stable";  // as many as the explicit stability bound asks for
 
-int read_substeps(const JsonReader& reader, const MethodOptions& method) {
+int read_substeps(const JsonReader& reader, const StepperType& type) {
   if (!reader.is_text()) return static_cast<int>(reader.integer(1, kMaxSubsteps));
-  if (!method.is_explicit())
-    reader.fail("a whole number, as only explicit and rk4 take \"stable\"");
+  if (!type.has_stability_bound)
+    reader.fail("a whole number, as " + std::string(type.name) + " has no bound to be stable at");
   if (reader.text() != kStableSubsteps) reader.fail("a whole number or \"stable\"");
   return 0;
 }
 
+NumberRange tolerances(const StepperType& type) {
+  using Ends = NumberRange::Ends;
+  return {0, type.largest_tolerance,
+          type.largest_tolerance < 1 ? Ends::low_excluded : Ends::excluded};
+}
+
+const StepperType& read_stepper(const JsonReader& reader, StepperTable steppers) {
+  const StepperType* type = reader.is_text() ? find_stepper(steppers, reader.text()) : nullptr;
+  if (type != nullptr) return *type;
+  std::string names;
+  for (const StepperType* known : steppers)
+    names += (names.empty() ? "\"" : ", \"") + std::string(known->name) + '"';
+  reader.fail("one of " + names);
+}
+
+/// Refuses keys that are no setting, and settings that this stepper does not read.
+void check_settings(const JsonReader& reader, const StepperType& type) {
+  std::vector<const char*> known = {"stepper", "step_s"};
+  for (const MethodSetting setting : kMethodSettings) known.push_back(key(setting));
+  reader.allow_keys(known);
+  for (const MethodSetting setting : kMethodSettings)
+    if (const auto at = reader.find(key(setting)); at && !type.reads(setting))
+      at->fail("no such key, as " + std::string(type.name) + " does not read it");
+}
+
+void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions& method) {
+  switch (setting) {
+    case MethodSetting::substeps:
+      method.substeps = read_substeps(reader, *method.stepper);
+      return;
+    case MethodSetting::iterations:
+      method.iterations = static_cast<int>(reader.integer(1, kMaxIterations));
+      return;
+    case MethodSetting::solver:
+      method.solver = reader.word(kSolvers);
+      return;
+    case MethodSetting::tolerance:
+      method.tolerance = reader.number(tolerances(*method.stepper));
+      return;
+    case MethodSetting::constraints:
+      method.constraints = reader.word(kConstraints);
+      return;
+    case MethodSetting::rule:
+      method.rule = reader.word(kNewtonRules);
+      return;
+  }
+}
+
+Json json_substeps(int substeps) { return substeps == 0 ? Json(kStableSubsteps) : Json(substeps); }
+
+Json json_setting(MethodSetting setting, const MethodOptions& method) {
+  switch (setting) {
+    case MethodSetting::substeps:
+      return json_substeps(method.substeps);
+    case MethodSetting::iterations:
+      return method.iterations;
+    case MethodSetting::solver:
+      return word_for(kSolvers, method.solver);
+    case MethodSetting::tolerance:
+      return method.tolerance;
+    case MethodSetting::constraints:
+      return word_for(kConstraints, method.constraints);
+    case MethodSetting::rule:
+      return word_for(kNewtonRules, method.rule);
+  }
+  return nullptr;
+}
+
+/// A count with what it starts from and what more of it does.
+Json json_count(int start, int least, const char* meaning) {
+  Json json;
+  json["start"] = start;
+  json["least"] = least;
+  json["meaning"] = meaning;
+  return json;
+}
+
+Json json_stepper(const StepperType& type) {
+  const bool counts_rounds = type.reads(MethodSetting::iterations);
+  Json json;
+  json["name"] = type.name;
+  json["title"] = type.title;
+  json["meaning"] = type.meaning;
+  json["needs_springs"] = type.needs_springs;
+  json["solves"] = type.solves_equations;
+  json["settings"]["substeps"] =
+      json_count(type.start.substeps, type.has_stability_bound ? 0 : 1, type.substeps_meaning);
+  if (counts_rounds)
+    json["settings"]["iterations"] = json_count(type.start.iterations, 1, type.iterations_meaning);
+  json["sweep"] = Json::array();
+  for (const MethodCounts& counts : type.usual_counts) {
+    Json usual;
+    usual["substeps"] = json_substeps(counts.substeps);
+    if (counts_rounds) usual["iterations"] = counts.iterations;
+    json["sweep"].push_back(usual);
+  }
+  json["models"] = Json::array();
+  if (type.is_usual_for_springs) json["models"].push_back("springs");
+  if (type.is_usual_for_membranes) json["models"].push_back("membrane");
+  json["finest_sweep_level"] = type.finest_usual_level;
+  json["mark"] = type.mark.path;
+  json["colour"] = type.mark.colour;
+  json["dark_colour"] = type.mark.dark_colour;
+  return json;
+}
+
 }  // namespace
 
-void read_method(const JsonReader& reader, MethodOptions& method) {
-  reader.allow_keys({"stepper", "step_s", "substeps", "iterations", "solver", "tolerance",
-                     "constraints", "rule"});
-  if (const auto at = reader.find("stepper")) method.stepper = at->word(kSteppers);
+MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
+  const auto named = reader.find("stepper");
+  const StepperType& type = named ? read_stepper(*named, steppers) : *MethodOptions{}.stepper;
+  check_settings(reader, type);
+  MethodOptions method = type.usual_method();
   if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
-  if (const auto at = reader.find("substeps")) method.substeps = read_substeps(*at, method);
-  if (const auto at = reader.find("iterations"))
-    method.iterations = static_cast<int>(at->integer(1, kMaxIterations));
-  // projective keeps a factor and newton is exact, which the general defaults do not serve.
-  const bool is_newton = method.stepper == StepperKind::newton;
-  if (method.stepper == StepperKind::projective || is_newton) method.solver = best_direct_solver();
-  if (is_newton) method.tolerance = kNewtonTolerance;
-  if (const auto at = reader.find("solver")) method.solver = at->word(kSolvers);
-  if (const auto at = reader.find("tolerance"))
-    method.tolerance = at->number(is_newton ? kNewtonTolerances : kTolerance);
-  if (const auto at = reader.find("constraints")) method.constraints = at->word(kConstraints);
-  if (const auto at = reader.find("rule")) method.rule = at->word(kNewtonRules);
+  for (const MethodSetting setting : type.settings)
+    if (const auto at = reader.find(key(setting))) read_setting(setting, *at, method);
+  return method;
 }
 
 Json json_method(const MethodOptions& method) {
   Json json;
-  json["stepper"] = word_for(kSteppers, method.stepper);
+  json["stepper"] = method.stepper->name;
   json["step_s"] = method.step;
-  json["substeps"] = method.substeps == 0 ? Json(kStableSubsteps) : Json(method.substeps);
-  json["iterations"] = method.iterations;
-  json["solver"] = word_for(kSolvers, method.solver);
-  json["tolerance"] = method.tolerance;
-  json["constraints"] = word_for(kConstraints, method.constraints);
-  json["rule"] = word_for(kNewtonRules, method.rule);
+  for (const MethodSetting setting : method.stepper->settings)
+    json[key(setting)] = json_setting(setting, method);
   return json;
+}
+
+Json json_steppers(StepperTable steppers) {
+  Json rows = Json::array();
+  for (const StepperType* type : steppers) rows.push_back(json_stepper(*type));
+  return rows;
 }
 
 void read_record(const JsonReader& reader, RecordOptions& record) {

@@ -1,13 +1,19 @@
 #pragma once
 
+#include "core/dynamics/stepper_table.h"
 #include "core/files/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {
 
-/// The section "method" of a scene file: stepper, step and solver.
-void read_method(const JsonReader& reader, MethodOptions& method);
+/// The section "method" of a scene file: a stepper of the table, its step and the settings that it
+/// reads. Throws InputError for a setting that it does not read.
+MethodOptions read_method(const JsonReader& reader, StepperTable steppers);
+/// With every setting that the stepper reads.
 Json json_method(const MethodOptions& method);
+
+/// What a page needs to know of each stepper: the rows of the table as JSON.
+Json json_steppers(StepperTable steppers);
 
 /// The section "record": which frames are kept, and how.
 void read_record(const JsonReader& reader, RecordOptions& record);

@@ -18,11 +18,8 @@ constexpr std::array<Word<BendingModel>, 6> kBendingModels{{{"quadratic", Bendin
 constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
     {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
 
-bool is_quads(const Scene& scene) {
-  return std::holds_alternative<SheetShape>(scene.cloth) ||
-         std::holds_alternative<GarmentCloth>(scene.cloth);
-}
-bool is_mesh(const Scene& scene) { return std::holds_alternative<MeshCloth>(scene.cloth); }
+bool is_quads(const Scene& scene) { return scene.cloth->quads() != nullptr; }
+bool is_mesh(const Scene& scene) { return scene.cloth->is_surface() && !is_quads(scene); }
 
 BendingModel usual_bending(Elasticity elasticity) {
   return elasticity == Elasticity::springs ? BendingModel::quadratic : BendingModel::fitted;
@@ -38,7 +35,7 @@ std::vector<BendingModel> possible_bending(const Scene& scene) {
 
 void check_elasticity(const JsonReader& reader, const Scene& scene) {
   const bool wants_membrane = scene.model.elasticity == Elasticity::membrane;
-  if (wants_membrane && !is_quads(scene) && !is_mesh(scene))
+  if (wants_membrane && !scene.cloth->is_surface())
     reader.fail("\"springs\" for particles, which have no area");
   if (!wants_membrane && is_mesh(scene))
     reader.fail("\"membrane\" for a mesh, as springs follow the threads of a sheet");
@@ -52,7 +49,7 @@ void check_bending(const JsonReader& reader, const Scene& scene) {
     expected +=
         std::string(law == possible.front() ? " \"" : ", \"") + word_for(kBendingModels, law) + '"';
   reader.fail(expected + " with " + word_for(kElasticities, scene.model.elasticity) +
-              (is_quads(scene) || is_mesh(scene) ? "" : " of particles"));
+              (scene.cloth->is_surface() ? "" : " of particles"));
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ ModelOptions usual_model(const Scene& scene) {
 }
 
 void read_model(const JsonReader& reader, Scene& scene) {
-  reader.allow_keys({"elasticity", "bending", "shear", "damping", "strain_limit", "torsion",
+  reader.allow_keys({"elasticity", "bending", "shear", "damping", "stiffening_strain", "torsion",
                      "stiffness_exponent"});
   ModelOptions& model = scene.model;
   if (const auto at = reader.find("elasticity")) {
@@ -86,10 +83,9 @@ void read_model(const JsonReader& reader, Scene& scene) {
     model.damping_direction = at->word(kDampingDirections);
     if (!has_springs) at->fail("no such key, as a membrane is damped in its strains alone");
   }
-  if (const auto at = reader.find("strain_limit")) {
-    model.strain_limit = at->number(kNotNegative);
-    if (!is_quads(scene) && !is_mesh(scene))
-      at->fail("no such key, as particles have springs of their own");
+  if (const auto at = reader.find("stiffening_strain")) {
+    model.stiffening_strain = at->number(kNotNegative);
+    if (!scene.cloth->is_surface()) at->fail("no such key, as particles have springs of their own");
   }
   if (const auto at = reader.find("stiffness_exponent")) {
     model.stiffness_exponent = at->number({0, 1});
@@ -110,7 +106,7 @@ Json json_model(const ModelOptions& model) {
     json["damping"] = word_for(kDampingDirections, model.damping_direction);
   }
   if (model.stiffness_exponent > 0) json["stiffness_exponent"] = model.stiffness_exponent;
-  if (model.strain_limit > 0) json["strain_limit"] = model.strain_limit;
+  if (model.stiffening_strain > 0) json["stiffening_strain"] = model.stiffening_strain;
   if (model.bending == BendingModel::fitted) json["torsion"] = model.torsion;
   return json;
 }

@@ -5,7 +5,7 @@
 
 namespace pleat {
 
-/// What a scene's model is when it says nothing: springs where there are threads or springs to take
+/// The model of a scene that says nothing of it: springs where there are threads or springs to take
 /// them from, a membrane for any other mesh.
 ModelOptions usual_model(const Scene& scene);
 

@@ -34,10 +34,10 @@ Posing::Posing(const Moment& at_rest, const Moment& posed, Bone pinned, const Ve
   facing_.rotation << facing, Vec3::UnitY(), facing.cross(Vec3::UnitY());
 }
 
-// With R and A how bones have moved from standing into either posture, p the pinned bone: the cloth
-// at bone b belongs to the place R_b^-1 x of the standing body, which the posture takes to A_b
-// R_b^-1 x. The whole is then moved as a body, so that p comes back to where it was at rest: R_p
-// A_p^-1.
+// R and A are how bones have moved from standing into either posture, p is the pinned bone. The
+// cloth at bone b belongs to the place R_b^-1 x of the standing body, which the posture takes to
+// A_b R_b^-1 x. The whole is then moved as a body, so that p comes back to where it was at rest:
+// R_p A_p^-1.
 Pose Posing::of(Bone bone) const {
   const auto at_rest = [&](Bone b) { return at_rest_.pose(b, time_at_rest_); };
   const auto posed = [&](Bone b) { return posed_.pose(b, time_posed_); };

@@ -19,7 +19,7 @@ class Posing {
   /// facing  where the figure looks in the cloth's axes: level, of length one; y is up
   Posing(const Moment& at_rest, const Moment& posed, Bone pinned, const Vec3& facing);
 
-  /// What takes the cloth at a bone from rest to the posture, in the cloth's axes.
+  /// The motion of the cloth at a bone from rest to the posture, in the cloth's axes.
   Pose of(Bone bone) const;
 
  private:

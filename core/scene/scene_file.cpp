@@ -7,20 +7,20 @@
 #include "core/files/plan_file.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
-#include "core/scene/figure_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
-#include "core/scene/plan_section.h"
 #include "core/scene/world_section.h"
 
 namespace pleat {
 namespace {
 
-void read_refinement(const JsonReader& reader, const FileSource& files, Scene& scene) {
+void read_refinement(const JsonReader& reader, const FileSource& files, const SceneParts& parts,
+                     Scene& scene) {
   reader.allow_keys({"level", "plan"});
   if (const auto at = reader.find("plan")) {
     if (reader.find("level")) at->fail("no such key beside a level");
-    scene.plan = read_scene_plan(*at, files, scene);
+    if (parts.read_plan == nullptr) refuse_part(*at, "plan");
+    scene.plan = parts.read_plan(*at, files, scene);
   } else if (const auto level = reader.find("level")) {
     scene.level = static_cast<int>(level->integer(0, kMaxLevel));
     check_level(scene, scene.level, level->pointer());
@@ -50,25 +50,32 @@ std::int64_t whole_steps(double duration, double step) {
   return std::max<std::int64_t>(1, std::llround(n_steps));
 }
 
-Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
-                 const FileSource& files) {
+Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics, const FileSource& files,
+                 const SceneParts& parts) {
   const Json document = parse_json(json_text);
-  const JsonReader root(document);
+  return read_scene(JsonReader(document), fabrics, files, parts);
+}
+
+Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files,
+                 const SceneParts& parts) {
   root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement",
                    "pins", "world", "method", "duration_s", "record"});
   Scene scene;
   if (const auto at = root.find("$schema")) at->text();
   if (const auto at = root.find("name")) scene.name = at->text();
   if (const auto at = root.find("caption")) scene.caption = at->text();
-  if (const auto at = root.find("figure")) scene.figure = read_figure(*at, files);
-  read_cloth(root.at("cloth"), files, scene);
+  if (const auto at = root.find("figure")) {
+    if (parts.read_figure == nullptr) refuse_part(*at, "figure");
+    scene.figure = parts.read_figure(*at, files);
+  }
+  read_cloth(root.at("cloth"), files, parts, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
   scene.model = usual_model(scene);
   if (const auto at = root.find("model")) read_model(*at, scene);
-  if (const auto at = root.find("refinement")) read_refinement(*at, files, scene);
-  if (const auto at = root.find("pins")) read_pins(*at, scene);
+  if (const auto at = root.find("refinement")) read_refinement(*at, files, parts, scene);
+  if (const auto at = root.find("pins")) read_pins(*at, parts, scene);
   if (const auto at = root.find("world")) read_world(*at, scene);
-  if (const auto at = root.find("method")) read_method(*at, scene.method);
+  if (const auto at = root.find("method")) scene.method = read_method(*at, parts.steppers);
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);
   check_duration(scene.duration, scene.method.step);
@@ -89,7 +96,7 @@ std::string write_scene(const Scene& scene) {
   json["method"] = json_method(scene.method);
   json["duration_s"] = scene.duration;
   json["record"] = json_record(scene.record);
-  if (scene.figure) json["figure"] = json_figure(*scene.figure);
+  if (scene.figure) json["figure"] = scene.figure->json();
   return format_json(json);
 }
 

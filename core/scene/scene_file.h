@@ -7,16 +7,26 @@
 #include "core/files/fabric_file.h"
 #include "core/files/file_source.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_parts.h"
 
 namespace pleat {
+
+class JsonReader;
 
 /// Reads a scene (JSON, schema in scene_schema.json). Unknown keys, wrong types, values out of
 /// range and everything that could not run throw InputError with the JSON pointer, what was
 /// expected and what was found.
 ///
 /// files  for the meshes that it names. Without it they are refused.
+/// parts  what the program lets a scene be made of. Only who leaves the default contains all of it.
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
-                 const FileSource& files = {});
+                 const FileSource& files = {}, const SceneParts& parts = all_scene_parts());
+
+/// The same of a scene that is parsed already.
+///
+/// root  of the scene's own document
+Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files = {},
+                 const SceneParts& parts = all_scene_parts());
 
 /// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s
 /// again.
@@ -30,8 +40,5 @@ void check_duration(double duration, double step);
 
 /// `duration` [s] rounded to whole steps of `step` [s]: at least one, at most kMaxSteps.
 std::int64_t whole_steps(double duration, double step);
-
-/// The JSON schema of the format, as text.
-std::string_view scene_schema();
 
 }  // namespace pleat

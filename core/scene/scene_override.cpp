@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_table.h"
 
 namespace pleat {
 namespace {
@@ -77,20 +77,20 @@ void clear_fabric(Json& scene) {
     scene["fabric"]["bending"] = old["bending"];
 }
 
-void clear_method(Json& scene, const Json& stepper) {
+/// Leaves out what the new stepper does not read or does not take, so that it starts from its own.
+void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
   Json& method = scene.emplace("method", Json::object()).first.value();
-  if (!method.is_object() ||
-      method.value("stepper", Json(name(MethodOptions{}.stepper))) == stepper)
+  if (!method.is_object() || !stepper.is_string() ||
+      method.value("stepper", Json(MethodOptions{}.stepper->name)) == stepper)
     return;
-  const bool is_newton = stepper == name(StepperKind::newton);
-  if (stepper == name(StepperKind::explicit_euler) || stepper == name(StepperKind::rk4)) {
-    method["substeps"] = "stable";
-  } else if (method.contains("substeps") && method["substeps"].is_string()) {
+  const StepperType* type = find_stepper(steppers, stepper.get<std::string>());
+  if (type == nullptr) return;
+  for (const MethodSetting setting : kMethodSettings)
+    if (!type->reads(setting)) method.erase(key(setting));
+  if (type->has_stability_bound || method.value("substeps", Json()).is_string())
     method.erase("substeps");
-  }
-  const bool needs_factor = is_newton || stepper == name(StepperKind::projective);
-  if (needs_factor && method.value("solver", Json()) == "cg") method.erase("solver");
-  if (is_newton) method.erase("tolerance");  // that of another stepper's linear solves
+  if (type->needs_factor && method.value("solver", Json()) == "cg") method.erase("solver");
+  if (type->largest_tolerance < 1) method.erase("tolerance");  // that of another stepper's solves
 }
 
 /// Those of lower rank are set first.
@@ -101,7 +101,7 @@ std::size_t rank(const SceneOverride& change) {
 
 }  // namespace
 
-void override_scene(Json& scene, std::span<const SceneOverride> overrides) {
+void override_scene(Json& scene, std::span<const SceneOverride> overrides, StepperTable steppers) {
   std::vector<const SceneOverride*> order;
   for (const SceneOverride& change : overrides) order.push_back(&change);
   std::stable_sort(order.begin(), order.end(), [](const SceneOverride* a, const SceneOverride* b) {
@@ -110,7 +110,7 @@ void override_scene(Json& scene, std::span<const SceneOverride> overrides) {
   if (!scene.is_object()) return;
   for (const SceneOverride* change : order) {
     if (change->pointer == kFabricPointer) clear_fabric(scene);
-    if (change->pointer == kStepperPointer) clear_method(scene, change->value);
+    if (change->pointer == kStepperPointer) clear_method(scene, change->value, steppers);
     set_value(scene, *change);
   }
 }

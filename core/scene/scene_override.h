@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/files/json_text.h"
 
 namespace pleat {
@@ -17,13 +18,14 @@ struct SceneOverride {
 ///
 /// A section is set before what is in it, "/method/stepper" and "/fabric/name" before their
 /// neighbours, all else in the order given. Objects that are missing on the way are made. Another
-/// stepper than the scene's leaves out what it cannot take: explicit gets "stable" substeps, the
-/// others one in place of "stable", projective its default solver in place of one without a
-/// factor. Another fabric's name leaves out the scene's own numbers, but for "bending" beside a
-/// name.
+/// stepper than the scene's leaves out what it cannot take: settings that the new one does not
+/// read, "stable" substeps where it has no bound and counted ones where it has, solvers without a
+/// factor where it needs one. Another fabric's name leaves out the scene's own numbers, but for
+/// "bending" beside a name.
 ///
 /// What is no object though it should be is left for the reader of the scene to refuse. Throws
 /// InputError{pointer} for what is no pointer and for an element that an array does not have.
-void override_scene(Json& scene, std::span<const SceneOverride> overrides);
+void override_scene(Json& scene, std::span<const SceneOverride> overrides,
+                    StepperTable steppers = standard_steppers());
 
 }  // namespace pleat

@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// Straight up or down to the upper half of a ball.
+/// Targets straight above or below, on the upper half of a ball.
 Positions onto_sphere(const JsonReader& reader, const Positions& from) {
   reader.allow_keys({"centre_m", "radius_m"});
   const Vec3 centre = reader.at("centre_m").vec3();

@@ -25,7 +25,7 @@ std::array<VertexId, n> read_vertices(const JsonReader& reader, std::int64_t n_v
   return vertices;
 }
 
-/// At least one vertex, in the order of the file.
+/// Reads at least one vertex, in the order of the file.
 std::vector<VertexId> read_vertex_list(const JsonReader& reader, std::int64_t n_vertices);
 
 /// 1 to kMaxVertices positions [m].

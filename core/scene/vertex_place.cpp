@@ -25,13 +25,6 @@ std::string extent(const Positions& positions) {
   return text;
 }
 
-std::vector<VertexId> vertices_in(const PinBox& box, const Positions& positions) {
-  std::vector<VertexId> vertices;
-  for (Eigen::Index v = 0; v < positions.cols(); ++v)
-    if (box.holds(positions.col(v))) vertices.emplace_back(v);
-  return vertices;
-}
-
 /// A point that far off is a slip, such as millimetres for metres, and its nearest vertex chance.
 void check_is_by(const JsonReader& reader, const Vec3& point, double radius,
                  const Positions& positions) {
@@ -71,12 +64,25 @@ const VertexGroup& read_group(const JsonReader& reader, const std::vector<Vertex
                            : "the group \"" + cut(near) + '"');
 }
 
+std::vector<VertexId> vertices_of(const std::vector<VertexGroup>& groups, const std::string& name) {
+  const auto group = std::find_if(groups.begin(), groups.end(),
+                                  [&](const VertexGroup& g) { return g.name == name; });
+  return group == groups.end() ? std::vector<VertexId>{} : group->vertices;
+}
+
 PinBox read_box(const JsonReader& reader) {
   reader.allow_keys({"low_m", "high_m"});
   PinBox box{reader.at("low_m").vec3(), reader.at("high_m").vec3()};
   if ((box.low.array() > box.high.array()).any())
     reader.at("low_m").fail("a corner that is nowhere above high_m");
   return box;
+}
+
+std::vector<VertexId> vertices_in(const PinBox& box, const Positions& positions) {
+  std::vector<VertexId> vertices;
+  for (Eigen::Index v = 0; v < positions.cols(); ++v)
+    if (box.holds(positions.col(v))) vertices.emplace_back(v);
+  return vertices;
 }
 
 double usual_grasp(const Positions& positions) {
@@ -97,7 +103,7 @@ std::vector<VertexId> vertices_near(const Positions& positions, const Vec3& poin
 
 std::vector<VertexId> read_place(const JsonReader& reader, const Positions& positions,
                                  const std::vector<VertexGroup>& groups) {
-  switch (reader.only_one_of({kPlaceKeys[0], kPlaceKeys[1], kPlaceKeys[2], kPlaceKeys[3]})) {
+  switch (reader.only_one_of(kPlaceKeys)) {
     case 0: {
       std::vector<VertexId> vertices = read_vertex_list(reader.at("vertices"), positions.cols());
       std::sort(vertices.begin(), vertices.end());

@@ -11,8 +11,14 @@ namespace pleat {
 /// The group that a text names.
 const VertexGroup& read_group(const JsonReader& reader, const std::vector<VertexGroup>& groups);
 
-/// {"low_m", "high_m"}.
+/// The vertices of the group of this name; none when there is no such group.
+std::vector<VertexId> vertices_of(const std::vector<VertexGroup>& groups, const std::string& name);
+
+/// A box written as {"low_m", "high_m"}.
 PinBox read_box(const JsonReader& reader);
+
+/// The vertices in a box, ascending.
+std::vector<VertexId> vertices_in(const PinBox& box, const Positions& positions);
 
 /// How far a hand's grasp reaches unless it is said: in shares of the longest side of the box
 /// around the cloth. A single vertex is a spike that no refinement converges to.

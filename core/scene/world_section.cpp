@@ -3,8 +3,6 @@
 #include <map>
 
 #include "core/base/check.h"
-#include "core/scene/bone_word.h"
-#include "core/scene/cloth_section.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
 #include "core/scene/vertex_place.h"
@@ -16,15 +14,6 @@ constexpr std::array<Word<Motion::Kind>, 4> kMotionKinds{{{"hold", Motion::Kind:
                                                           {"move", Motion::Kind::move},
                                                           {"ease", Motion::Kind::ease},
                                                           {"oscillate", Motion::Kind::oscillate}}};
-
-constexpr std::array<Word<SheetPart>, 8> kSheetParts{{{"upper_edge", SheetPart::upper_edge},
-                                                      {"lower_edge", SheetPart::lower_edge},
-                                                      {"left_edge", SheetPart::left_edge},
-                                                      {"right_edge", SheetPart::right_edge},
-                                                      {"upper_left", SheetPart::upper_left},
-                                                      {"upper_right", SheetPart::upper_right},
-                                                      {"lower_left", SheetPart::lower_left},
-                                                      {"lower_right", SheetPart::lower_right}}};
 
 Motion read_motion(const JsonReader& reader) {
   Motion motion;
@@ -75,48 +64,33 @@ bool same_motion(const PinRule& one, const PinRule& other) {
          a.time_begin == b.time_begin && a.time_end == b.time_end && a.frequency == b.frequency;
 }
 
-/// Base vertices of a part: rows r and columns c of the vertex grid.
-std::vector<VertexId> base_vertices(const SheetShape& shape, SheetPart part) {
-  const bool left = part == SheetPart::upper_left || part == SheetPart::lower_left ||
-                    part == SheetPart::left_edge;
-  const bool right = part == SheetPart::upper_right || part == SheetPart::lower_right ||
-                     part == SheetPart::right_edge;
-  const bool upper = part == SheetPart::upper_left || part == SheetPart::upper_right ||
-                     part == SheetPart::upper_edge;
-  const bool lower = part == SheetPart::lower_left || part == SheetPart::lower_right ||
-                     part == SheetPart::lower_edge;
-  std::vector<VertexId> vertices;
-  for (int r = lower ? shape.rows : 0; r <= (upper ? 0 : shape.rows); ++r)
-    for (int c = right ? shape.columns : 0; c <= (left ? 0 : shape.columns); ++c)
-      vertices.emplace_back(std::int64_t{r} * (shape.columns + 1) + c);
-  return vertices;
-}
+/// The unrefined vertices that pins hold. The mesh, which may be large, is made at most once and
+/// for boxes alone.
+class BaseVertices {
+ public:
+  explicit BaseVertices(const ClothSource& cloth) : cloth_(cloth) {}
 
-/// Of the unrefined cloth. A sheet's mesh, which may be large, is made for boxes alone.
-std::vector<VertexId> base_vertices(const Scene& scene, const PinRule& pin) {
-  if (const auto* listed = std::get_if<std::vector<VertexId>>(&pin.where)) return *listed;
-  if (const auto* part = std::get_if<SheetPart>(&pin.where))
-    return base_vertices(std::get<SheetShape>(scene.cloth), *part);
-  return pinned_vertices(pin, scene, rest_cloth(scene, 0));
-}
+  std::vector<VertexId> of(const PinRule& pin) {
+    if (const auto* listed = std::get_if<std::vector<VertexId>>(&pin.where)) return *listed;
+    if (const auto* name = std::get_if<std::string>(&pin.where)) return cloth_.base_part(*name);
+    if (!at_rest_) at_rest_ = cloth_.at_rest(0);
+    return pinned_vertices(pin, *at_rest_);
+  }
 
-PinRule read_pin(const JsonReader& reader, const Scene& scene) {
+ private:
+  const ClothSource& cloth_;
+  std::optional<RestCloth> at_rest_;
+};
+
+PinRule read_pin(const JsonReader& reader, const SceneParts& parts, const Scene& scene) {
   reader.allow_keys({"part", "vertices", "box", "motion", "bone"});
   PinRule pin;
   switch (reader.only_one_of({"part", "vertices", "box"})) {
     case 0:
-      if (const auto* mesh = std::get_if<MeshCloth>(&scene.cloth)) {
-        pin.where = read_group(reader.at("part"), mesh->groups).name;
-      } else if (const auto* garment = std::get_if<GarmentCloth>(&scene.cloth)) {
-        pin.where = read_group(reader.at("part"), garment->garment.groups).name;
-      } else {
-        pin.where = reader.at("part").word(kSheetParts);
-        if (!std::holds_alternative<SheetShape>(scene.cloth))
-          reader.at("part").fail("listed vertices or a box, as particles have no parts");
-      }
+      pin.where = scene.cloth->read_part(reader.at("part"));
       break;
     case 1:
-      pin.where = read_vertex_list(reader.at("vertices"), n_refined_vertices(scene, 0));
+      pin.where = read_vertex_list(reader.at("vertices"), scene.cloth->n_vertices(0));
       break;
     default:
       pin.where = read_box(reader.at("box"));
@@ -125,7 +99,8 @@ PinRule read_pin(const JsonReader& reader, const Scene& scene) {
   if (const auto at = reader.find("bone")) {
     if (!scene.figure) at->fail("no such key, as the scene has no figure");
     if (reader.find("motion")) at->fail("no such key beside a motion");
-    pin.bone = read_bone(*at);
+    if (parts.read_bone == nullptr) refuse_part(*at, "bone");
+    pin.bone = parts.read_bone(*at);
   }
   return pin;
 }
@@ -182,11 +157,12 @@ AirOptions read_air(const JsonReader& reader) {
 
 }  // namespace
 
-void read_pins(const JsonReader& reader, Scene& scene) {
+void read_pins(const JsonReader& reader, const SceneParts& parts, Scene& scene) {
+  BaseVertices base_vertices(*scene.cloth);
   std::map<std::int32_t, std::size_t> owner;  // the pin that a vertex belongs to
   for (const JsonReader& element : reader.elements()) {
-    const PinRule pin = read_pin(element, scene);
-    const std::vector<VertexId> vertices = base_vertices(scene, pin);
+    const PinRule pin = read_pin(element, parts, scene);
+    const std::vector<VertexId> vertices = base_vertices.of(pin);
     if (vertices.empty())
       element.at("box").fail("a box with a vertex of the unrefined cloth in it");
     for (const VertexId vertex : vertices) {
@@ -205,9 +181,7 @@ Json json_pins(const Scene& scene) {
   Json json = Json::array();
   for (const PinRule& pin : scene.pins) {
     Json element;
-    if (const auto* part = std::get_if<SheetPart>(&pin.where)) {
-      element["part"] = word_for(kSheetParts, *part);
-    } else if (const auto* name = std::get_if<std::string>(&pin.where)) {
+    if (const auto* name = std::get_if<std::string>(&pin.where)) {
       element["part"] = *name;
     } else if (const auto* box = std::get_if<PinBox>(&pin.where)) {
       element["box"]["low_m"] = json_vec3(box->low);

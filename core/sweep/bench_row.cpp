@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/scene/method_section.h"
 #include "core/sweep/pareto.h"
 
@@ -91,9 +92,8 @@ std::string short_number(double value) {
 
 std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;
-  std::string text = name(method.stepper);
-  if (method.stepper == StepperKind::implicit_euler || method.stepper == StepperKind::projective)
-    text += std::string(" ") + name(method.solver);
+  std::string text = method.stepper->name;
+  if (method.stepper->reads(MethodSetting::solver)) text += std::string(" ") + name(method.solver);
   text += ", " + step_phrase(method.step);
   if (row.n_substeps > 0) text += " x " + std::to_string(row.n_substeps);
   if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
@@ -175,7 +175,14 @@ BenchRow::BenchRow(ReferenceLabel against) : reference(std::move(against)) {
   PLEAT_CHECK(!reference.id.empty(), "no error, no row: a row names what it is measured against");
 }
 
-std::string write_bench_row(const BenchRow& row) {
+Json json_parts(const std::array<double, kStageCount>& parts_ms) {
+  Json json = Json::object();
+  for (int s = 0; s < kStageCount; ++s)
+    json[name(static_cast<Stage>(s))] = parts_ms[static_cast<std::size_t>(s)];
+  return json;
+}
+
+Json json_bench_row(const BenchRow& row) {
   Json json;
   for (const TextField& field : kTextFields) json[field.key] = row.*field.value;
   for (const ObjectField& field : kObjectFields) json[field.key] = row.*field.value;
@@ -183,38 +190,35 @@ std::string write_bench_row(const BenchRow& row) {
   json["method"] = json_method(row.method);
   for (const NumberField& field : kNumberFields) json[field.key] = number_json(row.*field.value);
   json["ms_per_simulated_second"] = number_json(row.ms_per_simulated_second());
-  for (int s = 0; s < kStageCount; ++s)
-    json["parts_ms"][name(static_cast<Stage>(s))] = row.parts_ms[static_cast<std::size_t>(s)];
+  json["parts_ms"] = json_parts(row.parts_ms);
   json["reference"] = json_label(row.reference);
   json["process_peak_memory_bytes"] =
       row.process_peak_memory ? Json(*row.process_peak_memory) : Json(nullptr);
-  return json.dump();
+  return json;
 }
 
-BenchRow read_bench_row(std::string_view json_text) {
+BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers) {
   constexpr std::int64_t kMostCounted = 1'000'000'000;
-  const Json json = parse_json(json_text);
-  const JsonReader reader(json);
   BenchRow row(read_label(reader.at("reference")));
   for (const TextField& field : kTextFields) row.*field.value = reader.at(field.key).text();
   for (const ObjectField& field : kObjectFields) {
-    reader.at(field.key).members();
-    row.*field.value = json.at(field.key);
+    const JsonReader object = reader.at(field.key);
+    object.members();
+    row.*field.value = object.json();
   }
   for (const CountField& field : kCountFields)
     row.*field.value = static_cast<int>(reader.at(field.key).integer(0, kMostCounted));
-  read_method(reader.at("method"), row.method);
+  row.method = read_method(reader.at("method"), steppers);
   for (const NumberField& field : kNumberFields) {
     const JsonReader value = reader.at(field.key);
-    row.*field.value = json.at(field.key).is_null() ? BenchRow::kUnknown : value.number();
+    row.*field.value = value.is_null() ? BenchRow::kUnknown : value.number();
   }
   const JsonReader parts = reader.at("parts_ms");
   for (int s = 0; s < kStageCount; ++s)
     row.parts_ms[static_cast<std::size_t>(s)] =
         parts.at(name(static_cast<Stage>(s))).number(kNotNegative);
   const JsonReader memory = reader.at("process_peak_memory_bytes");
-  if (!json.at("process_peak_memory_bytes").is_null())
-    row.process_peak_memory = memory.integer(0, std::int64_t{1} << 53);
+  if (!memory.is_null()) row.process_peak_memory = memory.integer(0, std::int64_t{1} << 53);
   return row;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/files/json_text.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/reference/reference.h"
 
 namespace pleat {
@@ -61,11 +62,13 @@ struct BenchRow {
   double ms_per_simulated_second() const { return 60 * ms_per_frame; }
 };
 
-/// One line of JSON without its end of line.
-std::string write_bench_row(const BenchRow& row);
+/// The parts of a step with their names, as a row has them.
+Json json_parts(const std::array<double, kStageCount>& parts_ms);
+
+Json json_bench_row(const BenchRow& row);
 
 /// Throws InputError with the JSON pointer; a row without a reference id is refused.
-BenchRow read_bench_row(std::string_view json_text);
+BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers = standard_steppers());
 
 /// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);

@@ -1,4 +1,5 @@
 #include "core/sweep/front_figure.h"
+#include "core/dynamics/stepper_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,26 +24,8 @@ constexpr double kLine = 18;           // from line to line
 constexpr std::size_t kLetters = 118;  // that a line holds
 constexpr std::size_t kMostListed = 40;
 
-struct Mark {
-  const char* path;  // about the origin
-  const char* colour;
-};
-/// By stepper.
-constexpr Mark kMarks[] = {
-    {"M0-5.6L5.6 0L0 5.6L-5.6 0Z", "#8e2a6b"},
-    {"M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0Z", "#17638f"},
-    {"M-4.2-4.2H4.2V4.2H-4.2Z", "#a34d00"},
-    {"M0-5.4L5 3.8H-5Z", "#4f6f00"},
-    {"M0 5.4L5-3.8H-5Z", "#8a6d00"},
-    {"M-5-1.6H-1.6V-5H1.6V-1.6H5V1.6H1.6V5H-1.6V1.6H-5Z", "#444444"},
-};
-
 constexpr const char* kFrontColour = "#111";  // of its line and the borders of its marks
 constexpr const char* kPlainBorder = "#fff";
-
-const Mark& mark_of(StepperKind stepper) {
-  return kMarks[static_cast<std::size_t>(stepper) % std::size(kMarks)];
-}
 
 /// printf into a string.
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
@@ -177,9 +160,9 @@ std::string axis_titles() {
                  "position error [mm]");
 }
 
-std::string mark_at(double x, double y, StepperKind stepper, const char* border) {
-  return formatted("<path transform=\"translate(%.2f %.2f)\" d=\"", x, y) + mark_of(stepper).path +
-         "\" fill=\"" + mark_of(stepper).colour + "\" stroke=\"" + border + "\"/>";
+std::string mark_at(double x, double y, const StepperMark& mark, const char* border) {
+  return formatted("<path transform=\"translate(%.2f %.2f)\" d=\"", x, y) + mark.path +
+         "\" fill=\"" + mark.colour + "\" stroke=\"" + border + "\"/>";
 }
 
 std::string dashed_line(const std::string& points, const char* attributes) {
@@ -190,14 +173,16 @@ std::string dashed_line(const std::string& points, const char* attributes) {
 std::string legend(std::span<const BenchRow> rows) {
   constexpr double kSpacing = 100;
   constexpr double kY = kTop - 16;
-  std::set<StepperKind> steppers;
+  std::vector<const StepperType*> steppers;
   for (const BenchRow& row : rows)
-    if (place_of(row)) steppers.insert(row.method.stepper);
+    if (place_of(row) &&
+        std::find(steppers.begin(), steppers.end(), row.method.stepper) == steppers.end())
+      steppers.push_back(row.method.stepper);
   std::string text = "<g font-size=\"13\" fill=\"#333\">\n";
   double x = kLeft + 6;
-  for (const StepperKind stepper : steppers) {
-    text +=
-        mark_at(x, kY, stepper, kPlainBorder) + "\n" + text_at(x + 10, kY + 4, "", name(stepper));
+  for (const StepperType* stepper : steppers) {
+    text += mark_at(x, kY, stepper->mark, kPlainBorder) + "\n" +
+            text_at(x + 10, kY + 4, "", stepper->name);
     x += kSpacing;
   }
   text += dashed_line(formatted("%.0f,%.0f %.0f,%.0f", x - 6, kY, x + 22, kY), "");
@@ -231,7 +216,7 @@ std::string marks(std::span<const BenchRow> rows, const Axis& across, const Axis
     const bool is_on_front = std::find(front.begin(), front.end(), i) != front.end();
     text += "<g class=\"mark\"><title>" + xml_text(setting_phrase(rows[i])) +
             formatted(": %.3g ms, %.3g mm", place->ms, place->error) + "</title>" +
-            mark_at(across.place(place->ms), up.place(place->error), rows[i].method.stepper,
+            mark_at(across.place(place->ms), up.place(place->error), rows[i].method.stepper->mark,
                     is_on_front ? kFrontColour : kPlainBorder) +
             "</g>\n";
   }

@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
 #include "core/files/json_reader.h"
@@ -19,12 +20,6 @@ namespace pleat {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
 
 constexpr double kUncertaintyShare = 4;  // an error is known when it is so many times as large
 
@@ -76,7 +71,7 @@ void compare(const SampledRun& run, const Scene& reference_scene, const Referenc
     return;
   }
   row.position_error = errors.position;
-  const double diagonal = rest_diagonal(scene);
+  const double diagonal = scene.cloth->rest_diagonal();
   if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
 }
 
@@ -85,40 +80,20 @@ bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_fra
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// What a substep costs per vertex, roughly, in units of what the forces of explicit cost.
-double substep_cost(const MethodOptions& method) {
-  switch (method.stepper) {
-    case StepperKind::explicit_euler:
-      return 1;
-    case StepperKind::rk4:
-      return 4;
-    case StepperKind::newton:
-      return 400;  // some three rounds of ten solves with a kept factor
-    case StepperKind::implicit_euler:
-      if (method.solver == SolverKind::cg) return 80;  // some ten steps with a 3x3-block matrix
-      return 300;                                      // a factorisation
-    case StepperKind::projective:
-      return 10 * method.iterations;  // a kept factor's two triangular solves a round
-    case StepperKind::xpbd:
-      return 0.2 * method.iterations;  // float32, four springs at a time, no forces
-  }
-  return 1;
-}
-
 /// For progress alone: vertices times substeps times their cost, per second of motion.
 double expected_work(double n_vertices, const MethodOptions& method) {
   constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
   const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
-  return n_vertices / method.step * substeps * substep_cost(method);
+  return n_vertices / method.step * substeps * method.stepper->substep_cost(method);
 }
 
 double expected_work(const Scene& scene) {
-  const auto n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
+  const auto n_vertices = static_cast<double>(scene.cloth->n_vertices(scene.level));
   return expected_work(n_vertices, scene.method);
 }
 
 std::string phrase(const MethodOptions& method, int level) {
-  return std::string(name(method.stepper)) + ", level " + std::to_string(level);
+  return std::string(method.stepper->name) + ", level " + std::to_string(level);
 }
 
 Json journal_line(std::size_t setting, std::size_t round) {
@@ -134,7 +109,7 @@ std::string sweep_identity(const SweepPlan& plan, const std::string& commit) {
   return format_json({{"core", core_version()},
                       {"commit", commit},
                       {"references", references},
-                      {"plan", parse_json(write_sweep_plan(plan))}});
+                      {"plan", json_sweep_plan(plan)}});
 }
 
 Sweep::Sweep(SweepPlan plan, ReferenceStore& store, std::string commit)
@@ -213,9 +188,7 @@ BenchRow Sweep::measured_row() const {
     row.iterations_per_step = report.iterations / static_cast<double>(simulation.n_steps());
   if (run_->timed_duration() > 0) {
     row.ms_per_frame = ms_per_frame(run_->timed_seconds(), run_->timed_duration());
-    for (int s = 0; s < kStageCount; ++s)
-      row.parts_ms[static_cast<std::size_t>(s)] =
-          ms_per_frame(run_->parts().total(static_cast<Stage>(s)), run_->timed_duration());
+    row.parts_ms = run_->parts().mean_ms(run_->timed_duration() / kFrame);
   }
   const std::size_t recipe = references_.of_setting[setting()];
   if (!run_->failed()) compare(*run_, references_.recipes[recipe].scene, *made_[recipe], row);
@@ -258,7 +231,7 @@ std::optional<BenchRow> Sweep::begin_run() {
 
 void Sweep::record_row(BenchRow row) {
   Json line = journal_line(setting(), round());
-  line["row"] = parse_json(write_bench_row(row));
+  line["row"] = json_bench_row(row);
   record_(line.dump() + "\n");
   keep_row(std::move(row));
 }
@@ -308,8 +281,7 @@ bool Sweep::take_line(std::string_view text) {
       keep_time(line.at("ms_per_frame").number(kNotNegative));
       return true;
     }
-    line.at("row").members();
-    BenchRow row = read_bench_row(json["row"].dump());
+    BenchRow row = read_bench_row(line.at("row"), plan_.steppers);
     if (row.reference.id != references_.recipes[references_.of_setting[setting()]].id) return false;
     keep_row(std::move(row));
     return true;
@@ -367,15 +339,14 @@ std::string Sweep::message() const {
                                  std::to_string(plan_.n_repeats));
 }
 
-std::string Sweep::report_json() const {
+Json Sweep::report() const {
   Json rows = Json::array();
-  for (const BenchRow& row : rows_) rows.push_back(parse_json(write_bench_row(row)));
-  return Json{{"done", done()},
-              {"progress", progress()},
-              {"rows", rows},
-              {"front", front_of(rows_)},
-              {"message", message()}}
-      .dump();
+  for (const BenchRow& row : rows_) rows.push_back(json_bench_row(row));
+  return {{"done", done()},
+          {"progress", progress()},
+          {"rows", rows},
+          {"front", front_of(rows_)},
+          {"message", message()}};
 }
 
 }  // namespace pleat

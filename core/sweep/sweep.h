@@ -52,8 +52,8 @@ class Sweep {
   const std::vector<BenchRow>& rows() const { return rows_; }
   std::string message() const;  ///< what is being worked on, for people; empty when done
 
-  /// {"done", "progress", "rows", "front", "message"} as JSON text.
-  std::string report_json() const;
+  /// {"done", "progress", "rows", "front", "message"}.
+  Json report() const;
 
  private:
   std::size_t n_settings() const { return plan_.settings.size(); }

@@ -29,10 +29,10 @@ struct PlannedChange {
 };
 using PlannedChanges = std::vector<PlannedChange>;
 
-Json changed_scene(Json scene, const Json& changes) {
+Json changed_scene(Json scene, const Json& changes, StepperTable steppers) {
   std::vector<SceneOverride> overrides;
   for (const auto& change : changes.items()) overrides.push_back({change.key(), change.value()});
-  override_scene(scene, overrides);
+  override_scene(scene, overrides, steppers);
   return scene;
 }
 
@@ -57,17 +57,16 @@ bool overlap(const std::string& a, const std::string& b) {
 }
 
 /// The one list of changes that a member of the plan's "settings" is.
-PlannedChanges read_setting(const JsonReader& reader, const Json& json) {
+PlannedChanges read_setting(const JsonReader& reader) {
   PlannedChanges changes;
   for (const auto& [pointer, value] : reader.members())
-    changes.push_back({{pointer, json.at(pointer)}, value.pointer()});
+    changes.push_back({{pointer, value.json()}, value.pointer()});
   return changes;
 }
 
-std::vector<PlannedChanges> read_settings(const JsonReader& reader, const Json& json) {
+std::vector<PlannedChanges> read_settings(const JsonReader& reader) {
   std::vector<PlannedChanges> settings;
-  for (const JsonReader& entry : reader.elements())
-    settings.push_back(read_setting(entry, json[settings.size()]));
+  for (const JsonReader& entry : reader.elements()) settings.push_back(read_setting(entry));
   if (settings.empty()) reader.fail("at least one setting");
   return settings;
 }
@@ -79,29 +78,27 @@ std::vector<PlannedChanges> read_settings(const JsonReader& reader, const Json& 
 
 /// Every setting of `outer` with each of the values, which change first.
 std::vector<PlannedChanges> times_values(const std::vector<PlannedChanges>& outer,
-                                         const std::string& pointer, const JsonReader& values,
-                                         const Json& json) {
+                                         const std::string& pointer, const JsonReader& values) {
   const std::vector<JsonReader> elements = values.elements();
   if (elements.empty()) values.fail("at least one value");
   if (outer.size() * elements.size() > kMaxSettings) throw_too_many("/grid");
   std::set<std::string> known;
-  for (std::size_t v = 0; v < elements.size(); ++v)
-    if (!known.insert(json[v].dump()).second)
-      throw InputError(elements[v].pointer(),
-                       "expected each value once, got " + abbreviated(json[v]) + " twice");
+  for (const JsonReader& value : elements)
+    if (!known.insert(value.json().dump()).second)
+      throw InputError(value.pointer(),
+                       "expected each value once, got " + abbreviated(value.json()) + " twice");
   std::vector<PlannedChanges> product;
   for (const PlannedChanges& changes : outer)
-    for (std::size_t v = 0; v < elements.size(); ++v) {
+    for (const JsonReader& value : elements) {
       product.push_back(changes);
-      product.back().push_back({{pointer, json[v]}, elements[v].pointer()});
+      product.back().push_back({{pointer, value.json()}, value.pointer()});
     }
   return product;
 }
 
-std::vector<PlannedChanges> read_grid(const JsonReader& reader, const Json& json) {
+std::vector<PlannedChanges> read_grid(const JsonReader& reader) {
   std::vector<PlannedChanges> grid(1);
-  for (const auto& [pointer, values] : reader.members())
-    grid = times_values(grid, pointer, values, json.at(pointer));
+  for (const auto& [pointer, values] : reader.members()) grid = times_values(grid, pointer, values);
   return grid;
 }
 
@@ -141,12 +138,12 @@ SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) 
   SweepSetting setting;
   setting.changes = changes_json(planned);
   try {
-    const Json json = changed_scene(plan.scene, setting.changes);
-    const Scene scene = plan.read(json.dump());
+    const Json json = changed_scene(plan.scene, setting.changes, plan.steppers);
+    const Scene scene = plan.read(JsonReader(json));
     setting.level = scene.level;
     setting.method = scene.method;
     setting.family = family_of(json);
-    setting.n_vertices = static_cast<double>(n_refined_vertices(scene, scene.level));
+    setting.n_vertices = static_cast<double>(scene.cloth->n_vertices(scene.level));
   } catch (const InputError& error) {
     if (planned.empty()) throw InputError("/scene" + error.where(), error.what());
     throw_at_change(error, planned);
@@ -159,7 +156,7 @@ void read_plan_scene(const JsonReader& reader, SweepPlan& plan) {
   const auto duration = reader.find("duration_s");
   if (duration && plan.scene.is_object()) plan.scene["duration_s"] = duration->number(kPositive);
   try {
-    const Scene scene = plan.read(plan.scene.dump());
+    const Scene scene = plan.read(JsonReader(plan.scene));
     plan.name = scene.name;
     plan.duration = scene.duration;
   } catch (const InputError& error) {
@@ -171,18 +168,18 @@ void read_plan_scene(const JsonReader& reader, SweepPlan& plan) {
 }  // namespace
 
 Scene SweepPlan::scene_of(std::size_t setting) const {
-  return read(changed_scene(scene, settings[setting].changes).dump());
+  const Json json = changed_scene(scene, settings[setting].changes, steppers);
+  return read(JsonReader(json));
 }
 
-SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
-  const Json json = parse_json(json_text);
-  const JsonReader reader(json);
+SweepPlan read_sweep_plan(const JsonReader& reader, const SceneReader& read,
+                          StepperTable steppers) {
   reader.allow_keys(
       {"scene", "grid", "settings", "duration_s", "repeats", "reference", "reference_step_s"});
-  reader.at("scene");
   SweepPlan plan;
-  plan.scene = json["scene"];
+  plan.scene = reader.at("scene").json();
   plan.read = read;
+  plan.steppers = steppers;
   read_plan_scene(reader, plan);
   if (const auto repeats = reader.find("repeats"))
     plan.n_repeats = static_cast<int>(repeats->integer(1, kMaxRepeats));
@@ -195,14 +192,14 @@ SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read) {
   }
   std::vector<PlannedChanges> grid(1);
   std::vector<PlannedChanges> settings(1);
-  if (const auto at = reader.find("grid")) grid = read_grid(*at, json["grid"]);
-  if (const auto at = reader.find("settings")) settings = read_settings(*at, json["settings"]);
+  if (const auto at = reader.find("grid")) grid = read_grid(*at);
+  if (const auto at = reader.find("settings")) settings = read_settings(*at);
   for (const PlannedChanges& changes : combined(grid, settings))
     plan.settings.push_back(make_setting(plan, changes));
   return plan;
 }
 
-std::string write_sweep_plan(const SweepPlan& plan) {
+Json json_sweep_plan(const SweepPlan& plan) {
   Json settings = Json::array();
   for (const SweepSetting& setting : plan.settings) settings.push_back(setting.changes);
   Json json = {{"scene", plan.scene},
@@ -211,7 +208,7 @@ std::string write_sweep_plan(const SweepPlan& plan) {
                {"repeats", plan.n_repeats},
                {"reference", word_for(kReferenceWords, plan.reference)}};
   if (plan.reference_step > 0) json["reference_step_s"] = plan.reference_step;
-  return format_json(json);
+  return json;
 }
 
 std::vector<double> sweep_sample_times(double duration) {

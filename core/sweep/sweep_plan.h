@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/files/json_text.h"
+#include "core/dynamics/stepper_table.h"
+#include "core/files/json_reader.h"
 #include "core/scene/scene.h"
 
 namespace pleat {
@@ -30,8 +30,8 @@ struct SweepSetting {
   double n_vertices;   ///< for what it costs, roughly
 };
 
-/// Reads a scene from JSON text. Throws InputError with the JSON pointer.
-using SceneReader = std::function<Scene(std::string_view json_text)>;
+/// Reads a scene from its parsed JSON. Throws InputError with the JSON pointer.
+using SceneReader = std::function<Scene(const JsonReader& root)>;
 
 constexpr std::size_t kMaxSettings = 10'000;
 
@@ -39,6 +39,7 @@ constexpr std::size_t kMaxSettings = 10'000;
 struct SweepPlan {
   Json scene;  ///< as its file has it, but for its duration, which is the plan's
   SceneReader read;
+  StepperTable steppers;               ///< that its scenes may name
   std::vector<SweepSetting> settings;  ///< at least one
   std::string name;                    ///< the scene's
   double duration;                     ///< [s], positive
@@ -60,10 +61,11 @@ struct SweepPlan {
 /// each of them is taken at each point of the grid, before the next point. Pointers lead into the
 /// scene (override_scene). Every setting has to be a scene that `read` takes. Throws InputError
 /// with the plan's JSON pointer; the sentence names the scene's.
-SweepPlan read_sweep_plan(std::string_view json_text, const SceneReader& read);
+SweepPlan read_sweep_plan(const JsonReader& reader, const SceneReader& read,
+                          StepperTable steppers = standard_steppers());
 
 /// The same plan with its settings in a list and every default written out.
-std::string write_sweep_plan(const SweepPlan& plan);
+Json json_sweep_plan(const SweepPlan& plan);
 
 /// The times at which a sweep of this duration [s] compares: ten, equally spaced, the last at its
 /// end.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
@@ -17,11 +18,6 @@
 
 namespace pleat {
 namespace {
-
-bool solves_whole_substeps(const MethodOptions& method) {
-  return method.stepper == StepperKind::implicit_euler || method.stepper == StepperKind::newton ||
-         method.stepper == StepperKind::projective;
-}
 
 /// What the reference of some settings depends on.
 struct Group {
@@ -34,7 +30,7 @@ struct Group {
     const MethodOptions& method = setting.method;
     level = std::max(level, setting.level);
     smallest_step = std::min(smallest_step, method.step);
-    if (solves_whole_substeps(method))
+    if (method.stepper->solves_whole_substeps)
       smallest_substep = std::min(smallest_substep, method.step / method.substeps);
   }
 };
@@ -55,7 +51,7 @@ MethodOptions reference_method(const SweepPlan& plan, const Group& group) {
   MethodOptions method;
   switch (plan.reference) {
     case ReferenceKind::finest:
-      method.stepper = StepperKind::implicit_euler;
+      method.stepper = &steppers::implicit_euler;
       break;
     case ReferenceKind::newton:
     case ReferenceKind::same_mesh:
@@ -89,7 +85,7 @@ const char* id_prefix(ReferenceKind kind) {
 
 MethodOptions exact_method(double step) {
   MethodOptions method;
-  method.stepper = StepperKind::newton;
+  method.stepper = &steppers::newton;
   method.rule = NewtonRule::midpoint;
   method.step = step;
   method.solver = best_direct_solver();
@@ -116,7 +112,7 @@ std::string sharing_key(ReferenceKind kind, const SweepSetting& setting) {
 }
 
 std::string run_phrase(const Scene& scene) {
-  std::string phrase = std::string(name(scene.method.stepper)) + " with " +
+  std::string phrase = std::string(scene.method.stepper->name) + " with " +
                        name(scene.method.solver) + ", level " + std::to_string(scene.level) +
                        ", step " + step_phrase(scene.method.step);
   return phrase;

@@ -3,7 +3,8 @@ import { execFileSync } from 'node:child_process';
 
 import { oneOf, readOptions, rowsFile, runBench, wholeNumber } from './bench-options.mjs';
 import { median, table } from './bench-rows.mjs';
-import { root, yardstickRun } from './contestants.mjs';
+import { root } from './command.mjs';
+import { warmUpYardstick, yardstickTurns } from './contestants.mjs';
 
 const kYardstickMs = 20; // that the bounds in ms are made for
 
@@ -24,16 +25,21 @@ export function tell(text) {
 }
 
 /** What the yardstick takes here, over what the bounds were made for. */
-function machineScale(repeat) {
-  const times = [];
+async function machineScale(repeat) {
+  const kFrames = 30;
+  const kSubsteps = 100;
+  warmUpYardstick();
+  const runs = [];
   for (let round = 0; round < repeat; ++round) {
     tell(`yardstick, round ${round + 1} of ${repeat}`);
-    times.push(yardstickRun(65, 100, 'rows', 30, []));
+    const run = await yardstickTurns(65, kSubsteps, 'rows', kFrames, []);
+    await run.advance(kFrames);
+    runs.push(await run.finish());
   }
-  const ms = median(times.map((run) => median(run.ms)));
-  const nsPerConstraint = (1e6 * ms) / (100 * times[0].constraints);
+  const ms = median(runs.map((run) => median(run.ms)));
+  const nsPerConstraint = (1e6 * ms) / (kSubsteps * runs[0].n_constraints);
   console.log(
-    `yardstick 65x65, 100 substeps, rows: ${ms.toFixed(2)} ms, ${nsPerConstraint.toFixed(2)} ns per constraint;`,
+    `yardstick 65x65, ${kSubsteps} substeps, rows: ${ms.toFixed(2)} ms, ${nsPerConstraint.toFixed(2)} ns per constraint;`,
   );
   console.log(`bounds in ms are scaled by ${(ms / kYardstickMs).toFixed(3)}\n`);
   return ms / kYardstickMs;
@@ -73,7 +79,7 @@ export function runParts(bench, purpose, parts, more = []) {
     const repeat = wholeNumber('--repeat', options.repeat, 1);
     const wanted = options.only.split(',').map((name) => oneOf('--only', name, names));
     const file = rowsFile(options.json);
-    const scale = machineScale(repeat);
+    const scale = await machineScale(repeat);
     const rows = [];
     const goals = [];
     for (const name of wanted) {

@@ -2,7 +2,7 @@
 // heavy elastica. Its first two rows of vertices are held, the clamp is the second of them.
 import { commit, tell } from './bench-parts.mjs';
 import { goal, markdown, measure, short } from './bench-rows.mjs';
-import { nativeRun, reference } from './contestants.mjs';
+import { nativeRun, reference } from './command.mjs';
 
 const kLength = 0.2; // [m], from the clamp on
 const kEdges = 40; // along it
@@ -167,11 +167,11 @@ function contestant(load, bending, triangulation, shapes) {
     label,
     scene: built.name,
     method: built.method,
-    vertices: built.cloth.mesh.positions_m.length,
-    run: async (times) => {
+    n_vertices: built.cloth.mesh.positions_m.length,
+    begin: async (times) => {
       const run = nativeRun(built, 2, times);
-      if (times.length) shapes.set(label, run.samples[0]);
-      return { ...run, ms: [run.firstMs] };
+      if (times.length) shapes.set(label, run.samples[0]?.positions_m);
+      return { finish: async () => ({ ...run, ms: [run.first_ms] }) };
     },
   };
 }
@@ -185,7 +185,7 @@ async function rowsAtLoad(load, repeat) {
   const contestants = ['fitted', 'hinge'].flatMap((bending) =>
     triangulations.map((triangulation) => contestant(load, bending, triangulation, shapes)),
   );
-  const options = { repeat, times: [kFrame], against, masses: isTip, commit, tell };
+  const options = { repeat, times: [kFrame], against, masses: isTip, commit, tell, frames: 1 };
   const rows = await measure(contestants, options);
   return rows.map(({ ms_per_frame, ms_per_simulated_second, position_errors_m, ...row }) => ({
     ...row,

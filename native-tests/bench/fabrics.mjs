@@ -6,7 +6,8 @@ import { join } from 'node:path';
 
 import { runParts, tell } from './bench-parts.mjs';
 import { goal, markdown, median, short } from './bench-rows.mjs';
-import { deformNative, deformWasm, root, withSceneFile } from './contestants.mjs';
+import { ask, root } from './command.mjs';
+import { deformWasm } from './contestants.mjs';
 
 const kMoves = 20; // of a hand, from rest to the scene's targets
 const kLargest = ['ball', 'diagonal_stretch', 'wrinkles']; // 51 x 51 vertices each
@@ -27,6 +28,9 @@ const kPaper = {
   half_skirt: [12.5, 45, 10],
   t_shirt: [25, 13, 10],
 };
+
+/** Least deformation energy of a scene, or of its file, as `pleat bench deform` tells it. */
+const deformNative = (scene, options = []) => ask('bench', 'deform', scene, ...options);
 
 function rounds(repeat, contestants) {
   const found = contestants.map(() => []);
@@ -285,7 +289,7 @@ async function growth({ repeat }) {
     repeat,
     kVertices.map((n) => ({
       label: `${n} vertices`,
-      run: () => withSceneFile(pulledSheet(n), (file) => deformNative(file)),
+      run: () => deformNative(pulledSheet(n)),
     })),
   ).map((runs, i) => row(`pull, about ${kVertices[i]} vertices`, runs));
   const slope = exponent(rows.map(({ n_vertices, cost }) => [n_vertices, cost.total_ms]));

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 
 import { tell } from './bench-parts.mjs';
 import { goal, markdown, short } from './bench-rows.mjs';
-import { command } from './contestants.mjs';
+import { command } from './command.mjs';
 
 const kPollMs = 1;
 const kRepeats = 2;

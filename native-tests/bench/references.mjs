@@ -5,9 +5,10 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { commit, described, runParts, tell } from './bench-parts.mjs';
-import { goal, measure, observedLimit, positionError, short } from './bench-rows.mjs';
+import { goal, measure, rowsOf, short } from './bench-rows.mjs';
 import { cantilever } from './cantilever.mjs';
-import { nativeRun, reference, root, wasmRun } from './contestants.mjs';
+import { ask, nativeRun, reference, root } from './command.mjs';
+import { contestant as contestantOf } from './contestants.mjs';
 import { killedSweep } from './killed-sweep.mjs';
 
 const kFrame = 1 / 60; // [s]
@@ -29,33 +30,16 @@ const newton = (stepsPerSecond) => ({
 });
 const millimetres = (lengths) => `${lengths.map((length) => short(1e3 * length)).join(' / ')} mm`;
 
-function contestant(level, elasticity, label, method, frames) {
+function contestant(level, elasticity, label, method, frames, target = 'native') {
   const scene = sheet(level, elasticity, method);
-  return {
-    label: `${scene.name} ${size(level)}, ${elasticity}, ${label}`,
-    scene: scene.name,
-    method: scene.method,
-    vertices: (cells(level) + 1) ** 2,
-    run: async (times) => nativeRun(scene, frames, times),
-  };
+  const about = `${size(level)}, ${elasticity}, ${label}`;
+  return contestantOf(target, about, scene, (cells(level) + 1) ** 2, frames);
 }
 
-/**
- * `newton` with the midpoint rule on the same mesh, and its `changes` [m]: how far halving its step
- * moved it, at each of the times.
- */
+/** `newton` with the midpoint rule on the same mesh, and how far halving its step moved it. */
 function halvedReference(level, elasticity, stepsPerSecond, times) {
-  const { masses } = nativeRun(sheet(level, elasticity, newton(stepsPerSecond)), 2, []);
-  const [coarse, fine] = [stepsPerSecond / 2, stepsPerSecond].map((perSecond) => {
-    tell(`reference ${size(level)}, ${elasticity}, step 1/${perSecond} s`);
-    return reference(sheet(level, elasticity, newton(perSecond)), 'run', times);
-  });
-  const changes = fine.samples.map(({ positions_m }, t) =>
-    positionError(coarse.samples[t].positions_m, positions_m, masses),
-  );
-  const description = `${fine.reference.description}; halving its step changed it by ${millimetres(changes)}`;
-  const label = { ...fine.reference, description, uncertainty_m: changes.at(-1) };
-  return { ...fine, reference: label, changes };
+  tell(`reference ${size(level)}, ${elasticity}, step 1/${stepsPerSecond} s`);
+  return reference(sheet(level, elasticity, newton(stepsPerSecond)), 'run', times, ['--halved']);
 }
 
 /** Errors of time steps alone on 33x33 vertices. */
@@ -90,7 +74,11 @@ async function time({ repeat }) {
     const options = { repeat: rounds, times: kTimes, against, commit, tell };
     const found = await measure(contestants, options);
     const shares = found.map((row) =>
-      Math.max(...kTimes.map((at, t) => against.changes[t] / row.position_errors_m[`${at} s`])),
+      Math.max(
+        ...kTimes.map(
+          (at, t) => against.samples[t].halving_changed_m / row.position_errors_m[`${at} s`],
+        ),
+      ),
     );
     for (const [i, row] of found.entries())
       row.reference = { ...row.reference, converged: shares[i] <= kLargestShare };
@@ -117,13 +105,11 @@ async function mesh() {
       const scene = sheet(level, model, newton(kStepsPerSecond));
       return nativeRun(scene, kTimes.at(-1) / kFrame, kTimes);
     });
-    const [{ masses, core }] = runs; // of the vertices that all three have
-    const limits = kTimes.map((_, t) =>
-      observedLimit(
-        runs.map((run) => run.samples[t] ?? []),
-        masses,
-      ),
-    );
+    const [{ masses_kg, core }] = runs; // of the vertices that all three have
+    const { samples } = ask('bench', 'limit', {
+      masses_kg,
+      meshes: runs.map((run) => run.samples),
+    });
     const against = {
       reference: {
         id: `limit-of-meshes-${model}-${core}`,
@@ -131,22 +117,20 @@ async function mesh() {
         converged: false,
         uncertainty_m: null,
       },
-      samples: limits.map(({ limit }) => ({ positions_m: limit })),
+      samples,
       rest_diagonal_m: Math.hypot(swinging.cloth.sheet.width_m, swinging.cloth.sheet.height_m),
     };
     const label = `newton, step 1/${kStepsPerSecond} s`;
-    const contestants = kLevels.map((level, i) => ({
-      ...contestant(level, model, label, newton(kStepsPerSecond), 0),
-      run: async () => runs[i],
-    }));
-    const options = { repeat: 1, times: kTimes, against, masses, commit, tell: () => undefined };
-    rows.push(...(await measure(contestants, options)));
-    const { changes } = halvedReference(2, model, 2 * kStepsPerSecond, kTimes);
+    const method = newton(kStepsPerSecond);
+    const contestants = kLevels.map((level) => contestant(level, model, label, method, 0));
+    const each = runs.map((run) => [run]);
+    rows.push(...rowsOf(contestants, each, { times: kTimes, against, masses: masses_kg, commit }));
+    const halved = halvedReference(2, model, 2 * kStepsPerSecond, kTimes).samples;
     lines.push(
       ...kTimes.map((at, t) => {
-        const { rate, distances } = limits[t];
-        const meshes = `successive meshes ${millimetres(distances)} apart`;
-        const steps = `halving the step moves ${size(2)} by ${millimetres([changes[t]])}`;
+        const { rate, distances_m } = samples[t];
+        const meshes = `successive meshes ${millimetres(distances_m)} apart`;
+        const steps = `halving the step moves ${size(2)} by ${millimetres([halved[t].halving_changed_m])}`;
         return `shown mesh_error_rate_${model}_${at}_s ${short(rate)} (${meshes}; ${steps})`;
       }),
     );
@@ -165,11 +149,8 @@ async function step({ repeat, scale }) {
   const against = reference(sheet(kLevel, 'membrane', newton(2 * kStepsPerSecond)), 'run', kTimes);
   const label = `newton, step 1/${kStepsPerSecond} s`;
   const native = contestant(kLevel, 'membrane', label, method, kFrames);
-  const inWasm = {
-    ...native,
-    run: async (times) => wasmRun(sheet(kLevel, 'membrane', method), kFrames, times),
-  };
-  const options = { times: kTimes, against, commit, tell };
+  const inWasm = contestant(kLevel, 'membrane', label, method, kFrames, 'wasm');
+  const options = { times: kTimes, against, commit, tell, frames: kFrames };
   const rows = [
     ...(await measure([native], { ...options, repeat })),
     ...(await measure([inWasm], { ...options, repeat: 1 })),

@@ -1,5 +1,5 @@
 // Rows of runs on meshes of one garment, their table, and what was promised of them.
-import { goal, markdown, mean, median, short } from './bench-rows.mjs';
+import { goal, markdown, median, short } from './bench-rows.mjs';
 
 /** Bounds of the share of vertices, by garment. */
 export const kMostVertices = { skirt: 1 / 3, trousers: 1 / 4 };
@@ -7,46 +7,18 @@ const kMostTime = 0.3;
 const kTimePerVertex = 1.15;
 const kFrameMs = 1e3 / 30; // [ms] that a frame shows
 
-/** A row of one run: times of frames of 1/30 s, errors against the first run. */
-export function runRow(label, run, { garment, fine, commit, duration }) {
-  const ms = median(run.frame_ms.length ? run.frame_ms : [Number.NaN]);
-  const refinement = run.refinement_ms.length ? mean(run.refinement_ms) : 0;
-  const contact = run.parts_ms.contact;
-  return {
-    label,
-    garment,
-    scene: run.scene,
-    method: run.method,
-    n_vertices: run.n_vertices,
-    ms_per_frame: ms,
-    dynamics_ms: mean(run.frame_ms) - contact - refinement,
-    contact_ms: contact,
-    refinement_ms: refinement,
-    n_timed_frames: run.frame_ms.length,
-    errors: run.errors,
-    rms_stretch: run.rms_stretch,
-    largest_stretch: run.largest_stretch,
-    inside: run.inside,
-    unpinned_inside: run.unpinned_inside,
-    fit: run.fit ?? null,
-    split_curvature_per_m: run.split_curvature_per_m ?? null,
-    reference: { id: fine, description: `the fine mesh's own run of ${duration} s` },
-    status: run.status,
-    message: run.message,
-    target: 'native',
-    commit,
-  };
-}
+/** A run's row, as the command tells it. */
+export const runRow = (label, run, { garment, commit }) => ({ label, garment, ...run, commit });
 
 /**
- * A row of the same run, repeated, in one build. Errors are the native run's in both builds: they
- * are told by runs in one process with the fine mesh.
+ * A row of one run, repeated, in one build. Errors are the native run's in both builds: they are
+ * told by runs in one process with the fine mesh.
  */
-export function buildRow(target, runs, { garment, scene, errors, fine, commit, duration }) {
+export function buildRow(runs, { garment, scene, errors, reference, commit }) {
   const [first] = runs;
-  const times = runs.map(({ frame_ms }) => median(frame_ms.length ? frame_ms : [Number.NaN]));
+  const times = runs.map((run) => run.ms_per_frame);
   return {
-    label: `multi, ${target}`,
+    label: `multi, ${first.target}`,
     garment,
     scene: scene.name,
     method: scene.method,
@@ -55,13 +27,13 @@ export function buildRow(target, runs, { garment, scene, errors, fine, commit, d
     spread_ms: Math.max(...times) - Math.min(...times),
     contact_ms: median(runs.map((run) => run.contact_ms)),
     n_runs: runs.length,
-    n_timed_frames: first.frame_ms.length,
+    n_timed_frames: first.n_timed_frames,
     errors,
     errors_target: 'native',
-    reference: { id: fine, description: `the fine mesh's own run of ${duration} s` },
+    reference,
     status: first.status,
     message: first.message,
-    target,
+    target: first.target,
     commit,
   };
 }

@@ -2,15 +2,12 @@
 // that a bench that was stopped goes on where it was; another core or another scene asks anew.
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 
-import { BadInput } from './bench-options.mjs';
 import { tell } from './bench-parts.mjs';
-import { command, root } from './contestants.mjs';
+import { command, printed, root, withFiles } from './command.mjs';
 
-const kMaxOutput = 2 ** 30; // [bytes]
 const kFolder = join(root, 'build', 'refinement');
 
 const readJson = (file) => JSON.parse(readFileSync(file, 'utf8'));
@@ -26,50 +23,16 @@ export function garmentScene(garment, motion, method = {}) {
   };
 }
 
-/** The words with the files of scenes in the place of scenes. */
-function withFiles(words, work) {
-  const folder = join(tmpdir(), `pleat-refinement-${process.pid}`);
-  mkdirSync(folder, { recursive: true });
-  try {
-    let count = 0;
-    const file = (scene) => {
-      const path = join(folder, `${count++}.json`);
-      writeFileSync(path, JSON.stringify(scene));
-      return path;
-    };
-    const text = (word) =>
-      Array.isArray(word) ? word.map(text).join() : typeof word === 'object' ? file(word) : word;
-    return work(words.map((word) => String(text(word))));
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
-}
-
-/** What the command prints, also where a run ended early (exit status 1). */
-function printed(words) {
-  const options = { encoding: 'utf8', maxBuffer: kMaxOutput, stdio: ['ignore', 'pipe', 'inherit'] };
-  try {
-    return execFileSync(command, words, options);
-  } catch (error) {
-    if (error.status === 2) throw new BadInput(''); // the command has said why
-    if (error.status === 1 && error.stdout) return error.stdout;
-    throw error;
-  }
-}
-
-/** What `answer` gives, asked anew: for times to hold against others of the same minutes. */
-export const answerNow = (...words) => JSON.parse(withFiles(words, printed));
-
 /** The command's answer in JSON; words are texts, numbers, scenes or lists of scenes. */
 export function answer(...words) {
-  const version = printed(['--version']);
+  const version = printed('--version');
   const name = createHash('sha256')
     .update(JSON.stringify([version, words]))
     .digest('hex')
     .slice(0, 24);
   const file = join(kFolder, `${name}.json`);
   if (existsSync(file)) return readJson(file);
-  const text = withFiles(words, printed);
+  const text = printed(...words);
   mkdirSync(kFolder, { recursive: true });
   writeFileSync(`${file}.part`, text);
   renameSync(`${file}.part`, file);

@@ -1,8 +1,9 @@
 // A garment on one mesh in WebAssembly, called as the page calls it, in turn with the native
 // command.
 import { tell } from './bench-parts.mjs';
-import { fabricsText, nativeRun, answer as opened, wasmModule } from './contestants.mjs';
-import { answerNow } from './refinement-runs.mjs';
+import { median } from './bench-rows.mjs';
+import { ask, nativeRun } from './command.mjs';
+import { fabricsText, answer as opened, wasmModule } from './contestants.mjs';
 
 const kFrame = 1 / 30; // [s]
 const kNativeFrame = 1 / 60; // of nativeRun [s]
@@ -20,7 +21,8 @@ async function wasmTimes(scene) {
   const { n_vertices, step_s } = opened(run.load(JSON.stringify(scene), {}));
   const stepsPerFrame = Math.round(kFrame / step_s);
   const nFrames = Math.round(scene.duration_s / kFrame);
-  const found = { n_vertices, frame_ms: [], contact_ms: Number.NaN, status: 'ok', message: '' };
+  const found = { target: 'wasm', n_vertices, status: 'ok', message: '' };
+  const frameMs = [];
   let contactBefore = 0;
   for (let frame = 1; frame <= nFrames; ++frame) {
     const isTimed = frame > nFrames / 2;
@@ -31,17 +33,14 @@ async function wasmTimes(scene) {
     const { status, message } = opened(run.status());
     if (status !== 'ok') Object.assign(found, { status, message });
     if (code !== 0) break;
-    if (isTimed) found.frame_ms.push(ms);
+    if (isTimed) frameMs.push(ms);
   }
-  found.contact_ms = (contactMs(run) - contactBefore) / found.frame_ms.length;
+  const contact_ms = (contactMs(run) - contactBefore) / frameMs.length;
   run.delete();
-  return found;
+  return { ...found, ms_per_frame: median(frameMs), contact_ms, n_timed_frames: frameMs.length };
 }
 
-function nativeTimes(scene) {
-  const [run] = answerNow('bench', 'together', scene, '--every', kNoSamples).runs;
-  return { ...run, contact_ms: run.parts_ms.contact };
-}
+const nativeTimes = (scene) => ask('bench', 'together', scene, '--every', kNoSamples).runs[0];
 
 /** Of any coordinate after kEarly [m]; NaN where a run did not come that far. */
 async function largestDifference(scene) {
@@ -53,7 +52,7 @@ async function largestDifference(scene) {
   run.delete();
   const [right] = nativeRun(scene, Math.round(kEarly / kNativeFrame), [kEarly]).samples;
   if (code !== 0 || !right) return Number.NaN;
-  return Math.max(...positions.map((value, q) => Math.abs(value - right[q])));
+  return Math.max(...positions.map((value, q) => Math.abs(value - right.positions_m[q])));
 }
 
 /** How far both builds come apart: as the scene is, and with its equations solved to kTight. */

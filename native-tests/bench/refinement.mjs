@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { wholeNumber } from './bench-options.mjs';
 import { commit, runParts, tell } from './bench-parts.mjs';
 import { markdown, short } from './bench-rows.mjs';
-import { root } from './contestants.mjs';
+import { root } from './command.mjs';
 import { savingsFigure } from './refinement-figure.mjs';
 import {
   buildRow,
@@ -117,8 +117,7 @@ function compared(garment, plans, { method, duration }) {
     kErrorEvery,
   );
   const labels = [...entries.map(([label]) => label), 'split in every frame'];
-  const about = { garment, fine: `${garment} fast walk, level ${kFineLevel}`, commit, duration };
-  return runs.map((run, k) => runRow(labels[k], run, about));
+  return runs.map((run, k) => runRow(labels[k], run, { garment, commit }));
 }
 
 /** The planned mesh in other motions. */
@@ -128,8 +127,7 @@ function otherMotions(garment, plans, { method, duration }) {
     scene.figure = { ...scene.figure, time_scale: timeScale };
     tell(`${garment}: ${label}`);
     const { runs } = answer('bench', 'together', scene, '--every', 1000);
-    const about = { garment, fine: `${garment}, its own`, commit, duration };
-    return runRow(label, runs[0], about);
+    return runRow(label, runs[0], { garment, commit });
   };
   return {
     example: run('walk', 'walk'),
@@ -219,13 +217,12 @@ async function figure({ options }) {
   return { rows: [], goals: [], text: options.quick ? 'not drawn from short runs' : kFigureFile };
 }
 
-/** The planned mesh's errors on the test motion: of the garment's part, where that has run. */
-function multiErrors(garment, scene) {
-  if (measured[garment]) return measured[garment].rows[1].errors;
+/** The planned mesh's run on the test motion: of the garment's part, where that has run. */
+function multiRun(garment, scene) {
+  if (measured[garment]) return measured[garment].rows[1];
   tell(`${garment}: test walk, fine and planned`);
   const fine = { ...scene, ...uniform(kFineLevel) };
-  return answer('bench', 'together', fine, '--with', [scene], '--every', kErrorEvery).runs[1]
-    .errors;
+  return answer('bench', 'together', fine, '--with', [scene], '--every', kErrorEvery).runs[1];
 }
 
 /** The planned skirt on the test motion, in both builds. */
@@ -234,19 +231,13 @@ async function wasm({ repeat, scale, options }) {
   const set = settings(options);
   const { chosen } = plansOf(garment, set);
   const scene = at(garmentScene(garment, 'fast_walk', set.method), set.duration, planned(chosen));
-  const about = {
-    garment,
-    scene,
-    errors: multiErrors(garment, scene),
-    fine: `${garment} fast walk, level ${kFineLevel}`,
-    commit,
-    duration: set.duration,
-  };
+  const { errors, reference } = multiRun(garment, scene);
+  const about = { garment, scene, errors, reference, commit };
   const runs = await bothBuilds(scene, repeat);
   const apart = await differences(scene);
   const rows = {
-    wasm: { ...buildRow('wasm', runs.wasm, about), largest_difference_from_native: apart },
-    native: buildRow('native', runs.native, about),
+    wasm: { ...buildRow(runs.wasm, about), largest_difference_from_native: apart },
+    native: buildRow(runs.native, about),
   };
   return {
     rows: Object.values(rows),

@@ -13,8 +13,9 @@ import {
   runBench,
   wholeNumber,
 } from './bench-options.mjs';
-import { short } from './bench-rows.mjs';
-import { fabricsText, nativeSweep, root, wasmModule } from './contestants.mjs';
+import { markdown, short } from './bench-rows.mjs';
+import { askRows, cacheFolder, root } from './command.mjs';
+import { fabricsText, wasmModule } from './contestants.mjs';
 
 const kSliceMs = 200; // between reports of progress
 const kDuration = 1; // [s]
@@ -79,32 +80,33 @@ function describe(method, substeps) {
   return `${method.stepper}${solver}, ${substeps} substeps${method.iterations > 1 ? ` x ${method.iterations}` : ''}`;
 }
 
-/** A number of a row times a factor; a dash for what the row has not. */
-function scaled(value, factor) {
-  return short(value === null ? Number.NaN : factor * value);
-}
-
 /** Both lists hold the same settings in the same order. */
-function printTable(native, wasm) {
-  console.log(
-    '| method | level | vertices | native ms/frame | wasm ms/frame | position error mm | % | rms stretch % | largest % | status |',
-  );
-  console.log('|---|---|---|---|---|---|---|---|---|---|');
-  for (const [i, row] of native.entries()) {
-    const cells = [
-      describe(row.method, row.n_substeps),
-      row.level,
-      row.n_vertices,
-      short(row.ms_per_frame),
-      short(wasm[i].ms_per_frame),
-      scaled(row.position_error_m, 1e3),
-      short(row.position_error_percent),
-      scaled(row.rms_stretch, 100),
-      scaled(row.largest_stretch, 100),
-      row.status,
-    ];
-    console.log(`| ${cells.join(' | ')} |`);
-  }
+function table(native, wasm) {
+  const head = [
+    'method',
+    'level',
+    'vertices',
+    'native ms/frame',
+    'wasm ms/frame',
+    'position error mm',
+    '%',
+    'rms stretch %',
+    'largest %',
+    'status',
+  ];
+  const lines = native.map((row, i) => [
+    describe(row.method, row.n_substeps),
+    row.level,
+    row.n_vertices,
+    short(row.ms_per_frame),
+    short(wasm[i].ms_per_frame),
+    short(1e3 * row.position_error_m),
+    short(row.position_error_percent),
+    short(100 * row.rms_stretch),
+    short(100 * row.largest_stretch),
+    row.status,
+  ]);
+  return markdown(head, lines);
 }
 
 await runBench('sweep', async (words) => {
@@ -126,14 +128,15 @@ await runBench('sweep', async (words) => {
   const file = rowsFile(options.json);
   const [sceneFile = join(root, 'assets', 'scenes', 'swinging_sheet.json')] = options.words;
   const scene = await checkedScene(sceneFile, reference);
-  const plan = { levels: options.levels, repeat, reference };
-
-  const native = nativeSweep(scene, { ...plan, duration: kDuration });
+  const native = askRows(
+    ...['sweep', scene, '--json', '--cache', cacheFolder, '--duration', kDuration],
+    ...['--levels', options.levels, '--repeat', repeat, '--reference', reference],
+  );
   file.write(native);
-  const wasm = await wasmSweep(scene, plan, native);
+  const wasm = await wasmSweep(scene, { repeat, reference }, native);
   console.log(
     `${scene.name}, ${kDuration} s, frames of 1/60 s; errors against ${native[0].reference.description}\n`,
   );
-  printTable(native, wasm);
+  console.log(table(native, wasm));
   file.write([...native, ...wasm]);
 });

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/files/frame_file.h"
 #include "core/files/json_text.h"
-#include "core/files/matrix_file.h"
 #include "core/reference/reference.h"
 #include "core/sweep/bench_row.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/matrix_market.h"
 #include "native-tests/support/pleat_command.h"
+#include "native-tests/support/recorded_frames.h"
 
 using namespace pleat;
 namespace fs = std::filesystem;
@@ -76,7 +76,8 @@ std::vector<BenchRow> rows_in(const std::string& lines) {
   std::vector<BenchRow> rows;
   for (std::size_t begin = 0; begin < lines.size();) {
     const std::size_t end = lines.find('\n', begin);
-    rows.push_back(read_bench_row(lines.substr(begin, end - begin)));
+    const Json row = parse_json(lines.substr(begin, end - begin));
+    rows.push_back(read_bench_row(JsonReader(row)));
     begin = end + 1;
   }
   return rows;
@@ -423,7 +424,8 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--levels", "0", "--set", "/refinement/level=1"}, "pleat: --set: expected each "},
       {{"sweep", "--reference", "rigid_chain", "--set", "/pins=[]"}, "scene.json: /pins: expected"},
       {{"bench"},
-       "pleat: bench: expected run, reference, deform, plans or together after it, got "},
+       "pleat: bench: expected run, reference, deform, plans, together, rows or limit after it, "
+       "got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
       {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},
       {{"run", "-x"}, "pleat: -x: unknown option"},
@@ -550,7 +552,8 @@ TEST_CASE("command: bad input leaves folders that exist as they were", "[cli]") 
   };
   const std::vector<Bad> cases = {
       {scene_with("\"step_s\": 0.02", "\"step_s\": 0"), {}},
-      {scene_with("\"solver\": \"eigen\"", "\"stepper\": \"explicit\""), {"--overwrite"}},
+      {scene_with("\"solver\": \"eigen\"", "\"stepper\": \"explicit\", \"substeps\": 1"),
+       {"--overwrite"}},
       {kScene, {}},  // the folder holds an earlier run
       {kScene, {"--overwrite", "--level", "99"}},
   };
@@ -695,6 +698,86 @@ TEST_CASE("command: a bench that the numbers end says so, with the frames that r
   CHECK(reference.status == 1);
   CHECK(reference.out.empty());
   CHECK(reference.error.find("ended early") != std::string::npos);
+}
+
+TEST_CASE("command: bench rows have speed, error and reference of every run", "[cli]") {
+  const SmallScene scene(scene_with("0.02", "0.016666666666666666"));
+  const auto ask = [&](const char* kind, std::vector<std::string> words) {
+    words.insert(words.begin(), {"bench", kind, scene.file});
+    const Ending ending = pleat_command(scene.folder, words);
+    CAPTURE(ending.error);
+    REQUIRE(ending.status == 0);
+    return parse_json(ending.out);
+  };
+  const Json right = ask("reference", {"--times", "0.05,0.1", "--halved"});
+  for (const Json& sample : right.at("samples"))
+    CHECK(sample.at("halving_changed_m").get<double>() > 0);
+  CHECK(right.at("reference").at("uncertainty_m") ==
+        right.at("samples").back().at("halving_changed_m"));
+  Json run = ask("run", {"--frames", "6", "--times", "0.05,0.1"});
+  Json moved = run;
+  for (Json& x : moved.at("samples").at(1).at("positions_m")) x = x.get<double>() + 1;
+  moved.at("samples").erase(0);  // it came to one time alone, and is compared there
+  for (Json& ms : moved.at("processor_ms")) ms = 3;
+  for (Json& ms : run.at("processor_ms")) ms = 2;
+  const auto contestant = [&](const char* label, const Json& shown) {
+    return Json{{"label", label},
+                {"scene", "small"},
+                {"method", shown.at("method")},
+                {"n_vertices", shown.at("n_vertices")},
+                {"runs", {shown}}};
+  };
+  Json asked = right;
+  asked["times_s"] = {0.05, 0.1};
+  asked["turn_frames"] = 2;
+  asked["commit"] = "c";
+  asked["contestants"] = {contestant("own", run), contestant("moved", moved)};
+  const std::string file = (scene.folder / "runs.json").string();
+  write(file, asked.dump());
+  const Ending ending = pleat_command(scene.folder, {"bench", "rows", file});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  const std::size_t end = ending.out.find('\n');
+  const Json own = parse_json(ending.out.substr(0, end));
+  const Json other = parse_json(ending.out.substr(end + 1));
+  CHECK(own.at("reference") == right.at("reference"));
+  CHECK(own.at("status") == "ok");
+  CHECK(own.at("ms_per_frame").get<double>() > 0);
+  CHECK(own.at("position_error_m").get<double>() < 1e-12);
+  CHECK(other.at("position_errors_m").at("0.05 s").get<double>() > 0.5);
+  CHECK(other.at("position_error_m").is_null());
+  CHECK(other.at("times_as_long_as_first") == 1.5);
+
+  asked.at("samples").at(1).at("positions_m").at(0) = Json();
+  write(file, asked.dump());
+  const Ending unknown = pleat_command(scene.folder, {"bench", "rows", file});
+  REQUIRE(unknown.status == 0);
+  CHECK(parse_json(unknown.out.substr(0, unknown.out.find('\n'))).at("position_error_m").is_null());
+
+  asked.at("reference").at("id") = "";
+  write(file, asked.dump());
+  const Ending nameless = pleat_command(scene.folder, {"bench", "rows", file});
+  CHECK(nameless.status == 2);
+  CHECK(nameless.error.find("runs.json: /reference/id: ") != std::string::npos);
+}
+
+TEST_CASE("command: bench limit tells where three meshes lead, and that some lead nowhere",
+          "[cli]") {
+  const ScratchFolder folder;
+  const auto answer = [&](std::array<double, 3> heights) {
+    Json meshes = Json::array();
+    for (const double height : heights) meshes.push_back({{{"positions_m", {0.0, height, 0.0}}}});
+    write(folder / "runs.json", Json{{"masses_kg", {1}}, {"meshes", meshes}}.dump());
+    const Ending ending =
+        pleat_command(folder, {"bench", "limit", (folder / "runs.json").string()});
+    CAPTURE(ending.error);
+    REQUIRE(ending.status == 0);
+    return parse_json(ending.out).at("samples").at(0);
+  };
+  const Json limit = answer({4, 2, 1});
+  CHECK(limit.at("positions_m").at(1).get<double>() == Approx(0).margin(1e-12));
+  CHECK(limit.at("rate").get<double>() == Approx(1));
+  CHECK(answer({1, 2, 4}).at("positions_m").at(1).is_null());
 }
 
 TEST_CASE("command: a spring hangs as far down as its closed form says", "[cli]") {

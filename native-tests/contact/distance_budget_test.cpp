@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "native-tests/support/allocation_count.h"
@@ -30,6 +31,36 @@ std::vector<Collider> random_solids(Random& random) {
   return solids;
 }
 
+const Vec3 kWalk{1.24, 0, 0};  // [m/s]
+const Vec3 kHip{0, 0.85, 0};   // [m]
+
+/// A limb that swings about the hip as it walks on.
+class SwingingFrame : public MovingFrame {
+ public:
+  explicit SwingingFrame(double phase) : phase_(phase) {}
+  Pose pose(double time) const override {
+    const double angle = 0.4 * (std::sin(6 * time + phase_) - std::sin(phase_));  // [rad]
+    const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+    return {turn, kHip - turn * kHip + time * kWalk};
+  }
+
+ private:
+  double phase_;
+};
+
+/// Sixteen limbs that hang from one another in four rows.
+std::vector<Collider> walking_limbs() {
+  std::vector<Collider> limbs;
+  for (int k = 0; k < 16; ++k) {
+    const double top = 1.45 - 0.35 * (k / 4);
+    const double side = 0.12 * (k % 4 - 1.5);
+    limbs.push_back(cone_collider({{0, top, side}, {0, top - 0.35, side}, 0.07, 0.05}, 0.3));
+    limbs.back().motion.kind = Motion::Kind::follow;
+    limbs.back().motion.frame = std::make_shared<SwingingFrame>(k % 4 < 2 ? 0 : 3.14);
+  }
+  return limbs;
+}
+
 }  // namespace
 
 TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
@@ -38,10 +69,11 @@ TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
   const std::vector<Collider> solids = random_solids(random);
   const ContactOptions options{0.001, Eigen::VectorXd::LinSpaced(n_vertices, 0, 0.02)};
   ContactStage stage(solids, options);
-  std::vector<Particle> particles;
-  for (int i = 0; i < n_vertices; ++i)
-    particles.push_back({2 * random_direction(random), Vec3::Zero()});
-  int n_contacts = 0;
+  Positions positions(3, n_vertices);
+  for (int i = 0; i < n_vertices; ++i) positions.col(i) = 2 * random_direction(random);
+  Positions velocities = Positions::Zero(3, n_vertices);
+  const std::vector<char> is_exempt(n_vertices, 0);
+  std::size_t n_contacts = 0;
   double time = 0;
   for (int k = 0; k < 200; ++k) {
     // Most substeps follow one another, some are long, and some go back in time.
@@ -50,19 +82,20 @@ TEST_CASE("contact: solids that are passed over change no bit", "[contact]") {
     ContactStage fresh(solids, options);
     fresh.begin_substep(time, time + h);
     stage.begin_substep(time, time + h);
-    for (int i = 0; i < n_vertices; ++i) {
-      Particle& particle = particles[static_cast<std::size_t>(i)];
-      // Some vertices are where no path has led.
-      if (random.below(100) == 0) particle.position = 2 * random_direction(random);
-      const Vec3 begin = particle.position;
-      particle.velocity += h * (20 * (Vec3(2 * time, 0, 0) - begin) + 3 * random_direction(random));
-      particle.position += h * particle.velocity;
-      Particle expected = particle;
-      const bool met{stage.resolve(VertexId(i), begin, particle.position, particle.velocity)};
-      REQUIRE(met == bool(fresh.resolve(VertexId(i), begin, expected.position, expected.velocity)));
-      REQUIRE((particle.position == expected.position && particle.velocity == expected.velocity));
-      n_contacts += met;
-    }
+    for (int i = 0; i < n_vertices; ++i)  // some vertices are where no path has led
+      if (random.below(100) == 0) positions.col(i) = 2 * random_direction(random);
+    const Positions begin = positions;
+    for (int i = 0; i < n_vertices; ++i)
+      velocities.col(i) +=
+          h * (20 * (Vec3(2 * time, 0, 0) - begin.col(i)) + 3 * random_direction(random));
+    positions += h * velocities;
+    Positions expected_positions = positions;
+    Positions expected_velocities = velocities;
+    const auto touches = stage.resolve(begin, is_exempt, positions, velocities);
+    const auto expected = fresh.resolve(begin, is_exempt, expected_positions, expected_velocities);
+    REQUIRE(touches.size() == expected.size());
+    REQUIRE((positions == expected_positions && velocities == expected_velocities));
+    n_contacts += touches.size();
     time += h;
   }
   CHECK(n_contacts > 200);
@@ -139,11 +172,51 @@ TEST_CASE("contact: a vertex is looked at when the turn of a solid asks for it",
   }
 }
 
-TEST_CASE("contact: rounded cones allocate for a new vertex only", "[contact]") {
-  if (!kCountsAllocations) {
-    SUCCEED("not counted: the sanitizer has a malloc of its own");
-    return;
+TEST_CASE("contact: few of sixteen walking limbs are looked at", "[contact]") {
+  const int n_vertices = 200;
+  const std::vector<Collider> limbs = walking_limbs();
+  std::vector<DistanceBudget::Hull> hulls;
+  for (const Collider& limb : limbs) {
+    const auto& cone = std::get<RoundedCone>(limb.shape);
+    hulls.push_back({{cone.centre_a, cone.centre_a, cone.centre_b, cone.centre_b}, cone.radius_a});
   }
+  DistanceBudget budget(hulls);
+  Random random(60);
+  Positions skirt(3, n_vertices);
+  for (int i = 0; i < n_vertices; ++i) {
+    const double angle = random.uniform(0, 6.283185307179586);
+    const double y = random.uniform(0.45, 1);
+    const double radius = 0.32 - 0.18 * y;
+    skirt.col(i) = Vec3(radius * std::cos(angle), y, (radius + 0.1) * std::sin(angle));
+  }
+  const double h = 1.0 / 240;
+  const int n_substeps = 480;
+  int n_looks = 0;
+  for (int k = 0; k < n_substeps; ++k) {
+    std::vector<Pose> begin;
+    std::vector<Pose> end;
+    std::vector<SweptSolid> solids;
+    for (const Collider& limb : limbs) {
+      begin.push_back(limb.motion.pose(k * h));
+      end.push_back(limb.motion.pose((k + 1) * h));
+      solids.push_back(swept(placed(limb.shape, begin.back()), Clearance{}, Vec3::Zero()));
+    }
+    budget.begin_substep(begin, end);
+    for (int i = 0; i < n_vertices; ++i) {
+      const Vec3 from = skirt.col(i) + k * h * kWalk;
+      budget.look_at_near(VertexId(i), from, from + h * kWalk, [&](std::size_t solid) {
+        ++n_looks;
+        return gap(solids[solid], from).distance;
+      });
+    }
+  }
+  const double share = static_cast<double>(n_looks) / (16.0 * n_vertices * n_substeps);
+  CAPTURE(share);
+  CHECK(share < 0.05);
+}
+
+TEST_CASE("contact: rounded cones allocate for a new vertex only", "[contact]") {
+  if (!counts_allocations()) return;
   Random random(51);
   ContactStage stage(random_solids(random), {0.001, {}});
   Particle particle{{0.5, 0.05, 0}, {-20, 0, 0}};

@@ -16,7 +16,7 @@ TEST_CASE("contact: friction shortens the path after the impact only", "[contact
   const Vec3 begin{0, 0.1, 0};
   Vec3 velocity{5, -4, 0};
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(stage.resolve(VertexId(0), begin, position, velocity));
+  CHECK(resolve(stage, VertexId(0), begin, position, velocity));
   CHECK((velocity - Vec3(3, 0, 0)).norm() < 1e-14);
   CHECK((position - Vec3(0.025 * 5 + 0.075 * 3, 0, 0)).norm() < 1e-14);
 }
@@ -69,7 +69,7 @@ TEST_CASE("contact: friction obeys Coulomb's bound and never adds energy", "[con
     const Vec3 velocity_before = velocity_of_ball + 5 * (random_direction(random) - side);
     Vec3 position = begin + 0.1 * velocity_before;
     Vec3 velocity = velocity_before;
-    if (!stage.resolve(VertexId(0), begin, position, velocity)) continue;
+    if (!resolve(stage, VertexId(0), begin, position, velocity)) continue;
     // The change is in the plane of normal and slip; its normal part is what stopped the approach.
     const SweptSphere swept{0.1 * velocity_of_ball, 0.5, 0.1 * velocity_of_ball};
     const Vec3 normal = first_impact(swept, begin, begin + 0.1 * velocity_before, 0)->normal;

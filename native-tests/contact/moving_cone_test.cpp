@@ -82,7 +82,7 @@ TEST_CASE("contact: a vertex inside of a limb is put out without gaining speed",
         cone.centre_a + share * (cone.centre_b - cone.centre_a) + 0.01 * random_direction(random);
     Vec3 velocity = random_direction(random);
     Vec3 position = begin + 0.01 * velocity;
-    CHECK(stage.resolve(kVertex, begin, position, velocity));
+    CHECK(resolve(stage, kVertex, begin, position, velocity));
     CHECK(height(collider, position, 0) >= -1e-13);
     CHECK(velocity.norm() <= 1 + 1e-14);
   }
@@ -153,7 +153,7 @@ TEST_CASE("contact: a smooth board that turns leaves the way along it", "[contac
   stage.begin_substep(0, 0.1);
   Vec3 velocity{0.5, -1, 0.3};
   Vec3 position = Vec3(0.2, fall, 0.1) + 0.1 * velocity;
-  CHECK(stage.resolve(kVertex, {0.2, fall, 0.1}, position, velocity));
+  CHECK(resolve(stage, kVertex, {0.2, fall, 0.1}, position, velocity));
   CHECK((position - Vec3(0.25, 0, 0.13)).norm() < 1e-14);
   CHECK((velocity - Vec3(0.5, 0, 0.3)).norm() < 1e-13);
 }
@@ -166,7 +166,7 @@ TEST_CASE("contact: a spinning ball drags what touches it along its side", "[con
   stage.begin_substep(0, h);
   Vec3 velocity{0, -1, 0};
   Vec3 position = 0.5 * kUp + h * velocity;
-  CHECK(stage.resolve(kVertex, 0.5 * kUp, position, velocity));
+  CHECK(resolve(stage, kVertex, 0.5 * kUp, position, velocity));
   // The top goes to -x; Coulomb's bound lets 0.4 of the normal change follow.
   CHECK(velocity.x() == Approx(-0.4).epsilon(0.01));
   CHECK(std::abs(velocity.z()) < 1e-15);
@@ -239,7 +239,7 @@ TEST_CASE("contact: every vertex keeps the clearance of its own faces", "[contac
   for (const VertexId v : {VertexId(0), VertexId(1), VertexId(2)}) {
     Vec3 position{0, 0, 0.05};
     Vec3 velocity{0, 0, -1};
-    CHECK(graded.resolve(v, {0, 0, 1.05}, position, velocity));
+    CHECK(resolve(graded, v, {0, 0, 1.05}, position, velocity));
     const auto sagitta = [&](double radius) { return std::hypot(radius, face_radii[v]) - radius; };
     const auto radii = end_radii(collider.shape);
     const Clearance clearance = graded.clearance(collider, v);
@@ -268,8 +268,8 @@ TEST_CASE("contact: what the faces of other vertices need changes nothing", "[co
     Vec3 position = begin + 0.1 * velocity;
     Vec3 expected_velocity = velocity;
     Vec3 expected_position = position;
-    alone.resolve(kVertex, begin, expected_position, expected_velocity);
-    among_others.resolve(kVertex, begin, position, velocity);
+    resolve(alone, kVertex, begin, expected_position, expected_velocity);
+    resolve(among_others, kVertex, begin, position, velocity);
     CAPTURE(trial);
     CHECK((position - expected_position).norm() < 1e-10);
     CHECK((velocity - expected_velocity).norm() < 1e-8);

@@ -106,7 +106,7 @@ TEST_CASE("contact: a vertex that begins inside is put out without gaining speed
     Vec3 velocity = 2 * random_direction(random);
     const double speed = velocity.norm();
     Vec3 position = begin + 0.01 * velocity;
-    stage.resolve(VertexId(0), begin, position, velocity);
+    resolve(stage, VertexId(0), begin, position, velocity);
     CHECK(height(collider, position, 0.01) >= -kRoundingDepth);
     CHECK(velocity.norm() <= speed * (1 + 1e-15));
   }
@@ -118,7 +118,7 @@ TEST_CASE("contact: a vertex in the very centre of a sphere gets out", "[contact
   stage.begin_substep(0, 0.01);
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
-  CHECK(stage.resolve(VertexId(0), Vec3::Zero(), position, velocity));
+  CHECK(resolve(stage, VertexId(0), Vec3::Zero(), position, velocity));
   CHECK(height(ball, position, 0.01) == Approx(0).margin(kRoundingDepth));
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("contact: the solid that is met first acts first", "[contact]") {
   const auto result = [&](ContactStage& stage) {
     Particle particle{begin + 0.1 * down, down};
     stage.begin_substep(0, 0.1);
-    CHECK(stage.resolve(VertexId(0), begin, particle.position, particle.velocity));
+    CHECK(resolve(stage, VertexId(0), begin, particle.position, particle.velocity));
     return particle;
   };
   // Thrown off the ball's side before it could reach the floor.
@@ -182,7 +182,7 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
       particle.position += particle.velocity / 60;
       const double speed_before = particle.velocity.norm();
       stage.begin_substep(k / 60.0, (k + 1) / 60.0);
-      stage.resolve(VertexId(0), begin, particle.position, particle.velocity);
+      resolve(stage, VertexId(0), begin, particle.position, particle.velocity);
       REQUIRE(height(ball, particle.position, 0) >=
               stage.clearance(ball, VertexId(0)).at_a - 1e-12);
       REQUIRE(height(ground, particle.position, 0) >=
@@ -206,7 +206,7 @@ TEST_CASE("contact: a groove leaves only the motion along it", "[contact]") {
   Vec3 velocity(sideways, -20, 3);
   const Vec3 begin(0.01, 0.5, 0);
   Vec3 position = begin + 0.1 * velocity;
-  CHECK(stage.resolve(VertexId(0), begin, position, velocity));
+  CHECK(resolve(stage, VertexId(0), begin, position, velocity));
   CHECK((velocity - Vec3(0, 0, 3)).norm() < 1e-13);
   CHECK((position - Vec3(0, 0, 0.3)).norm() < 1e-13);
 }
@@ -256,7 +256,7 @@ TEST_CASE("contact: a vertex crushed between two walls is counted", "[contact]")
   stage.begin_substep(0, 1);
   Vec3 position{0, 0.5, 0};
   Vec3 velocity = Vec3::Zero();
-  CHECK(stage.resolve(VertexId(0), {0, 0.5, 0}, position, velocity));
+  CHECK(resolve(stage, VertexId(0), {0, 0.5, 0}, position, velocity));
   CHECK(stage.n_unresolved() == 1);
   CHECK(position.allFinite());
   CHECK(velocity.allFinite());

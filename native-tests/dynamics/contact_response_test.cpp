@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_table.h"
 #include "native-tests/support/models.h"
 #include "native-tests/support/particle.h"
 
@@ -36,7 +36,7 @@ void advance(Stepper& stepper, State& state, int from, int to) {
 TEST_CASE("contact: a particle leaves a smooth ball where cos = 2/3, with every stepper",
           "[contact]") {
   for (const MethodOptions& options : fine_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = particle_on(ball_collider(Vec3::Zero(), 1, 0));
     const auto stepper = make_stepper(model, options);
     State state = state_at({std::sin(0.1), std::cos(0.1), 0});
@@ -52,7 +52,7 @@ TEST_CASE("contact: a particle leaves a smooth ball where cos = 2/3, with every 
 
 TEST_CASE("contact: a particle that has rested for long is lifted at once", "[contact]") {
   for (const MethodOptions& options : fine_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = particle_on(floor_collider(0.5));
     const auto stepper = make_stepper(model, options);
     State state = state_at({0, 0, 0});
@@ -66,7 +66,7 @@ TEST_CASE("contact: a particle that has rested for long is lifted at once", "[co
 
 TEST_CASE("contact: friction stops a sliding particle after v^2 / (2 mu g)", "[contact]") {
   for (const MethodOptions& options : fine_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = particle_on(floor_collider(0.4));
     const auto stepper = make_stepper(model, options);
     State state = state_at({0, 0, 0});

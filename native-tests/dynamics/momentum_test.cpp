@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_table.h"
 #include "native-tests/support/models.h"
 #include "native-tests/support/momentum.h"
 
@@ -38,9 +38,9 @@ TEST_CASE("steppers: without outer forces every one keeps the momentum", "[dynam
   ClothModel model = sheet_model(free_mesh(), soft_fabric());
   const Vec3 before = momentum(model, tumbling_state());
   for (const MethodOptions& options : converged_methods(0.002)) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     // 100 steps: rounding adds up like a random walk at worst; xpbd rounds to float32.
-    const double tolerance = options.stepper == StepperKind::xpbd ? 1e-4 : 1e-11;
+    const double tolerance = options.stepper == &steppers::xpbd ? 1e-4 : 1e-11;
     CHECK((momentum(model, after(model, options, 0.2)) - before).norm() <
           tolerance * before.norm());
   }
@@ -75,7 +75,7 @@ TEST_CASE("steppers: backward Euler's loss of angular momentum falls with the st
   ClothModel model = sheet_model(free_mesh(), soft_fabric());
   const Vec3 before = angular_momentum(model, tumbling_state());
   const std::size_t which = GENERATE(1, 2);  // implicit, projective
-  const StepperKind kind = converged_methods(1)[which].stepper;
+  const StepperType* const kind = converged_methods(1)[which].stepper;
   const auto lost = [&](double step) {
     MethodOptions options = converged_methods(step)[which];
     options.iterations = 50;  // enough at such small steps

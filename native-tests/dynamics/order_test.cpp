@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 #include "native-tests/support/models.h"
 
@@ -100,7 +100,7 @@ TEST_CASE("steppers: halving the step halves the error on smooth motion", "[dyna
       for (int s = 0; s < n_steps; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
       errors.push_back(position_error(state, reference));
     }
-    CAPTURE(name(options.stepper), errors[0], errors[1], errors[2]);
+    CAPTURE(options.stepper->name, errors[0], errors[1], errors[2]);
     // The next order's term bends the slope; at these steps by less than a tenth.
     CHECK(std::log2(errors[0] / errors[1]) == Approx(1).margin(0.15));
     CHECK(std::log2(errors[1] / errors[2]) == Approx(1).margin(0.1));
@@ -112,12 +112,11 @@ TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]
   SmoothProblem problem;
   const State reference = reference_end(problem, 4000);
   struct Method {
-    StepperKind stepper;
+    const StepperType* stepper;
     int n_steps;
     double order;
   };
-  const Method method =
-      GENERATE(Method{StepperKind::newton, 50, 2}, Method{StepperKind::rk4, 100, 4});
+  const Method method = GENERATE(Method{&steppers::newton, 50, 2}, Method{&steppers::rk4, 100, 4});
   std::vector<double> errors;
   for (const int refinement : {1, 2, 4}) {
     const int n_steps = refinement * method.n_steps;
@@ -132,7 +131,7 @@ TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]
     for (int s = 0; s < n_steps; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
     errors.push_back(position_error(state, reference));
   }
-  CAPTURE(name(method.stepper), errors[0], errors[1], errors[2]);
+  CAPTURE(method.stepper->name, errors[0], errors[1], errors[2]);
   CHECK(std::log2(errors[0] / errors[1]) == Approx(method.order).margin(0.25));
   CHECK(std::log2(errors[1] / errors[2]) == Approx(method.order).margin(0.15));
 }
@@ -140,8 +139,8 @@ TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]
 TEST_CASE("steppers: substeps are steps of their own length", "[dynamics]") {
   SmoothProblem problem;
   for (MethodOptions options : converged_methods(0.004)) {
-    if (options.stepper == StepperKind::xpbd) continue;  // rounds to float32 between steps
-    CAPTURE(name(options.stepper));
+    if (options.stepper == &steppers::xpbd) continue;  // rounds to float32 between steps
+    CAPTURE(options.stepper->name);
     options.substeps = 4;
     State in_substeps = problem.start;
     const auto coarse = make_stepper(problem.model, options);

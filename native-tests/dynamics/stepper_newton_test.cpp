@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 #include "native-tests/support/analytic.h"
 #include "native-tests/support/models.h"
@@ -13,7 +14,7 @@ namespace {
 
 MethodOptions newton(NewtonRule rule, double step) {
   MethodOptions options;
-  options.stepper = StepperKind::newton;
+  options.stepper = &steppers::newton;
   options.rule = rule;
   options.step = step;
   options.solver = SolverKind::eigen;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
+#include "core/model/elasticity.h"
 #include "core/model/system_matrix.h"
 #include "native-tests/support/models.h"
 
@@ -15,7 +17,7 @@ constexpr double kStep = 0.01;  // [s]
 
 MethodOptions projective(int rounds) {
   MethodOptions options;
-  options.stepper = StepperKind::projective;
+  options.stepper = &steppers::projective;
   options.step = kStep;
   options.solver = SolverKind::eigen;
   options.iterations = rounds;

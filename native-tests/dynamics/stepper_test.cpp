@@ -1,4 +1,4 @@
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_table.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -51,7 +51,7 @@ void shuffle(std::vector<Spring>& springs, Random& random) {
 TEST_CASE("steppers: pinned vertices end exactly at their pins", "[dynamics]") {
   const Motion motion{Motion::Kind::ease, {0.1, -0.05, 0.2}, 0, 0.4, 0};
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = held_model(motion);
     const State end = advanced(model, options, tossed_state(), 15);
     for (const Pin& pin : model.pins)
@@ -62,7 +62,7 @@ TEST_CASE("steppers: pinned vertices end exactly at their pins", "[dynamics]") {
 TEST_CASE("steppers: pinned vertices have the speed of their pins", "[dynamics]") {
   const Motion motion{Motion::Kind::move, {0.3, -0.1, 0.2}, 0, 1, 0};
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = held_model(motion);
     const State end = advanced(model, options, tossed_state(), 15);
     for (const Pin& pin : model.pins)
@@ -72,12 +72,12 @@ TEST_CASE("steppers: pinned vertices have the speed of their pins", "[dynamics]"
 
 TEST_CASE("steppers: a flat sheet without weight stays where it is to rounding", "[dynamics]") {
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = sheet_model(sheet(), library_fabric("fine cotton"));
     const State start = rest_state(sheet());
     const State end = advanced(model, options, start, 60);
     // Lengths round: a spring's rest length is the square root of a sum. xpbd rounds to float32.
-    const double rounding = options.stepper == StepperKind::xpbd ? 1e-4 : 1e-8;
+    const double rounding = options.stepper == &steppers::xpbd ? 1e-4 : 1e-8;
     CHECK((end.positions - start.positions).cwiseAbs().maxCoeff() < rounding);
     CHECK(end.velocities.cwiseAbs().maxCoeff() < rounding);
   }
@@ -96,14 +96,14 @@ TEST_CASE("steppers: a sheet that hangs at rest stays so in any order of its spr
   State hanging = advanced(model, settle, rest_state(sheet()), 600);
   REQUIRE(hanging.velocities.cwiseAbs().maxCoeff() < 1e-9);
   for (MethodOptions options : everyday_methods()) {
-    if (options.stepper == StepperKind::xpbd) continue;  // xpbd_test.cpp has its own
-    CAPTURE(name(options.stepper));
+    if (options.stepper == &steppers::xpbd) continue;  // xpbd_test.cpp has its own
+    CAPTURE(options.stepper->name);
     options.tolerance = 1e-10;
     // 10 s; explicit, which takes hundreds of substeps, 1 s.
-    const int n_steps = options.stepper == StepperKind::explicit_euler ? 60 : 600;
+    const int n_steps = options.stepper == &steppers::explicit_euler ? 60 : 600;
     const State end = advanced(model, options, hanging, n_steps);
     // Ten rounds from where the sheet would fall in a step do not lift it all of the way back.
-    const double sag = options.stepper == StepperKind::projective ? 5e-5 : 1e-7;  // [m]
+    const double sag = options.stepper == &steppers::projective ? 5e-5 : 1e-7;  // [m]
     CHECK((end.positions - hanging.positions).cwiseAbs().maxCoeff() < sag);
     CHECK(end.velocities.cwiseAbs().maxCoeff() < 1e-7);
     const State later = advanced(model, options, end, n_steps);
@@ -114,7 +114,7 @@ TEST_CASE("steppers: a sheet that hangs at rest stays so in any order of its spr
 TEST_CASE("steppers: the same start gives the same bits", "[dynamics]") {
   const Motion motion{Motion::Kind::oscillate, {0.1, 0, 0.1}, 0, 0, 2};
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = held_model(motion);
     model.air.emplace(sheet().triangles(), AirOptions{}, model.n_vertices());
     const State first = advanced(model, options, tossed_state(), 20);
@@ -126,7 +126,7 @@ TEST_CASE("steppers: the same start gives the same bits", "[dynamics]") {
 
 TEST_CASE("steppers: rest lengths may change between steps", "[dynamics]") {
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = held_model({});
     const auto stepper = make_stepper(model, options);
     for (Spring& spring : model.springs) spring.rest_length *= 1.01;
@@ -146,7 +146,7 @@ TEST_CASE("steppers: a state that is not finite ends the step and is named", "[d
   const bool in_position = GENERATE(true, false);
   CAPTURE(bad, in_position);
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model;  // free vertices, so that the bad one stays alone
     model.masses = Eigen::VectorXd::Ones(5);
     State state{Positions::Random(3, 5), Positions::Zero(3, 5)};
@@ -160,7 +160,7 @@ TEST_CASE("steppers: a state that is not finite ends the step and is named", "[d
 
 TEST_CASE("steppers: cloth that flies further than any cloth has diverged", "[dynamics]") {
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model = held_model({});
     State state = tossed_state();
     state.velocities.col(17) *= 1e15;
@@ -175,7 +175,7 @@ TEST_CASE("steppers: cloth that flies further than any cloth has diverged", "[dy
 
 TEST_CASE("steppers: a step that overflows leaves the last finite state", "[dynamics]") {
   for (const MethodOptions& options : everyday_methods()) {
-    CAPTURE(name(options.stepper));
+    CAPTURE(options.stepper->name);
     ClothModel model;
     model.masses = Eigen::VectorXd::Ones(2);
     State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
@@ -190,7 +190,7 @@ TEST_CASE("steppers: a step that overflows leaves the last finite state", "[dyna
 }
 
 TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]") {
-  if (!kCountsAllocations) return;
+  if (!counts_allocations()) return;
   const bool with_air = GENERATE(false, true);
   const bool with_contact = GENERATE(false, true);
   const bool is_membrane = GENERATE(false, true);
@@ -198,9 +198,9 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
   std::vector<MethodOptions> methods = everyday_methods();
   for (const MethodOptions& options : accurate_methods(1.0 / 240)) methods.push_back(options);
   for (MethodOptions options : methods) {
-    CAPTURE(name(options.stepper));
-    if (options.stepper == StepperKind::projective) options.solver = SolverKind::eigen;
-    if (options.stepper == StepperKind::newton) {
+    CAPTURE(options.stepper->name);
+    if (options.stepper == &steppers::projective) options.solver = SolverKind::eigen;
+    if (options.stepper == &steppers::newton) {
       if (!is_available(SolverKind::cholmod)) continue;  // Eigen's factorisation allocates
       options.solver = SolverKind::cholmod;
     }
@@ -209,8 +209,7 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
       const std::vector<Pin> pins = model.pins;
       model = membrane_model(sheet(), library_fabric("fine cotton"));
       model.pins = pins;
-      if (options.stepper == StepperKind::projective || options.stepper == StepperKind::xpbd)
-        continue;
+      if (options.stepper == &steppers::projective || options.stepper == &steppers::xpbd) continue;
     }
     if (with_air) model.air.emplace(sheet().triangles(), AirOptions{}, model.n_vertices());
     if (with_contact) {
@@ -218,7 +217,7 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
       model.contact.emplace(std::vector<Collider>{floor}, ContactOptions{});
     }
     // A factorisation that newton finds impossible, in crumpled cloth, is told in a message.
-    State state = options.stepper == StepperKind::newton ? rest_state(sheet()) : tossed_state();
+    State state = options.stepper == &steppers::newton ? rest_state(sheet()) : tossed_state();
     const auto stepper = make_stepper(model, options);
     stepper->advance(state, 0);
     CHECK(allocations_in([&] {

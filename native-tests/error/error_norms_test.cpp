@@ -55,3 +55,41 @@ TEST_CASE("error_norms: areas must fit the shared vertices", "[error]") {
   CHECK_THROWS_AS(position_error(mesh.rest_positions(), mesh.rest_positions(), too_few),
                   ContractError);
 }
+
+TEST_CASE("error_norms: a median is in the middle of any order", "[error]") {
+  CHECK(median({3, 1, 2}) == 2);
+  CHECK(median({4, 1, 3, 2}) == 2.5);
+  CHECK(std::isnan(median({})));
+}
+
+namespace {
+
+Positions two_at(double distance) {
+  Positions positions(3, 2);
+  positions << 1 + distance, 4, 2, 5 - 2 * distance, 3, 6;
+  return positions;
+}
+
+const Eigen::Vector2d kTwoAreas(1, 3);
+
+}  // namespace
+
+TEST_CASE("error_norms: the limit of three meshes is found at any rate", "[error]") {
+  const double rate = GENERATE(0.5, 1.0, 2.0);
+  CAPTURE(rate);
+  std::array<Positions, 3> meshes;
+  for (std::size_t k = 0; k < 3; ++k)
+    meshes[k] = two_at(0.1 * std::exp2(-rate * static_cast<double>(k)));
+  meshes[2].conservativeResize(3, 3);  // a finer mesh has more vertices
+  meshes[2].col(2).setConstant(7);
+  const MeshLimit limit = observed_limit(meshes, kTwoAreas);
+  CHECK(limit.rate == Approx(rate).epsilon(1e-10));
+  CHECK((limit.positions - two_at(0)).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(limit.distances[0] / limit.distances[1] == Approx(std::exp2(rate)).epsilon(1e-10));
+}
+
+TEST_CASE("error_norms: meshes that do not come nearer have no limit", "[error]") {
+  const MeshLimit limit = observed_limit({two_at(0), two_at(0.1), two_at(0.3)}, kTwoAreas);
+  CHECK(limit.rate == Approx(-1).epsilon(1e-10));
+  CHECK(std::isnan(limit.positions(0, 0)));
+}

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/scene/particle_cloth.h"
 #include "native-tests/support/meshes.h"
 #include "native-tests/support/models.h"
 
@@ -101,7 +102,7 @@ TEST_CASE("run_comparison: over all times, bends that trade places are the same"
 }
 
 TEST_CASE("run_comparison: particles have places alone", "[error]") {
-  InlineCloth cloth;
+  ParticleCloth cloth;
   cloth.positions = Positions::Random(3, 4);
   cloth.masses = Eigen::VectorXd::Ones(4);
   cloth.velocities = Positions::Zero(3, 4);

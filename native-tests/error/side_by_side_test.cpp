@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {
@@ -74,9 +75,20 @@ TEST_CASE("side by side: vertices inside of a solid are counted, pinned ones apa
   CHECK(results[0].unpinned_inside.n_frames == 0);
 }
 
+TEST_CASE("side by side: the parts of timed frames fit into their time", "[error]") {
+  FrameOptions options = half_a_second();
+  options.begin = options.duration - 2 * options.frame_time;  // two of fifteen frames
+  const auto results = run({{canvas_scene(1), {}}}, options);
+  double parts = 0;
+  for (const double part : results[0].parts_ms) parts += part;
+  REQUIRE(results[0].frame_ms.size() == 2);
+  CHECK(parts > 0);
+  CHECK(parts <= (results[0].frame_ms[0] + results[0].frame_ms[1]) / 2);
+}
+
 TEST_CASE("side by side: a run that ends early leaves the others their errors", "[error]") {
   Scene wild = canvas_scene(0);
-  wild.initial_velocity = {1e13, 0, 0};
+  change_cloth<SheetCloth>(wild, [](SheetCloth& sheet) { sheet.initial_velocity = {1e13, 0, 0}; });
   const auto results = run({{canvas_scene(1), {}}, {wild, {}}, {canvas_scene(0), {}}});
   CHECK(results[1].report.ends_run());
   CHECK(std::isnan(results[1].errors.position));

@@ -46,7 +46,7 @@ Mat3 plane_map(double a, double b, double c, double d) {
   return map;
 }
 
-/// Places of the three vertices, far from the strain limit of 0.1 on both sides of it.
+/// Places of the three vertices, far from the stiffening strain of 0.1 on both sides of it.
 std::vector<Positions> triangle_shapes() {
   const Positions rest = lone_triangle().rest_positions;
   std::vector<Positions> shapes;
@@ -121,7 +121,7 @@ TEST_CASE("membrane: force is the energy's gradient, stiffness its second deriva
   const MembraneLaw law = GENERATE(as<MembraneLaw>{}, kLaw, kBilinear);
   const Membrane membrane = membrane_of(lone_triangle(), law);
   for (const Positions& x : triangle_shapes()) {
-    CAPTURE(law.strain_limit, x);
+    CAPTURE(law.stiffening_strain, x);
     const auto energy = [&](const Eigen::VectorXd& at) {
       return membrane_energy(membrane, at.reshaped(3, 3));
     };
@@ -143,7 +143,7 @@ TEST_CASE("membrane: the projected stiffness is positive semidefinite and exact 
   const MembraneLaw law = GENERATE(as<MembraneLaw>{}, kLaw, kBilinear);
   const MembraneElement element = membrane_elements(lone_triangle())[0];
   for (const Positions& x : triangle_shapes()) {
-    CAPTURE(law.strain_limit, x);
+    CAPTURE(law.stiffening_strain, x);
     const Mat9 projected = membrane_stiffness(law, element, x, ElementHessian::projected);
     const Mat9 exact = membrane_stiffness(law, element, x, ElementHessian::exact);
     const Eigen::VectorXd values = projected.selfadjointView<Eigen::Lower>().eigenvalues();
@@ -169,7 +169,7 @@ TEST_CASE("membrane: stress of one sign in one direction is projected by its own
           Approx(element.area * s_u * std::pow(element.gradients(i, 0), 2)).epsilon(1e-12));
 }
 
-TEST_CASE("membrane: beyond the strain limit a thread is ten times as stiff, in tension only",
+TEST_CASE("membrane: beyond the stiffening strain a thread is ten times as stiff, in tension only",
           "[fabric]") {
   const bool is_warp = GENERATE(true, false);
   CAPTURE(is_warp);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/base/check.h"
+#include "native-tests/support/recorded_frames.h"
 #include "native-tests/support/scratch_folder.h"
 
 namespace pleat {

@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/base/random.h"
+#include "native-tests/support/matrix_market.h"
 
 namespace pleat {
 namespace {

@@ -5,6 +5,8 @@
 
 #include "core/base/check.h"
 #include "core/error/error_norms.h"
+#include "core/scene/particle_cloth.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;
@@ -24,7 +26,7 @@ TEST_CASE("chain_reference: the rows of the sheet stay level and keep their dist
   const Reference reference = chain_reference(scene, kTimes);
   CHECK(reference.label.converged);
   const QuadMesh mesh = [&] {
-    QuadMesh sheet = QuadMesh::sheet(std::get<SheetShape>(scene.cloth));
+    QuadMesh sheet = QuadMesh::sheet(scene.cloth.as<SheetCloth>()->shape);
     sheet.refine_uniformly(1);
     return sheet;
   }();
@@ -50,7 +52,7 @@ TEST_CASE("chain_reference: fine cotton swings as a chain of rigid links, within
           "[reference][long]") {
   Scene scene = swinging_scene(GENERATE(8, 16));
   scene.model.bending = BendingModel::none;
-  scene.method.stepper = StepperKind::explicit_euler;
+  scene.method.stepper = &steppers::explicit_euler;
   scene.method.substeps = 0;
   const Reference reference = chain_reference(scene, kTimes);
   SampledRun run(scene, kTimes, SampledRun::Parts::untimed);
@@ -69,9 +71,11 @@ TEST_CASE("chain_reference: scenes that do not swing so are refused", "[referenc
   SECTION("a solid") { scene.colliders.emplace_back(); }
   SECTION("no pins") { scene.pins.clear(); }
   SECTION("a moving edge") { scene.pins.front().motion.kind = Motion::Kind::move; }
-  SECTION("another edge") { scene.pins.front().where = SheetPart::left_edge; }
-  SECTION("thrown") { scene.initial_velocity = Vec3(0, 0, 1); }
+  SECTION("another edge") { scene.pins.front().where = "left_edge"; }
+  SECTION("thrown") {
+    change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) { sheet.initial_velocity = {0, 0, 1}; });
+  }
   SECTION("weft not level") { scene.gravity = Vec3(1, -9, 0); }
-  SECTION("particles") { scene.cloth = InlineCloth{}; }
+  SECTION("particles") { scene.cloth = ParticleCloth{}; }
   CHECK_THROWS_AS(chain_reference(scene, kTimes), InputError);
 }

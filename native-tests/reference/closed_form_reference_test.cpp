@@ -7,8 +7,10 @@
 #include "core/model/elasticity.h"
 #include "core/reference/closed_forms.h"
 #include "core/run/scene_model.h"
+#include "core/scene/particle_cloth.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;
@@ -27,7 +29,7 @@ std::vector<VertexId> first_vertices(int count) {
 /// Without springs against shear, so that it hangs as a strip does.
 Scene hanging_scene(int cells) {
   Scene scene = released_sheet_scene(cells, "spandex");
-  std::get<SheetShape>(scene.cloth).width = 0.8;
+  change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) { sheet.shape.width = 0.8; });
   scene.model.shear = false;
   scene.model.bending = BendingModel::none;
   return scene;
@@ -43,7 +45,7 @@ Scene cantilever_scene(int rows) {
   shape.origin = {0, 1, 0};
   shape.warp_direction = {0, 0, 1};
   Scene scene;
-  scene.cloth = shape;
+  scene.cloth = SheetCloth(shape);
   scene.fabric = library_fabric("canvas");
   scene.pins = {{first_vertices(6), {}}};
   return scene;
@@ -51,7 +53,7 @@ Scene cantilever_scene(int rows) {
 
 /// Ten springs in no particular order between two pins.
 Scene rope_scene() {
-  InlineCloth cloth;
+  ParticleCloth cloth;
   constexpr int kParticles = 11;
   cloth.positions = Positions::Zero(3, kParticles);
   cloth.positions.row(0).setLinSpaced(0, 0.9);
@@ -86,7 +88,9 @@ TEST_CASE("closed_form_reference: a hanging sheet of springs is in balance", "[r
   scene.level = GENERATE(0, 1);
   SECTION("held by its edge, released from the horizontal") {}
   SECTION("held by three rows, straight down") {
-    std::get<SheetShape>(scene.cloth).warp_direction = {0, -1, 0};
+    change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+      sheet.shape.warp_direction = {0, -1, 0};
+    });
     scene.level = 0;
     scene.pins = {{first_vertices(18), {}}};
   }
@@ -134,7 +138,7 @@ TEST_CASE("closed_form_reference: a strip held by two rows is an elastica from b
 TEST_CASE("closed_form_reference: a static shape does not depend on the method", "[reference]") {
   Scene scene = hanging_scene(3);
   const std::string id = closed_form_reference(scene, kRestTimes).label.id;
-  scene.method.stepper = StepperKind::xpbd;
+  scene.method.stepper = &steppers::xpbd;
   CHECK(closed_form_reference(scene, kRestTimes).label.id == id);
   scene.fabric.areal_density *= 1.01;
   CHECK(closed_form_reference(scene, kRestTimes).label.id != id);
@@ -174,7 +178,7 @@ TEST_CASE("closed_form_reference: scenes without a closed form are refused by wh
     CHECK(where(sheet) == "/pins");
   }
   SECTION("a row that is not the next") {
-    sheet.pins.push_back({SheetPart::lower_edge, {}});
+    sheet.pins.push_back({"lower_edge", {}});
     CHECK(where(sheet) == "/pins");
   }
   SECTION("all rows") {
@@ -218,25 +222,30 @@ TEST_CASE("closed_form_reference: scenes without a closed form are refused by wh
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a ring") {
-    std::get<InlineCloth>(rope.cloth)
-        .springs.push_back({VertexId(0), VertexId(10), 1, 1, 0, SpringKind::other});
+    change_cloth<ParticleCloth>(rope, [](ParticleCloth& cloth) {
+      cloth.springs.push_back({VertexId(0), VertexId(10), 1, 1, 0, SpringKind::other});
+    });
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a fork") {
-    std::get<InlineCloth>(rope.cloth).springs.front().b = VertexId(8);
+    change_cloth<ParticleCloth>(
+        rope, [](ParticleCloth& cloth) { cloth.springs.front().b = VertexId(8); });
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a spring without stiffness") {
-    std::get<InlineCloth>(rope.cloth).springs.front().stiffness = 0;
+    change_cloth<ParticleCloth>(rope,
+                                [](ParticleCloth& cloth) { cloth.springs.front().stiffness = 0; });
     CHECK(where(rope) == "/cloth/particles/springs");
   }
   SECTION("a rope with rigidity") {
-    std::get<InlineCloth>(rope.cloth)
-        .bends.push_back({{VertexId(0), VertexId(1), VertexId(2)}, {1, -2, 1}, 1});
+    change_cloth<ParticleCloth>(rope, [](ParticleCloth& cloth) {
+      cloth.bends.push_back({{VertexId(0), VertexId(1), VertexId(2)}, {1, -2, 1}, 1});
+    });
     CHECK(where(rope) == "/cloth/particles/bends");
   }
   SECTION("supports above each other") {
-    std::get<InlineCloth>(rope.cloth).positions.col(10) = Vec3(0, 2, 1);
+    change_cloth<ParticleCloth>(
+        rope, [](ParticleCloth& cloth) { cloth.positions.col(10) = Vec3(0, 2, 1); });
     CHECK(where(rope) == "/pins");
   }
 }

@@ -11,7 +11,7 @@ namespace {
 /// At rest by newton, from the rest shape.
 Positions at_rest(Scene scene) {
   scene.method = MethodOptions{};
-  scene.method.stepper = StepperKind::newton;
+  scene.method.stepper = &steppers::newton;
   scene.method.rule = NewtonRule::equilibrium;
   scene.method.solver = SolverKind::eigen;
   scene.method.tolerance = kNewtonTolerance;
@@ -33,14 +33,14 @@ Scene hanging_strip(Elasticity elasticity, int rows) {
   shape.rows = rows;
   shape.columns = rows / 4;
   Scene scene;
-  scene.cloth = shape;
+  scene.cloth = SheetCloth(shape);
   scene.fabric.areal_density = 0.2;
   scene.fabric.stretch_warp = 20;  // so soft that it gets a twentieth longer
   scene.fabric.stretch_weft = 20;
   scene.fabric.shear = 0;
   scene.model.elasticity = elasticity;
   scene.model.bending = BendingModel::none;
-  scene.pins = {{SheetPart::upper_edge, {}}};
+  scene.pins = {{"upper_edge", {}}};
   return scene;
 }
 
@@ -55,7 +55,7 @@ Scene cantilever(Elasticity elasticity, int rows, double load) {
   shape.warp_direction = {1, 0, 0};
   shape.weft_direction = {0, 0, 1};
   Scene scene;
-  scene.cloth = shape;
+  scene.cloth = SheetCloth(shape);
   scene.fabric.areal_density = 0.1;
   scene.fabric.stretch_warp = 4000;
   scene.fabric.stretch_weft = 4000;

@@ -6,6 +6,8 @@
 #include "core/base/check.h"
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
+#include "core/scene/particle_cloth.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {
@@ -14,12 +16,13 @@ namespace {
 /// A sheet of half a metre that hangs from two corners, so that it is bent everywhere.
 Scene hanging_scene() {
   Scene scene = released_sheet_scene(12, "canvas");
-  auto& shape = std::get<SheetShape>(scene.cloth);
-  shape.width = shape.height = 0.5;
-  shape.warp_direction = {0, -1, 0};
-  scene.pins = {{SheetPart::upper_left, {Motion::Kind::move, Vec3(0.03, 0, 0), 0, 0.5, 0}},
-                {SheetPart::upper_right, {}}};
-  scene.initial_velocity = {0, 0, 0.05};
+  change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+    sheet.shape.width = sheet.shape.height = 0.5;
+    sheet.shape.warp_direction = {0, -1, 0};
+    sheet.initial_velocity = {0, 0, 0.05};
+  });
+  scene.pins = {{"upper_left", {Motion::Kind::move, Vec3(0.03, 0, 0), 0, 0.5, 0}},
+                {"upper_right", {}}};
   scene.method.substeps = 2;
   return scene;
 }
@@ -29,8 +32,8 @@ using Places = std::map<std::pair<double, double>, Vec3>;
 /// By rest coordinates, which refinement takes exact means of.
 Places places(const AdaptiveRun& run) {
   Places all;
-  for (int v = 0; v < run.mesh().n_vertices(); ++v) {
-    const auto uv = run.mesh().rest_coordinates().col(v);
+  for (int v = 0; v < run.mesh()->n_vertices(); ++v) {
+    const auto uv = run.mesh()->rest_coordinates().col(v);
     all[{uv[0], uv[1]}] = run.state().positions.col(v);
   }
   return all;
@@ -86,7 +89,7 @@ TEST_CASE("adaptive run: where nothing is refined it is the simulation, to the b
 
 TEST_CASE("adaptive run: cloth that is not of quads is refused", "[run]") {
   Scene scene = hanging_scene();
-  InlineCloth cloth;
+  ParticleCloth cloth;
   cloth.positions = cloth.velocities = Positions::Zero(3, 1);
   cloth.masses = Eigen::VectorXd::Ones(1);
   scene.cloth = cloth;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
 #include "core/scene/scene_file.h"
@@ -31,19 +32,19 @@ Positions saddle(const QuadMesh& mesh) {
   return x;
 }
 
-MethodOptions method(StepperKind stepper) {
+MethodOptions method(const StepperType* stepper) {
   for (const MethodOptions& options : everyday_methods())
     if (options.stepper == stepper) return options;
   return {};
 }
 
-Scene moving_scene(const std::string& name, StepperKind stepper, int level,
+Scene moving_scene(const std::string& name, const StepperType* stepper, int level,
                    const std::string& fabric) {
   Scene scene = read_scene(scene_text(name), fabric_library());
   scene.level = level;
   scene.fabric = constants(fabric_library().find(fabric), scene.bend_source);
   scene.method = method(stepper);
-  if (stepper == StepperKind::projective) scene.method.substeps = 4;  // less sluggish
+  if (stepper == &steppers::projective) scene.method.substeps = 4;  // less sluggish
   return scene;
 }
 
@@ -212,10 +213,9 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
                                {"tablecloth", 24, 1, "canvas", 2, "spandex"},
                                {"tablecloth", 24, 2, "wool", 1, "silk"},
                                {"tablecloth", 24, 0, "leather", 1, "chiffon"}}));
-  const auto stepper =
-      GENERATE(StepperKind::implicit_euler, StepperKind::projective, StepperKind::xpbd);
+  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective, &steppers::xpbd);
   CAPTURE(change.scene, change.old_level, change.old_fabric, change.new_level, change.new_fabric,
-          name(stepper));
+          stepper->name);
   Simulation old(moving_scene(change.scene, stepper, change.old_level, change.old_fabric));
   for (int s = 0; s < change.n_steps; ++s) old.step();
   Simulation changed(moving_scene(change.scene, stepper, change.new_level, change.new_fabric));
@@ -233,7 +233,7 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
 }
 
 TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[run]") {
-  const auto stepper = GENERATE(StepperKind::implicit_euler, StepperKind::projective);
+  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective);
   Simulation old(moving_scene("tablecloth", stepper, 1, "silk"));
   for (int s = 0; s < 10; ++s) old.step();
   const Scene scene = moving_scene("tablecloth", stepper, 0, "leather");
@@ -253,8 +253,8 @@ TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[
 }
 
 TEST_CASE("carry_over: the same cloth at rest on a ball goes on resting", "[run]") {
-  const auto stepper = GENERATE(StepperKind::implicit_euler, StepperKind::projective);
-  CAPTURE(name(stepper));
+  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective);
+  CAPTURE(stepper->name);
   const Scene scene = moving_scene("tablecloth", stepper, 0, "silk");
   Simulation old(scene);
   while (old.time() < 3) old.step();
@@ -267,7 +267,7 @@ TEST_CASE("carry_over: the same cloth at rest on a ball goes on resting", "[run]
 
 TEST_CASE("carry_over: drag keeps up with the weight through two changes", "[run]") {
   const auto at = [](const char* fabric) {
-    return moving_scene("curtain", StepperKind::implicit_euler, 0, fabric);
+    return moving_scene("curtain", &steppers::implicit_euler, 0, fabric);
   };
   Simulation silk(at("silk"));
   for (int s = 0; s < 10; ++s) silk.step();
@@ -284,9 +284,9 @@ TEST_CASE("carry_over: drag keeps up with the weight through two changes", "[run
 }
 
 TEST_CASE("carry_over: a reset on the way is the scene from its beginning, to the bit", "[run]") {
-  Simulation old(moving_scene("tablecloth", StepperKind::implicit_euler, 1, "silk"));
+  Simulation old(moving_scene("tablecloth", &steppers::implicit_euler, 1, "silk"));
   for (int s = 0; s < 30; ++s) old.step();
-  const Scene scene = moving_scene("tablecloth", StepperKind::implicit_euler, 0, "leather");
+  const Scene scene = moving_scene("tablecloth", &steppers::implicit_euler, 0, "leather");
   Simulation changed(scene);
   changed.carry_over(old);
   for (int s = 0; s < 10; ++s) changed.step();

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {
@@ -12,8 +14,9 @@ constexpr double kRadius = 0.3;  // of the ball [m]
 /// A limp horizontal sheet above the origin.
 Scene falling_scene(const MethodOptions& method, double height) {
   Scene scene = released_sheet_scene(8, "fine cotton");
-  auto& shape = std::get<SheetShape>(scene.cloth);
-  shape.origin = {-0.5, height, -0.5};
+  change_cloth<SheetCloth>(scene, [&](SheetCloth& sheet) {
+    sheet.shape.origin = {-0.5, height, -0.5};
+  });
   scene.pins.clear();
   scene.method = method;
   return scene;
@@ -25,9 +28,11 @@ TEST_CASE("contact: a sheet shot at a ball or a floor at 50 m/s never enters it"
   const bool ball = GENERATE(true, false);
   CAPTURE(ball);
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Scene scene = falling_scene(method, kRadius + 0.5);
-    scene.initial_velocity = {0, -50, 0};
+    change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+      sheet.initial_velocity = {0, -50, 0};
+    });
     const Sphere sphere{{0.05, 0, 0.02}, kRadius};
     if (ball)
       scene.colliders.push_back({sphere, {}, 0.3});
@@ -49,7 +54,7 @@ TEST_CASE("contact: a sheet shot at a ball or a floor at 50 m/s never enters it"
 
 TEST_CASE("contact: cloth dropped flat on a floor comes to rest there", "[run][long]") {
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Scene scene = falling_scene(method, 0.05);
     scene.colliders.push_back({Plane{}, {}, 0.5});
     Simulation simulation(scene);

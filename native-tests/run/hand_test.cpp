@@ -2,7 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
+#include "core/scene/particle_cloth.h"
+#include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 
@@ -15,7 +18,9 @@ constexpr VertexId kLowerCorner{kCells * (kCells + 1)};
 /// Hanging from its upper edge, with any of the steppers.
 Scene hanging_scene(const MethodOptions& method) {
   Scene scene = released_sheet_scene(kCells, "fine cotton");
-  std::get<SheetShape>(scene.cloth).warp_direction = {0, -1, 0};
+  change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) {
+    sheet.shape.warp_direction = {0, -1, 0};
+  });
   scene.method = method;
   return scene;
 }
@@ -26,7 +31,7 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
           "[run]") {
   const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Simulation simulation(hanging_scene(method));
     for (int s = 0; s < 5; ++s) simulation.step();
     simulation.grab(kLowerCorner);
@@ -46,7 +51,7 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
 TEST_CASE("hand: a vertex that hangs is at its target too, between its parents", "[run]") {
   const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Scene scene = hanging_scene(method);
     scene.plan = patchy_plan(*base_quads(scene));
     Simulation simulation(scene);
@@ -82,7 +87,7 @@ TEST_CASE("hand: a target that is not finite is ignored", "[run]") {
 
 TEST_CASE("hand: a pinned vertex stays at its pin", "[run]") {
   for (const MethodOptions& method : everyday_methods()) {
-    CAPTURE(name(method.stepper));
+    CAPTURE(method.stepper->name);
     Simulation simulation(hanging_scene(method));
     const Vec3 place = simulation.state().positions.col(2);
     simulation.grab(VertexId(2));
@@ -96,7 +101,7 @@ TEST_CASE("hand: a pinned vertex stays at its pin", "[run]") {
 
 TEST_CASE("simulation: after its end it says the same at every step and does not move", "[run]") {
   // A mass on a spring so stiff that an overflow follows from the first step.
-  InlineCloth particles;
+  ParticleCloth particles;
   particles.positions = Positions::Zero(3, 2);
   particles.positions(0, 1) = 1e200;
   particles.velocities = Positions::Zero(3, 2);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/scene/particle_cloth.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;
@@ -21,12 +22,12 @@ Scene swinging_scene() {
 /// One particle in free fall from the origin.
 Scene falling_scene(double step) {
   Scene scene;
-  InlineCloth cloth;
+  ParticleCloth cloth;
   cloth.positions = Positions::Zero(3, 1);
   cloth.velocities = Positions::Zero(3, 1);
   cloth.masses = Eigen::VectorXd::Ones(1);
   scene.cloth = cloth;
-  scene.method.stepper = StepperKind::explicit_euler;
+  scene.method.stepper = &steppers::explicit_euler;
   scene.method.step = step;
   return scene;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/scene/particle_cloth.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/support/assets.h"
 
@@ -37,13 +38,12 @@ TEST_CASE("simulation: an edge of a sheet is pinned whole, whatever the sheet's 
   const double size = GENERATE(0.1, 0.7, 1.0, 4.98);
   const int cells = GENERATE(3, 7, 14);
   CAPTURE(size, cells);
-  for (const SheetPart part : {SheetPart::upper_edge, SheetPart::lower_edge, SheetPart::left_edge,
-                               SheetPart::right_edge}) {
+  for (const char* part : {"upper_edge", "lower_edge", "left_edge", "right_edge"}) {
     Scene scene;
     SheetShape shape;
     shape.width = shape.height = size;
     shape.columns = shape.rows = cells;
-    scene.cloth = shape;
+    scene.cloth = SheetCloth(shape);
     scene.level = 1;
     scene.pins = {{part, {}}};
     CHECK(Simulation(scene).model().pins.size() == static_cast<std::size_t>(2 * cells + 1));
@@ -53,21 +53,21 @@ TEST_CASE("simulation: an edge of a sheet is pinned whole, whatever the sheet's 
 TEST_CASE("simulation: an edge keeps its motion where it shares a corner with one at rest",
           "[run]") {
   Scene scene;
-  scene.pins = {{SheetPart::upper_edge, {}}, {SheetPart::upper_left, {}}};
+  scene.pins = {{"upper_edge", {}}, {"upper_left", {}}};
   CHECK(Simulation(scene).model().pins.size() == 2);
 }
 
 TEST_CASE("simulation: every stepper lets a free sheet fall by the sum of its steps", "[run]") {
   // All four add g h to the velocity and then h v to the position: after n substeps of h the sheet
   // is g h^2 n (n + 1) / 2 lower, and nothing stretches.
-  const auto stepper = GENERATE(StepperKind::explicit_euler, StepperKind::implicit_euler,
-                                StepperKind::projective, StepperKind::xpbd);
-  CAPTURE(static_cast<int>(stepper));
+  const auto stepper = GENERATE(&steppers::explicit_euler, &steppers::implicit_euler,
+                                &steppers::projective, &steppers::xpbd);
+  CAPTURE(stepper->name);
   Scene scene = coarse_scene("falling_sheet");
   scene.method.stepper = stepper;
-  scene.method.substeps = stepper == StepperKind::explicit_euler ? 0 : 2;
+  scene.method.substeps = stepper == &steppers::explicit_euler ? 0 : 2;
   Simulation simulation(scene);
-  const int n_steps = stepper == StepperKind::explicit_euler ? 3 : 30;
+  const int n_steps = stepper == &steppers::explicit_euler ? 3 : 30;
   run(simulation, n_steps);
   const double h = scene.method.step / simulation.substeps();
   const double n = static_cast<double>(n_steps) * simulation.substeps();
@@ -75,7 +75,7 @@ TEST_CASE("simulation: every stepper lets a free sheet fall by the sum of its st
       simulation.rest_positions().colwise() - Vec3(0, kGravity * h * h * n * (n + 1) / 2, 0);
   // Rounding of the lengths times the springs' stiffness pushes light vertices about; xpbd holds
   // its positions as 32-bit floats, of 7 digits.
-  const double tolerance = stepper == StepperKind::xpbd ? 1e-4 : 1e-7;
+  const double tolerance = stepper == &steppers::xpbd ? 1e-4 : 1e-7;
   CHECK((simulation.state().positions - fallen).cwiseAbs().maxCoeff() < tolerance);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE(
     "simulation: the hanging chain comes to rest with its links stretched by what hangs on them",
     "[run]") {
   const Scene scene = asset_scene("hanging_chain");
-  const auto& chain = std::get<InlineCloth>(scene.cloth);
+  const auto& chain = *scene.cloth.as<ParticleCloth>();
   Simulation simulation(scene);
   run(simulation, 1200);
   const auto n_links = static_cast<int>(chain.springs.size());
@@ -101,7 +101,7 @@ TEST_CASE(
 
 TEST_CASE("simulation: the spring pendulum follows the cosine", "[run]") {
   const Scene scene = asset_scene("spring_pendulum");
-  const auto& pendulum = std::get<InlineCloth>(scene.cloth);
+  const auto& pendulum = *scene.cloth.as<ParticleCloth>();
   const double mass = pendulum.masses[1];
   const double stiffness = pendulum.springs[0].stiffness;
   const double omega = std::sqrt(stiffness / mass);
@@ -118,9 +118,8 @@ TEST_CASE("simulation: the spring pendulum follows the cosine", "[run]") {
 
 TEST_CASE("simulation: the same scene gives the same bits, and so does a reset", "[run]") {
   const char* name = GENERATE("curtain", "tablecloth", "corners_meet");
-  const auto stepper =
-      GENERATE(StepperKind::implicit_euler, StepperKind::projective, StepperKind::xpbd);
-  CAPTURE(name, static_cast<int>(stepper));
+  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective, &steppers::xpbd);
+  CAPTURE(name, stepper->name);
   Scene scene = coarse_scene(name);
   scene.method.stepper = stepper;
   scene.method.iterations = 5;

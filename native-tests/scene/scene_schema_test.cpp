@@ -6,6 +6,7 @@
 #include "core/files/plan_file.h"
 #include "core/refinement/mesh_match.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/scene_schema.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"
 
@@ -27,6 +28,11 @@ const char* const kShortScenes[] = {
         "triangles": [[0, 1, 2]], "warp_direction": [1, 0, 0]}}})",
     R"({"cloth": {"garment": {"skirt": {}}}, "figure": {"motion": "turn.json"}})",
     R"({"cloth": {"garment": {"trousers": {}}}, "figure": {"motion": "turn.json"}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "projective"}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd"}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit"}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "rk4"}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "newton"}})",
 };
 
 // What no short scene has.
@@ -36,7 +42,7 @@ const char* const kFurtherScenes[] = {
     R"({"$schema": "scene_schema.json", "cloth": {"sheet": {}},
         "fabric": {"name": "silk", "overrides": {"shear_n_per_m": 3}}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
-    R"({"cloth": {"sheet": {}}, "model": {"elasticity": "membrane", "strain_limit": 0.06}})",
+    R"({"cloth": {"sheet": {}}, "model": {"elasticity": "membrane", "stiffening_strain": 0.06}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "masses_kg": [1, 1, 1],
         "bends": [{"vertices": [0, 1, 2], "stiffness_n_m3": 1, "weights_per_m2": [1, -2, 1]}],
         "triangles": [[0, 1, 2]]}}})",
@@ -63,7 +69,7 @@ std::string plan_of_unit_sheet() {
   return plan_text(plan);
 }
 
-json schema() { return json::parse(scene_schema()); }
+json schema() { return json::parse(scene_schema_file()); }
 
 json written(const std::string& text) {
   const FileSource files = [](const std::string& name) -> std::string {
@@ -140,9 +146,15 @@ TEST_CASE("scene schema: unknown keys, wrong types and values out of range are n
   CHECK(violation(R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0]], "triangles": [[0, 1, 2]],
                                          "groups": {"waist": []}}}})") == "/cloth/mesh 0 choices");
   CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"stepper": "euler"}})") ==
-        "/method/stepper enum");
+        "/method 0 choices");
   CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"substeps": 0}})") ==
         "/method/substeps 0 choices");
+  CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"iterations": 2}})") ==
+        "/method 0 choices");
+}
+
+TEST_CASE("scene schema: the file has the table's steppers and their settings", "[scene]") {
+  CHECK(json::parse(scene_schema(standard_steppers()).dump()) == schema());
 }
 
 }  // namespace pleat

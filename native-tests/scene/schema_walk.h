@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace pleat {
 
@@ -133,6 +134,7 @@ class SchemaWalk {
           place + (is_named ? "/properties/" + item.key() : "/additionalProperties");
       const std::string found = check(property, inner, item.value(), pointer + "/" + item.key());
       if (!found.empty()) return found;
+      if (n_trials_ > 0) continue;
       if (is_named) seen_.insert(inner);
       if (visit) visit(property, item.value(), pointer + "/" + item.key());
     }
@@ -141,10 +143,17 @@ class SchemaWalk {
 
   std::string check_choices(const json& choices, const std::string& place, const json& value,
                             const std::string& pointer) {
-    std::size_t n_valid = 0;
+    const auto is_valid = [&](std::size_t k) {
+      return check(choices[k], place + "/" + std::to_string(k), value, pointer).empty();
+    };
+    std::vector<std::size_t> valid;
+    ++n_trials_;
     for (std::size_t k = 0; k < choices.size(); ++k)
-      if (check(choices[k], place + "/" + std::to_string(k), value, pointer).empty()) ++n_valid;
-    return n_valid == 1 ? "" : pointer + " " + std::to_string(n_valid) + " choices";
+      if (is_valid(k)) valid.push_back(k);
+    --n_trials_;
+    if (valid.size() != 1) return pointer + " " + std::to_string(valid.size()) + " choices";
+    is_valid(valid[0]);  // again, to note what it has
+    return "";
   }
 
   std::string check(const json& schema, const std::string& place, const json& value,
@@ -172,6 +181,7 @@ class SchemaWalk {
   }
 
   const json& root_;
+  int n_trials_ = 0;  // choices being tried: what they have is not seen yet
   std::set<std::string> seen_;
   std::set<std::string> all_;
 };

@@ -1,13 +1,14 @@
 #include "native-tests/support/models.h"
 
 #include "core/fabric/taut_springs.h"
+#include "core/model/system_matrix.h"
 #include "core/run/elastic_model.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {
 namespace {
 
-MethodOptions method(StepperKind stepper, double step) {
+MethodOptions method(const StepperType* stepper, double step) {
   MethodOptions options;
   options.stepper = stepper;
   options.step = step;
@@ -74,7 +75,7 @@ ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabr
   model.springs = springs.springs;
   model.bends = springs.bends;
   model.taut_springs = taut_springs(model.springs, 0.02);
-  model.membrane.law.strain_limit = 0.02;
+  model.membrane.law.stiffening_strain = 0.02;
   model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::arc).chord_bends;
   model.hinges = hinges(mesh.triangle_mesh(), fabric.bend_warp);
   return model;
@@ -111,35 +112,41 @@ Eigen::MatrixXd dense(const SparseMatrix& lower) {
   return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
 }
 
+SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions) {
+  SystemMatrix matrix(model);
+  matrix.add_elasticity(positions, 0, 1, ElementHessian::projected);
+  return matrix.lower();
+}
+
 std::vector<MethodOptions> converged_methods(double step) {
-  MethodOptions explicit_method = method(StepperKind::explicit_euler, step);
-  MethodOptions projective = method(StepperKind::projective, step);
+  MethodOptions explicit_method = method(&steppers::explicit_euler, step);
+  MethodOptions projective = method(&steppers::projective, step);
   projective.iterations = 300;
-  MethodOptions xpbd = method(StepperKind::xpbd, step);
+  MethodOptions xpbd = method(&steppers::xpbd, step);
   xpbd.iterations = 100;
-  MethodOptions newton = method(StepperKind::newton, step);
+  MethodOptions newton = method(&steppers::newton, step);
   newton.rule = NewtonRule::backward_euler;
   newton.tolerance = kNewtonTolerance;
-  return {explicit_method, method(StepperKind::implicit_euler, step), projective, xpbd, newton};
+  return {explicit_method, method(&steppers::implicit_euler, step), projective, xpbd, newton};
 }
 
 std::vector<MethodOptions> everyday_methods() {
-  MethodOptions explicit_method = method(StepperKind::explicit_euler, 1.0 / 60);
+  MethodOptions explicit_method = method(&steppers::explicit_euler, 1.0 / 60);
   explicit_method.substeps = 0;
-  MethodOptions implicit = method(StepperKind::implicit_euler, 1.0 / 60);
+  MethodOptions implicit = method(&steppers::implicit_euler, 1.0 / 60);
   implicit.solver = SolverKind::cg;
-  MethodOptions projective = method(StepperKind::projective, 1.0 / 60);
+  MethodOptions projective = method(&steppers::projective, 1.0 / 60);
   projective.iterations = 10;
-  MethodOptions xpbd = method(StepperKind::xpbd, 1.0 / 60);
+  MethodOptions xpbd = method(&steppers::xpbd, 1.0 / 60);
   xpbd.substeps = 30;
   return {explicit_method, implicit, projective, xpbd};
 }
 
 std::vector<MethodOptions> accurate_methods(double step) {
-  MethodOptions newton = method(StepperKind::newton, step);
+  MethodOptions newton = method(&steppers::newton, step);
   newton.rule = NewtonRule::midpoint;
   newton.tolerance = kNewtonTolerance;
-  MethodOptions rk4 = method(StepperKind::rk4, step);
+  MethodOptions rk4 = method(&steppers::rk4, step);
   rk4.substeps = 0;
   return {newton, rk4};
 }
@@ -150,9 +157,9 @@ Scene released_sheet_scene(int cells, const std::string& fabric) {
   shape.columns = cells;
   shape.warp_direction = {0, 0, 1};
   Scene scene;
-  scene.cloth = shape;
+  scene.cloth = SheetCloth(shape);
   scene.fabric = library_fabric(fabric);
-  scene.pins = {{SheetPart::upper_edge, {}}};
+  scene.pins = {{"upper_edge", {}}};
   return scene;
 }
 

@@ -49,6 +49,9 @@ State hanging_state(const Chain& chain);
 /// The whole of a symmetric matrix held by its lower triangle.
 Eigen::MatrixXd dense(const SparseMatrix& lower);
 
+/// C = -d(damping force)/dv, lower triangle, 3n x 3n [N s/m].
+SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
+
 /// Every stepper with settings that solve its own equations as exactly as it can: steps of `step`
 /// [s], one substep, many rounds.
 std::vector<MethodOptions> converged_methods(double step);

@@ -1,5 +1,6 @@
 #include "native-tests/support/particle.h"
 
+#include <array>
 #include <cmath>
 
 namespace pleat {
@@ -85,13 +86,32 @@ double height(const Collider& collider, const Vec3& place, double time) {
       .distance;
 }
 
+bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& position,
+             Vec3& velocity) {
+  constexpr int kMostVertices = 4;  // on the stack, as allocations are counted
+  using FewPositions = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostVertices>;
+  std::array<char, kMostVertices> is_exempt;
+  is_exempt.fill(1);
+  is_exempt[static_cast<std::size_t>(vertex)] = 0;
+  const int n_vertices = vertex + 1;
+  const FewPositions positions_begin = begin.replicate(1, n_vertices);
+  FewPositions positions = position.replicate(1, n_vertices);
+  FewPositions velocities = velocity.replicate(1, n_vertices);
+  const auto touches = stage.resolve(
+      positions_begin, std::span(is_exempt).first(static_cast<std::size_t>(n_vertices)), positions,
+      velocities);
+  position = positions.col(vertex);
+  velocity = velocities.col(vertex);
+  return !touches.empty();
+}
+
 bool step(ContactStage& stage, const Vec3& acceleration, double time, double h,
           Particle& particle) {
   const Vec3 begin = particle.position;
   particle.velocity += h * acceleration;
   particle.position += h * particle.velocity;
   stage.begin_substep(time, time + h);
-  return bool(stage.resolve(VertexId(0), begin, particle.position, particle.velocity));
+  return resolve(stage, VertexId(0), begin, particle.position, particle.velocity);
 }
 
 }  // namespace pleat

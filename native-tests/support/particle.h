@@ -35,6 +35,14 @@ RoundedCone random_cone(Random& random);
 /// How far a place [m] is above the surface of the solid at a time [s], without clearance [m].
 double height(const Collider& collider, const Vec3& place, double time);
 
+/// Contact for one vertex, as if it were alone in its cloth: `vertex` is 3 at most. True when a
+/// solid touched it.
+///
+/// begin     where the substep begins [m]
+/// position  where it ends [m], corrected;  velocity  [m/s], corrected
+bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& position,
+             Vec3& velocity);
+
 /// One step of symplectic Euler under an acceleration [m/s^2], contact included. True when a
 /// contact acted.
 bool step(ContactStage& stage, const Vec3& acceleration, double time, double h, Particle& particle);

@@ -11,7 +11,7 @@ using namespace pleat;
 
 namespace {
 
-BenchRow point(StepperKind stepper, double ms, double error) {
+BenchRow point(const StepperType* stepper, double ms, double error) {
   BenchRow row({"finest-00ff", "implicit with eigen, level 2", false});
   row.scene = "swinging sheet";
   row.method.stepper = stepper;
@@ -77,14 +77,14 @@ std::vector<double> front_corners(const std::string& svg) {
 }  // namespace
 
 TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]") {
-  std::vector<BenchRow> rows = {point(StepperKind::implicit_euler, 1, 0.1),
-                                point(StepperKind::xpbd, 0.1, 0.2),
-                                point(StepperKind::xpbd, 0.2, 0.01),
-                                point(StepperKind::projective, 3, 0.05),
-                                point(StepperKind::explicit_euler, 10, 0),
-                                point(StepperKind::xpbd, BenchRow::kUnknown, 1),
-                                point(StepperKind::xpbd, 1, BenchRow::kUnknown)};
-  rows.push_back(point(StepperKind::projective, 1, 1));
+  std::vector<BenchRow> rows = {point(&steppers::implicit_euler, 1, 0.1),
+                                point(&steppers::xpbd, 0.1, 0.2),
+                                point(&steppers::xpbd, 0.2, 0.01),
+                                point(&steppers::projective, 3, 0.05),
+                                point(&steppers::explicit_euler, 10, 0),
+                                point(&steppers::xpbd, BenchRow::kUnknown, 1),
+                                point(&steppers::xpbd, 1, BenchRow::kUnknown)};
+  rows.push_back(point(&steppers::projective, 1, 1));
   rows.back().status = "refused";
   rows.back().message = "beyond <its> \"bound\" & \x01more";
   const std::string svg = front_figure(rows);
@@ -101,10 +101,23 @@ TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]"
   CHECK(svg == front_figure(rows));
 }
 
+TEST_CASE("front figure: each stepper is drawn and named by its row of the table", "[sweep]") {
+  for (const StepperType* type : standard_steppers()) {
+    CAPTURE(type->name);
+    const std::string svg = front_figure(std::vector<BenchRow>{point(type, 1, 0.1)});
+    const std::string mark =
+        std::string("d=\"") + type->mark.path + "\" fill=\"" + type->mark.colour + '"';
+    CHECK(count_of(svg, mark) == 2);  // in the plot and in its legend
+    CHECK(count_of(svg, std::string(">") + type->name + "</text>") == 1);
+    for (const StepperType* other : standard_steppers())
+      if (other != type) CHECK(count_of(svg, other->mark.path) == 0);
+  }
+}
+
 TEST_CASE("front figure: a decade is as far everywhere, in time as in error", "[sweep]") {
-  const std::vector<BenchRow> rows = {point(StepperKind::xpbd, 0.1, 1),
-                                      point(StepperKind::xpbd, 1, 0.1),
-                                      point(StepperKind::xpbd, 10, 0.01)};
+  const std::vector<BenchRow> rows = {point(&steppers::xpbd, 0.1, 1),
+                                      point(&steppers::xpbd, 1, 0.1),
+                                      point(&steppers::xpbd, 10, 0.01)};
   const std::vector<double> corners = front_corners(front_figure(rows));
   REQUIRE(corners.size() == 6);
   CHECK(corners[2] - corners[0] == Approx(corners[4] - corners[2]).margin(0.02));
@@ -117,9 +130,9 @@ TEST_CASE("front figure: any numbers give a figure of bounded size", "[sweep]") 
   std::vector<BenchRow> rows;
   CHECK(xml_fault(front_figure(rows)).empty());
   const double scale = GENERATE(1e-300, 1.0, 1e300);
-  rows.push_back(point(StepperKind::xpbd, scale, 1e-3 * scale));
+  rows.push_back(point(&steppers::xpbd, scale, 1e-3 * scale));
   CHECK(xml_fault(front_figure(rows)).empty());
-  rows.push_back(point(StepperKind::xpbd, 1, 1));
+  rows.push_back(point(&steppers::xpbd, 1, 1));
   const std::string svg = front_figure(rows);
   CHECK(xml_fault(svg).empty());
   CHECK(svg.find("nan") == std::string::npos);
@@ -128,7 +141,7 @@ TEST_CASE("front figure: any numbers give a figure of bounded size", "[sweep]") 
 }
 
 TEST_CASE("front figure: long lists and names are cut, and the cut is told", "[sweep]") {
-  std::vector<BenchRow> rows(100, point(StepperKind::xpbd, 1, BenchRow::kUnknown));
+  std::vector<BenchRow> rows(100, point(&steppers::xpbd, 1, BenchRow::kUnknown));
   for (BenchRow& row : rows) row.message = row.scene = std::string(5000, 'x');
   const std::string svg = front_figure(rows);
   CHECK(xml_fault(svg).empty());

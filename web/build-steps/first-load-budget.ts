@@ -1,19 +1,41 @@
-// Prints what a first visit downloads, gzipped, and fails the build when it is too much.
+// Prints what a first visit downloads and how large each module is, gzipped, and fails the build when that
+// is too much.
 import { gzipSync } from 'node:zlib';
-import type { Plugin } from 'vite';
+import type { Plugin, Rolldown } from 'vite';
+
+/** Most of a first load's page, gzipped [kB]. */
+const MOST_PAGE_KB = 200;
+
+/** Most of any one WebAssembly module, of the first load or of a later view, gzipped [kB]. */
+const MOST_MODULE_KB = 450;
 
 /**
- * Fetched only when it is asked for: meshes, references, records, what a sweep needs, and the views of
- * fabrics and of refinement.
+ * Assets that are fetched only when they are asked for: meshes, references, records, and the workers of
+ * a sweep and of the later views. Of chunks and styles the first load has what the entry imports.
  */
 const LATER =
-  /\.(map|obj|reference|recording)$|(^|\/)(sweep|deform|fabrics-view|refinement|refinement-view|garment-worker|example-worker|plan)[-.]/;
+  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|deform|garment|example)-worker-|(^|\/)plan-/;
 
-/** Bounds of a first load, gzipped [kB]. */
-const BOUNDS_KB = { page: 200, wasm: 350 };
+type Bundle = Rolldown.OutputBundle;
 
-function gzippedKilobytes(content: string | Uint8Array): number {
-  return gzipSync(content).length / 1000;
+function gzippedKilobytes(output: Bundle[string]): number {
+  return gzipSync(output.type === 'chunk' ? output.code : output.source).length / 1000;
+}
+
+/** The entry with everything that it imports before it runs, and their styles. */
+function firstChunks(bundle: Bundle): Set<string> {
+  const found = new Set<string>();
+  const add = (name: string): void => {
+    const output = bundle[name];
+    if (!output || found.has(name)) return;
+    found.add(name);
+    if (output.type !== 'chunk') return;
+    for (const other of [...output.imports, ...(output.viteMetadata?.importedCss ?? [])])
+      add(other);
+  };
+  for (const [name, output] of Object.entries(bundle))
+    if (output.type === 'chunk' && output.isEntry) add(name);
+  return found;
 }
 
 export function firstLoadBudget(): Plugin {
@@ -24,18 +46,20 @@ export function firstLoadBudget(): Plugin {
     generateBundle: {
       order: 'post',
       handler(_options, bundle) {
-        const sums = { page: 0, wasm: 0 };
-        for (const output of Object.values(bundle)) {
-          if (LATER.test(output.fileName)) continue;
-          const content = output.type === 'chunk' ? output.code : output.source;
-          const kind = output.fileName.endsWith('.wasm') ? 'wasm' : 'page';
-          sums[kind] += gzippedKilobytes(content);
-        }
-        for (const kind of ['page', 'wasm'] as const) {
-          const sentence = `first load, ${kind}: ${sums[kind].toFixed(1)} kB gzipped, at most ${BOUNDS_KB[kind]} kB`;
-          if (sums[kind] > BOUNDS_KB[kind]) this.error(`${sentence}: too much`);
+        const hold = (what: string, kilobytes: number, most: number) => {
+          const sentence = `${what}: ${kilobytes.toFixed(1)} kB gzipped, at most ${most} kB`;
+          if (kilobytes > most) this.error(`${sentence}: too much`);
           this.info(sentence);
+        };
+        const first = firstChunks(bundle);
+        let page = 0;
+        for (const [name, output] of Object.entries(bundle)) {
+          const isFirst = first.has(name) || (output.type === 'asset' && !LATER.test(name));
+          if (isFirst) page += gzippedKilobytes(output);
+          if (name.endsWith('.wasm'))
+            hold(`module ${name}`, gzippedKilobytes(output), MOST_MODULE_KB);
         }
+        hold('first load, page', page, MOST_PAGE_KB);
       },
     },
   };

@@ -7,8 +7,10 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { deflateSync } from 'node:zlib';
-import { encodeFrames, type Parents, type RecordingHead } from '../src/sim/recording.ts';
-import type { ExampleStudyHandle, GarmentRunHandle } from '../src/sim/refinement-module.ts';
+import type {
+  ExampleStudyHandle,
+  GarmentRunHandle,
+} from '../src/refinement/bindings/refinement-module.ts';
 import {
   FINE_LEVEL,
   FRAME_S,
@@ -16,7 +18,12 @@ import {
   PATTERNS,
   SETTLED_S,
   USUAL_DEMAND,
-} from '../src/state/garment-frames.ts';
+} from '../src/refinement/state/garment-frames.ts';
+import {
+  encodeFrames,
+  type Parents,
+  type RecordingHead,
+} from '../src/refinement/worker/recording.ts';
 import createRefinement from '../src/wasm/refinement.mjs';
 
 /** As long as the frames of the test motion are [s]. */
@@ -25,7 +32,7 @@ const TEST_S = 5;
 /** The end of the example [s]. */
 const EXAMPLE_S = 8;
 
-/** Of places [m] and of curvature [1/m]. */
+/** Rounding of places [m] and of curvature [1/m]. */
 const QUANTUM = { place: 1e-4, curvature: 1e-3 };
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
@@ -52,7 +59,7 @@ function sceneOf(name: string, refinement: object, durationS: number) {
 
 interface Run {
   frames: Float64Array[];
-  /** Of one core [ms]. */
+  /** Time of a frame on one core [ms]. */
   msPerFrame: number;
 }
 

@@ -1,13 +1,19 @@
 // Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
-import './design.css';
-import { createMotionView, type MotionView } from './views/motion-view';
-import { createTabs, VIEWS, type ViewId } from './views/tabs';
-import type { View } from './views/view';
+import type { View } from './shared/page/view';
+import './shared/page/design.css';
+import type { FabricsActions } from './fabrics/fabrics-view';
+import { createMotionView, type MotionView } from './motion/motion-view';
+import { element } from './shared/panels/element';
+import { createTabs, VIEWS, type ViewId } from './tabs';
 
+/** A part of the document by its id; a view that the document has no place for gets one. */
 const place = (id: string): HTMLElement => {
   const found = document.getElementById(id);
-  if (!found) throw new Error(`the page has no #${id}`);
-  return found;
+  if (found) return found;
+  if (!VIEWS.some((view) => view.id === id)) throw new Error(`the page has no #${id}`);
+  const made = element('main', { id, hidden: true });
+  document.body.append(made);
+  return made;
 };
 
 function viewIn(hash: string): ViewId {
@@ -25,28 +31,34 @@ function motionView(hash: string): MotionView {
   return motion;
 }
 
-/** Parts of the page that only one view needs, fetched when it is first asked for. */
-const FETCHED: Record<Exclude<ViewId, 'motion'>, (hash: string) => Promise<View>> = {
-  async refinement(hash) {
-    const { createRefinementView } = await import('./views/refinement-view');
-    views.refinement ??= createRefinementView(place('refinement'), hash);
-    return views.refinement;
+/** What one view hands to the view of motion, which is shown from then on. */
+const toMotion: FabricsActions = {
+  wear(fabric) {
+    motionView('#').wear(fabric);
+    void show('motion');
   },
-  async fabrics(hash) {
-    const { createFabricsView } = await import('./views/fabrics-view');
-    views.fabrics ??= createFabricsView(place('fabrics'), hash, {
-      wear(fabric) {
-        motionView('#').wear(fabric);
-        show('motion');
-      },
-      start(shape, fabric) {
-        motionView('#').start(shape, fabric);
-        show('motion');
-      },
-    });
-    return views.fabrics;
+  start(shape, fabric) {
+    motionView('#').start(shape, fabric);
+    void show('motion');
   },
 };
+
+type Create = (root: HTMLElement, hash: string) => View;
+
+/** Parts of the page that only one view needs, fetched when it is first asked for. */
+const FETCHED: Record<Exclude<ViewId, 'motion'>, () => Promise<Create>> = {
+  refinement: async () => (await import('./refinement/refinement-view')).createRefinementView,
+  async fabrics() {
+    const { createFabricsView } = await import('./fabrics/fabrics-view');
+    return (root, hash) => createFabricsView(root, hash, toMotion);
+  },
+};
+
+async function fetchedView(id: keyof typeof FETCHED, hash: string): Promise<View> {
+  const create = await FETCHED[id]();
+  views[id] ??= create(place(id), hash);
+  return views[id];
+}
 
 /** For the console and for tests: the shown view's state and frame. */
 function expose({ probe }: View): void {
@@ -62,7 +74,7 @@ async function show(id: ViewId, hash = ''): Promise<void> {
     if (view.id !== id) views[view.id]?.setShown(false);
   }
   try {
-    const view = id === 'motion' ? motionView(hash) : await FETCHED[id](hash);
+    const view = id === 'motion' ? motionView(hash) : await fetchedView(id, hash);
     if (shown !== id) return;
     view.setShown(true);
     expose(view);
@@ -85,6 +97,6 @@ window.addEventListener('hashchange', () => {
 void show(viewIn(window.location.hash), window.location.hash);
 
 if (import.meta.env.PROD && 'serviceWorker' in navigator) {
-  // Without it (a page opened from an insecure address) the page works, but only while served.
+  // A page opened from an insecure address has none: it works, but only while it is served.
   navigator.serviceWorker.register('./offline.js').catch(() => undefined);
 }

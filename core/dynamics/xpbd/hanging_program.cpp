@@ -22,7 +22,7 @@ SlotSum sum_in_slots(const Combination& sum, const LaneLayout& layout) {
   return in_slots;
 }
 
-/// In differences from the first place: what is taken from numbers near each other is not rounded.
+/// The sum, in differences from the first place: those of numbers near each other are not rounded.
 template <class Pointer>
 Vec3Lanes<Float1> value(const SlotSum& sum, const std::array<Pointer, 3>& arrays) {
   const Vec3Lanes<Float1> first = load<Float1>(arrays, sum.slots[0]);

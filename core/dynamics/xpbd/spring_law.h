@@ -32,7 +32,7 @@ auto with_law(SpringLaw law, Work&& work) {
   return work(std::integral_constant<SpringLaw, SpringLaw::rigid>());
 }
 
-/// Of the springs of a model, those that can pull at all.
+/// The springs of a model that can pull at all.
 std::vector<int> active_springs(const ClothModel& model, SpringLaw law);
 
 /// Where a length [m] may be zero, its square is held above this [m^2].
@@ -45,7 +45,7 @@ struct SpringBlock {
   /// The same; infinite in empty lanes: nothing moves there.
   PerLane<float> denominator_share{kEmptyLane, kEmptyLane, kEmptyLane, kEmptyLane};
   PerLane<float> damper_share{};  ///< of the stiffness k + c/h, what is c/h
-  /// Of the damper across the spring; infinite without.
+  /// The compliance of the damper across the spring; infinite without.
   PerLane<float> across_compliance{kEmptyLane, kEmptyLane, kEmptyLane, kEmptyLane};
   bool operator==(const SpringBlock&) const = default;
 

@@ -44,6 +44,7 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
   if (model.air) forces_.resize(3, model.n_vertices());
+  if (model.contact) proposed_.resize(3, model.n_vertices());
   refresh();
 }
 
@@ -90,10 +91,10 @@ void StepperXpbd::set_motion(int slot, const Vec3& position, const Vec3& velocit
   for (int k = 0; k < 3; ++k) {
     const double local = position[k] - origin_[k];
     const auto rounded = static_cast<float>(local);
-    const auto rest = static_cast<float>(local - rounded);
+    const auto remainder = static_cast<float>(local - rounded);
     array(begin + k)[slot] = rounded;
-    array(move + k)[slot] = rest;
-    array(rounded_off + k)[slot] = static_cast<float>(rest - h * velocity[k]);
+    array(move + k)[slot] = remainder;
+    array(rounded_off + k)[slot] = static_cast<float>(remainder - h * velocity[k]);
   }
 }
 
@@ -113,18 +114,18 @@ void StepperXpbd::predict() {
   for (int k = 0; k < 3; ++k) {
     float* const begins = array(begin + k);
     float* const moves = array(move + k);
-    float* const rests = array(rounded_off + k);
+    float* const remainders = array(rounded_off + k);
     const Float4 fall = Float4::all(fall_[static_cast<std::size_t>(k)]);
     for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
       const Float4 from = Float4::load(begins + slot);
       const Float4 moved = Float4::load(moves + slot);
-      const Float4 goes_on = moved - Float4::load(rests + slot) +
+      const Float4 goes_on = moved - Float4::load(remainders + slot) +
                              where_positive(Float4::load(inverse_masses + slot), fall);
       const Float4 to = from + moved;
-      const Float4 rest = moved - (to - from);
+      const Float4 remainder = moved - (to - from);
       to.store(begins + slot);
-      rest.store(rests + slot);
-      (rest + goes_on).store(moves + slot);
+      remainder.store(remainders + slot);
+      (remainder + goes_on).store(moves + slot);
     }
   }
 }
@@ -155,17 +156,18 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   }
 }
 
-void StepperXpbd::correct_for_contact(State& state, double h) {
+void StepperXpbd::resolve_contacts_in_double(State& state, double h) {
   const StageScope scope(observer_, Stage::contact);
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const int slot = slot_of(VertexId(i));
-    Vec3 position = position_of(slot);
-    Vec3 velocity = velocity_of(slot, h);
-    if (array(inverse_mass)[slot] > 0 &&
-        model_.contact->resolve(VertexId(i), state.positions.col(i), position, velocity))
-      set_motion(slot, position, velocity, h);
-    state.positions.col(i) = position;
+    proposed_.col(i) = position_of(slot);
+    state.velocities.col(i) = velocity_of(slot, h);
   }
+  for (const ContactStage::Touch& touch :
+       correct_for_contact(state.positions, proposed_, state.velocities))
+    set_motion(slot_of(touch.vertex), proposed_.col(touch.vertex),
+               state.velocities.col(touch.vertex), h);
+  state.positions.swap(proposed_);
 }
 
 void StepperXpbd::copy_to(State& state, double h) {
@@ -206,7 +208,7 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
       residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
                                 hanging_.squared_residual(v));
   }
-  if (model_.contact) correct_for_contact(state, h);
+  if (model_.contact) resolve_contacts_in_double(state, h);
   --substeps_left_;
   time_end_ = time_end;
   SolveReport report;

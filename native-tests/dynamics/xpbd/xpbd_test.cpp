@@ -15,7 +15,7 @@ namespace {
 
 MethodOptions xpbd_options(int substeps, int iterations = 1) {
   MethodOptions options;
-  options.stepper = StepperKind::xpbd;
+  options.stepper = &steppers::xpbd;
   options.substeps = substeps;
   options.iterations = iterations;
   return options;
@@ -300,7 +300,7 @@ TEST_CASE("xpbd: the same input gives the same bits", "[dynamics]") {
 }
 
 TEST_CASE("xpbd: nothing is allocated after the first step", "[dynamics]") {
-  if (!kCountsAllocations) return;
+  if (!counts_allocations()) return;
   const bool rigid = GENERATE(false, true);
   System system = swinging_sheet(17);
   add_bends(system, 17, 1e-7);

@@ -77,7 +77,7 @@ export function expectThat(condition, sentence) {
 }
 
 export const stateOf = (page) => page.evaluate(() => window.pleat.state());
-/** Of a view with panes, those of one. */
+/** Positions in one pane of a view with panes. */
 export const positionsOf = (page, pane = 0) =>
   page.evaluate((at) => window.pleat.positions(at), pane);
 

@@ -121,6 +121,14 @@ await check('a hand stops at the floor, in a scene that has none for the cloth',
     await page.mouse.move(x, box.y + box.height + 200, { steps: 4 });
     const heightOf = async () => (await positionsOf(page))[3 * vertex + 1];
     await until(page, (state) => state.held && state.numbers.time_s > 0.2);
+    const isAtFloor = async () => Math.abs(await heightOf()) < 1e-3;
+    await eventually(isAtFloor, 'the held corner is at the floor');
+    // It stays there while the pointer is below.
+    const { numbers } = await stateOf(page);
+    await eventually(
+      async () => (await stateOf(page)).numbers.time_s > numbers.time_s + 0.2,
+      'the cloth goes on',
+    );
     const height = await heightOf();
     await page.mouse.up();
     expectThat(Math.abs(height) < 1e-3, `the held corner is at ${height} m`);
@@ -411,12 +419,13 @@ await check(
         prepare: (fresh) =>
           fresh.addInitScript((change) => {
             const { postMessage } = Worker.prototype;
-            Worker.prototype.postMessage = function post(message, transfer) {
+            Worker.prototype.postMessage = function post(letter, transfer) {
+              const { message } = letter;
               if (message.type === 'load') {
                 const scene = { ...JSON.parse(message.sceneText), ...change };
                 message.sceneText = JSON.stringify(scene);
               }
-              postMessage.call(this, message, transfer);
+              postMessage.call(this, letter, transfer);
             };
           }, diverging),
       },
@@ -459,7 +468,7 @@ await check('the sweep fills chart and table, and a click on a point applies it'
       /not converged/.test(await page.locator('figcaption').textContent()),
       'the reference is not labelled',
     );
-    const point = page.locator('.point-xpbd').first();
+    const point = page.locator('[data-stepper="xpbd"]').first();
     const row = sweep.rows[Number(await point.getAttribute('data-row'))];
     await point.dispatchEvent('click');
     await isReady(page);

@@ -1,7 +1,9 @@
 // The WebAssembly modules as they were built.
 import { existsSync, readFileSync } from 'node:fs';
-import type { RefinementModule } from '../../src/sim/refinement-module';
-import type { DeformModule, PleatModule, SweepModule } from '../../src/sim/wasm-module';
+import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
+import type { PleatModule } from '../../src/motion/bindings/pleat-module';
+import type { SweepModule } from '../../src/motion/bindings/sweep-module';
+import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 
 interface Modules {
   pleat: PleatModule;

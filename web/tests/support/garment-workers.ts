@@ -1,21 +1,18 @@
 // The workers of garments in this thread, with the real module and the records of the repository.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { createExampleCore } from '../../src/sim/example-core';
-import {
-  createAsked,
-  type ExampleClient,
-  type GarmentClient,
-  type Port,
-} from '../../src/sim/garment-client';
-import { createGarmentCore } from '../../src/sim/garment-core';
+import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import type { ExampleClient, GarmentClient } from '../../src/refinement/run/garment-client';
+import { ExampleCore } from '../../src/refinement/worker/example-core';
+import { GarmentCore } from '../../src/refinement/worker/garment-core';
 import type {
   FromExample,
   FromGarment,
   ToExample,
   ToGarment,
-} from '../../src/sim/garment-protocol';
-import type { RefinementModule } from '../../src/sim/refinement-module';
+} from '../../src/refinement/worker/garment-protocol';
+import { createAsked } from '../../src/shared/workers/asked';
+import { workerPort } from './worker-port';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 
@@ -26,36 +23,23 @@ export async function recordBytes(url: string): Promise<ArrayBuffer> {
   return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
 }
 
-function portTo<Question>(
-  receive: (message: Question) => Promise<void>,
-  close: () => void,
-): Port<Question> & { answer(message: unknown): void } {
-  const port: Port<Question> & { answer(message: unknown): void } = {
-    onmessage: null,
-    onerror: null,
-    postMessage: (message) => void receive(message),
-    terminate: close,
-    answer: (data) => port.onmessage?.({ data } as MessageEvent),
-  };
-  return port;
-}
-
 /** `log` gets every question. */
 export function garmentClient(module: RefinementModule, log: ToGarment[] = []): GarmentClient {
-  const core = createGarmentCore(module, (message: FromGarment) => port.answer(message));
-  const port = portTo<ToGarment>(async (message) => {
-    log.push(message);
-    await core.receive(message);
-  }, core.close);
-  return createAsked<ToGarment, FromGarment>(port);
+  const port = workerPort<ToGarment, FromGarment>((post) => {
+    const core = new GarmentCore(module, post);
+    return {
+      receive(message) {
+        log.push(message);
+        return core.receive(message);
+      },
+      close: () => core.close(),
+    };
+  });
+  return createAsked(port);
 }
 
 export function exampleClient(module: RefinementModule): ExampleClient {
-  const core = createExampleCore(
-    module,
-    (message: FromExample) => port.answer(message),
-    () => 0,
+  return createAsked(
+    workerPort<ToExample, FromExample>((post) => new ExampleCore(module, post, () => 0)),
   );
-  const port = portTo<ToExample>(core.receive, core.close);
-  return createAsked<ToExample, FromExample>(port);
 }

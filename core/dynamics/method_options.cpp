@@ -1,0 +1,16 @@
+#include "core/dynamics/method_options.h"
+
+#include "core/base/check.h"
+#include "core/dynamics/stepper_table.h"
+
+namespace pleat {
+
+void MethodOptions::validate() const {
+  PLEAT_CHECK(stepper != nullptr, "a method has a stepper");
+  PLEAT_CHECK(step > 0, "a step is positive");
+  PLEAT_CHECK(substeps >= (stepper->has_stability_bound ? 0 : 1), "at least one substep");
+  PLEAT_CHECK(iterations >= 1, "at least one iteration");
+  PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
+}
+
+}  // namespace pleat

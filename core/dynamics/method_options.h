@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/linalg/linear_solver.h"
+
+namespace pleat {
+
+struct StepperType;
+
+/// The rows of the table of steppers (stepper_table.h).
+namespace steppers {
+extern const StepperType implicit_euler, projective, xpbd, explicit_euler, rk4, newton;
+}  // namespace steppers
+
+/// The most substeps of a step: with steps of 1/60 s, 17 ns each.
+constexpr int kMaxSubsteps = 1000000;
+
+enum class Constraints {
+  compliant,  ///< compliance 1/k
+  rigid,      ///< compliance 0
+};
+
+/// What `newton` solves for in a substep.
+enum class NewtonRule {
+  backward_euler,  ///< first order, loses energy
+  midpoint,        ///< implicit midpoint: second order, keeps all energy: for small steps
+  equilibrium,     ///< rest under the forces at the end of the substep, whatever the mass
+};
+
+/// The tolerance that newton, which makes references, starts from.
+constexpr double kNewtonTolerance = 1e-10;
+
+/// A stepper with its settings. Each stepper reads its step and the settings that its row of the
+/// table names.
+struct MethodOptions {
+  const StepperType* stepper = &steppers::implicit_euler;  ///< not null
+  double step = 1.0 / 60;                                  ///< [s], positive
+  int substeps = 1;  ///< at least 1; 0, where the stepper has a stability bound: as many as it asks
+  int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
+  SolverKind solver = SolverKind::cg;
+  /// implicit with cg: relative residual at which it stops. newton: the last correction, in shares
+  /// of the cloth's extent, which then is already made. In (0, 1).
+  double tolerance = 1e-3;
+  NewtonRule rule = NewtonRule::backward_euler;
+  Constraints constraints = Constraints::compliant;
+
+  /// Throws ContractError.
+  void validate() const;
+};
+
+}  // namespace pleat

@@ -1,0 +1,227 @@
+#include "core/dynamics/stepper_table.h"
+
+#include <array>
+#include <string>
+
+#include "core/base/check.h"
+#include "core/dynamics/stepper_explicit.h"
+#include "core/dynamics/stepper_implicit.h"
+#include "core/dynamics/stepper_newton.h"
+#include "core/dynamics/stepper_projective.h"
+#include "core/dynamics/stepper_rk4.h"
+#include "core/dynamics/xpbd/stepper_xpbd.h"
+
+namespace pleat {
+namespace {
+
+template <class Type>
+std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
+  return std::make_unique<Type>(model, options);
+}
+
+constexpr std::array kSubsteps = {MethodSetting::substeps};
+constexpr std::array kImplicitSettings = {MethodSetting::substeps, MethodSetting::solver,
+                                          MethodSetting::tolerance};
+constexpr std::array kProjectiveSettings = {MethodSetting::substeps, MethodSetting::iterations,
+                                            MethodSetting::solver};
+constexpr std::array kXpbdSettings = {MethodSetting::substeps, MethodSetting::iterations,
+                                      MethodSetting::constraints};
+constexpr std::array kNewtonSettings = {MethodSetting::substeps, MethodSetting::solver,
+                                        MethodSetting::tolerance, MethodSetting::rule};
+
+constexpr std::array<MethodCounts, 1> kStable = {{{0, 1}}};
+constexpr std::array<MethodCounts, 2> kOneOrFour = {{{1, 1}, {4, 1}}};
+constexpr std::array<MethodCounts, 2> kFiveRounds = {{{1, 5}, {4, 5}}};
+constexpr std::array<MethodCounts, 3> kSmallSteps = {{{10, 1}, {30, 1}, {100, 1}}};
+
+constexpr const char* kDampedSubsteps = "More substeps damp less and cost more.";
+constexpr const char* kStableSubsteps = "0: as many as its stability bound asks for.";
+
+}  // namespace
+
+constinit const StepperType steppers::implicit_euler = {
+    .name = "implicit",
+    .title = "Implicit",
+    .meaning =
+        "Backward Euler: one large sparse system a substep. Stable at large steps, but it "
+        "damps the motion.",
+    .settings = kImplicitSettings,
+    .substeps_meaning = kDampedSubsteps,
+    .solves_equations = true,
+    .solves_whole_substeps = true,
+    .usual_counts = kOneOrFour,
+    .is_usual_for_springs = true,
+    .is_usual_for_membranes = true,
+    // Some ten steps with a matrix of 3x3 blocks, or a factorisation.
+    .substep_cost =
+        [](const MethodOptions& options) {
+          return options.solver == SolverKind::cg ? 80.0 : 300.0;
+        },
+    .mark = {"M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0Z", "#17638f", "#7cc3f0"},
+    .make = make<StepperImplicit>,
+};
+
+constinit const StepperType steppers::projective = {
+    .name = "projective",
+    .title = "Projective",
+    .meaning = "Gives each spring its length alone, then solves one constant system; and repeats.",
+    .settings = kProjectiveSettings,
+    .substeps_meaning = "More substeps damp less.",
+    .iterations_meaning = "More rounds come closer to Implicit.",
+    .start = {1, 10},
+    .needs_springs = true,
+    .needs_factor = true,
+    .solves_equations = true,
+    .solves_whole_substeps = true,
+    .usual_counts = kFiveRounds,
+    .is_usual_for_springs = true,
+    // Two triangular solves a round, with a factor that is kept.
+    .substep_cost = [](const MethodOptions& options) { return 10.0 * options.iterations; },
+    .mark = {"M-4.2-4.2H4.2V4.2H-4.2Z", "#a34d00", "#f2a35e"},
+    .make = make<StepperProjective>,
+};
+
+constinit const StepperType steppers::xpbd = {
+    .name = "xpbd",
+    .title = "XPBD",
+    .meaning = "Moves the two ends of each spring in turn, in many small substeps.",
+    .settings = kXpbdSettings,
+    .substeps_meaning = "More substeps: stiffer and less damped.",
+    .iterations_meaning = "Sweeps over all springs in one substep.",
+    .start = {30, 1},
+    .needs_springs = true,
+    .solves_equations = true,
+    .usual_counts = kSmallSteps,
+    .is_usual_for_springs = true,
+    // In single precision, four springs at a time, and no forces.
+    .substep_cost = [](const MethodOptions& options) { return 0.2 * options.iterations; },
+    .mark = {"M0-5.4L5 3.8H-5Z", "#4f6f00", "#b3d15a"},
+    .make = make<StepperXpbd>,
+};
+
+constinit const StepperType steppers::explicit_euler = {
+    .name = "explicit",
+    .title = "Explicit",
+    .meaning = "Forces give velocities, velocities give positions. Only stable in tiny substeps.",
+    .settings = kSubsteps,
+    .substeps_meaning = kStableSubsteps,
+    .start = {0, 1},
+    .has_stability_bound = true,
+    .usual_counts = kStable,
+    .is_usual_for_springs = true,
+    // Each level has four times the vertices and asks for four times the substeps: six runs of fine
+    // cotton take half a minute at level 1 and about ten minutes at level 2.
+    .finest_usual_level = 1,
+    .substep_cost = [](const MethodOptions&) { return 1.0; },
+    .mark = {"M0-5.6L5.6 0L0 5.6L-5.6 0Z", "#8e2a6b", "#ee92cd"},
+    .make = make<StepperExplicit>,
+};
+
+constinit const StepperType steppers::rk4 = {
+    .name = "rk4",
+    .title = "Runge-Kutta 4",
+    .meaning = "Explicit, with four looks at the forces a substep. Very exact, and slow.",
+    .settings = kSubsteps,
+    .substeps_meaning = kStableSubsteps,
+    .start = {0, 1},
+    .has_stability_bound = true,
+    .usual_counts = kStable,
+    .finest_usual_level = 1,
+    .substep_cost = [](const MethodOptions&) { return 4.0; },
+    .mark = {"M-5-3.4H5L0 5.2Z", "#6a4fa3", "#bba6f0"},
+    .make = make<StepperRk4>,
+};
+
+constinit const StepperType steppers::newton = {
+    .name = "newton",
+    .title = "Newton (exact, slow)",
+    .meaning =
+        "Backward Euler, solved to the last digit: all that is wrong is the length of its "
+        "steps.",
+    .settings = kNewtonSettings,
+    .substeps_meaning = kDampedSubsteps,
+    .tolerance = kNewtonTolerance,
+    // A looser newton is no newton: its equations would be as wrong as those of one linearisation.
+    .largest_tolerance = 1e-6,
+    .needs_factor = true,
+    .solves_equations = true,
+    .solves_whole_substeps = true,
+    .usual_counts = kOneOrFour,
+    .is_usual_for_membranes = true,
+    // Some three rounds of ten solves with a factor that is kept.
+    .substep_cost = [](const MethodOptions&) { return 400.0; },
+    .mark = {"M-1.7-5H1.7V-1.7H5V1.7H1.7V5H-1.7V1.7H-5V-1.7H-1.7Z", "#1b2024", "#e9e6e0"},
+    .make = make<StepperNewton>,
+};
+
+StepperTable standard_steppers() {
+  static constexpr std::array<const StepperType*, 6> kTable = {
+      &steppers::implicit_euler, &steppers::projective, &steppers::xpbd,
+      &steppers::explicit_euler, &steppers::rk4,        &steppers::newton};
+  return kTable;
+}
+
+const char* key(MethodSetting setting) {
+  switch (setting) {
+    case MethodSetting::substeps:
+      return "substeps";
+    case MethodSetting::iterations:
+      return "iterations";
+    case MethodSetting::solver:
+      return "solver";
+    case MethodSetting::tolerance:
+      return "tolerance";
+    case MethodSetting::constraints:
+      return "constraints";
+    case MethodSetting::rule:
+      return "rule";
+  }
+  return "";
+}
+
+MethodOptions StepperType::usual_method() const {
+  MethodOptions method;
+  method.stepper = this;
+  method.substeps = start.substeps;
+  method.iterations = start.iterations;
+  method.tolerance = tolerance;
+  if (needs_factor) method.solver = best_direct_solver();
+  return method;
+}
+
+const StepperType* find_stepper(StepperTable table, std::string_view name) {
+  const auto at = std::find_if(table.begin(), table.end(),
+                               [&](const StepperType* type) { return type->name == name; });
+  return at == table.end() ? nullptr : *at;
+}
+
+std::string stepper_names(StepperTable table) {
+  std::string names;
+  for (const StepperType* type : table)
+    names += (names.empty() ? "" : ", ") + std::string(type->name);
+  return names;
+}
+
+std::string stepper_help(StepperTable table) {
+  constexpr std::size_t kIndent = 12;
+  std::string help;
+  for (const StepperType* type : table) {
+    std::string line = "  " + std::string(type->name);
+    line.resize(std::max(line.size() + 1, kIndent), ' ');
+    help += line + type->meaning + "\n" + std::string(kIndent, ' ') + "reads";
+    for (const MethodSetting setting : type->settings)
+      help += (setting == type->settings.front() ? " " : ", ") + std::string(key(setting));
+    help += "\n";
+  }
+  return help;
+}
+
+std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options) {
+  const StepperType& type = *options.stepper;
+  if (type.needs_springs && !model.is_plain_spring_lattice())
+    throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
+                                   type.name + ", which works on nothing else");
+  return type.make(model, options);
+}
+
+}  // namespace pleat

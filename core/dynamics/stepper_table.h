@@ -1,0 +1,101 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/dynamics/method_options.h"
+#include "core/dynamics/stepper.h"
+#include "core/mesh/quad_mesh.h"
+
+namespace pleat {
+
+/// What a scene's section "method" may set beside stepper and step.
+enum class MethodSetting { substeps, iterations, solver, tolerance, constraints, rule };
+
+constexpr std::array<MethodSetting, 6> kMethodSettings = {
+    MethodSetting::substeps,  MethodSetting::iterations,  MethodSetting::solver,
+    MethodSetting::tolerance, MethodSetting::constraints, MethodSetting::rule};
+
+/// As scenes write it.
+const char* key(MethodSetting setting);
+
+/// How often a stepper works in a step.
+struct MethodCounts {
+  int substeps = 1;  ///< 0: as many as the stability bound asks for
+  int iterations = 1;
+};
+
+/// How a stepper is drawn in charts.
+struct StepperMark {
+  const char* path;         ///< SVG path about the origin, about 10 px wide
+  const char* colour;       ///< "#rrggbb", on a light ground
+  const char* dark_colour;  ///< on a dark ground
+};
+
+/// One way to advance cloth. Whatever a scene, a sweep, a chart, the command or the page says of a
+/// stepper comes from here.
+struct StepperType {
+  const char* name;     ///< as scenes write it
+  const char* title;    ///< for people
+  const char* meaning;  ///< for people, a sentence
+  /// What it reads; others are refused in a scene.
+  std::span<const MethodSetting> settings;
+  const char* substeps_meaning = "";    ///< what more substeps do, a sentence
+  const char* iterations_meaning = "";  ///< the same of iterations, where it reads them
+  /// Where a scene says nothing.
+  MethodCounts start = {};
+  double tolerance = MethodOptions{}.tolerance;
+  double largest_tolerance = 1;  ///< excluded when 1
+
+  bool has_stability_bound = false;    ///< takes 0 substeps, refuses too few
+  bool needs_springs = false;          ///< works on springs with quadratic bending alone
+  bool needs_factor = false;           ///< its solver is a direct one
+  bool solves_equations = false;       ///< which may be left unsolved in part
+  bool solves_whole_substeps = false;  ///< at once, so that its error is that of its substeps
+
+  /// Worth comparing in a sweep, each about three times as dear as the one before.
+  std::span<const MethodCounts> usual_counts;
+  bool is_usual_for_springs = false;    ///< taken by sweeps that name no stepper
+  bool is_usual_for_membranes = false;  ///< the same
+  int finest_usual_level = kMaxLevel;   ///< at finer ones the page's sweep leaves it out
+  /// What a substep costs per vertex, roughly, in units of what the forces of explicit cost.
+  double (*substep_cost)(const MethodOptions& options);
+
+  StepperMark mark;
+
+  /// Throws InputError when the method cannot run on this model.
+  std::unique_ptr<Stepper> (*make)(ClothModel& model, const MethodOptions& options);
+
+  bool reads(MethodSetting setting) const {
+    return std::find(settings.begin(), settings.end(), setting) != settings.end();
+  }
+  /// What a scene gets that names this stepper and nothing else.
+  MethodOptions usual_method() const;
+};
+
+/// Steppers in the order in which people are shown them.
+using StepperTable = std::span<const StepperType* const>;
+
+/// All that Pleat has.
+StepperTable standard_steppers();
+
+/// Null when the table has none of this name.
+const StepperType* find_stepper(StepperTable table, std::string_view name);
+
+/// "implicit, projective, ...".
+std::string stepper_names(StepperTable table);
+
+/// For the command's help: a line or two for each, with what it reads.
+std::string stepper_help(StepperTable table);
+
+/// The stepper that the options name. Throws InputError when the method cannot run on this model
+/// (explicit or rk4 beyond the stability bound or kMaxSubsteps; a solver that this build or the
+/// method does not have; projective or xpbd on anything but a plain lattice of springs; newton's
+/// equilibrium with solids).
+std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options);
+
+}  // namespace pleat

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/run/moving_cloth.h"
+#include "core/run/stage_timer.h"
+
+namespace pleat {
+
+/// Steps a cloth and keeps what its steps reported and what they cost by the clock.
+///
+/// The first step, in which steppers build what they keep, is part of the report and not of the
+/// costs.
+class TimedRun {
+ public:
+  /// Timing the parts of a step costs time itself.
+  enum class Parts { untimed, timed };
+
+  /// cloth  at the beginning of a run; outlives this, and has no other observer where parts are
+  ///        timed
+  TimedRun(MovingCloth& cloth, Parts parts);
+  ~TimedRun();
+  TimedRun(const TimedRun&) = delete;
+  TimedRun& operator=(const TimedRun&) = delete;
+
+  /// One step, with its own report.
+  SolveReport step();
+
+  /// So many steps, fewer when the numbers end the run. Returns their wall time [s], with that of a
+  /// first step among them.
+  double advance(std::int64_t n_steps);
+
+  /// The numbers cannot go on.
+  bool has_ended() const { return report_.ends_run(); }
+  /// Of all steps (SolveReport::add).
+  const SolveReport& report() const { return report_; }
+  std::int64_t n_timed() const { return n_timed_; }   ///< steps on the clock
+  double seconds() const { return seconds_; }         ///< of these steps, parts and all else
+  const StageTimer& parts() const { return parts_; }  ///< over the same steps; zero when untimed
+
+  /// Forgets the costs, not the report.
+  void clear_costs();
+
+ private:
+  MovingCloth& cloth_;
+  Parts which_parts_;
+  StageTimer parts_;
+  SolveReport report_;
+  bool is_first_step_ = true;
+  std::int64_t n_timed_ = 0;
+  double seconds_ = 0;
+};
+
+/// Steps of `step` [s] that a frame of `frame_time` [s] has. Throws InputError at /method/step_s
+/// unless it is a whole number of them.
+std::int64_t steps_of_frame(double step, double frame_time);
+
+}  // namespace pleat

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "core/files/file_source.h"
+#include "core/scene/cloth_source.h"
+
+namespace pleat {
+
+/// Any triangle mesh, at rest at time 0. Its parts are its groups.
+class MeshCloth final : public ClothSource {
+ public:
+  TriangleMesh mesh;                    ///< sound (mesh_fault), with all warp directions
+  std::vector<VertexGroup> groups;      ///< with different names, none empty
+  RestCoordinates texture_coordinates;  ///< 2 x n; empty unless each vertex has exactly one pair
+  std::vector<std::optional<CornerTexture>> textures;  ///< of each triangle
+  Vec3 initial_velocity{0, 0, 0};                      ///< [m/s]
+
+  const char* key() const override;
+  /// Always written out, so that the text is the whole scene.
+  Json json() const override;
+  std::int64_t n_vertices(int level) const override;
+  RestCloth at_rest(int level) const override;
+  double rest_diagonal() const override;
+  std::string read_part(const JsonReader& reader) const override;
+  std::vector<VertexId> base_part(const std::string& name) const override;
+};
+
+/// The section "mesh" of a scene's cloth: a mesh written out, or the name of an OBJ file.
+///
+/// Warp runs along the direction in which the first texture coordinate grows while the second
+/// stays. Where a triangle has no texture coordinates, or they have no area, it is the direction
+/// nearest to "warp_direction" in its plane, or its first side where that is perpendicular to it.
+/// Lengths are those of the positions.
+///
+/// usual_warp  takes the place of a "warp_direction" that is not there
+/// Faults of an OBJ file are InputErrors at "name: line N".
+MeshCloth read_mesh_cloth(const JsonReader& reader, const FileSource& files,
+                          const std::optional<Vec3>& usual_warp = std::nullopt);
+
+}  // namespace pleat

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/figure/mannequin.h"
+#include "core/files/file_source.h"
+#include "core/files/json_reader.h"
+
+namespace pleat {
+
+/// A body in the scene: a solid, and bones that pins may follow. It stands at time 0.
+///
+/// What it does is virtual, so that a program that reads no figure has no code for one.
+class Figure {
+ public:
+  BodyBuild build = BodyBuild::average;
+  BodyMotion motion;
+  Playback playback;
+  std::optional<double> friction;  ///< else the fabric's
+
+  virtual ~Figure() = default;
+  /// The motion is always written out, so that the text is the whole scene.
+  virtual Json json() const;
+  virtual std::vector<BodyPart> parts() const;
+  /// One body in motion: what follows each Bone, by its number.
+  virtual std::vector<std::shared_ptr<const MovingFrame>> bone_frames() const;
+};
+
+/// The section "figure" of a scene file: a body, and a motion written out or the name of its file.
+std::shared_ptr<const Figure> read_figure(const JsonReader& reader, const FileSource& files);
+
+}  // namespace pleat

@@ -1,0 +1,34 @@
+#include "core/scene/scene_parts.h"
+
+#include "core/base/check.h"
+#include "core/scene/mesh_cloth.h"
+#include "core/scene/particle_cloth.h"
+#include "core/scene/sheet_cloth.h"
+
+namespace pleat {
+namespace {
+
+SceneCloth sheet(const JsonReader& reader, const ClothSurroundings&) { return read_sheet(reader); }
+
+SceneCloth particles(const JsonReader& reader, const ClothSurroundings&) {
+  return read_particles(reader);
+}
+
+SceneCloth mesh(const JsonReader& reader, const ClothSurroundings& around) {
+  return read_mesh_cloth(reader, around.files);
+}
+
+}  // namespace
+
+SceneParts plain_scene_parts() {
+  SceneParts parts;
+  parts.cloths = {{"sheet", sheet}, {"particles", particles}, {"mesh", mesh}, {"garment"}};
+  return parts;
+}
+
+void refuse_part(const JsonReader& reader, const char* part) {
+  throw InputError(reader.pointer(), std::string("expected no ") + part +
+                                         ", as this view shows none; pleat run takes it");
+}
+
+}  // namespace pleat

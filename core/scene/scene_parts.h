@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/dynamics/stepper_table.h"
+#include "core/files/file_source.h"
+#include "core/scene/cloth_source.h"
+#include "core/scene/scene_figure.h"
+
+namespace pleat {
+
+struct RefinementPlan;
+struct Scene;
+
+/// What has been read before a scene's cloth.
+struct ClothSurroundings {
+  const FileSource& files;
+  const Figure* figure;  ///< or null
+};
+
+/// What a program lets a scene be made of, and who reads it. A program contains the code of the
+/// parts that it registers here. What has no reader is known and refused (refuse_part).
+struct SceneParts {
+  struct ClothKind {
+    const char* key;  ///< in the section "cloth", as ClothSource::key()
+    SceneCloth (*read)(const JsonReader& reader, const ClothSurroundings& around) = nullptr;
+  };
+  std::vector<ClothKind> cloths;
+  /// What the section "method" may name.
+  StepperTable steppers = standard_steppers();
+  /// The section "figure".
+  std::shared_ptr<const Figure> (*read_figure)(const JsonReader& reader,
+                                               const FileSource& files) = nullptr;
+  /// The key "plan" of the section "refinement"; the scene has its cloth and model.
+  RefinementPlan (*read_plan)(const JsonReader& reader, const FileSource& files,
+                              const Scene& scene) = nullptr;
+  /// The bone that a pin follows.
+  Bone (*read_bone)(const JsonReader& reader) = nullptr;
+};
+
+/// Everything.
+SceneParts all_scene_parts();
+
+/// Sheets, particles and meshes, without figures, garments and plans.
+SceneParts plain_scene_parts();
+
+/// Throws the InputError for a part that a program lacks: "garment", say.
+[[noreturn]] void refuse_part(const JsonReader& reader, const char* part);
+
+}  // namespace pleat

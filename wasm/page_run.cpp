@@ -1,0 +1,65 @@
+#include "wasm/page_run.h"
+
+#include "core/base/check.h"
+
+namespace pleat {
+
+using emscripten::val;
+
+void PageRun::begin() {
+  steps_.emplace(*simulation_, TimedRun::Parts::timed);
+  report_ = {};
+}
+
+void PageRun::take(std::unique_ptr<Simulation> fresh) {
+  steps_.reset();
+  simulation_ = std::move(fresh);
+  begin();
+}
+
+void PageRun::reset() {
+  running().reset();
+  begin();
+}
+
+void PageRun::start_from(const Positions& places) {
+  running().start_from(places);
+  begin();
+}
+
+Simulation& PageRun::running() const {
+  if (!simulation_) throw InputError("", "expected a loaded scene, got none");
+  return *simulation_;
+}
+
+int PageRun::step(int n, const std::function<void()>& show) {
+  try {
+    running();
+    for (int i = 0; i < n && !report_.ends_run(); ++i) report_ = steps_->step();
+    show();
+  } catch (const std::exception& error) {
+    report_.status = SolveStatus::not_finite;
+    report_.message = error.what();
+  }
+  return report_.ends_run() ? static_cast<int>(report_.status) : 0;
+}
+
+void PageRun::put_status(val& envelope) const {
+  envelope.set("status", std::string(name(report_.status)));
+  envelope.set("message", report_.message);
+}
+
+void PageRun::put_costs(val& envelope) const {
+  running();
+  val parts = val::object();
+  for (int s = 0; s < kStageCount; ++s) {
+    const auto stage = static_cast<Stage>(s);
+    const double seconds = steps_->parts().total(stage);
+    if (seconds > 0) parts.set(std::string(name(stage)), 1e3 * seconds);
+  }
+  envelope.set("parts_ms", parts);
+  envelope.set("steps_ms", 1e3 * steps_->seconds());
+  envelope.set("steps_timed", static_cast<double>(steps_->n_timed()));
+}
+
+}  // namespace pleat

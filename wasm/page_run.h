@@ -1,0 +1,48 @@
+#pragma once
+
+#include <emscripten/val.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/run/simulation.h"
+#include "core/run/timed_run.h"
+
+namespace pleat {
+
+/// A simulation that a page steps, its last report and what its steps cost.
+class PageRun {
+ public:
+  /// Takes another simulation, at the beginning of its run.
+  void take(std::unique_ptr<Simulation> fresh);
+  /// Begins the run anew.
+  void reset();
+  /// The same from these places (Simulation::start_from).
+  void start_from(const Positions& places);
+
+  bool is_loaded() const { return simulation_ != nullptr; }
+  /// Throws InputError when nothing is loaded.
+  Simulation& running() const;
+
+  /// So many steps, fewer when the numbers end the run, and then `show`. Returns 0, or the status
+  /// that ended the run: what either throws ends it as well.
+  int step(int n, const std::function<void()>& show);
+  /// The last step's report.
+  const SolveReport& report() const { return report_; }
+
+  /// "status" and "message".
+  void put_status(emscripten::val& envelope) const;
+  /// "parts_ms" of the parts that took time, "steps_ms" and "steps_timed" since the run began.
+  void put_costs(emscripten::val& envelope) const;
+
+ private:
+  void begin();
+
+  std::unique_ptr<Simulation> simulation_;
+  std::optional<TimedRun> steps_;
+  SolveReport report_;
+};
+
+}  // namespace pleat

@@ -1,0 +1,103 @@
+// The class bound by the module that finds shapes, and the shape of the texts it answers with.
+import { methodsOf } from '../../shared/bindings/methods';
+
+/** One number for each term of the energy of a deformed cloth. */
+export interface TermNumbers {
+  recovery: number;
+  stretch: number;
+  bending: number;
+}
+
+/** What `Deformation.open` finds in an experiment. */
+export interface ClothAnswer {
+  name: string;
+  caption: string;
+  n_vertices: number;
+  n_triangles: number;
+  /** Three numbers a vertex. */
+  rest_m: number[];
+  /** How far around a vertex a hand holds. */
+  grasp_m: number;
+  groups: { name: string; vertices: number[] }[];
+  /** Held where they rest. */
+  pins: number[];
+  handles: { name: string; vertices: number[]; places_m: number[] }[];
+  fabric: string;
+}
+
+/** How a pane's shape came about and what it costs. */
+export interface DeformReport {
+  weights: TermNumbers;
+  energy: number;
+  /** Unweighted. */
+  terms: TermNumbers;
+  converged: boolean;
+  /** Since something was last moved, held or weighted otherwise. */
+  steps: { energy: number; terms: TermNumbers; relativeStep: number; linearised: boolean }[];
+}
+
+/** What the measured fabrics make likely for a visitor's own measurements. */
+export interface FitAnswer {
+  weights: TermNumbers;
+  normalised: TermNumbers;
+  leaveOneOutError: TermNumbers;
+  measuredRange: Record<keyof TermNumbers, [number, number]>;
+  clamped: (keyof TermNumbers)[];
+  nearest: string;
+}
+
+/** What `Deformation.step` answers. */
+export const PROGRESS = { moved: 0, linearised: 1, converged: 2, stuck: 3 } as const;
+
+/** One cloth in several panes, each with weights of its own, all under the same hold. */
+export interface DeformationHandle {
+  /** The cloth of an experiment; `objText` is of the file that it names, or empty. */
+  open(sceneText: string, objText: string): string;
+  /** `{form, weights: [...]}`: a pane for each. Panes keep their shape while the form stays. */
+  show(panesText: string): string;
+  /** Vertices, ascending, and three numbers a place [m]. Each pane takes it up in `follow`. */
+  hold(vertices: Int32Array, places: Float64Array): string;
+  moveHeld(places: Float64Array): void;
+  follow(pane: number): string;
+  /** One of PROGRESS. */
+  step(pane: number, mayLinearise: boolean): number;
+  restart(pane: number): string;
+  /** `restart`, with the present shape set aside for `keepBetter`. */
+  tryFromRest(pane: number): string;
+  keepBetter(pane: number): string;
+  report(pane: number): string;
+  fitMeasures(measuresText: string): string;
+  /** The section "cloth" of a scene in motion, with what is held as the group "held". */
+  clothSection(): string;
+  /** Views of module memory, dead after the next call. */
+  triangles(): Uint32Array;
+  positions(pane: number): Float32Array;
+  exactPositions(pane: number): Float64Array;
+  delete(): void;
+}
+
+/** A module of its own, fetched when fabrics are first compared. */
+export interface DeformModule {
+  Deformation: new (fabricsText: string) => DeformationHandle;
+}
+
+export const DEFORM_METHODS: Record<keyof DeformModule, string[]> = {
+  Deformation: methodsOf<DeformationHandle>({
+    open: true,
+    show: true,
+    hold: true,
+    moveHeld: true,
+    follow: true,
+    step: true,
+    restart: true,
+    tryFromRest: true,
+    keepBetter: true,
+    report: true,
+    fitMeasures: true,
+    clothSection: true,
+    triangles: true,
+    positions: true,
+    exactPositions: true,
+    delete: true,
+  }),
+};

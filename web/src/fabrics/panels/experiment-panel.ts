@@ -1,0 +1,55 @@
+// Which cloth is pulled, what to notice in it, and the visitor's mesh.
+import { choice, element, field, setText } from '../../shared/panels/element';
+import { createObjPicker } from '../../shared/panels/obj-picker';
+import { type Store, watch } from '../../shared/state/store';
+import { EXPERIMENTS, OWN } from '../state/experiments';
+import type { FabricsState } from '../state/fabrics-state';
+
+const WAITING = 'Drop an OBJ file anywhere on this page, or choose one.';
+
+function captionOf({ experiment, cloth, objName }: FabricsState): string {
+  const known = EXPERIMENTS.find(({ id }) => id === experiment);
+  if (known) return known.caption;
+  return objName && cloth ? `${objName}: pull it anywhere, or pin it first.` : WAITING;
+}
+
+function meshWords({ cloth, experiment }: FabricsState): string {
+  if (!cloth) return '';
+  const size = `${cloth.n_vertices} vertices, ${cloth.n_triangles} triangles.`;
+  const own = ' It stays on this machine, and no link carries it.';
+  return experiment === OWN ? `${size}${own}` : size;
+}
+
+export function createExperimentPanel(
+  parent: HTMLElement,
+  store: Store<FabricsState>,
+  actions: { openExperiment(id: string): void; openObj(file: File): void },
+): () => void {
+  const options = [
+    ...EXPERIMENTS.map(({ id, title }) => ({ value: id, title })),
+    { value: OWN, title: 'Your OBJ' },
+  ];
+  const chosen = choice(options, actions.openExperiment);
+  const caption = element('p', { class: 'caption' });
+  const size = element('p', { class: 'note' });
+  const section = element(
+    'section',
+    { 'aria-label': 'Experiment' },
+    field('Experiment', chosen.control),
+    caption,
+    size,
+  );
+  const closePicker = createObjPicker(section, actions);
+  parent.append(section);
+  const stop = watch(store, ['experiment', 'cloth', 'objName'], (state) => {
+    chosen.select(state.experiment);
+    chosen.limit((id) => (id === OWN && !state.objName ? 'choose a file below' : null));
+    setText(caption, captionOf(state));
+    setText(size, meshWords(state));
+  });
+  return () => {
+    stop();
+    closePicker();
+    section.remove();
+  };
+}

@@ -1,0 +1,233 @@
+// One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
+import { type FabricRecord, fabricNamed, sources } from '../../shared/fabric/fabric-data';
+import { lookOf } from '../../shared/fabric/fabric-look';
+import { element, setText } from '../../shared/panels/element';
+import { quantityMeanings, quantityRows, sourceList } from '../../shared/panels/fabric-quantities';
+import { digits, percent } from '../../shared/panels/quantity';
+import { type Store, watch } from '../../shared/state/store';
+import { type DeformState, type OwnFabric, TERMS, type Triple } from '../state/deform-state';
+import { titleOf } from '../state/fabric-choice';
+import { EXPECTATIONS } from '../state/fabric-expectations';
+import { geometryOf } from '../state/fabric-geometry';
+import { TERM_COSTS, TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
+import { createWeightBar, termKey, weightWords } from './weight-bar';
+
+/** The printed weights have two digits after the point [%], some cut and not rounded. */
+const PRINTED_EXACTLY = 0.006e-2;
+
+/** The printed weight where it does not follow from the printed measures, else null. */
+export function misprint(recomputed: number, published: number): string | null {
+  if (Math.abs(recomputed - published) <= PRINTED_EXACTLY) return null;
+  return `${Number((100 * published).toFixed(6))} %`;
+}
+
+interface Shown {
+  weights: Triple;
+  measures: Triple;
+  normalised: Triple;
+  /** Null when nobody printed any. */
+  published: Triple | null;
+}
+
+function shownOf(fabric: FabricRecord): Shown {
+  const { measures, normalised, recomputed, published } = geometryOf(fabric);
+  return { weights: recomputed, measures, normalised, published };
+}
+
+function headings(...titles: string[]): HTMLElement {
+  const cells = titles.map((title, column) =>
+    element('th', { scope: 'col', class: column > 0 ? 'number' : '' }, title),
+  );
+  return element('thead', {}, element('tr', {}, ...cells));
+}
+
+function weightRows({ weights, published }: Shown): HTMLElement[] {
+  return TERMS.map((term) => {
+    const printed = published ? misprint(weights[term], published[term]) : null;
+    const exact =
+      printed === null ? percent(weights[term]) : `${(100 * weights[term]).toFixed(3)} %`;
+    return element(
+      'tr',
+      {},
+      element(
+        'th',
+        { scope: 'row' },
+        termKey(term),
+        TERM_TITLES[term],
+        element('small', {}, `avoids ${TERM_COSTS[term]}`),
+      ),
+      element('td', { class: 'number' }, exact),
+      element('td', { class: 'number' }, published ? (printed ?? 'same') : '–'),
+    );
+  });
+}
+
+function measureRows({ measures, normalised }: Shown): HTMLElement[] {
+  return TERMS.map((term) =>
+    element(
+      'tr',
+      {},
+      element(
+        'th',
+        { scope: 'row' },
+        TERM_TITLES[term],
+        element('small', {}, TERM_MEASUREMENTS[term]),
+      ),
+      element('td', { class: 'number' }, measures[term].toFixed(4)),
+      element('td', { class: 'number' }, digits(normalised[term], 2)),
+    ),
+  );
+}
+
+function details(summary: string, ...content: Node[]): HTMLElement {
+  return element('details', {}, element('summary', {}, summary), ...content);
+}
+
+function table(kind: string, caption: string, ...content: HTMLElement[]): HTMLElement {
+  return element(
+    'table',
+    { class: kind },
+    element('caption', { class: 'unseen' }, caption),
+    ...content,
+  );
+}
+
+function termTable(caption: string, titles: string[], rows: HTMLElement[]): HTMLElement {
+  return table(
+    'quantities term-table',
+    caption,
+    headings(...titles),
+    element('tbody', {}, ...rows),
+  );
+}
+
+function weightTable(shown: Shown): HTMLElement {
+  return termTable('Weights', ['Term', 'Weight', 'As printed'], weightRows(shown));
+}
+
+const WEIGHTS_NOTE =
+  'Weights are shares: they tell what this fabric trades for what, and not how stiff it is beside another.';
+
+function measurementBox(shown: Shown): HTMLElement {
+  return details(
+    'What was measured',
+    termTable('Geometric measurements', ['Test', 'Ratio', 'Normalised'], measureRows(shown)),
+    element(
+      'p',
+      { class: 'note' },
+      'The weights are the shares of the normalised values. How these follow from the ratios is not printed: presumably from the spread of the twenty tests of each fabric.',
+    ),
+    element('p', { class: 'note' }, `Source: ${sources.SEED ?? ''}.`),
+  );
+}
+
+function physicalBox(fabric: FabricRecord): HTMLElement {
+  return details(
+    'Physical numbers',
+    element(
+      'p',
+      { class: 'note' },
+      `For the fabric in motion; the shape here does not use them. Taken as: ${fabric.assumed_construction}.`,
+    ),
+    table(
+      'quantities',
+      'Physical numbers of the fabric',
+      element('tbody', {}, ...quantityRows(fabric)),
+    ),
+    details('Where the numbers come from', sourceList(fabric)),
+    details('What the words mean', quantityMeanings()),
+  );
+}
+
+function ownShown({ weights, normalised }: OwnFabric, measures: Triple): Shown {
+  return { weights, measures, normalised, published: null };
+}
+
+export interface CardActions {
+  setWeightsFrom(from: DeformState['weightsFrom']): void;
+}
+
+/** The card of the chosen pane's fabric. */
+export function createFabricCard(
+  parent: HTMLElement,
+  store: Store<DeformState>,
+  { setWeightsFrom }: CardActions,
+): () => void {
+  const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
+  const name = element('h2', {});
+  const use = element('span', { class: 'note' });
+  const expectation = element('p', { class: 'caption' });
+  const { bar, show } = createWeightBar();
+  const printed = element('input', {
+    type: 'checkbox',
+    change: () => setWeightsFrom(printed.checked ? 'published' : 'recomputed'),
+  });
+  const printedLine = element(
+    'label',
+    { class: 'check' },
+    printed,
+    'Use the weights as they are printed',
+  );
+  const body = element('div');
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Fabric', class: 'fabric-card' },
+      element('div', { class: 'fabric-title' }, swatch, name, use),
+      expectation,
+      bar,
+      body,
+      printedLine,
+    ),
+  );
+
+  function showNamed(fabric: FabricRecord, from: DeformState['weightsFrom']): void {
+    const { front, back } = lookOf(fabric.id);
+    swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
+    setText(use, fabric.use_en);
+    setText(expectation, EXPECTATIONS[fabric.name_en] ?? '');
+    show(geometryOf(fabric)[from]);
+    const shown = shownOf(fabric);
+    const parts = [
+      weightTable(shown),
+      element('p', { class: 'note' }, WEIGHTS_NOTE),
+      measurementBox(shown),
+      physicalBox(fabric),
+    ];
+    body.replaceChildren(...parts);
+  }
+
+  function showOwn(own: OwnFabric, measures: Triple): void {
+    setText(use, 'measured by you');
+    setText(
+      expectation,
+      `Its weights are a guess: ${weightWords(own.weights)}. Nearest measured fabric: ${own.nearest}.`,
+    );
+    show(own.weights);
+    const shown = ownShown(own, measures);
+    body.replaceChildren(
+      weightTable(shown),
+      element('p', { class: 'note' }, WEIGHTS_NOTE),
+      measurementBox(shown),
+    );
+  }
+
+  let drawn = '';
+  return watch(store, ['panes', 'chosen', 'weightsFrom', 'ownFabric'], (state) => {
+    const { panes, chosen, weightsFrom, ownFabric } = state;
+    const fabric = panes[chosen]?.fabric;
+    if (!fabric) return;
+    const isOwn = fabric.kind === 'own';
+    // The numbers of a pane change with every frame, its card does not.
+    const text = JSON.stringify([fabric, weightsFrom, isOwn && ownFabric]);
+    if (text === drawn) return;
+    drawn = text;
+    setText(name, titleOf(fabric));
+    printed.checked = weightsFrom === 'published';
+    printedLine.hidden = isOwn;
+    swatch.hidden = isOwn;
+    if (fabric.kind === 'named') showNamed(fabricNamed(fabric.name), weightsFrom);
+    else if (ownFabric) showOwn(ownFabric, fabric.measures);
+    else body.replaceChildren();
+  });
+}

@@ -1,0 +1,223 @@
+// All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
+import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
+import { lookOf } from '../../shared/fabric/fabric-look';
+import { element, setText } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import type { DeformState, FabricChoice } from '../state/deform-state';
+import { type Comparison, isSame, titleOf, withShown, withToggled } from '../state/fabric-choice';
+import { geometryOf } from '../state/fabric-geometry';
+import { createWeightBar, weightWords } from './weight-bar';
+
+export interface GalleryActions {
+  /** These fabrics side by side. */
+  compare(comparison: Comparison): void;
+  /** Another pane's card and numbers. */
+  choose(pane: number): void;
+  /** All fifteen at once, or those compared before. */
+  showAll(all: boolean): void;
+}
+
+/** Cell of the list: the fabric's button in column 0, its check box in column 1. */
+export interface Cell {
+  row: number;
+  column: number;
+}
+
+/** Where a key leads from a cell; null for a key that leads nowhere. */
+export function cellAfter(key: string, { row, column }: Cell, nRows: number): Cell | null {
+  const last = nRows - 1;
+  switch (key) {
+    case 'ArrowDown':
+      return { row: Math.min(last, row + 1), column };
+    case 'ArrowUp':
+      return { row: Math.max(0, row - 1), column };
+    case 'ArrowRight':
+      return { row, column: 1 };
+    case 'ArrowLeft':
+      return { row, column: 0 };
+    case 'Home':
+      return { row: 0, column };
+    case 'End':
+      return { row: last, column };
+    default:
+      return null;
+  }
+}
+
+function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggle: () => void) {
+  const { front, back } = lookOf(id);
+  const swatch = element('span', { class: 'fabric-swatch', 'aria-hidden': 'true' });
+  swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
+  const { bar, show: showWeights } = createWeightBar();
+  const words = element('span', { class: 'unseen' });
+  const button = element(
+    'button',
+    { type: 'button', tabindex: -1, click: press },
+    swatch,
+    element('span', { class: 'fabric-name' }, name),
+    words,
+    bar,
+  );
+  const box = element('input', {
+    type: 'checkbox',
+    tabindex: -1,
+    'aria-label': `Compare ${name}`,
+    title: 'Show it beside the others',
+    change: toggle,
+  });
+  const boxCell = element('span', { role: 'gridcell' }, box);
+  const row = element(
+    'div',
+    { role: 'row', class: 'fabric-row' },
+    element('span', { role: 'gridcell' }, button),
+    boxCell,
+  );
+  return { name, row, button, box, boxCell, words, showWeights };
+}
+
+type Row = ReturnType<typeof createRow>;
+
+/** The rows as one stop for Tab; arrow keys lead on from it. */
+function createGrid(rows: readonly Row[]) {
+  let current: Cell = { row: 0, column: 0 };
+
+  function controlAt({ row, column }: Cell): HTMLElement | null {
+    const found = rows[row];
+    if (!found) return null;
+    return column === 1 && !found.boxCell.hidden ? found.box : found.button;
+  }
+
+  function moveTo(cell: Cell): void {
+    controlAt(current)?.setAttribute('tabindex', '-1');
+    current = cell;
+    controlAt(current)?.setAttribute('tabindex', '0');
+  }
+
+  const grid = element(
+    'div',
+    {
+      role: 'grid',
+      class: 'fabric-list',
+      'aria-label': 'Fabrics',
+      keydown(event) {
+        if (!(event instanceof KeyboardEvent)) return;
+        const next = cellAfter(event.key, current, rows.length);
+        if (!next) return;
+        event.preventDefault();
+        moveTo(next);
+        controlAt(next)?.focus();
+      },
+      focusin({ target }) {
+        const row = rows.findIndex(
+          ({ row: one }) => target instanceof Node && one.contains(target),
+        );
+        if (row >= 0) moveTo({ row, column: rows[row]?.box === target ? 1 : 0 });
+      },
+    },
+    ...rows.map(({ row }) => row),
+  );
+  moveTo(current);
+  return {
+    grid,
+    /** The check boxes are gone. */
+    leaveBoxes() {
+      if (current.column === 1) moveTo({ row: current.row, column: 0 });
+    },
+  };
+}
+
+/** Shows in each row what is shown in panes, and the weights. */
+function renderRows(rows: readonly Row[], state: DeformState): void {
+  const { panes, chosen, gallery, weightsFrom } = state;
+  const shown = panes.map(({ fabric }) => titleOf(fabric));
+  for (const { name, button, box, boxCell, words, showWeights } of rows) {
+    const weights = geometryOf(fabricNamed(name))[weightsFrom];
+    showWeights(weights);
+    setText(words, `: ${weightWords(weights)}`);
+    button.setAttribute('aria-pressed', String(shown[chosen] === name));
+    box.checked = shown.includes(name);
+    boxCell.hidden = gallery;
+  }
+}
+
+/** What a press on a fabric and a tick at it do; `onRefused` hears why nothing was done. */
+function createChoices(
+  store: Store<DeformState>,
+  actions: GalleryActions,
+  onRefused: (sentence: string) => void,
+) {
+  function comparison(): Comparison {
+    const { panes, chosen } = store.get();
+    return { fabrics: panes.map((pane) => pane.fabric), chosen };
+  }
+  return {
+    press(choice: FabricChoice): void {
+      const { panes, gallery } = store.get();
+      const pane = panes.findIndex(({ fabric }) => isSame(fabric, choice));
+      if (pane >= 0) actions.choose(pane);
+      else if (!gallery) actions.compare(withShown(comparison(), choice));
+    },
+    toggle(choice: FabricChoice): void {
+      const changed = withToggled(comparison(), choice);
+      if (typeof changed === 'string') return onRefused(changed);
+      onRefused('');
+      actions.compare(changed);
+    },
+  };
+}
+
+export function createFabricGallery(
+  parent: HTMLElement,
+  store: Store<DeformState>,
+  actions: GalleryActions,
+): () => void {
+  const { press, toggle } = createChoices(store, actions, (sentence) => {
+    setText(refusal, sentence);
+    if (sentence !== '') render();
+  });
+  const rows = fabrics.map((fabric) => {
+    const choice: FabricChoice = { kind: 'named', name: fabric.name_en };
+    const pressRow = () => press(choice);
+    return createRow(fabric, pressRow, () => toggle(choice));
+  });
+  const { grid, leaveBoxes } = createGrid(rows);
+  const all = element(
+    'button',
+    {
+      type: 'button',
+      class: 'wide',
+      click: () => actions.showAll(!store.get().gallery),
+    },
+    'All fifteen at once',
+  );
+  const hint = element('p', { class: 'note' });
+  const refusal = element('p', { class: 'note', role: 'status' });
+  parent.append(
+    element('section', { 'aria-label': 'Choice of fabrics' }, all, hint, grid, refusal),
+  );
+
+  function render(): void {
+    const state = store.get();
+    all.setAttribute('aria-pressed', String(state.gallery));
+    setText(
+      hint,
+      state.gallery
+        ? 'Choose a fabric to read its card.'
+        : 'Choose a fabric for the pane; tick up to four to see them side by side.',
+    );
+    renderRows(rows, state);
+    if (state.gallery) leaveBoxes();
+  }
+
+  // Numbers of a pane change with every frame of a drag, this list does not.
+  let drawn = '';
+  return watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom'], (state) => {
+    const { panes, chosen, gallery, weightsFrom } = state;
+    const names = panes.map(({ fabric }) => titleOf(fabric));
+    const text = JSON.stringify([names, chosen, gallery, weightsFrom]);
+    if (text === drawn) return;
+    drawn = text;
+    setText(refusal, '');
+    render();
+  });
+}

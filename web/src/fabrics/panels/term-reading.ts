@@ -1,0 +1,124 @@
+// What the numbers of a shape say, in sentences.
+import { element } from '../../shared/panels/element';
+import { digits, percent } from '../../shared/panels/quantity';
+import { type Store, watch } from '../../shared/state/store';
+import {
+  type DeformState,
+  type PaneState,
+  TERMS,
+  type Term,
+  type Triple,
+} from '../state/deform-state';
+import { isSame, titleOf } from '../state/fabric-choice';
+import { triple } from '../state/fabric-geometry';
+import { TERM_TITLES } from './term-words';
+
+type Counts = Record<Term, boolean>;
+
+/** Bounds of the share that a term has in the three unweighted terms together. */
+const LITTLE = 0.1;
+const MUCH = 0.6;
+
+/** Below both of these weights a pull is met by recovery alone: bending would round it. */
+const SPIKY_STRETCH = 0.01;
+const SPIKY_BENDING = 0.05;
+
+/** Beside this, two fabrics differ in words too. */
+const CLEARLY_LESS = 0.8;
+
+const DOES: Record<Term, { little: string; some: string; much: string }> = {
+  recovery: {
+    little: 'Stays near where it lay',
+    some: 'Moves away from where it lay',
+    much: 'Moves far from where it lay',
+  },
+  stretch: { little: 'Stretches little', some: 'Stretches', much: 'Stretches much' },
+  bending: { little: 'Bends little', some: 'Bends', much: 'Bends much' },
+};
+
+const NOUNS: Record<Term, string> = {
+  recovery: 'moves least from where it lay',
+  stretch: 'stretches least',
+  bending: 'bends least',
+};
+
+export const SPIKE =
+  'With almost no weight on stretch, and little on bending, a pulled handle makes a spike: those are the measured weights, not a fault.';
+
+function sum(values: Triple): number {
+  return TERMS.reduce((total, term) => total + values[term], 0);
+}
+
+function amount(part: number): 'little' | 'some' | 'much' {
+  if (part < LITTLE) return 'little';
+  return part > MUCH ? 'much' : 'some';
+}
+
+/** "Bends little: bending weighs 73 %, and makes 5.0 % of the three unweighted." */
+function termSentence(term: Term, { terms, weights }: PaneState, counts: Counts): string {
+  const part = terms[term] / sum(terms);
+  const does = DOES[term][amount(part)];
+  const title = TERM_TITLES[term].toLowerCase();
+  if (!counts[term]) return `${does}: ${title} is off and costs nothing.`;
+  return `${does}: ${title} weighs ${percent(weights[term])} and makes ${percent(part)} of the three terms before weighting.`;
+}
+
+/** Which term most of the energy is. */
+function energySentence(pane: PaneState, counts: Counts): string {
+  const paid = triple((term) => (counts[term] ? pane.weights[term] * pane.terms[term] : 0));
+  const total = sum(paid);
+  const [most] = [...TERMS].sort((a, b) => paid[b] - paid[a]);
+  if (!most || total <= 0) return '';
+  return `Energy ${digits(pane.energy)}, ${percent(paid[most] / total)} of it ${TERM_TITLES[most].toLowerCase()}.`;
+}
+
+/** True of silk alone: spandex and nylon hardly resist stretch either, but bend round. */
+export function isSpiky({ stretch, bending }: Triple): boolean {
+  return stretch < SPIKY_STRETCH && bending < SPIKY_BENDING;
+}
+
+/** The chosen pane's own numbers; one sentence if it lies at rest. */
+export function paneReading(pane: PaneState, counts: Counts): string[] {
+  if (sum(pane.terms) <= 0) return ['At rest: no term costs anything. Pull a handle.'];
+  const sentences = TERMS.map((term) => termSentence(term, pane, counts));
+  sentences.push(energySentence(pane, counts));
+  if (counts.stretch && isSpiky(pane.weights)) sentences.push(SPIKE);
+  return sentences.filter((sentence) => sentence !== '');
+}
+
+/** "Of these, canvas bends least: 0.50 against 5.0 of silk."; none where they are alike. */
+export function comparedReading(panes: readonly PaneState[]): string[] {
+  if (panes.length < 2) return [];
+  return TERMS.flatMap((term) => {
+    const ranked = [...panes].sort((a, b) => a.terms[term] - b.terms[term]);
+    const [least] = ranked;
+    const most = ranked.at(-1);
+    if (!least || !most || least.terms[term] >= CLEARLY_LESS * most.terms[term]) return [];
+    const numbers = `${digits(least.terms[term], 2)} against ${digits(most.terms[term], 2)} of ${titleOf(most.fabric)}`;
+    return isSame(least.fabric, most.fabric)
+      ? []
+      : [`Of these, ${titleOf(least.fabric)} ${NOUNS[term]}: ${numbers}.`];
+  });
+}
+
+/** The sentences for the chosen pane, and for how those side by side differ. */
+export function createTermReading(parent: HTMLElement, store: Store<DeformState>): () => void {
+  const list = element('ul', { class: 'plain-list' });
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'What the numbers say' },
+      element('h2', {}, 'What the numbers say'),
+      list,
+    ),
+  );
+  let shown = '';
+  return watch(store, ['panes', 'chosen', 'terms'], ({ panes, chosen, terms }) => {
+    const pane = panes[chosen];
+    const sentences = pane ? [...paneReading(pane, terms), ...comparedReading(panes)] : [];
+    const text = sentences.join('\n');
+    if (text === shown) return;
+    shown = text;
+    list.replaceChildren(...sentences.map((sentence) => element('li', {}, sentence)));
+  });
+}

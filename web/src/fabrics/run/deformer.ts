@@ -1,0 +1,324 @@
+// Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
+// questions to the worker, and answers into state and frames.
+import {
+  brokenSentence,
+  type Failure,
+  inputFailure,
+  internalFailure,
+} from '../../shared/bindings/answers';
+import { frameViews } from '../../shared/bindings/frame';
+import type { Triple } from '../../shared/bindings/geometry';
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import type { StartShape } from '../../shared/page/view';
+import type { Store } from '../../shared/state/store';
+import { answerOf } from '../../shared/workers/asked';
+import type { TermNumbers } from '../bindings/deform-module';
+import type { PaneState } from '../state/deform-state';
+import { EXPERIMENTS, type Experiment, OWN, ownExperiment } from '../state/experiments';
+import type { Comparison } from '../state/fabric-choice';
+import { linkedHolds } from '../state/fabrics-link';
+import {
+  countedWeights,
+  type FabricsLink,
+  type FabricsState,
+  linkFailure,
+  panesFor,
+  settlingPanes,
+} from '../state/fabrics-state';
+import { holdsOf, placeOf } from '../state/holds';
+import type {
+  DeformFrame,
+  FittedMessage,
+  FromDeform,
+  OpenedMessage,
+} from '../worker/deform-protocol';
+import { type DeformClient, type StartDeform, startDeformWorker } from './deform-client';
+import { Hand } from './hand';
+import { HeldCloth, undone } from './held-cloth';
+import { LastGranted } from './last-granted';
+
+/** Numbers of a cloth that is being pulled are shown this often [ms]: faster cannot be read. */
+const NUMBERS_EVERY_MS = 150;
+
+export interface DeformerView {
+  /** Another cloth; its frames follow. */
+  showMesh(triangles: Uint32Array, nVertices: number, experiment: Experiment): void;
+  /** The buffer stays valid until the next one of that pane. */
+  showFrame(pane: number, buffer: ArrayBuffer): void;
+}
+
+/** What is on its way to be shown. */
+interface Opening {
+  experiment: Experiment;
+  link: FabricsLink | null;
+  /** Text of the mesh that it names, unless that is to be fetched. */
+  objText: string;
+}
+
+type Shown = Pick<
+  FabricsState,
+  'compared' | 'gallery' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
+>;
+
+function shownOf({ compared, gallery, chosen, terms, form, weightsFrom }: FabricsState): Shown {
+  return { compared, gallery, chosen, terms, form, weightsFrom };
+}
+
+const ALL_TERMS = { recovery: true, stretch: true, bending: true };
+
+/** How a cloth is held that comes without a link. */
+const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: [] };
+
+async function meshText({ experiment, objText }: Opening): Promise<string> {
+  if (experiment.meshUrl === null) return objText;
+  const answer = await fetch(experiment.meshUrl);
+  if (!answer.ok) throw new Error(answer.statusText);
+  return answer.text();
+}
+
+export class Deformer {
+  private readonly client: DeformClient;
+  private readonly held: HeldCloth;
+  private readonly hand: Hand;
+  private readonly granted = new LastGranted<Shown | null>(null);
+  private nOpened = 0; // counts what is to be opened: what belongs to an earlier one is dropped
+  private cloth = -1; // the one that is shown
+  private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
+  private lastNumbersMs = 0;
+  private obj: { name: string; text: string } | null = null; // the visitor's
+
+  constructor(
+    private readonly store: Store<FabricsState>,
+    private readonly view: DeformerView,
+    start: StartDeform = startDeformWorker,
+  ) {
+    this.client = start({
+      news: (message) => this.hear(message),
+      broken: (reason) => this.breakDown(reason),
+    });
+    this.hand = new Hand(
+      store,
+      () => this.held,
+      (vertex, pane) => this.place(vertex, pane),
+    );
+    this.held = new HeldCloth(store, this.client, () => this.hand.hasTaken());
+    store.subscribe((state, previous) => {
+      if (!state.cloth || state.cloth !== previous.cloth) return;
+      if (state.form !== previous.form || state.terms !== previous.terms) this.sendPanes();
+      if (state.weightsFrom !== previous.weightsFrom) this.showPanes();
+    });
+  }
+
+  /** An experiment by its id, as it is by itself or as a link has it. */
+  openExperiment(id: string, link?: FabricsLink): void {
+    const known = EXPERIMENTS.find((experiment) => experiment.id === id);
+    if (known) return void this.open({ experiment: known, link: link ?? null, objText: '' });
+    if (this.obj) this.openOwn(this.obj.name, this.obj.text);
+  }
+
+  async openObj(file: File): Promise<void> {
+    const { name } = file;
+    if (!/\.obj$/i.test(name))
+      return this.refuse(inputFailure(`${name} is no OBJ file: the name does not end in .obj.`));
+    const text = await file.text().catch(() => null);
+    if (text === null) this.refuse(inputFailure(`${name} could not be read.`));
+    else this.openOwn(name, text);
+  }
+
+  grab(vertex: number, pane: number): void {
+    this.hand.grab(vertex, pane);
+  }
+
+  /** Where the taken vertex is wanted [m]. */
+  moveGrab(target: Triple): void {
+    this.hand.move(target);
+  }
+
+  releaseGrab(): void {
+    this.hand.release();
+  }
+
+  /** Puts a pin around a vertex, or takes out the hold that has it. */
+  togglePin(vertex: number, pane: number): void {
+    this.hand.togglePin(vertex, pane);
+  }
+
+  release(name: string): void {
+    this.store.set({ problem: null });
+    this.held.set(this.held.holds().filter((hold) => hold.name !== name));
+  }
+
+  /** Moves one hold by so much [m]. */
+  nudge(name: string, [x, y, z]: Triple): void {
+    const hold = this.held.holds().find((one) => one.name === name);
+    if (!hold) return;
+    const [a, b, c] = hold.offset;
+    this.store.set({ invited: false, chosenHold: name });
+    this.held.move(name, [a + x, b + y, c + z]);
+  }
+
+  /** Everything as the experiment has it. */
+  resetHolds(): void {
+    this.store.set({ problem: null, chosenHold: null });
+    this.held.set(this.store.get().ownHolds);
+  }
+
+  compare({ fabrics: compared, chosen }: Comparison): void {
+    this.store.set({ compared, chosen, gallery: false });
+    this.fitOwn();
+    this.showPanes();
+  }
+
+  setGallery(isShown: boolean): void {
+    this.store.set({ gallery: isShown, chosen: 0 });
+    this.showPanes();
+  }
+
+  /** Asks for the weights of a visitor's own measurements. */
+  measure(measures: TermNumbers): void {
+    const question = answerOf(this.client.ask({ type: 'fit', measures }), (failure) =>
+      this.refuse(failure),
+    );
+    void question.then((answer) => answer && this.receiveFitted(answer));
+  }
+
+  /** The shape of the chosen pane, to start a motion from; null when it cannot be told. */
+  startShape(): Promise<StartShape | null> {
+    const question = this.client.ask({ type: 'section', pane: this.store.get().chosen });
+    return answerOf(question, (failure) => this.refuse(failure));
+  }
+
+  private breakDown(reason: string): void {
+    const problem = internalFailure(brokenSentence('The shapes', reason));
+    this.store.set({ phase: 'broken', problem });
+  }
+
+  private refuse(failure: Failure): void {
+    this.store.set({ problem: failure });
+  }
+
+  private hear(message: FromDeform): void {
+    if (message.type === 'frame' && message.cloth === this.cloth) this.receiveFrame(message);
+    if (message.type === 'refused') this.refuse(message.failure);
+  }
+
+  private openOwn(name: string, objText: string): void {
+    void this.open({ experiment: ownExperiment(name), link: null, objText });
+  }
+
+  private async open(wanted: Opening): Promise<void> {
+    this.nOpened += 1;
+    const cloth = this.nOpened;
+    const isCurrent = () => cloth === this.nOpened;
+    this.store.set({ phase: 'loading' });
+    const objText = await meshText(wanted).catch(() => null);
+    if (!isCurrent()) return;
+    const refuse = (failure: Failure) => {
+      if (isCurrent()) this.store.set({ phase: 'ready' });
+      this.refuse(failure);
+    };
+    if (objText === null)
+      return refuse(inputFailure('The mesh could not be fetched. Check the connection.'));
+    const { text: sceneText } = wanted.experiment;
+    const question = { type: 'open', cloth, fabricsText, sceneText, objText } as const;
+    const opened = await answerOf(this.client.ask(question), refuse);
+    if (opened && isCurrent()) this.receiveOpened(opened, wanted);
+  }
+
+  private receiveOpened({ cloth, answer, triangles }: OpenedMessage, opening: Opening): void {
+    const { experiment, link, objText } = opening;
+    const isOwn = experiment.id === OWN;
+    if (isOwn) this.obj = { name: answer.name, text: objText };
+    this.cloth = cloth;
+    this.shown = [];
+    this.hand.drop();
+    const ownHolds = holdsOf(answer, triangles);
+    const { holds, problems } = linkedHolds(ownHolds, answer, link ?? UNMOVED);
+    this.held.open(ownHolds, holds);
+    this.granted.value = null;
+    this.store.set({
+      phase: 'ready',
+      experiment: experiment.id,
+      objName: isOwn ? answer.name : this.store.get().objName,
+      cloth: answer,
+      ownHolds,
+      chosenHold: null,
+      isDragging: false,
+      invited: true,
+      problem: link ? linkFailure(problems, this.store.get().problem) : null,
+    });
+    this.view.showMesh(triangles, answer.n_vertices, experiment);
+    this.held.send();
+    this.fitOwn();
+    this.sendPanes();
+  }
+
+  private receiveFrame({ cloth, pane, buffer, report, status, updateMs }: DeformFrame): void {
+    const { panes } = this.store.get();
+    const old = this.shown[pane];
+    this.shown[pane] = buffer;
+    if (old) this.client.tell({ type: 'return', cloth, pane, buffer: old }, [old]);
+    if (!panes[pane]) return;
+    this.view.showFrame(pane, buffer);
+    const nowMs = performance.now();
+    if (status === 'dragging' && nowMs - this.lastNumbersMs < NUMBERS_EVERY_MS) return;
+    this.lastNumbersMs = nowMs;
+    const { energy, terms, steps } = report;
+    const numbers = { energy, terms, steps, status, updateMs };
+    this.store.set({
+      panes: panes.map((one, at): PaneState => (at === pane ? { ...one, ...numbers } : one)),
+    });
+  }
+
+  /** The own fabric that is shown goes with the measurements in its form. */
+  private receiveFitted({ measures, answer }: FittedMessage): void {
+    const { compared, panes } = this.store.get();
+    this.store.set({
+      ownFabric: answer,
+      compared: compared.map((one) => (one.kind === 'own' ? { ...one, measures } : one)),
+    });
+    if (panes.some(({ fabric }) => fabric.kind === 'own')) this.showPanes();
+  }
+
+  /** Panes for what is to be compared, or for all fabrics. */
+  private showPanes(): void {
+    const state = this.store.get();
+    const panes = panesFor(state);
+    this.store.set({ panes, chosen: Math.min(state.chosen, panes.length - 1), problem: null });
+    if (state.cloth) this.sendPanes();
+  }
+
+  private sendPanes(): void {
+    const { store } = this;
+    // Numbers that are shown are of what was before, until new ones come.
+    store.set({ panes: settlingPanes(store.get().panes) });
+    const { panes, terms, form } = store.get();
+    const weights = panes.map((pane) => countedWeights(pane, terms));
+    const asked = this.granted.ask(this.client.ask({ type: 'show', form, weights }), {
+      granted: () => shownOf(store.get()),
+      refused: () => this.undoPanes(),
+    });
+    void answerOf(asked, (failure) => this.refuse(undone(failure)));
+  }
+
+  /** Goes back to what could be shown; when nothing could yet, to all terms. */
+  private undoPanes(): void {
+    const state = this.store.get();
+    const last = this.granted.value ?? { ...shownOf(state), terms: ALL_TERMS };
+    if (JSON.stringify(last) === JSON.stringify(shownOf(state))) return;
+    this.store.set(last);
+    this.showPanes();
+  }
+
+  /** Asks for the weights of a visitor's fabric that have not been fitted yet. */
+  private fitOwn(): void {
+    const { compared, ownFabric } = this.store.get();
+    const own = compared.find((choice) => choice.kind === 'own');
+    if (own && !ownFabric) this.measure(own.measures);
+  }
+
+  private place(vertex: number, pane: number): Triple {
+    const buffer = this.shown[pane];
+    return buffer ? placeOf(frameViews(buffer).positions, vertex) : [0, 0, 0];
+  }
+}

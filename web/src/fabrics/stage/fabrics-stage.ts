@@ -1,0 +1,267 @@
+// One cloth in several panes: one renderer and one camera, a cut of the canvas for each. It gets
+// frames and settings, never the solver, and draws only when something changed.
+import { Box3, type Scene, Sphere, Vector3 } from 'three';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
+import { lookOf } from '../../shared/fabric/fabric-look';
+import { uprightOf } from '../../shared/stage/camera-control';
+import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
+import { type Box, stepSeen } from '../../shared/stage/grab';
+import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+import { createHoldMarks, type HoldMark } from './hold-marks';
+
+export interface FabricsStageEvents {
+  /** True when a press on this vertex is used up otherwise. */
+  press(vertex: number, pane: number): boolean;
+  grab(vertex: number, pane: number): void;
+  moveGrab(target: Triple): void;
+  releaseGrab(): void;
+  /** Keys that are neither the camera's nor the hand's. True when used. */
+  key(name: string): boolean;
+  /** After each picture: where the inviting vertex is in the first pane, in pixels. */
+  drawn(invitation: { x: number; y: number }): void;
+  contextLost(): void;
+}
+
+export interface FabricsStage {
+  /** Another cloth in all panes, not yet seen. */
+  showMesh(triangles: Uint32Array, nVertices: number): void;
+  /** Fabrics by id, a pane for each; `nColumns` of them side by side. */
+  setPanes(fabricIds: readonly number[], nColumns: number): void;
+  showFrame(pane: number, buffer: ArrayBuffer): void;
+  setMarks(marks: readonly HoldMark[]): void;
+  setBodies(bodies: Collider[]): void;
+  /** The pane that keys take the cloth in. */
+  choose(pane: number): void;
+  invite(vertex: number): void;
+  setEdges(isShown: boolean): void;
+  /** Sets the view so that these places are seen, three numbers each [m]. */
+  frame(places: readonly number[]): void;
+  homeView(): void;
+  /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */
+  stepFrom(place: Triple, direction: Triple): Triple;
+  positions(pane: number): Float32Array;
+  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+  project(vertex: number, pane: number): { x: number; y: number };
+}
+
+/** Direction of the first view [rad]: from above enough to see a level sheet's shape. */
+const AZIMUTH = 0.5;
+const POLAR = 1.08;
+
+/** The floor lies under the cloth by this part of its size. */
+const FLOOR_BELOW = 0.25;
+
+/** Shadows in more panes than this would take longer than the cloth. */
+const MOST_SHADOWED_PANES = 4;
+
+/** Clothes of one topology, one in each pane. */
+class PaneClothes {
+  private readonly clothes: ClothMesh[] = [];
+  private topology: { triangles: Uint32Array; nVertices: number } = {
+    triangles: new Uint32Array(0),
+    nVertices: 0,
+  };
+  private areEdgesShown = false;
+
+  constructor(private readonly scene: () => Scene) {}
+
+  get count(): number {
+    return this.clothes.length;
+  }
+
+  positions(pane: number): Float32Array {
+    return this.clothes[pane]?.positions() ?? new Float32Array(0);
+  }
+
+  triangles(): Uint32Array {
+    return this.topology.triangles;
+  }
+
+  setTopology(triangles: Uint32Array, nVertices: number): void {
+    this.topology = { triangles, nVertices };
+    for (const cloth of this.clothes) this.dress(cloth);
+  }
+
+  /** A cloth for each fabric. */
+  setFabrics(ids: readonly number[]): void {
+    for (const cloth of this.clothes.splice(ids.length)) {
+      this.scene().remove(cloth.object);
+      cloth.close();
+    }
+    while (this.clothes.length < ids.length) {
+      const cloth = createClothMesh();
+      this.dress(cloth);
+      this.clothes.push(cloth);
+      this.scene().add(cloth.object);
+    }
+    ids.forEach((id, pane) => {
+      this.clothes[pane]?.setLook(lookOf(id));
+    });
+  }
+
+  setFrame(pane: number, buffer: ArrayBuffer): void {
+    this.clothes[pane]?.setFrame(buffer, 'stretch');
+  }
+
+  setEdges(isShown: boolean): void {
+    this.areEdgesShown = isShown;
+    for (const cloth of this.clothes) cloth.setEdges(isShown);
+  }
+
+  /** Has the cloth of one pane alone be seen. */
+  show(pane: number): void {
+    this.clothes.forEach((cloth, other) => {
+      cloth.object.visible = other === pane && cloth.positions().length > 0;
+    });
+    this.clothes[pane]?.update();
+  }
+
+  /** Gives a cloth the topology and the edges of the others, and no frame yet. */
+  private dress(cloth: ClothMesh): void {
+    const { triangles, nVertices } = this.topology;
+    cloth.setFrame(new ArrayBuffer(0), 'stretch');
+    if (nVertices > 0) cloth.setTopology(triangles, nVertices);
+    cloth.setEdges(this.areEdgesShown);
+  }
+}
+
+/** Sets the view so that these places are seen; the height of the floor below them [m]. */
+function frame({ surroundings, control, camera }: PaneStage, places: readonly number[]): number {
+  const box = new Box3().setFromArray(places);
+  const { center: centre, radius } = box.getBoundingSphere(new Sphere());
+  const floor = box.min.y - FLOOR_BELOW * radius;
+  surroundings.frame(centre, radius, floor);
+  const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
+  control.frame({ ...view, upright: uprightOf(places, view, camera.fov) });
+  return floor;
+}
+
+/** The stage itself and the hand on it, which is in one pane at a time. */
+class Stage {
+  readonly marks = createHoldMarks();
+  readonly clothes = new PaneClothes(() => this.stage.scene);
+  readonly stage: PaneStage;
+  readonly hand: ReturnType<typeof createStageHand>;
+  inviting = 0;
+  chosen = 0;
+  floor = 0;
+  private active = 0; // pane in which the hand is
+
+  constructor(
+    parent: HTMLElement,
+    canvas: HTMLCanvasElement,
+    private readonly events: FabricsStageEvents,
+  ) {
+    this.stage = createPaneStage(parent, canvas, {
+      fov: 32,
+      objects: [this.marks.object],
+      isReady: () => this.clothes.count > 0,
+      prepare: (pane) => this.prepare(pane),
+      drawn: () => this.drawn(),
+      themed: (colour) => this.setTheme(colour),
+      handKey: (name) => this.hand.key(name),
+      key: events.key,
+      contextLost: events.contextLost,
+    });
+    this.hand = createStageHand(this.stage, {
+      picture: (at) => this.pictureAt(at),
+      press: (vertex) => events.press(vertex, this.active),
+      grab: (vertex) => events.grab(vertex, this.active),
+      move: events.moveGrab,
+      release: events.releaseGrab,
+      fallbackVertex: () => this.inviting,
+      cloth: () => ({
+        positions: this.clothes.positions(this.active),
+        triangles: this.clothes.triangles(),
+      }),
+      floor: () => this.floor,
+    });
+    this.stage.open();
+  }
+
+  project(vertex: number, pane: number): { x: number; y: number } {
+    return this.stage.grid.project(this.clothes.positions(pane), vertex, pane);
+  }
+
+  private pictureAt(at: { x: number; y: number } | null): () => Box {
+    const { grid } = this.stage;
+    const pane = at ? grid.paneAt(at) : Math.min(this.chosen, this.clothes.count - 1);
+    this.active = pane;
+    return () => grid.boxOf(pane);
+  }
+
+  private prepare(pane: number): void {
+    this.marks.face(this.stage.camera);
+    this.clothes.show(pane);
+    this.hand.mark(pane === this.active ? this.clothes.positions(pane) : null);
+  }
+
+  private drawn(): void {
+    if (this.clothes.positions(0).length > 0) this.events.drawn(this.project(this.inviting, 0));
+  }
+
+  private setTheme(colour: (name: string) => string): void {
+    this.hand.setColour(colour('--stage-hand'));
+    this.marks.setColours({
+      pin: colour('--stage-hand'),
+      handle: colour('--accent'),
+      chosen: colour('--alarm'),
+    });
+  }
+}
+
+/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
+export function createFabricsStage(
+  parent: HTMLElement,
+  canvas: HTMLCanvasElement,
+  events: FabricsStageEvents,
+): FabricsStage {
+  const own = new Stage(parent, canvas, events);
+  const { stage, clothes, marks, hand } = own;
+  const { grid, redraw } = stage;
+  return {
+    showMesh(triangles, nVertices) {
+      clothes.setTopology(triangles, nVertices);
+      hand.drop();
+      redraw();
+    },
+    setPanes(fabricIds, columns) {
+      clothes.setFabrics(fabricIds);
+      grid.set(clothes.count, columns);
+      stage.surroundings.setShadows(clothes.count <= MOST_SHADOWED_PANES);
+      stage.refit();
+      redraw();
+    },
+    showFrame(pane, buffer) {
+      clothes.setFrame(pane, buffer);
+      redraw();
+    },
+    setMarks(newMarks) {
+      marks.set(newMarks);
+      redraw();
+    },
+    setBodies(bodies) {
+      stage.surroundings.setColliders(bodies);
+      redraw();
+    },
+    choose(pane) {
+      own.chosen = pane;
+    },
+    invite(vertex) {
+      own.inviting = vertex;
+      redraw();
+    },
+    setEdges(isShown) {
+      clothes.setEdges(isShown);
+      redraw();
+    },
+    frame(places) {
+      own.floor = frame(stage, places);
+    },
+    homeView: stage.control.home,
+    stepFrom: (place, direction) =>
+      stepSeen(stage.camera, new Vector3(...place), direction).toArray(),
+    positions: (pane) => clothes.positions(pane),
+    project: (vertex, pane) => own.project(vertex, pane),
+  };
+}

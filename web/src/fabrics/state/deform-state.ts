@@ -1,0 +1,63 @@
+// What the view "Fabrics" shows. Only this and the frames travel between its parts.
+import type { Failure } from '../../shared/bindings/answers';
+
+export type EnergyForm = 'consistent' | 'published';
+export const TERMS = ['recovery', 'stretch', 'bending'] as const;
+export type Term = (typeof TERMS)[number];
+/** One number for each term: weights, measures or energies. */
+export type Triple = Record<Term, number>;
+
+/** A fabric of the library, or the visitor's own measurements. */
+export type FabricChoice = { kind: 'named'; name: string } | { kind: 'own'; measures: Triple };
+
+/** What the fit says about the visitor's own measurements. */
+export interface OwnFabric {
+  weights: Triple;
+  normalised: Triple;
+  /** RMS, in normalised measures. */
+  leaveOneOutError: Triple;
+  /** Those outside the measured range, which were clamped to it. */
+  clamped: Term[];
+  measuredRange: Record<Term, [number, number]>;
+  nearest: string;
+}
+
+export interface DeformStep {
+  energy: number;
+  terms: Triple;
+  relativeStep: number;
+  linearised: boolean;
+}
+
+/** One pane: one fabric's shape under the common hold. */
+export interface PaneState {
+  fabric: FabricChoice;
+  weights: Triple;
+  energy: number;
+  terms: Triple;
+  steps: DeformStep[];
+  status: 'dragging' | 'settling' | 'converged' | 'not_converged';
+  /** Time of the last update [ms]. */
+  updateMs: number;
+}
+
+export interface NamedHold {
+  name: string;
+  vertices: number[];
+}
+
+export interface DeformState {
+  /** Name of a file of assets/deform, or 'own' for the visitor's OBJ. */
+  experiment: string;
+  panes: PaneState[]; // 1 to 4, or 15 in the gallery
+  gallery: boolean;
+  form: EnergyForm;
+  terms: Record<Term, boolean>;
+  weightsFrom: 'recomputed' | 'published';
+  pins: NamedHold[];
+  handles: NamedHold[];
+  /** Pane whose card and energy curve are shown. */
+  chosen: number;
+  problem: Failure | null;
+  ownFabric: OwnFabric | null;
+}

@@ -1,0 +1,128 @@
+// The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
+import { type Failure, inputFailure } from '../../shared/bindings/answers';
+import type { Triple as Place } from '../../shared/bindings/geometry';
+import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
+import type { ClothAnswer } from '../bindings/deform-module';
+import {
+  type DeformState,
+  type FabricChoice,
+  type OwnFabric,
+  type PaneState,
+  TERMS,
+  type Triple,
+} from './deform-state';
+import { weightsOf } from './fabric-choice';
+import { geometryOf } from './fabric-geometry';
+import type { Hold } from './holds';
+
+/** What a press on the cloth does: a hand takes it, or a pin goes in or out. */
+export type Tool = 'pull' | 'pin';
+
+export interface FabricsState extends DeformState {
+  /** `broken`: nothing can be computed here. */
+  phase: 'loading' | 'ready' | 'broken';
+  /** Pins and handles, in the order in which they came: which has a vertex first, keeps it. */
+  holds: readonly Hold[];
+  /** The experiment's holds, before a visitor changed them. */
+  ownHolds: Hold[];
+  /** What is shown when it is not all fabrics: one to four. */
+  compared: FabricChoice[];
+  cloth: ClothAnswer | null;
+  /** The visitor's mesh, once there is one. */
+  objName: string | null;
+  tool: Tool;
+  /** Name of the hold that keys move. */
+  chosenHold: string | null;
+  isDragging: boolean;
+  invited: boolean;
+  edges: boolean;
+}
+
+/** How far a hold was moved: one of the experiment by its name, or a visitor's own by its vertex. */
+export interface LinkedHold {
+  by: string | { kind: Hold['kind']; vertex: number };
+  offset: Place;
+}
+
+export interface FabricsLink
+  extends Pick<
+    FabricsState,
+    'experiment' | 'gallery' | 'form' | 'terms' | 'weightsFrom' | 'chosen' | 'compared' | 'edges'
+  > {
+  moved: LinkedHold[];
+  /** Names of the experiment's holds that were let go. */
+  released: string[];
+}
+
+const ALL_FABRICS: readonly FabricChoice[] = fabrics.map(({ name_en: name }) => ({
+  kind: 'named',
+  name,
+}));
+
+/** The part of the state that says what holds the cloth. */
+export function heldBy(holds: readonly Hold[]): Pick<FabricsState, 'holds' | 'pins' | 'handles'> {
+  const ofKind = (wanted: Hold['kind']) => holds.filter(({ kind }) => kind === wanted);
+  return { holds, pins: ofKind('pin'), handles: ofKind('handle') };
+}
+
+/** The fabric that a choice looks like. */
+export function recordOf(choice: FabricChoice, own: OwnFabric | null): FabricRecord {
+  return fabricNamed(choice.kind === 'named' ? choice.name : (own?.nearest ?? ''));
+}
+
+/** The weights that enter the energy: those of terms that are switched off are zero. */
+export function countedWeights({ weights }: PaneState, terms: DeformState['terms']): Triple {
+  const counted = { ...weights };
+  for (const term of TERMS) if (!terms[term]) counted[term] = 0;
+  return counted;
+}
+
+/** Panes for what is to be shown; a pane that is there keeps its numbers until new ones come. */
+export function panesFor(
+  state: Pick<FabricsState, 'gallery' | 'compared' | 'weightsFrom' | 'ownFabric' | 'panes'>,
+): PaneState[] {
+  const shown = state.gallery ? ALL_FABRICS : state.compared;
+  return shown.map((fabric, index): PaneState => {
+    const numbers = state.panes[index] ?? {
+      energy: Number.NaN,
+      terms: { recovery: Number.NaN, stretch: Number.NaN, bending: Number.NaN },
+      steps: [],
+      updateMs: Number.NaN,
+    };
+    // An own fabric is as its nearest until its weights are fitted.
+    const weights =
+      weightsOf(fabric, state.weightsFrom, state.ownFabric) ??
+      geometryOf(recordOf(fabric, state.ownFabric)).recomputed;
+    return { ...numbers, fabric, weights, status: 'settling' };
+  });
+}
+
+/** Panes whose numbers are of what was before, until new ones come. */
+export function settlingPanes(panes: readonly PaneState[]): PaneState[] {
+  return panes.map((pane) => ({ ...pane, status: 'settling' }));
+}
+
+/** What a link said that could not be followed, after what was known of it already. */
+export function linkFailure(problems: readonly string[], known: Failure | null): Failure | null {
+  if (problems.length === 0) return known;
+  const before = known?.what ?? 'The link could not be read fully.';
+  return inputFailure(`${before} ${problems.join('; ')}.`);
+}
+
+export function initialFabricsState(link: FabricsLink, problems: string[]): FabricsState {
+  const start = { ...link, ownFabric: null, panes: [] };
+  return {
+    ...start,
+    phase: 'loading',
+    panes: panesFor(start),
+    ...heldBy([]),
+    ownHolds: [],
+    cloth: null,
+    objName: null,
+    tool: 'pull',
+    chosenHold: null,
+    isDragging: false,
+    invited: true,
+    problem: linkFailure(problems, null),
+  };
+}

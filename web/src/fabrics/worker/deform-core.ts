@@ -1,0 +1,332 @@
+// What the worker of deformed cloth does with each message, as a function of the module, of where
+// answers go, and of the clock. The only file that calls delete() on its objects.
+
+import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
+import type { Post } from '../../shared/workers/serve';
+import {
+  type ClothAnswer,
+  type DeformationHandle,
+  type DeformModule,
+  type DeformReport,
+  type FitAnswer,
+  PROGRESS,
+} from '../bindings/deform-module';
+import type { DeformStatus, FromDeform, ShowMessage, ToDeform } from './deform-protocol';
+
+/** Work for one pane before the next one, or a message, gets its turn [ms]. */
+const DRAG_SLICE_MS = 16;
+const SETTLE_SLICE_MS = 30;
+
+/** As the core's own cap: a shape that is not found by then is reported as not converged. */
+const MOST_LINEARISATIONS = 15;
+
+export interface Turns {
+  /** Has `advance` called once what is waiting has had its turn. */
+  later(): void;
+  nowMs(): number;
+}
+
+/**
+ * What a pane is at: following the hand, on its way to the least energy from the shape at hand,
+ * about to go back to rest, on its way from there to see if that ends lower, or done.
+ */
+type Stage = 'following' | 'here' | 'at_rest' | 'from_rest' | 'done';
+
+interface Pane {
+  stage: Stage;
+  /** It has not been anywhere but at rest. */
+  isFresh: boolean;
+  /** A second way, from rest, may end lower. */
+  triesRest: boolean;
+  /** What holds it has moved since. */
+  isBehind: boolean;
+  /** It has work to do; while following, until the factor at hand leads no further. */
+  isBusy: boolean;
+  nLinearisations: number;
+  converged: boolean;
+  updateMs: number;
+  /** Its shape has not been sent for want of a buffer. */
+  isUnsent: boolean;
+  buffers: ArrayBuffer[];
+}
+
+type Refusable = Extract<FromDeform, { type: 'refused' }>['what'];
+
+/** Serves one page. Call `receive` with each message, `advance` when told to, `close` at the end. */
+export class DeformCore {
+  private deformation: DeformationHandle | null = null;
+  private cloth = -1;
+  private nVertices = 0;
+  private held: Int32Array = new Int32Array(0);
+  private panes: Pane[] = [];
+  private next = 0; // the pane whose turn it is
+  private isWaiting = false; // for its turn
+
+  /** The payload of an answer, or null when it was refused, which is told. */
+  private granted<Payload>(what: Refusable, text: string): Payload | null {
+    const answer = read<Payload>(text);
+    if (answer.ok) return answer;
+    this.post({ type: 'refused', what, failure: answer }, []);
+    return null;
+  }
+
+  private wake(): void {
+    if (this.isWaiting || !this.panes.some((pane) => pane.isBusy)) return;
+    this.isWaiting = true;
+    this.turns.later();
+  }
+
+  private statusOf(pane: Pane): DeformStatus {
+    if (pane.stage === 'following') return 'dragging';
+    if (pane.stage !== 'done') return 'settling';
+    return pane.converged ? 'converged' : 'not_converged';
+  }
+
+  private send(run: DeformationHandle, index: number): void {
+    const pane = this.panes[index];
+    const buffer = pane?.buffers.pop();
+    if (!pane) return;
+    pane.isUnsent = buffer === undefined;
+    if (!buffer) return;
+    const report = read<DeformReport>(run.report(index));
+    if (!report.ok) return;
+    frameViews(buffer).positions.set(run.positions(index));
+    const { updateMs } = pane;
+    this.post(
+      {
+        type: 'frame',
+        cloth: this.cloth,
+        pane: index,
+        buffer,
+        status: this.statusOf(pane),
+        report,
+        updateMs,
+      },
+      [buffer],
+    );
+  }
+
+  /** Steps until the slice is over; false when there is nothing left to do in this way. */
+  private stepFor(run: DeformationHandle, index: number, pane: Pane, endMs: number): boolean {
+    do {
+      const mayLinearise = pane.stage !== 'following';
+      const progress = run.step(index, mayLinearise);
+      pane.converged = progress === PROGRESS.converged;
+      if (progress === PROGRESS.converged || progress === PROGRESS.stuck) return false;
+      if (progress === PROGRESS.linearised) pane.nLinearisations += 1;
+      if (mayLinearise && pane.nLinearisations >= MOST_LINEARISATIONS) return false;
+    } while (this.turns.nowMs() < endMs);
+    return true;
+  }
+
+  /** The way from here is at its end. */
+  private endStage(run: DeformationHandle, index: number, pane: Pane): void {
+    pane.nLinearisations = 0;
+    if (pane.stage === 'here' && pane.triesRest && !pane.isFresh) {
+      pane.stage = 'at_rest';
+      return;
+    }
+    if (pane.stage === 'from_rest') this.keepBetter(run, index, pane);
+    pane.isBusy = false;
+    pane.isFresh = false;
+    if (pane.stage !== 'following') pane.stage = 'done';
+  }
+
+  private keepBetter(run: DeformationHandle, index: number, pane: Pane): void {
+    run.keepBetter(index);
+    const report = read<DeformReport>(run.report(index));
+    pane.converged = report.ok && report.converged;
+  }
+
+  private work(run: DeformationHandle, index: number, pane: Pane): void {
+    const beginMs = this.turns.nowMs();
+    const isFollowing = pane.stage === 'following';
+    if (pane.isBehind) {
+      pane.updateMs = 0;
+      if (pane.isFresh && !isFollowing) run.restart(index);
+      else run.follow(index);
+      pane.isBehind = false;
+    }
+    if (pane.stage === 'at_rest') {
+      run.tryFromRest(index);
+      pane.stage = 'from_rest';
+    }
+    const sliceMs = isFollowing ? DRAG_SLICE_MS : SETTLE_SLICE_MS;
+    const goesOn = this.stepFor(run, index, pane, beginMs + sliceMs);
+    const wasOnTrial = pane.stage === 'from_rest';
+    if (!goesOn) this.endStage(run, index, pane);
+    pane.updateMs += this.turns.nowMs() - beginMs;
+    // The way from rest is not shown: only where it ends may be better.
+    if (!wasOnTrial || pane.stage === 'done') this.send(run, index);
+  }
+
+  /** Whoever is on the way from rest goes on from the better of both shapes. */
+  private endTrials(run: DeformationHandle): void {
+    this.panes.forEach((pane, index) => {
+      if (pane.stage !== 'from_rest') return;
+      this.keepBetter(run, index, pane);
+      pane.stage = 'here';
+    });
+  }
+
+  /** Every pane has something new to do, from the shape that it has. */
+  private begin(stage: 'following' | 'here', isMoved: boolean, triesRest = true): void {
+    if (this.deformation) this.endTrials(this.deformation);
+    for (const pane of this.panes) {
+      pane.stage = stage;
+      pane.triesRest = triesRest;
+      pane.isBusy = true;
+      pane.isBehind = pane.isBehind || isMoved;
+      pane.nLinearisations = 0;
+    }
+    this.wake();
+  }
+
+  private open(message: Extract<ToDeform, { type: 'open' }>): void {
+    this.deformation ??= new this.module.Deformation(message.fabricsText);
+    const answer = this.granted<ClothAnswer>(
+      'open',
+      this.deformation.open(message.sceneText, message.objText),
+    );
+    if (!answer) return;
+    this.cloth = message.cloth;
+    this.nVertices = answer.n_vertices;
+    this.held = new Int32Array(0);
+    this.panes = [];
+    const triangles = this.deformation.triangles().slice();
+    this.post({ type: 'opened', cloth: this.cloth, answer, triangles }, [triangles.buffer]);
+  }
+
+  private freshPane(): Pane {
+    const nBytes = 4 * FLOATS_PER_VERTEX * this.nVertices;
+    return {
+      stage: 'here',
+      isFresh: true,
+      triesRest: true,
+      isBehind: true,
+      isBusy: true,
+      nLinearisations: 0,
+      converged: false,
+      updateMs: 0,
+      isUnsent: false,
+      buffers: [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)],
+    };
+  }
+
+  private show(run: DeformationHandle, { form, weights }: ShowMessage): void {
+    this.endTrials(run); // what they would be compared by changes
+    const answer = this.granted<{ fresh: boolean[] }>(
+      'show',
+      run.show(JSON.stringify({ form, weights })),
+    );
+    if (!answer) return;
+    this.post({ type: 'granted', what: 'show' }, []);
+    const known = this.panes;
+    this.panes = answer.fresh.map((isFresh, index) => {
+      const pane = known[index] ?? this.freshPane();
+      return isFresh ? { ...this.freshPane(), buffers: pane.buffers } : { ...pane, updateMs: 0 };
+    });
+    this.next = 0;
+    this.begin('here', false);
+  }
+
+  private hold(run: DeformationHandle, vertices: Int32Array, places: Float64Array): void {
+    if (this.granted('hold', run.hold(vertices, places)) === null) return;
+    this.post({ type: 'granted', what: 'hold' }, []);
+    this.held = vertices;
+    this.begin('here', true);
+  }
+
+  private move(run: DeformationHandle, places: Float64Array): void {
+    if (places.length !== 3 * this.held.length) return; // of an earlier hold
+    run.moveHeld(places);
+    this.begin('following', true);
+  }
+
+  private takeBack({ pane: index, buffer }: Extract<ToDeform, { type: 'return' }>): void {
+    const pane = this.panes[index];
+    if (!pane || !this.deformation) return;
+    pane.buffers.push(buffer);
+    if (pane.isUnsent) this.send(this.deformation, index);
+  }
+
+  private postSection(run: DeformationHandle, index: number): void {
+    const answer = this.granted<{ cloth: object }>('section', run.clothSection());
+    if (!answer) return;
+    const positions = run.exactPositions(index).slice();
+    this.post({ type: 'section', section: answer.cloth, positions }, [positions.buffer]);
+  }
+
+  private handle(message: ToDeform): void {
+    if (message.type === 'open') return this.open(message);
+    if (!this.deformation) throw new Error(`${message.type} before this.open`);
+    switch (message.type) {
+      case 'show':
+        return this.show(this.deformation, message);
+      case 'hold':
+        return this.hold(this.deformation, message.vertices, message.places);
+      case 'move':
+        return this.move(this.deformation, message.places);
+      case 'rest':
+        return this.begin('here', false, !message.isHeld);
+      case 'return':
+        if (message.cloth === this.cloth) this.takeBack(message);
+        return;
+      case 'fit': {
+        const { measures } = message;
+        const answer = this.granted<FitAnswer>(
+          'fit',
+          this.deformation.fitMeasures(JSON.stringify(measures)),
+        );
+        if (answer) this.post({ type: 'fitted', measures, answer }, []);
+        return;
+      }
+      case 'section':
+        return this.postSection(this.deformation, message.pane);
+    }
+  }
+
+  private fail(what: Refusable, error: unknown): void {
+    this.post({ type: 'refused', what, failure: internalFailure(describe(error)) }, []);
+  }
+
+  constructor(
+    private readonly module: DeformModule,
+    private readonly post: Post<FromDeform>,
+    private readonly turns: Turns,
+  ) {}
+
+  receive(message: ToDeform): void {
+    try {
+      this.handle(message);
+    } catch (error) {
+      const isAnswered = ['open', 'show', 'hold', 'fit', 'section'].includes(message.type);
+      this.fail(isAnswered ? (message.type as Refusable) : 'step', error);
+    }
+  }
+
+  advance(): void {
+    this.isWaiting = false;
+    const run = this.deformation;
+    for (let tried = 0; run && tried < this.panes.length; ++tried) {
+      const index = this.next % this.panes.length;
+      const pane = this.panes[index];
+      this.next = (index + 1) % this.panes.length;
+      if (!pane?.isBusy) continue;
+      try {
+        this.work(run, index, pane);
+      } catch (error) {
+        pane.isBusy = false;
+        this.fail('step', error);
+      }
+      break;
+    }
+    this.wake();
+  }
+
+  close(): void {
+    this.deformation?.delete();
+    this.deformation = null;
+  }
+}

@@ -1,0 +1,93 @@
+// Messages between the page and the worker that finds the shapes of fabrics. Lengths in metres.
+
+import type { Failure } from '../../shared/bindings/answers';
+import type { Done } from '../../shared/workers/asked';
+import type { ClothAnswer, DeformReport, FitAnswer, TermNumbers } from '../bindings/deform-module';
+
+export interface ShowMessage {
+  type: 'show';
+  form: 'consistent' | 'published';
+  /** One pane for each. */
+  weights: TermNumbers[];
+}
+
+export type ToDeform =
+  /** Another cloth, with nothing held and no panes. `cloth` marks what comes of it. */
+  | { type: 'open'; cloth: number; fabricsText: string; sceneText: string; objText: string }
+  | ShowMessage
+  /** Vertices, ascending, and their places. */
+  | { type: 'hold'; vertices: Int32Array; places: Float64Array }
+  /** A hand goes on moving: panes follow as far as that is quick. */
+  | { type: 'move'; places: Float64Array }
+  /** The hand rests: the exact shapes are found; those from rest are tried once it has let go. */
+  | { type: 'rest'; isHeld: boolean }
+  /** A frame's buffer comes back. */
+  | { type: 'return'; cloth: number; pane: number; buffer: ArrayBuffer }
+  | { type: 'fit'; measures: TermNumbers }
+  /** Asks for what a cloth in motion starts from. */
+  | { type: 'section'; pane: number };
+
+export type DeformStatus = 'dragging' | 'settling' | 'converged' | 'not_converged';
+
+export interface DeformFrame {
+  type: 'frame';
+  cloth: number;
+  pane: number;
+  /** As of any frame (frame.ts); it holds no scalar. To be given back. */
+  buffer: ArrayBuffer;
+  status: DeformStatus;
+  report: DeformReport;
+  /** Time of the work since something was last moved or weighted otherwise [ms]. */
+  updateMs: number;
+}
+
+export interface OpenedMessage {
+  type: 'opened';
+  cloth: number;
+  answer: ClothAnswer;
+  triangles: Uint32Array;
+}
+
+/** What is shown, or what holds the cloth, is as it was asked for. */
+export interface GrantedMessage {
+  type: 'granted';
+  what: 'show' | 'hold';
+}
+
+export interface FittedMessage {
+  type: 'fitted';
+  measures: TermNumbers;
+  answer: FitAnswer;
+}
+
+/** The section "cloth" of a scene, and the places from which a pane's shape starts. */
+export interface SectionMessage {
+  type: 'section';
+  section: object;
+  positions: Float64Array;
+}
+
+export type FromDeform =
+  | OpenedMessage
+  | GrantedMessage
+  /** `step`: something failed that nobody asked for by name. */
+  | {
+      type: 'refused';
+      what: 'open' | 'show' | 'hold' | 'fit' | 'section' | 'step';
+      failure: Failure;
+    }
+  | DeformFrame
+  | FittedMessage
+  | SectionMessage;
+
+/** The answer to each message that is a question. Frames are news. */
+export interface DeformAnswers {
+  open: OpenedMessage;
+  show: GrantedMessage;
+  hold: GrantedMessage;
+  fit: FittedMessage;
+  section: SectionMessage;
+  move: Done;
+  rest: Done;
+  return: Done;
+}

@@ -1,0 +1,16 @@
+import { serve } from '../../shared/workers/serve';
+import createDeform from '../../wasm/deform.mjs';
+import { DeformCore } from './deform-core';
+import type { FromDeform, ToDeform } from './deform-protocol';
+
+// Between two slices of work the messages that came meanwhile get their turn.
+const turns = new MessageChannel();
+
+serve<ToDeform, FromDeform>(self, async (post) => {
+  const core = new DeformCore(await createDeform(), post, {
+    later: () => turns.port2.postMessage(null),
+    nowMs: () => performance.now(),
+  });
+  turns.port1.onmessage = () => core.advance();
+  return core;
+});

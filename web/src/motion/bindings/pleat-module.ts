@@ -1,0 +1,134 @@
+// The classes bound by the module of cloth in motion, and the shape of the texts they answer with.
+import type { Triple } from '../../shared/bindings/geometry';
+import { methodsOf } from '../../shared/bindings/methods';
+
+export interface SceneSummary {
+  n_vertices: number;
+  n_triangles: number;
+  n_springs: number;
+  n_bends: number;
+  step_s: number;
+  substeps: number;
+  built: string[];
+  left_out: string[];
+  notes?: string[];
+}
+
+/** How the present state compares with a reference of its scene. */
+export interface ReferenceNumbers {
+  /** RMS by area; null beyond the reference's end, and when `disturbed`. */
+  distance_m: number | null;
+  /** How well the reference is known then; null when nobody knows. */
+  uncertainty_m: number | null;
+  end_s: number;
+  description: string;
+  /** A hand or another scene moved the cloth since its start. */
+  disturbed: boolean;
+}
+
+export interface RunNumbers {
+  time_s: number;
+  step: number;
+  /** Largest and root mean square of |edge strain|, as ratios. */
+  largest_stretch: number;
+  rms_stretch: number;
+  /** Relative residual of the last step's own equations. */
+  residual: number;
+  iterations: number;
+  /** Total wall time since load, the first step not counted: of each part that was timed [ms]. */
+  parts_ms: Record<string, number>;
+  /** And of the steps as a whole [ms], of which there were `steps_timed`. */
+  steps_ms: number;
+  steps_timed: number;
+  /** Null where there is none of this scene. */
+  reference: ReferenceNumbers | null;
+}
+
+/** What `readObj` finds in a file. */
+export interface ObjAnswer {
+  /** The section "cloth" of a scene, with the mesh written out. */
+  cloth: object;
+  groups: string[];
+  n_vertices: number;
+  n_triangles: number;
+  low_m: Triple;
+  high_m: Triple;
+  /** Some triangle has no texture coordinates. */
+  needs_direction: boolean;
+}
+
+export interface SceneHandle {
+  fabrics(): string;
+  schema(): string;
+  parse(sceneText: string): string;
+  /** The mesh of an OBJ file. `meshText`: the section "mesh" of a scene that names the file. */
+  readObj(objText: string, meshText: string): string;
+  delete(): void;
+}
+
+export interface SimulationHandle {
+  load(sceneText: string): string;
+  carryOver(sceneText: string): string;
+  /** Starts the loaded scene from these places, now and at each reset, pins with it [m]. */
+  startFrom(places: Float64Array): string;
+  reset(): string;
+  /** 0, or the status code whose reason `status()` tells. */
+  step(count: number): number;
+  status(): string;
+  numbers(): string;
+  /** Views of module memory: a view is dead after the next call, take it anew each time. */
+  positions(): Float32Array;
+  /** The same positions in full precision. */
+  exactPositions(): Float64Array;
+  /** One a vertex [kg]. */
+  masses(): Float64Array;
+  /** Signed mean strain of the springs at each vertex, as a ratio. */
+  stretch(): Float32Array;
+  /** Distance to the reference at each vertex [m]; empty without one for the scene at its time. */
+  distances(): Float32Array;
+  triangles(): Uint32Array;
+  /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
+  setReference(bytes: Uint8Array): string;
+  colliders(): string;
+  grab(vertex: number): string;
+  /** Target of the held patch [m]. */
+  moveGrab(x: number, y: number, z: number): void;
+  releaseGrab(): void;
+  delete(): void;
+}
+
+export interface PleatModule {
+  Scene: new (fabricsText: string) => SceneHandle;
+  Simulation: new (fabricsText: string) => SimulationHandle;
+}
+
+export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
+  Scene: methodsOf<SceneHandle>({
+    fabrics: true,
+    schema: true,
+    parse: true,
+    readObj: true,
+    delete: true,
+  }),
+  Simulation: methodsOf<SimulationHandle>({
+    load: true,
+    carryOver: true,
+    startFrom: true,
+    reset: true,
+    step: true,
+    status: true,
+    numbers: true,
+    positions: true,
+    exactPositions: true,
+    masses: true,
+    stretch: true,
+    distances: true,
+    setReference: true,
+    triangles: true,
+    colliders: true,
+    grab: true,
+    moveGrab: true,
+    releaseGrab: true,
+    delete: true,
+  }),
+};

@@ -1,0 +1,68 @@
+// The class bound by the module that measures, and the shape of the texts it answers with.
+import { methodsOf } from '../../shared/bindings/methods';
+
+export interface BenchMethod {
+  stepper: string;
+  step_s: number;
+  /** "stable": as many as the stability bound asks for. */
+  substeps?: number | 'stable';
+  iterations?: number;
+  [setting: string]: unknown;
+}
+
+/** One measured setting; a number that could not be measured is null. */
+export interface BenchRow {
+  scene: string;
+  /** What it changes in the plan's scene: values by their JSON pointers. */
+  setting: Record<string, unknown>;
+  method: BenchMethod;
+  level: number;
+  n_vertices: number;
+  /** Substeps of a step, as run. */
+  n_substeps: number;
+  /** How often solids left a vertex no place outside of them. */
+  n_unresolved_contacts: number;
+  /** Timed runs, of which the times are the median. */
+  n_runs: number;
+  /** Wall time of 1/60 s of motion. */
+  ms_per_frame: number | null;
+  ms_per_simulated_second: number | null;
+  /** Slowest minus quickest run, of `ms_per_frame`. */
+  spread_ms: number | null;
+  position_error_m: number | null;
+  /** Percent of the diagonal at rest. */
+  position_error_percent: number | null;
+  rms_stretch: number | null;
+  largest_stretch: number | null;
+  reference: { id: string; converged: boolean; description: string };
+  /** "ok", "not_converged" (it ran to its end), or why it failed. */
+  status: string;
+  message: string;
+  target: 'wasm' | 'native';
+  [detail: string]: unknown;
+}
+
+export interface SweepReport {
+  done: boolean;
+  /** 0 to 1. */
+  progress: number;
+  rows: BenchRow[];
+  /** Indices into `rows`. */
+  front: number[];
+  message: string;
+}
+
+export interface ExperimentHandle {
+  start(planText: string): string;
+  advance(budgetMs: number): string;
+  delete(): void;
+}
+
+/** A module of its own, fetched when the first sweep is asked for. */
+export interface SweepModule {
+  Experiment: new (fabricsText: string) => ExperimentHandle;
+}
+
+export const SWEEP_METHODS: Record<keyof SweepModule, string[]> = {
+  Experiment: methodsOf<ExperimentHandle>({ start: true, advance: true, delete: true }),
+};

@@ -1,0 +1,182 @@
+// The view of cloth in motion: the store, the playback, the stage and the panels, wired together.
+import './motion.css';
+import { fabricNamed } from '../shared/fabric/fabric-data';
+import type { StartShape, View } from '../shared/page/view';
+import { createAnnouncer } from '../shared/panels/announcer';
+import { createDropTarget } from '../shared/panels/drop-target';
+import { createInvitation } from '../shared/panels/invitation';
+import { createKeysPanel } from '../shared/panels/keys-panel';
+import { createRunTools } from '../shared/panels/run-tools';
+import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createStore, type Store, watch } from '../shared/state/store';
+import { createDrawingPanel } from './panels/drawing-panel';
+import { createFabricPanel } from './panels/fabric-panel';
+import { createHeatLegend } from './panels/heat-legend';
+import { createMethodPanel } from './panels/method-panel';
+import { motionSentence } from './panels/motion-sentence';
+import { createNumbersStrip } from './panels/numbers-strip';
+import { createProblemBanner } from './panels/problem-banner';
+import { createScenePanel } from './panels/scene-panel';
+import { createSpeedErrorView } from './panels/speed-error-view';
+import { createSweepPanel } from './panels/sweep-panel';
+import { MotionRun } from './run/motion-run';
+import { createSweep } from './run/sweep';
+import { createMotionStage, type MotionStage } from './stage/motion-stage';
+import { decodeMotionLink, encodeMotionLink } from './state/motion-link';
+import { initialMotionState, type MotionState, shownHeat } from './state/motion-state';
+import { deformedMesh, holdFor } from './state/obj-mesh';
+import { presetSetting } from './state/setting';
+
+export interface MotionView extends View {
+  /** The shown scene in that fabric. */
+  wear(fabric: string): void;
+  /** Sets a cloth in motion from the shape that it was pulled into. */
+  start(shape: StartShape, fabric: string): void;
+}
+
+const TOOL_WORDS = {
+  step: 'One step (full stop)',
+  reset: 'Back to the start (R)',
+  view: 'Look from the first direction again (Home)',
+  speed: 'simulated seconds a second',
+};
+
+type Place = (id: string) => HTMLElement;
+
+/** The picture, which gets frames; null where the browser cannot draw it. */
+function createPicture(
+  box: HTMLElement,
+  store: Store<MotionState>,
+  run: () => MotionRun | null,
+): MotionStage | null {
+  const canvas = createStageCanvas(
+    box,
+    'Cloth in three dimensions. Space plays, G takes the cloth, arrows turn the view.',
+  );
+  const invitation = createInvitation(box);
+  watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) =>
+    invitation.setShown(invited && phase === 'ready' && ahead === null),
+  );
+  createHeatLegend(box, store);
+  const keys: Record<string, () => void> = {
+    ' ': () => (store.get().playing ? run()?.pause() : run()?.play()),
+    '.': () => run()?.step(),
+    r: () => run()?.reset(),
+  };
+  try {
+    return createMotionStage(box, canvas, {
+      grab(vertex) {
+        run()?.play();
+        run()?.grab(vertex);
+      },
+      moveGrab: (target) => run()?.moveGrab(target),
+      releaseGrab: () => run()?.releaseGrab(),
+      key(name) {
+        keys[name]?.();
+        return name in keys;
+      },
+      drawn(scale, at) {
+        const { heatScale } = store.get();
+        if (JSON.stringify(scale) !== JSON.stringify(heatScale)) store.set({ heatScale: scale });
+        invitation.place(at.x, at.y);
+      },
+      contextLost() {
+        store.set({ playing: false, problem: { source: 'run', sentence: PICTURE_LOST } });
+      },
+    });
+  } catch {
+    const sentence = replaceCanvas(canvas, 'The numbers and the sweep');
+    store.set({ problem: { source: 'browser', sentence } });
+    return null;
+  }
+}
+
+function createPanels(
+  place: Place,
+  store: Store<MotionState>,
+  run: MotionRun,
+  homeView: () => void,
+): void {
+  const actions = {
+    play: () => run.play(),
+    pause: () => run.pause(),
+    step: () => run.step(),
+    reset: () => run.reset(),
+    homeView,
+  };
+  createProblemBanner(place('messages'), store, actions);
+  createAnnouncer(place('messages'), store, motionSentence);
+  createNumbersStrip(place('strip'), store);
+  createRunTools(place('toolbar'), store, actions, TOOL_WORDS, (phase) => phase !== 'broken');
+  createScenePanel(place('panel'), store, run);
+  createFabricPanel(place('panel'), store);
+  createMethodPanel(place('panel'), store);
+  createDrawingPanel(place('panel'), store);
+  createSweepPanel(place('panel'), store, createSweep(store));
+  createKeysPanel(place('panel'));
+  createSpeedErrorView(place('tray'), store);
+}
+
+/** Has the picture follow what the state says of it. */
+function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
+  watch(store, ['setting'], ({ setting }) => stage.setFabric(fabricNamed(setting.fabric).id));
+  watch(store, ['colliders'], ({ colliders }) => stage.setColliders(colliders));
+  watch(store, ['heat', 'heatRange', 'numbers'], (state) =>
+    stage.setHeat(shownHeat(state), state.heatRange),
+  );
+  watch(store, ['edges'], ({ edges }) => stage.setEdges(edges));
+}
+
+/** `place` finds the parts of the document by their ids. */
+export function createMotionView(place: Place, hash: string): MotionView {
+  let isShown = false;
+  const first = decodeMotionLink(hash);
+  const store = createStore(initialMotionState(first.link, first.problems));
+  let running: MotionRun | null = null;
+  const stage = createPicture(place('stage'), store, () => running);
+  const run = new MotionRun(store, {
+    showMesh: (...mesh) => stage?.showMesh(...mesh),
+    showFrame: (...frame) => stage?.showFrame(...frame),
+  });
+  running = run;
+  createPanels(place, store, run, () => stage?.homeView());
+  createDropTarget(document.body, {
+    openObj(file) {
+      if (isShown) void run.openObj(file);
+    },
+  });
+  if (stage) drawFrom(store, stage);
+
+  const link = () => `#${encodeMotionLink(store.get())}`;
+  const writeLink = () => {
+    if (isShown && link() !== window.location.hash) window.history.replaceState(null, '', link());
+  };
+  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'startS'], writeLink);
+
+  return {
+    link,
+    open(newHash) {
+      const read = decodeMotionLink(newHash);
+      store.set({ ...read.link, problem: initialMotionState(read.link, read.problems).problem });
+    },
+    setShown(value) {
+      isShown = value;
+      if (!isShown) run.pause();
+      writeLink();
+    },
+    wear(fabric) {
+      store.set({ setting: { ...store.get().setting, fabric } });
+    },
+    start({ section, positions }, fabric) {
+      const mesh = deformedMesh(section, positions);
+      const setting = { ...presetSetting('obj'), fabric, hold: holdFor(mesh, 'group:held') };
+      store.set({ mesh, setting, startS: 0, playing: false, invited: true });
+    },
+    probe: {
+      state: () => store.get(),
+      positions: () => Array.from(stage?.positions() ?? []),
+      project: (vertex: number) => stage?.project(vertex),
+      inviting: () => stage?.inviting(),
+    },
+  };
+}

@@ -1,0 +1,46 @@
+// What is painted on the cloth: its material, stretch or distance; and the edges of the mesh.
+import { choice, element, field } from '../../shared/panels/element';
+import type { HeatMap } from '../../shared/stage/heat-map';
+import { type Store, watch } from '../../shared/state/store';
+import { HEAT_RANGES } from '../state/motion-link';
+import { type MotionState, shownHeat } from '../state/motion-state';
+
+const HEAT_TITLES: readonly { value: HeatMap; title: string }[] = [
+  { value: 'off', title: 'Fabric' },
+  { value: 'magnitude', title: 'Stretch' },
+  { value: 'signed', title: 'Stretch with sign' },
+  { value: 'distance', title: 'Distance to reference' },
+];
+
+export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+  const heat = choice(HEAT_TITLES, (value) => store.set({ heat: value }));
+  const range = choice<string>(
+    [
+      { value: 'auto', title: 'Automatic' },
+      ...HEAT_RANGES.map((percent) => ({ value: String(percent), title: `up to ${percent} %` })),
+    ],
+    (value) => store.set({ heatRange: value === 'auto' ? 'auto' : Number(value) }),
+  );
+  const rangeField = field('Scale', range.control);
+  const edges = element('input', {
+    type: 'checkbox',
+    change: () => store.set({ edges: edges.checked }),
+  });
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Drawing' },
+      element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
+      element('label', { class: 'check' }, edges, 'Edges of the mesh'),
+    ),
+  );
+  return watch(store, ['heat', 'heatRange', 'edges', 'numbers'], (state) => {
+    heat.limit((value) =>
+      value === 'distance' && !state.numbers?.reference ? 'none of this scene' : null,
+    );
+    heat.select(shownHeat(state));
+    range.select(String(state.heatRange));
+    rangeField.hidden = !['magnitude', 'signed'].includes(shownHeat(state));
+    edges.checked = state.edges;
+  });
+}

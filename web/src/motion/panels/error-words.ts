@@ -1,0 +1,86 @@
+// How wrong the shown cloth is, as far as that is known, in words.
+import { digits, percent, smallLength } from '../../shared/panels/quantity';
+import { stepperRow } from '../../shared/steppers/steppers';
+import type { ReferenceNumbers, RunNumbers } from '../bindings/pleat-module';
+import type { MotionState } from '../state/motion-state';
+import { presetSetting } from '../state/setting';
+import { rowOfSetting } from '../state/sweep-state';
+
+export interface ErrorWords {
+  value: string;
+  detail: string;
+  sentence: string;
+}
+
+/** A reference has to be known so many times better than what it judges. */
+const SURER = 4;
+
+/** Less than this is left of the equations: nothing but rounding. */
+const EXACT_RESIDUAL = 1e-8;
+
+/** `isOwnMesh`: the cloth has the mesh of the reference. */
+function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWords {
+  const { distance_m: distance, uncertainty_m: uncertainty, end_s, disturbed } = reference;
+  if (disturbed) {
+    const sentence =
+      'The cloth was pulled or changed on its way: reset to compare it with its reference.';
+    return { value: '–', detail: 'reset to compare', sentence };
+  }
+  if (distance === null) {
+    const end = `${digits(end_s, 2)} s`;
+    const sentence = `No error from here on: the reference ends at ${end}.`;
+    return { value: '–', detail: `known up to ${end}`, sentence };
+  }
+  if (uncertainty === null) {
+    const sentence = 'The reference of this scene did not converge: no error can be told from it.';
+    return { value: 'unknown', detail: 'not converged', sentence };
+  }
+  const known = `known to ${smallLength(uncertainty)}`;
+  if (distance < SURER * uncertainty) {
+    const sentence = `Too close to the reference to tell how far: it is ${known}.`;
+    return { value: 'too close to tell', detail: known, sentence };
+  }
+  const value = smallLength(distance);
+  if (!isOwnMesh) {
+    const sentence = `${value} from the reference, in which the other mesh has its share.`;
+    return { value, detail: 'of another mesh', sentence };
+  }
+  return { value, detail: known, sentence: `${value} from the reference (${known}).` };
+}
+
+/** What can be said without a reference: what is left of the equations, and of the length. */
+function fromItself(numbers: RunNumbers, solves: boolean): string {
+  const parts = ['No reference for this scene.'];
+  if (numbers.step === 0) return parts.join(' ');
+  const { residual, largest_stretch } = numbers;
+  const within = residual < EXACT_RESIDUAL ? 'exactly' : `to within ${percent(residual)}`;
+  parts.push(
+    solves ? `Its equations are solved ${within};` : 'Its method has no equations to solve;',
+  );
+  parts.push(`threads are stretched by ${percent(largest_stretch)} at most.`);
+  return parts.join(' ');
+}
+
+export function errorWords(
+  state: Pick<MotionState, 'numbers' | 'setting' | 'sweep' | 'mesh'>,
+): ErrorWords {
+  const { numbers, setting } = state;
+  if (!numbers) return { value: '–', detail: '', sentence: '' };
+  if (numbers.reference && numbers.step === 0) {
+    const sentence = 'This scene has a reference: play to see how far from it the cloth gets.';
+    return { value: '–', detail: 'play to see', sentence };
+  }
+  const isOwnMesh = setting.level === presetSetting(setting.preset).level;
+  if (numbers.reference) return fromReference(numbers.reference, isOwnMesh);
+  const sentence = fromItself(numbers, stepperRow(setting.stepper).solves);
+  const row = rowOfSetting(state);
+  if (!row) return { value: 'unknown', detail: 'run a sweep', sentence };
+  const { converged } = row.reference;
+  return {
+    value: smallLength(row.position_error_m),
+    detail: converged ? 'converged reference' : 'not converged',
+    sentence: `In the sweep it was ${smallLength(row.position_error_m)} from ${
+      converged ? 'a converged reference' : 'a fine run that is no converged reference'
+    }.`,
+  };
+}

@@ -1,0 +1,205 @@
+// How it is computed: model, level, stepper, step, and the one count that the stepper listens to.
+import { choice, element, field, setText } from '../../shared/panels/element';
+import { stepTitle } from '../../shared/panels/quantity';
+import { type Store, watch } from '../../shared/state/store';
+import {
+  type Count,
+  canRun,
+  type Model,
+  STEPPERS,
+  stepperRow,
+} from '../../shared/steppers/steppers';
+import type { MotionState } from '../state/motion-state';
+import {
+  COUNTS,
+  LEVELS,
+  MODEL_TRAITS,
+  MODELS,
+  MOST_ITERATIONS,
+  MOST_SUBSTEPS,
+  modelsOf,
+  type Setting,
+  STEPS_PER_SECOND,
+  withModel,
+  withStepper,
+} from '../state/setting';
+
+function levelPicker(onChoice: (level: number) => void) {
+  const inputs = LEVELS.map((level) =>
+    element('input', {
+      type: 'radio',
+      name: 'level',
+      value: level,
+      'aria-label': `Level ${level}`,
+      change: () => onChoice(level),
+    }),
+  );
+  const group = element(
+    'fieldset',
+    { class: 'field' },
+    element('legend', {}, 'Refinement level'),
+    element(
+      'div',
+      { class: 'segments' },
+      ...inputs.map((input, level) => element('label', {}, input, element('span', {}, `${level}`))),
+    ),
+  );
+  return {
+    group,
+    select(level: number) {
+      inputs.forEach((input, index) => {
+        input.checked = index === level;
+      });
+    },
+  };
+}
+
+/** Each model with its sentence, or with why this scene cannot have it. */
+function modelPicker(onChoice: (model: Model) => void) {
+  const lines = MODELS.map((model) => {
+    const note = element('span', { class: 'note', id: `model-${model}` });
+    const input = element('input', {
+      type: 'radio',
+      name: 'model',
+      'aria-describedby': note.id,
+      change: () => onChoice(model),
+    });
+    const label = element('label', {}, input, MODEL_TRAITS[model].title);
+    return { model, input, note, line: element('div', { class: 'option' }, label, note) };
+  });
+  const group = element(
+    'fieldset',
+    { class: 'field' },
+    element('legend', {}, 'Model'),
+    ...lines.map(({ line }) => line),
+  );
+  return {
+    group,
+    show({ preset, model: chosen }: Setting) {
+      const possible = modelsOf(preset);
+      for (const { model, input, note } of lines) {
+        const isPossible = possible.includes(model);
+        input.checked = model === chosen;
+        input.disabled = !isPossible;
+        setText(
+          note,
+          isPossible ? MODEL_TRAITS[model].meaning : 'Springs need the threads of a sheet.',
+        );
+      }
+    },
+  };
+}
+
+export const STEPPER_CHOICES = STEPPERS.map(({ name, title }) => ({ value: name, title }));
+
+const COUNT_TITLES: Record<Count, { title: string; most: number }> = {
+  substeps: { title: 'Substeps', most: MOST_SUBSTEPS },
+  iterations: { title: 'Iterations', most: MOST_ITERATIONS },
+};
+
+/** A whole number that is there only for the steppers that listen to it. */
+function countField(count: Count, onChoice: (value: number) => void) {
+  const { title, most } = COUNT_TITLES[count];
+  const input = element('input', {
+    type: 'number',
+    max: most,
+    step: 1,
+    inputmode: 'numeric',
+    change() {
+      const value = Math.round(Number(input.value));
+      const chosen = Math.min(most, Math.max(Number(input.min), value || 0));
+      input.value = String(chosen);
+      onChoice(chosen);
+    },
+  });
+  const box = field(title, input);
+  return {
+    box,
+    show(setting: Setting) {
+      const trait = stepperRow(setting.stepper).settings[count];
+      box.hidden = !trait;
+      if (!trait) return;
+      input.min = String(trait.least);
+      input.value = String(setting[count]);
+      box.title = trait.meaning;
+    },
+  };
+}
+
+export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+  function change(patch: Partial<Setting>): void {
+    store.set({ setting: { ...store.get().setting, ...patch } });
+  }
+
+  const model = modelPicker((chosen) =>
+    store.set({ setting: withModel(store.get().setting, chosen) }),
+  );
+  const level = levelPicker((chosen) => change({ level: chosen }));
+  const meshNote = element('p', { class: 'note' });
+  const stepper = choice(STEPPER_CHOICES, (chosen) =>
+    store.set({ setting: withStepper(store.get().setting, chosen) }),
+  );
+  const stepperNote = element('p', { class: 'note' });
+  const step = choice(
+    STEPS_PER_SECOND.map((count) => ({ value: count, title: `1/${count} s` })),
+    (count) => change({ stepS: 1 / count }),
+  );
+  const counts = COUNTS.map((count) => countField(count, (value) => change({ [count]: value })));
+  const builtNote = element('p', { class: 'note' });
+  const builtBox = element(
+    'details',
+    {},
+    element('summary', {}, 'What this scene needs'),
+    builtNote,
+  );
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Method' },
+      model.group,
+      level.group,
+      meshNote,
+      field('Stepper', stepper.control, stepperNote),
+      element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
+      builtBox,
+    ),
+  );
+
+  const stopSetting = watch(store, ['setting'], ({ setting }) => {
+    const row = stepperRow(setting.stepper);
+    model.show(setting);
+    level.select(setting.level);
+    stepper.limit((value) => (canRun(value, setting.model) ? null : 'needs springs'));
+    stepper.select(setting.stepper);
+    step.select(Math.round(1 / setting.stepS));
+    const { substeps, iterations } = row.settings;
+    const meanings = [row.meaning, substeps?.meaning, iterations?.meaning];
+    setText(stepperNote, meanings.filter((meaning) => meaning).join(' '));
+    for (const count of counts) count.show(setting);
+  });
+  const stopSummary = watch(store, ['summary'], ({ summary, setting }) => {
+    if (!summary) return;
+    const { n_vertices, n_triangles, n_springs, n_bends, built, left_out, notes } = summary;
+    const isAutomatic = setting.substeps === 0;
+    const substeps = isAutomatic ? ` One step takes ${summary.substeps} substeps.` : '';
+    const parts =
+      n_springs > 0 ? `${n_springs} springs, ${n_bends} bends` : `${n_triangles} triangles`;
+    setText(
+      meshNote,
+      `${n_vertices} vertices, ${parts}. Each level halves the mesh size.${substeps}`,
+    );
+    const needs = [
+      built.length > 0 ? `Built: ${built.join(', ')}.` : '',
+      left_out.length > 0
+        ? `Left out, because nothing here asks for it: ${left_out.join(', ')}.`
+        : '',
+      ...(notes ?? []),
+      `One step is ${stepTitle(setting.stepS)}.`,
+    ];
+    setText(builtNote, needs.filter((part) => part !== '').join(' '));
+  });
+  return () => {
+    stopSetting();
+    stopSummary();
+  };
+}

@@ -1,0 +1,26 @@
+// What went wrong, in a sentence, with what can be done about it.
+import { element, setText } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import type { MotionState } from '../state/motion-state';
+
+export function createProblemBanner(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  actions: { reset(): void },
+): () => void {
+  const sentence = element('p');
+  const reset = element('button', { type: 'button', click: actions.reset }, 'Reset');
+  const dismiss = element(
+    'button',
+    { type: 'button', click: () => store.set({ problem: null }) },
+    'Dismiss',
+  );
+  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, reset, dismiss);
+  parent.append(banner);
+  return watch(store, ['problem'], ({ problem }) => {
+    banner.hidden = problem === null;
+    reset.hidden = problem?.source !== 'run';
+    dismiss.hidden = problem?.source === 'browser';
+    setText(sentence, problem?.sentence ?? '');
+  });
+}

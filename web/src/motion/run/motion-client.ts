@@ -1,0 +1,25 @@
+// Starts the workers of cloth in motion.
+import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
+import type { FromMotion, MotionAnswers, ToMotion } from '../worker/motion-protocol';
+import type { FromSweep, ToSweep } from '../worker/sweep-protocol';
+
+export type MotionClient = Asked<ToMotion, MotionAnswers>;
+export type StartMotion = (listener: Listener<FromMotion>) => MotionClient;
+
+/** Runs the shown cloth. */
+export function startMotionWorker(listener: Listener<FromMotion>): MotionClient {
+  return createAsked(
+    new Worker(new URL('../worker/motion-worker.ts', import.meta.url), { type: 'module' }),
+    listener,
+  );
+}
+
+export type SweepClient = Asked<ToSweep, { sweep: Done }>;
+
+/** Runs one sweep; its reports are news. */
+export function startSweepWorker(listener: Listener<FromSweep>): SweepClient {
+  return createAsked(
+    new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' }),
+    listener,
+  );
+}

@@ -1,0 +1,17 @@
+// The references that are shipped: runs of a preset as it is, which the shown cloth is compared with.
+import { presetSetting, type Setting } from '../state/setting';
+
+const FILES = import.meta.glob<string>('../../../../assets/references/*.reference', {
+  query: '?url',
+  import: 'default',
+  eager: true,
+});
+
+/** Where the reference of a setting is, by the names "curtain" and "curtain_membrane". */
+export function referenceUrl({ preset, fabric, model }: Setting): string | null {
+  const own = presetSetting(preset);
+  if (fabric !== own.fabric) return null; // it could not match: half a megabyte for nothing
+  const scene = preset.replaceAll('-', '_');
+  const name = model === own.model ? scene : `${scene}_${model}`;
+  return FILES[`../../../../assets/references/${name}.reference`] ?? null;
+}

@@ -1,0 +1,26 @@
+// What a load is of, and what one load can keep of the one before.
+import type { ObjMesh } from '../state/obj-mesh';
+import { type Setting, sceneOf } from '../state/setting';
+
+export interface Content {
+  setting: Setting;
+  mesh: ObjMesh | null;
+}
+
+export function isSameScene(a: Content | null, b: Content): boolean {
+  const isMesh = b.setting.preset === 'obj';
+  return a?.setting.preset === b.setting.preset && (!isMesh || a.mesh === b.mesh);
+}
+
+/** A free mesh has no mesh lines to carry motion along, and tension is another in another model. */
+export function canKeepMotion(a: Content | null, b: Content): boolean {
+  const { preset, model } = b.setting;
+  return isSameScene(a, b) && preset !== 'obj' && a?.setting.model === model;
+}
+
+/** The scene, and where its vertices start when that is not where they rest. */
+export function loadOf({ setting, mesh }: Content): { sceneText: string; start?: Float64Array } {
+  const sceneText = JSON.stringify(sceneOf(setting, mesh));
+  const isStarted = setting.preset === 'obj' && setting.level === 0 && mesh?.start !== undefined;
+  return isStarted ? { sceneText, start: mesh.start } : { sceneText };
+}

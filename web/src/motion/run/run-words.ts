@@ -1,0 +1,20 @@
+// What ended a run, in words.
+import { frameViews } from '../../shared/bindings/frame';
+import type { RunReport } from '../worker/motion-protocol';
+
+/** Where the vertex that a message names was in a frame, in words; nothing when it names none. */
+function placeOf(message: string, frame: ArrayBuffer): string {
+  const vertex = Number(/^vertex (\d+)/.exec(message)?.[1] ?? Number.NaN);
+  const place = frameViews(frame).positions.subarray(3 * vertex, 3 * vertex + 3);
+  if (place.length < 3) return '';
+  return ` It was last at (${Array.from(place, (metres) => metres.toFixed(2)).join(', ')}) m.`;
+}
+
+/** What ended a run: in which step and where. `frame` is the last finite one. */
+export function endOf(report: RunReport | null, frame: ArrayBuffer): string {
+  const next = 'The last good frame stays; reset to start again.';
+  if (!report) return `The run stopped without a report. ${next}`;
+  const { numbers, status, message } = report;
+  const reason = `${status.replaceAll('_', ' ')}: ${message.replace(/[.]$/, '')}`;
+  return `The run stopped in step ${numbers.step + 1}, ${reason}.${placeOf(message, frame)} ${next}`;
+}

@@ -1,0 +1,70 @@
+// Runs a sweep in a worker of its own, so that the shown cloth and the page stay responsive.
+
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import type { Store } from '../../shared/state/store';
+import type { MotionState } from '../state/motion-state';
+import { sweepPlan } from '../state/sweep-plan';
+import { type SweepState, sweptScene } from '../state/sweep-state';
+import type { FromSweep } from '../worker/sweep-protocol';
+import { type SweepClient, startSweepWorker } from './motion-client';
+
+export interface Sweep {
+  /** Measures levels 0 to `finest` of the shown preset. */
+  start(finest: number): void;
+  /** Ends at once; the rows so far stay. */
+  cancel(): void;
+}
+
+export function createSweep(store: Store<MotionState>): Sweep {
+  let worker: SweepClient | null = null;
+
+  function patch(change: Partial<SweepState>): void {
+    store.set({ sweep: { ...store.get().sweep, ...change } });
+  }
+
+  function end(phase: SweepState['phase'], message: string): void {
+    worker?.terminate();
+    worker = null;
+    patch({ phase, message });
+  }
+
+  function news(message: FromSweep): void {
+    if (message.type === 'refused') return end('failed', message.failure.what);
+    const { rows, front, progress, done, message: text } = message.report;
+    patch({ rows, front, progress, message: text });
+    if (done) end('done', text);
+  }
+
+  store.subscribe((state, previous) => {
+    const isDisturbed = state.playing && state.sweep.phase === 'running' && !state.sweep.disturbed;
+    if (isDisturbed && (!previous.playing || previous.sweep.phase !== 'running')) {
+      patch({ disturbed: true });
+    }
+  });
+
+  return {
+    start(finest) {
+      worker?.terminate();
+      const { setting, mesh } = store.get();
+      store.set({
+        playing: false, // a second busy worker would make every time too long
+        sweepOpen: true,
+        sweep: {
+          phase: 'running',
+          progress: 0,
+          message: 'Computing the reference',
+          rows: [],
+          front: [],
+          scene: sweptScene(setting, mesh),
+          disturbed: false,
+        },
+      });
+      worker = startSweepWorker({ news, broken: (reason) => end('failed', reason) });
+      const planText = JSON.stringify(sweepPlan(setting, finest, mesh));
+      worker.tell({ type: 'sweep', fabricsText, planText });
+    },
+    cancel() {
+      if (worker) end('cancelled', 'Cancelled; the rows so far stay.');
+    },
+  };
+}

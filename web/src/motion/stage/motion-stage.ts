@@ -1,0 +1,202 @@
+// The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
+// simulation, and draws only when something changed.
+import { Box3, Sphere, Vector3 } from 'three';
+import type { Scalar } from '../../shared/bindings/frame';
+import type { Collider, Triple } from '../../shared/bindings/geometry';
+import { lookOf } from '../../shared/fabric/fabric-look';
+import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
+import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
+import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+
+export interface MotionStageEvents {
+  grab(vertex: number): void;
+  moveGrab(target: Triple): void;
+  releaseGrab(): void;
+  /** Keys that are neither the camera's nor the hand's. True when used. */
+  key(name: string): boolean;
+  /** After each drawn frame: the heat map's scale, and the invitation's place in pixels. */
+  drawn(scale: HeatScale, invitation: { x: number; y: number }): void;
+  contextLost(): void;
+}
+
+export interface MotionStage {
+  /** A new mesh; the view is set anew when it belongs to a new scene. */
+  showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
+  showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
+  setColliders(colliders: Collider[]): void;
+  setFabric(id: number): void;
+  setHeat(map: HeatMap, range: 'auto' | number): void;
+  setEdges(isShown: boolean): void;
+  homeView(): void;
+  /** Present positions, three numbers a vertex [m]. */
+  positions(): Float32Array;
+  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+  project(vertex: number): { x: number; y: number };
+  /** The vertex that asks to be taken. */
+  inviting(): number;
+}
+
+/** Direction of the first view [rad]: a little from the right and from above. */
+const AZIMUTH = 0.55;
+const POLAR = 1.32;
+
+/** A cloth lower than this part of its width lies level: let go, it will swing or fall. */
+const LEVEL_HEIGHT = 0.25;
+/** A sheet that swings from its edge hangs almost its length below it; its free edge whips past. */
+const SWING_BELOW = 0.8;
+const SWING_AROUND = 0.15;
+
+/** A plane tilted by less than 8 degrees, as a cosine, is a floor. */
+const FLOOR_COSINE = 0.99;
+
+/** A metre lower counts for the invitation as much as two metres nearer: free corners hang low. */
+const LOW_OVER_NEAR = 2;
+
+/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
+function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
+  const box = new Box3().setFromArray(positions);
+  const reach = box.getSize(new Vector3());
+  const across = Math.max(reach.x, reach.z);
+  if (
+    reach.y < LEVEL_HEIGHT * across &&
+    colliders.every((collider) => collider.shape === 'plane')
+  ) {
+    box.min.y -= SWING_BELOW * across;
+    box.expandByVector(new Vector3(SWING_AROUND * across, 0, SWING_AROUND * across));
+  }
+  for (const collider of colliders) {
+    if (collider.shape !== 'sphere') continue;
+    const centre = new Vector3(...collider.centre);
+    const half = new Vector3().setScalar(collider.radius_m);
+    box.union(new Box3(centre.clone().sub(half), centre.clone().add(half)));
+  }
+  return box.getBoundingSphere(new Sphere());
+}
+
+/** The floor is the level plane of the scene, or a little under everything that is seen [m]. */
+function floorHeight(sphere: Sphere, colliders: Collider[]): number {
+  for (const collider of colliders) {
+    if (collider.shape === 'plane' && collider.normal[1] > FLOOR_COSINE) return collider.point[1];
+  }
+  return Math.min(0, sphere.center.y - sphere.radius);
+}
+
+/** The vertex that asks to be taken: low, and on the side of the eye. */
+function invitingVertex(positions: Float32Array, towards: Vector3): number {
+  let best = 0;
+  let bestScore = Number.NEGATIVE_INFINITY;
+  const place = new Vector3();
+  for (let v = 0; 3 * v < positions.length; ++v) {
+    place.fromArray(positions, 3 * v);
+    const score = place.dot(towards) - LOW_OVER_NEAR * place.y;
+    if (score > bestScore) {
+      bestScore = score;
+      best = v;
+    }
+  }
+  return best;
+}
+
+/** What is set of how the cloth is drawn. */
+function drawingOf(
+  cloth: ClothMesh,
+  redraw: () => void,
+): Pick<MotionStage, 'setFabric' | 'setHeat' | 'setEdges'> {
+  return {
+    setFabric(id) {
+      cloth.setLook(lookOf(id));
+      redraw();
+    },
+    setHeat(map, range) {
+      if (cloth.setHeat(map, range)) redraw();
+    },
+    setEdges(isShown) {
+      cloth.setEdges(isShown);
+      redraw();
+    },
+  };
+}
+
+/** The floor of the scene, and the view in which all of it is seen. */
+function frame({ surroundings, control }: PaneStage, sphere: Sphere, floor: number): void {
+  const { center: centre, radius } = sphere;
+  surroundings.frame(centre, radius, floor);
+  control.frame({ centre, radius, azimuth: AZIMUTH, polar: POLAR });
+}
+
+/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
+export function createMotionStage(
+  parent: HTMLElement,
+  canvas: HTMLCanvasElement,
+  events: MotionStageEvents,
+): MotionStage {
+  const cloth = createClothMesh();
+  let awaitsFraming = false;
+  let isFreshMesh = false;
+  let inviting = 0;
+  let floor = 0; // height of what is drawn as the floor [m]
+
+  const stage = createPaneStage(parent, canvas, {
+    fov: 32,
+    objects: [cloth.object],
+    isReady: () => cloth.positions().length > 0,
+    prepare() {
+      cloth.update();
+      hand.mark(cloth.positions());
+    },
+    drawn: () => events.drawn(cloth.heatScale(), project(inviting)),
+    themed: (colour) => hand.setColour(colour('--stage-hand')),
+    handKey: (name) => hand.key(name),
+    key: events.key,
+    contextLost: events.contextLost,
+  });
+  const { grid, redraw } = stage;
+  const hand = createStageHand(stage, {
+    grab: events.grab,
+    move: events.moveGrab,
+    release: events.releaseGrab,
+    fallbackVertex: () => inviting,
+    picture: () => () => grid.boxOf(0),
+    cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
+    floor: () => floor,
+  });
+  const project = (vertex: number) => grid.project(cloth.positions(), vertex, 0);
+
+  function chooseInviting(): void {
+    const towards = stage.camera.getWorldDirection(new Vector3()).negate();
+    inviting = invitingVertex(cloth.positions(), towards);
+  }
+
+  stage.open();
+
+  return {
+    showMesh(triangles, nVertices, isNewScene) {
+      cloth.setTopology(triangles, nVertices);
+      awaitsFraming = isNewScene;
+      isFreshMesh = true;
+      hand.drop();
+    },
+    showFrame(buffer, scalar) {
+      cloth.setFrame(buffer, scalar);
+      if (isFreshMesh) chooseInviting();
+      isFreshMesh = false;
+      redraw();
+    },
+    setColliders(colliders) {
+      stage.surroundings.setColliders(colliders);
+      if (awaitsFraming) {
+        awaitsFraming = false;
+        const sphere = framedSphere(cloth.positions(), colliders);
+        floor = floorHeight(sphere, colliders);
+        frame(stage, sphere, floor);
+        chooseInviting();
+      }
+      redraw();
+    },
+    ...drawingOf(cloth, redraw),
+    homeView: stage.control.home,
+    positions: () => cloth.positions(),
+    project,
+    inviting: () => inviting,
+  };
+}

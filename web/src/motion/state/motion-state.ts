@@ -1,0 +1,82 @@
+// Everything the page shows. Only this and the frames travel between its parts.
+import type { Collider } from '../../shared/bindings/geometry';
+import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
+import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
+import type { MotionLink } from './motion-link';
+import type { ObjMesh } from './obj-mesh';
+import { NO_SWEEP, type SweepState } from './sweep-state';
+
+export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
+
+export interface Problem {
+  /** Who has to act: the link, the settings, a file, the run's numbers, or the browser itself. */
+  source: 'link' | 'setting' | 'file' | 'run' | 'browser' | 'sweep';
+  sentence: string;
+}
+
+/**
+ * Times of one step, from differences of running totals over at least 50 ms of work. The parts add
+ * up to the total: the last one is the rest.
+ */
+export interface StepTiming {
+  totalMs: number;
+  parts: { name: string; ms: number }[];
+}
+
+export interface MotionState extends MotionLink {
+  phase: Phase;
+  playing: boolean;
+  /** Simulated seconds a second of the clock: 1, 1/2 or 1/4. */
+  speed: number;
+  /** The cloth is being held. */
+  held: boolean;
+  /** Nobody has grabbed or played yet: the invitation is shown. */
+  invited: boolean;
+  /** What "Your OBJ" shows: the visitor's mesh or the example, null until one is there. */
+  mesh: ObjMesh | null;
+  summary: SceneSummary | null;
+  numbers: RunNumbers | null;
+  timing: StepTiming | null;
+  /** How much of the time before the start is run through, 0 to 1; null when nothing is. */
+  ahead: number | null;
+  /** Simulated seconds a second of the clock, as reached. */
+  pace: number | null;
+  /** The last step's solve reached its iteration cap. */
+  isCutShort: boolean;
+  colliders: Collider[];
+  heatScale: HeatScale | null;
+  problem: Problem | null;
+  sweep: SweepState;
+  sweepOpen: boolean;
+}
+
+export function initialMotionState(link: MotionLink, problems: string[]): MotionState {
+  return {
+    ...link,
+    phase: 'loading',
+    playing: false,
+    speed: 1,
+    held: false,
+    invited: true,
+    mesh: null,
+    summary: null,
+    numbers: null,
+    timing: null,
+    ahead: null,
+    pace: null,
+    isCutShort: false,
+    colliders: [],
+    heatScale: null,
+    problem:
+      problems.length > 0
+        ? { source: 'link', sentence: `The link could not be read fully. ${problems.join('; ')}.` }
+        : null,
+    sweep: NO_SWEEP,
+    sweepOpen: false,
+  };
+}
+
+/** The heat map that can be shown: distance only where there is a reference. */
+export function shownHeat({ heat, numbers }: Pick<MotionState, 'heat' | 'numbers'>): HeatMap {
+  return heat === 'distance' && !numbers?.reference ? 'off' : heat;
+}

@@ -1,0 +1,121 @@
+// A mesh from an OBJ file: how its threads run, what holds it, and the world around it.
+import type { Triple } from '../../shared/bindings/geometry';
+import type { ObjAnswer } from '../bindings/pleat-module';
+
+/** "highest", "nothing", or "group:" and the name of a group of the mesh. */
+export type Hold = 'highest' | 'nothing' | `group:${string}`;
+
+/** What says how the threads run: texture coordinates, or a direction for want of them. */
+export type Threads = 'texture' | 'down' | 'along_x';
+
+export interface ObjMesh {
+  /** Name of the file. */
+  name: string;
+  /** Brought by the visitor; else it is the page's example. */
+  isOwn: boolean;
+  /** The section "cloth" of a scene. */
+  clothText: string;
+  groups: string[];
+  nVertices: number;
+  nTriangles: number;
+  low: Triple;
+  high: Triple;
+  threads: Threads;
+  /** Where its vertices start when that is not where they rest, three numbers each [m]. */
+  start?: Float64Array;
+}
+
+export const DIRECTIONS: Record<Exclude<Threads, 'texture'>, Triple> = {
+  down: [0, -1, 0],
+  along_x: [1, 0, 0],
+};
+
+/** A mesh lower than this part of its length lies flat. */
+const FLAT_HEIGHT = 0.02;
+/** The highest points: within this part of the height. */
+const HIGHEST_PART = 0.02;
+/** The floor lies this part of the mesh's diagonal below it. */
+const FLOOR_BELOW = 0.1;
+
+type Box = Pick<ObjMesh, 'low' | 'high'>;
+
+function extentOf({ low, high }: Box): Triple {
+  return [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
+}
+
+export function liesFlat(box: Box): boolean {
+  const [width, height, depth] = extentOf(box);
+  return height < FLAT_HEIGHT * Math.max(width, depth);
+}
+
+export function objMesh(
+  file: Pick<ObjMesh, 'name' | 'isOwn' | 'threads'>,
+  answer: ObjAnswer,
+): ObjMesh {
+  return {
+    ...file,
+    clothText: JSON.stringify(answer.cloth),
+    groups: answer.groups,
+    nVertices: answer.n_vertices,
+    nTriangles: answer.n_triangles,
+    low: answer.low_m,
+    high: answer.high_m,
+  };
+}
+
+/** What may hold a mesh. Of a flat one the highest points would be all. */
+export function holdsOf(mesh: ObjMesh): Hold[] {
+  const groups = mesh.groups.map((name): Hold => `group:${name}`);
+  return liesFlat(mesh) ? [...groups, 'nothing'] : ['highest', ...groups, 'nothing'];
+}
+
+/** The wanted hold where this mesh knows it, else the first one that it has to itself. */
+export function holdFor(mesh: ObjMesh, wanted: Hold): Hold {
+  if (holdsOf(mesh).includes(wanted)) return wanted;
+  return liesFlat(mesh) ? 'nothing' : 'highest';
+}
+
+function pinsOf(mesh: ObjMesh, wanted: Hold): object[] {
+  const hold = holdFor(mesh, wanted);
+  if (hold === 'nothing') return [];
+  if (hold !== 'highest') return [{ part: hold.slice('group:'.length) }];
+  const [x, y, z] = mesh.low;
+  const top = mesh.high[1];
+  return [{ box: { low_m: [x, top - HIGHEST_PART * (top - y), z], high_m: mesh.high } }];
+}
+
+/** Cloth, pins and solids of a scene: the mesh above a floor. */
+export function objScene(mesh: ObjMesh, hold: Hold) {
+  const floor = mesh.low[1] - FLOOR_BELOW * Math.hypot(...extentOf(mesh));
+  return {
+    cloth: JSON.parse(mesh.clothText) as object,
+    pins: pinsOf(mesh, hold),
+    colliders: [{ plane: { point_m: [0, floor, 0], normal: [0, 1, 0] } }],
+  };
+}
+
+/** A cloth that starts from the shape that it was pulled into; what held it is its group "held". */
+export function deformedMesh(section: object, start: Float64Array): ObjMesh {
+  const { mesh } = section as {
+    mesh: { positions_m: Triple[]; triangles: unknown[]; groups?: object };
+  };
+  const low: Triple = [Infinity, Infinity, Infinity];
+  const high: Triple = [-Infinity, -Infinity, -Infinity];
+  start.forEach((metres, index) => {
+    const axis = (index % 3) as 0 | 1 | 2;
+    low[axis] = Math.min(low[axis], metres);
+    high[axis] = Math.max(high[axis], metres);
+  });
+  return {
+    name: 'The pulled cloth',
+    isOwn: true,
+    clothText: JSON.stringify(section),
+    groups: Object.keys(mesh.groups ?? {}),
+    nVertices: start.length / 3,
+    nTriangles: mesh.triangles.length,
+    low,
+    high,
+    threads: 'texture',
+    start,
+  };
+}

@@ -1,0 +1,180 @@
+// What is computed: preset, fabric, model, level, method. The scene text given to the module is made here.
+import curtainText from '../../../../assets/scenes/curtain.json?raw';
+import skirtText from '../../../../assets/scenes/skirt.json?raw';
+import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
+import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
+import {
+  type Count,
+  canRun,
+  type Model,
+  STABLE_SUBSTEPS,
+  STEPPER_NAMES,
+  type Substeps,
+  stepperRow,
+} from '../../shared/steppers/steppers';
+import { type Hold, type ObjMesh, objScene } from './obj-mesh';
+
+export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'obj';
+
+export interface Setting {
+  preset: PresetId;
+  /** English name in the fabric file. */
+  fabric: string;
+  model: Model;
+  /** Uniform refinement: each level halves the mesh size. */
+  level: number;
+  stepper: string;
+  /** Time that one step advances [s]. */
+  stepS: number;
+  /** 0: as many as the stability bound asks for. */
+  substeps: number;
+  iterations: number;
+  /** What holds the mesh; of no meaning to other presets. */
+  hold: Hold;
+}
+
+interface SceneFile {
+  name: string;
+  caption: string;
+  cloth: { sheet?: object; mesh?: object };
+  fabric: { name: string };
+  world?: object;
+  refinement?: { level?: number };
+  method: {
+    stepper: string;
+    step_s: number;
+    substeps?: Substeps;
+    iterations?: number;
+    [detail: string]: unknown;
+  };
+  duration_s?: number;
+  [part: string]: unknown;
+}
+
+export interface Preset {
+  title: string;
+  caption: string;
+  scene: SceneFile;
+}
+
+export const MODELS: readonly Model[] = ['springs', 'membrane'];
+export const LEVELS: readonly number[] = [0, 1, 2, 3, 4];
+/** Steps offered, as fractions of a second: 1/30 s to 1/960 s. */
+export const STEPS_PER_SECOND: readonly number[] = [30, 60, 120, 240, 480, 960];
+export const MOST_SUBSTEPS = 100000;
+export const MOST_ITERATIONS = 500;
+
+export const MODEL_TRAITS: Record<Model, { title: string; meaning: string }> = {
+  springs: { title: 'Springs', meaning: 'A fast approximation, along the threads of a sheet.' },
+  membrane: {
+    title: 'Membrane and fitted bending',
+    meaning: 'Cloth as a continuous surface: right on any mesh, and slower.',
+  },
+};
+
+export const COUNTS: readonly Count[] = ['substeps', 'iterations'];
+
+function presetFrom(title: string, text: string): Preset {
+  const scene = JSON.parse(text) as SceneFile;
+  return { title, caption: scene.caption, scene };
+}
+
+export const PRESETS: Record<PresetId, Preset> = {
+  curtain: presetFrom('Curtain', curtainText),
+  tablecloth: presetFrom('Tablecloth on a ball', tableclothText),
+  'swinging-sheet': presetFrom('Swinging sheet', swingingSheetText),
+  obj: {
+    title: 'Your OBJ',
+    scene: {
+      ...(JSON.parse(skirtText) as SceneFile),
+      // A mesh of some thousand triangles keeps up with the clock, or nearly.
+      method: { stepper: 'implicit', step_s: 1 / 60, substeps: 1, tolerance: 0.01 },
+    },
+    caption:
+      'Any triangle mesh becomes cloth. Drop an OBJ file anywhere on this page, or choose one; until then a half-circle skirt stands in.',
+  },
+};
+
+export const PRESET_IDS = Object.keys(PRESETS) as PresetId[];
+
+/** What the preset's cloth can be made of: springs follow the threads of a sheet. */
+export function modelsOf(preset: PresetId): Model[] {
+  return PRESETS[preset].scene.cloth.sheet ? ['springs', 'membrane'] : ['membrane'];
+}
+
+/** Both counts of a method, with the stepper's own start where the method says nothing. */
+function countsOf(stepper: string, method: { substeps?: Substeps; iterations?: number }) {
+  const { settings } = stepperRow(stepper);
+  const { substeps } = method;
+  return {
+    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? settings.substeps?.start ?? 1),
+    iterations: method.iterations ?? settings.iterations?.start ?? 1,
+  };
+}
+
+/** The setting a preset is made for. */
+export function presetSetting(preset: PresetId): Setting {
+  const { fabric, refinement, method } = PRESETS[preset].scene;
+  return {
+    preset,
+    fabric: fabric.name,
+    model: modelsOf(preset)[0] ?? 'membrane',
+    level: refinement?.level ?? 0,
+    stepper: method.stepper,
+    stepS: method.step_s,
+    ...countsOf(method.stepper, method),
+    hold: 'highest',
+  };
+}
+
+/** The same setting under another stepper, with that stepper's usual counts. */
+export function withStepper(setting: Setting, stepper: string): Setting {
+  const own = PRESETS[setting.preset].scene.method;
+  return { ...setting, stepper, ...countsOf(stepper, own.stepper === stepper ? own : {}) };
+}
+
+/** The same setting with another model, under the first stepper that can run it if its own cannot. */
+export function withModel(setting: Setting, model: Model): Setting {
+  const stepper = [setting.stepper, ...STEPPER_NAMES].find((name) => canRun(name, model));
+  const isOther = stepper !== undefined && stepper !== setting.stepper;
+  return { ...(isOther ? withStepper(setting, stepper) : setting), model };
+}
+
+/** The `method` part of a scene: only what the stepper listens to, and the preset's fine print. */
+export function methodOf(setting: Setting): Record<string, unknown> {
+  const own = PRESETS[setting.preset].scene.method;
+  const method: Record<string, unknown> = own.stepper === setting.stepper ? { ...own } : {};
+  const { settings } = stepperRow(setting.stepper);
+  method.stepper = setting.stepper;
+  method.step_s = setting.stepS;
+  for (const count of COUNTS) if (settings[count]) method[count] = setting[count];
+  if (method.substeps === 0) method.substeps = STABLE_SUBSTEPS;
+  return method;
+}
+
+/** The scene as the module reads it; `mesh` is the cloth of the preset that is any mesh. */
+export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<string, unknown> {
+  const scene: Record<string, unknown> = {
+    ...PRESETS[setting.preset].scene,
+    fabric: { name: setting.fabric },
+    model: { elasticity: setting.model },
+    refinement: { level: setting.level },
+    method: methodOf(setting),
+  };
+  if (setting.preset !== 'obj' || !mesh) return scene;
+  const { cloth, pins, colliders } = objScene(mesh, setting.hold);
+  const world = { ...PRESETS.obj.scene.world, colliders };
+  return { ...scene, cloth, pins, world };
+}
+
+/** True when both settings compute the same thing, whatever an unused count says. */
+export function isSameMethod(a: Setting, b: Setting): boolean {
+  const { settings } = stepperRow(a.stepper);
+  // Steps are fractions of a second that went through text: an ulp apart is the same.
+  const isSameStep = Math.abs(a.stepS - b.stepS) < 1e-9;
+  return (
+    a.stepper === b.stepper &&
+    isSameStep &&
+    COUNTS.every((count) => !settings[count] || a[count] === b[count])
+  );
+}

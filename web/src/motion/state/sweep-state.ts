@@ -1,0 +1,64 @@
+// A sweep as far as it has come, and which of its rows are of the shown cloth.
+import type { BenchRow } from '../bindings/sweep-module';
+import type { ObjMesh } from './obj-mesh';
+import { isSameMethod, type Setting } from './setting';
+import { hasFinished, settingOfRow } from './sweep-plan';
+
+export interface SweepState {
+  phase: 'none' | 'running' | 'done' | 'cancelled' | 'failed';
+  /** 0 to 1. */
+  progress: number;
+  message: string;
+  rows: BenchRow[];
+  /** Indices into `rows`. */
+  front: number[];
+  /** The scene the rows are of. */
+  scene: SweptScene | null;
+  /** The cloth was running at the same time, so that the times are too long. */
+  disturbed: boolean;
+}
+
+export const NO_SWEEP: SweepState = {
+  phase: 'none',
+  progress: 0,
+  message: '',
+  rows: [],
+  front: [],
+  scene: null,
+  disturbed: false,
+};
+
+/** What a sweep is of: a row of another scene, fabric or model says nothing about this one. */
+export interface SweptScene extends Pick<Setting, 'preset' | 'fabric' | 'model' | 'hold'> {
+  mesh: ObjMesh | null;
+}
+
+export function sweptScene(setting: Setting, mesh: ObjMesh | null): SweptScene {
+  const { preset, fabric, model, hold } = setting;
+  return { preset, fabric, model, hold, mesh: preset === 'obj' ? mesh : null };
+}
+
+function isOf(swept: SweptScene | null, shown: SweptScene): boolean {
+  return (
+    swept !== null &&
+    (Object.keys(shown) as (keyof SweptScene)[]).every((key) => swept[key] === shown[key])
+  );
+}
+
+/** The row of the last sweep that was measured with just the shown setting, if there is one. */
+export function rowOfSetting({
+  sweep,
+  setting,
+  mesh,
+}: {
+  sweep: SweepState;
+  setting: Setting;
+  mesh: ObjMesh | null;
+}): BenchRow | null {
+  if (!isOf(sweep.scene, sweptScene(setting, mesh))) return null;
+  const found = sweep.rows.find((row) => {
+    const measured = settingOfRow(row, setting);
+    return measured.level === setting.level && isSameMethod(measured, setting);
+  });
+  return found && hasFinished(found) ? found : null;
+}

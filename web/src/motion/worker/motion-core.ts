@@ -1,0 +1,196 @@
+// What the worker of cloth in motion does with each message, as a function of the module and of where
+// answers go. The only file that calls delete() on its objects.
+
+import {
+  describe,
+  type Failure,
+  internalFailure,
+  type RunStatus,
+  read,
+} from '../../shared/bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../../shared/bindings/frame';
+import type { Collider } from '../../shared/bindings/geometry';
+import type { Post } from '../../shared/workers/serve';
+import type {
+  ObjAnswer,
+  PleatModule,
+  RunNumbers,
+  SceneSummary,
+  SimulationHandle,
+} from '../bindings/pleat-module';
+import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
+import type { FromMotion, LoadMessage, RunReport, StepMessage, ToMotion } from './motion-protocol';
+
+/** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
+function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
+  const views = frameViews(buffer);
+  views.positions.set(simulation.positions());
+  const values = scalar === 'distance' ? simulation.distances() : simulation.stretch();
+  if (values.length === views.scalar.length) views.scalar.set(values);
+  else views.scalar.fill(Number.NaN);
+}
+
+function readNumbers(simulation: SimulationHandle): RunNumbers | null {
+  const numbers = read<RunNumbers>(simulation.numbers());
+  return numbers.ok ? numbers : null;
+}
+
+function readReport(simulation: SimulationHandle): RunReport | null {
+  const numbers = readNumbers(simulation);
+  const status = read<RunStatus>(simulation.status());
+  if (!numbers || !status.ok) return null;
+  return { numbers, status: status.status, message: status.message };
+}
+
+function readColliders(simulation: SimulationHandle): Collider[] {
+  const answer = read<{ colliders: Collider[] }>(simulation.colliders());
+  return answer.ok ? answer.colliders : [];
+}
+
+/** Serves one page. Call `receive` with each message, `close` at the end. */
+export class MotionCore {
+  private fabricsText: string | null = null;
+  private simulation: SimulationHandle | null = null;
+  private loaded: SceneSummary | null = null;
+  private isHeld = false;
+
+  private refuse(request: number, failure: Failure): void {
+    this.post({ type: 'refused', request, failure }, []);
+  }
+
+  /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
+  private postLoaded(
+    { request, scalar = 'stretch' }: { request: number; scalar?: Scalar },
+    run: SimulationHandle,
+    summary: SceneSummary,
+  ): void {
+    const numbers = readNumbers(run);
+    if (!numbers) return this.refuse(request, internalFailure('no numbers after a load'));
+    const nBytes = 4 * FLOATS_PER_VERTEX * summary.n_vertices;
+    const buffers: [ArrayBuffer, ArrayBuffer] = [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)];
+    fill(run, buffers[0], scalar);
+    const triangles = run.triangles().slice();
+    const colliders = readColliders(run);
+    this.post(
+      { type: 'loaded', request, summary, triangles, buffers, scalar, numbers, colliders },
+      [triangles.buffer, ...buffers],
+    );
+  }
+
+  private load(run: SimulationHandle, message: LoadMessage): void {
+    const { sceneText, keepMotion, request, start } = message;
+    const text = keepMotion && this.loaded ? run.carryOver(sceneText) : run.load(sceneText);
+    const answer = read<{ summary: SceneSummary }>(text);
+    if (!answer.ok) return this.refuse(request, answer);
+    const started = read<object>(start ? run.startFrom(start) : '{"ok": true}');
+    if (!started.ok) return this.refuse(request, started);
+    this.loaded = answer.summary;
+    this.postLoaded(message, run, this.loaded);
+  }
+
+  private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
+    if (!this.loaded) return this.refuse(message.request, internalFailure('reset before load'));
+    const answer = read<object>(run.reset());
+    if (!answer.ok) return this.refuse(message.request, answer);
+    this.postLoaded(message, run, this.loaded);
+  }
+
+  /** One that cannot be read is none: the page goes without. */
+  private setReference(run: SimulationHandle, bytes: ArrayBuffer): void {
+    const answer = read<object>(run.setReference(new Uint8Array(bytes)));
+    const numbers = answer.ok && this.loaded ? readNumbers(run) : null;
+    if (numbers) this.post({ type: 'referenceSet', numbers }, []);
+  }
+
+  private step(run: SimulationHandle, message: StepMessage): void {
+    const { buffer, count, request, scalar = 'stretch' } = message;
+    // A buffer of another size belongs to the mesh before the last load: nothing to fill.
+    if (!this.loaded || buffer.byteLength !== 4 * FLOATS_PER_VERTEX * this.loaded.n_vertices)
+      return;
+    const code = run.step(count);
+    fill(run, buffer, scalar);
+    const hasEnded = code !== 0;
+    const report = hasEnded || message.wantsNumbers ? readReport(run) : null;
+    const colliders = readColliders(run);
+    this.post({ type: 'frame', request, count, buffer, scalar, hasEnded, report, colliders }, [
+      buffer,
+    ]);
+  }
+
+  private readObj(text: string, message: Extract<ToMotion, { type: 'readObj' }>): void {
+    const { name, objText, isOwn } = message;
+    const scene = new this.module.Scene(text);
+    const readAlong = (threads: keyof typeof DIRECTIONS) => {
+      const meshText = JSON.stringify({ obj: name, warp_direction: DIRECTIONS[threads] });
+      return { threads, answer: read<ObjAnswer>(scene.readObj(objText, meshText)) };
+    };
+    try {
+      let { threads, answer } = readAlong('down');
+      const isFlat = answer.ok && liesFlat({ low: answer.low_m, high: answer.high_m });
+      if (answer.ok && answer.needs_direction && isFlat)
+        ({ threads, answer } = readAlong('along_x'));
+      if (!answer.ok) return this.post({ type: 'objRefused', failure: answer }, []);
+      const known = answer.needs_direction ? threads : 'texture';
+      this.post({ type: 'objRead', mesh: objMesh({ name, isOwn, threads: known }, answer) }, []);
+    } finally {
+      scene.delete();
+    }
+  }
+
+  private open(text: string): void {
+    this.simulation?.delete();
+    this.fabricsText = text;
+    this.simulation = new this.module.Simulation(text);
+    this.loaded = null;
+    this.post({ type: 'ready' }, []);
+  }
+
+  private handle(message: ToMotion): void {
+    if (message.type === 'open') return this.open(message.fabricsText);
+    if (!this.simulation || this.fabricsText === null)
+      throw new Error(`${message.type} before this.open`);
+    switch (message.type) {
+      case 'readObj':
+        return this.readObj(this.fabricsText, message);
+      case 'load':
+        this.isHeld = false;
+        return this.load(this.simulation, message);
+      case 'reset':
+        this.isHeld = false;
+        return this.reset(this.simulation, message);
+      case 'setReference':
+        return this.setReference(this.simulation, message.bytes);
+      case 'step':
+        return this.step(this.simulation, message);
+      case 'grab':
+        this.isHeld = this.loaded !== null && read<object>(this.simulation.grab(message.vertex)).ok;
+        return;
+      case 'moveGrab':
+        if (this.isHeld) this.simulation.moveGrab(...message.target);
+        return;
+      case 'releaseGrab':
+        if (this.isHeld) this.simulation.releaseGrab();
+        this.isHeld = false;
+        return;
+    }
+  }
+
+  constructor(
+    private readonly module: PleatModule,
+    private readonly post: Post<FromMotion>,
+  ) {}
+
+  receive(message: ToMotion): void {
+    try {
+      this.handle(message);
+    } catch (error) {
+      const request = 'request' in message ? message.request : -1;
+      this.refuse(request, internalFailure(describe(error)));
+    }
+  }
+
+  close(): void {
+    this.simulation?.delete();
+    this.simulation = null;
+  }
+}

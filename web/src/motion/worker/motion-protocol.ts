@@ -1,0 +1,108 @@
+// Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
+
+import type { Failure } from '../../shared/bindings/answers';
+import type { Scalar } from '../../shared/bindings/frame';
+import type { Collider } from '../../shared/bindings/geometry';
+import type { Done } from '../../shared/workers/asked';
+import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
+import type { ObjMesh } from '../state/obj-mesh';
+
+export interface StepMessage {
+  type: 'step';
+  /** 0 to fill the buffer anew. */
+  count: number;
+  wantsNumbers: boolean;
+  request: number;
+  scalar?: Scalar;
+  buffer: ArrayBuffer;
+}
+
+export interface LoadMessage {
+  type: 'load';
+  sceneText: string;
+  keepMotion: boolean;
+  request: number;
+  scalar?: Scalar;
+  /** Where the vertices start when that is not where they rest. */
+  start?: Float64Array;
+}
+
+export type ToMotion =
+  /** First message: opens the module's objects with the fabric file's text. */
+  | { type: 'open'; fabricsText: string }
+  /** `request` comes back in the answer, so that a late answer can be told from a current one. */
+  | LoadMessage
+  | { type: 'reset'; request: number; scalar?: Scalar }
+  /** A reference's file, for whichever scene is loaded and is what it is of. */
+  | { type: 'setReference'; bytes: ArrayBuffer }
+  /** `isOwn`: the visitor brought it. Whatever runs goes on. */
+  | { type: 'readObj'; name: string; objText: string; isOwn: boolean }
+  /** The buffer is given away here and comes back filled in `frame`. */
+  | StepMessage
+  | { type: 'grab'; vertex: number }
+  | { type: 'moveGrab'; target: [number, number, number] }
+  | { type: 'releaseGrab' };
+
+export interface LoadedMessage {
+  type: 'loaded';
+  request: number;
+  summary: SceneSummary;
+  triangles: Uint32Array;
+  /** Two frame buffers that belong to the page from now on; the first holds the present frame. */
+  buffers: [ArrayBuffer, ArrayBuffer];
+  scalar: Scalar;
+  numbers: RunNumbers;
+  colliders: Collider[];
+}
+
+/** `status` is "ok", "not_converged" (the run goes on from the best so far), or why it ended. */
+export interface RunReport {
+  numbers: RunNumbers;
+  status: string;
+  message: string;
+}
+
+export interface FrameMessage {
+  type: 'frame';
+  request: number;
+  count: number;
+  buffer: ArrayBuffer;
+  scalar: Scalar;
+  /** The run cannot go on; the buffer holds its last finite frame. */
+  hasEnded: boolean;
+  /** Only when it was asked for, or when the run has ended. */
+  report: RunReport | null;
+  colliders: Collider[];
+}
+
+/** A reference was taken: the numbers anew. */
+export interface ReferenceSetMessage {
+  type: 'referenceSet';
+  numbers: RunNumbers;
+}
+
+export type ObjAnswerMessage =
+  | { type: 'objRead'; mesh: ObjMesh }
+  | { type: 'objRefused'; failure: Failure };
+
+export type FromMotion =
+  | { type: 'ready' }
+  | LoadedMessage
+  | FrameMessage
+  | ReferenceSetMessage
+  | ObjAnswerMessage
+  /** `request` is -1 when what was refused had none. */
+  | { type: 'refused'; request: number; failure: Failure };
+
+/** The answer to each message that is a question; `done`: there was nothing to answer. */
+export interface MotionAnswers {
+  open: { type: 'ready' };
+  load: LoadedMessage;
+  reset: LoadedMessage;
+  setReference: ReferenceSetMessage | Done;
+  readObj: ObjAnswerMessage;
+  step: FrameMessage | Done;
+  grab: Done;
+  moveGrab: Done;
+  releaseGrab: Done;
+}

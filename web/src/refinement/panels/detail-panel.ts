@@ -1,0 +1,101 @@
+// How fine: the demand or the number of vertices, whichever was moved last; and where frames come from.
+import { element, field, setText } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import { DEMANDS, type RefinementState } from '../state/refinement-state';
+import { sourceSentence, vertices } from './garment-words';
+import { createWork } from './work';
+
+/** A slider is not followed more often [ms]: each plan builds a mesh. */
+const FOLLOW_AFTER_MS = 180;
+
+const BUDGET_STEP = 10;
+
+function slider(options: { min: number; max: number; step: number }, moved: (at: number) => void) {
+  let timer = 0;
+  const input = element('input', {
+    type: 'range',
+    ...options,
+    input() {
+      window.clearTimeout(timer);
+      timer = window.setTimeout(() => moved(input.valueAsNumber), FOLLOW_AFTER_MS);
+      told();
+    },
+  });
+  const told = () => input.dispatchEvent(new CustomEvent('told'));
+  return input;
+}
+
+export function createDetailPanel(
+  parent: HTMLElement,
+  store: Store<RefinementState>,
+  actions: { cancel(): void },
+): () => void {
+  const demand = slider({ min: DEMANDS.least, max: DEMANDS.most, step: DEMANDS.step }, (value) =>
+    store.set({ rule: 'demand', demand: value }),
+  );
+  const budget = slider({ min: 0, max: 1, step: BUDGET_STEP }, (value) =>
+    store.set({ rule: 'budget', budget: value }),
+  );
+  const [demandValue, budgetValue] = [element('output'), element('output')];
+  const demandField = field('Detail demand τ: less makes more vertices', demand, demandValue);
+  const budgetField = field('Or: at most so many vertices', budget, budgetValue);
+  for (const made of [demandField, budgetField]) made.classList.add('slider-field');
+  const records = element('input', {
+    type: 'checkbox',
+    change: () => store.set({ useRecords: records.checked }),
+  });
+  const fine = element('input', {
+    type: 'checkbox',
+    change: () => store.set({ computeFine: fine.checked }),
+  });
+  const source = element('p', { class: 'note' });
+  const work = element('div');
+  const closeWork = createWork(work, store, {
+    isOwn: ({ share }) => share === null,
+    cancel: actions.cancel,
+  });
+  const sayDemand = () => setText(demandValue, `τ = ${demand.valueAsNumber}`);
+  const sayBudget = () => {
+    const text = vertices(budget.valueAsNumber);
+    setText(budgetValue, text);
+    budget.setAttribute('aria-valuetext', text);
+  };
+  demand.addEventListener('told', sayDemand);
+  budget.addEventListener('told', sayBudget);
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'How fine' },
+      element('h2', {}, 'How fine'),
+      demandField,
+      budgetField,
+      work,
+      element('label', { class: 'check' }, records, 'Show frames that come with the page'),
+      element('label', { class: 'check' }, fine, 'Fine mesh in step'),
+      source,
+    ),
+  );
+  const close = watch(
+    store,
+    ['rule', 'demand', 'budget', 'budgetRange', 'plan', 'useRecords', 'computeFine', 'panes'],
+    (state) => {
+      const [least, most] = state.budgetRange ?? [0, 1];
+      budget.min = String(BUDGET_STEP * Math.ceil(least / BUDGET_STEP));
+      budget.max = String(BUDGET_STEP * Math.floor(most / BUDGET_STEP));
+      demand.value = String(state.demand);
+      const known = state.rule === 'budget' ? state.budget : state.plan?.vertices;
+      budget.value = String(known ?? least);
+      sayDemand();
+      sayBudget();
+      demandField.classList.toggle('idle', state.rule !== 'demand');
+      budgetField.classList.toggle('idle', state.rule !== 'budget');
+      records.checked = state.useRecords;
+      fine.checked = state.computeFine;
+      setText(source, sourceSentence(state));
+    },
+  );
+  return () => {
+    close();
+    closeWork();
+  };
+}

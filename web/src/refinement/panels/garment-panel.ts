@@ -1,0 +1,72 @@
+// Garment, motion, fabric; what to notice; what is coloured.
+import { fabrics } from '../../shared/fabric/fabric-data';
+import { choice, element, field, setText } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import { GARMENTS, MOTIONS, usualFabric } from '../state/garments';
+import type { ColourId, RefinementState } from '../state/refinement-state';
+import { noticeSentence } from './garment-words';
+
+const COLOUR_TITLES: readonly { value: ColourId; title: string }[] = [
+  { value: 'material', title: 'Fabric' },
+  { value: 'level', title: 'Level' },
+  { value: 'pattern', title: 'Pattern' },
+  { value: 'curvature', title: 'Curvature' },
+  { value: 'distance', title: 'Distance to fine' },
+];
+
+function check(title: string, change: (isOn: boolean) => void) {
+  const input = element('input', { type: 'checkbox', change: () => change(input.checked) });
+  return { input, label: element('label', { class: 'check' }, input, title) };
+}
+
+export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
+  const notice = element('p', { class: 'caption' });
+  const garment = choice(GARMENTS, (value) =>
+    store.set({ garment: value, fabric: usualFabric(value), further: [] }),
+  );
+  const motion = choice(MOTIONS, (value) => store.set({ motion: value }));
+  const fabric = choice(
+    fabrics.map(({ name_en: name }) => ({ value: name, title: name })),
+    (value) => store.set({ fabric: value, further: [] }),
+  );
+  const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
+  const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
+  const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
+  const hangingNote = element(
+    'p',
+    { class: 'note' },
+    'A hanging vertex lies in the middle of a larger face’s edge and stays there: it is no unknown.',
+  );
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Garment and motion' },
+      notice,
+      element(
+        'div',
+        { class: 'garment-choices' },
+        field('Garment', garment.control),
+        field('Fabric', fabric.control),
+      ),
+      field('Motion', motion.control),
+      field('Colour shows', colour.control),
+      edges.label,
+      hanging.label,
+      hangingNote,
+    ),
+  );
+  return watch(
+    store,
+    ['garment', 'motion', 'fabric', 'further', 'colour', 'edges', 'hanging', 'panes', 'plan'],
+    (state) => {
+      setText(notice, noticeSentence(state));
+      garment.select(state.garment);
+      motion.select(state.motion);
+      fabric.select(state.fabric);
+      colour.select(state.colour);
+      edges.input.checked = state.edges;
+      hanging.input.checked = state.hanging;
+      hangingNote.hidden = !state.hanging;
+    },
+  );
+}

@@ -1,0 +1,165 @@
+// What the view of refinement says.
+import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import type { FitAnswer } from '../bindings/refinement-module';
+import { exampleName, GARMENTS } from '../state/garments';
+import { type PlanFile, type PlanStory, planStory } from '../state/plan-file';
+import {
+  canPlanAnew,
+  type FrameSource,
+  type GarmentPane,
+  isExample,
+  PANES,
+  type PaneId,
+  type RefinementState,
+} from '../state/refinement-state';
+
+export const PANE_TITLES: Record<PaneId, string> = {
+  coarse: 'Coarse',
+  planned: 'Multi-resolution',
+  fine: 'Fine',
+};
+
+/** Beyond this share of its faces for ten frames the monitor fires; docs/methods/multiresolution.md. */
+export const LARGEST_SHARE = 0.05;
+export const FRAMES_TO_FIRE = 10;
+
+export function vertices(count: number): string {
+  return `${count.toLocaleString('en').replaceAll(',', '\u202f')} vertices`;
+}
+
+/** How dear a frame is, and where that was found out. */
+export function costWords({ source, msPerFrame }: GarmentPane): string {
+  const cost = msPerFrame === null ? '' : `${milliseconds(msPerFrame)} a frame`;
+  switch (source) {
+    case 'recorded':
+      return cost === '' ? 'recorded' : `${cost}, recorded`;
+    case 'computed':
+      return cost === '' ? 'computed here' : `${cost} here`;
+    case 'sampled':
+      return 'fine’s shape on this mesh; press Play';
+    case 'resting':
+      return 'rests';
+  }
+}
+
+export function errorWords(pane: PaneId, { errorM, source }: GarmentPane): string {
+  if (pane === 'fine') return source === 'resting' ? '' : 'what the others are held against';
+  return errorM === null ? '' : `${smallLength(errorM)} off fine`;
+}
+
+/** "skirt_fast_walk in silk" → "fast walk in silk". */
+function exampleWords(name: string): string {
+  const garment = GARMENTS.find(({ value }) => name.startsWith(`${value}_`));
+  return name.slice(garment ? garment.value.length + 1 : 0).replaceAll('_', ' ');
+}
+
+/** "example walk", "examples walk and squat". */
+export function examplesWords({ examples }: PlanStory): string {
+  const names = new Intl.ListFormat('en-GB').format(examples.map(exampleWords));
+  return `${examples.length > 1 ? 'examples' : 'example'} ${names}`;
+}
+
+/** The least and the largest number of several examples. */
+export function fromTo(values: readonly number[]): string {
+  const least = digits(Math.min(...values), 2);
+  const most = digits(Math.max(...values), 2);
+  return least === most ? least : `${least}–${most}`;
+}
+
+function whatToDo({ garment, motion, fabric }: RefinementState, plan: PlanFile): string {
+  if (motion !== 'squat') return 'Compare the folds with those on the right.';
+  const own = exampleName(garment, motion, fabric);
+  if (plan.examples.some(({ name }) => name === own))
+    return 'Play, and watch the light below: now the plan knows where the knees bend the cloth.';
+  return 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.';
+}
+
+/** One sentence: what to notice. */
+export function noticeSentence(state: RefinementState): string {
+  const { panes, plan } = state;
+  const { planned, fine } = panes;
+  if (planned.nVertices === 0 || fine.nVertices === 0 || !plan)
+    return 'One garment on one walking figure, on a coarse, a planned and a fine mesh.';
+  const share = planned.nVertices / fine.nVertices;
+  return `The middle mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
+}
+
+export function ruleWords({ rule }: PlanStory): string {
+  return rule.kind === 'demand'
+    ? `where the patterns at a face’s corners sum to more than ${Number(rule.value.toFixed(2))}`
+    : `one after another, the most urgent first, up to ${vertices(rule.value)}`;
+}
+
+/** The plan in a few sentences. */
+export function storySentences(story: PlanStory): string {
+  const { nSplits, nForBalance, patterns } = story;
+  const asked = nSplits - nForBalance;
+  const splits =
+    nForBalance === 0
+      ? `${nSplits} faces were split, ${ruleWords(story)}; none only to keep neighbours within one level of each other.`
+      : `${nSplits} faces were split: ${asked} ${ruleWords(story)}, the other ${nForBalance} only to keep neighbours within one level of each other.`;
+  const sorted = `sorted the coarse vertices into ${patterns.length} patterns of bending`;
+  const origin =
+    story.examples.length > 1
+      ? `The ${examplesWords(story)} each ${sorted}; where they differ, the higher pattern counts.`
+      : `The ${examplesWords(story)} ${sorted}.`;
+  return `${origin} ${splits} A split face asks for one less at each corner before it may be split again.`;
+}
+
+export interface FitReading {
+  light: 'fits' | 'uneasy' | 'fires' | 'unknown';
+  title: string;
+  detail: string;
+}
+
+/** The monitor's light. */
+export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitReading {
+  if (!fit || !story?.patterns.every(({ limitPerM }) => limitPerM !== null))
+    return {
+      light: 'unknown',
+      title: 'Not watched yet',
+      detail: 'The light compares each frame with the example once the cloth moves.',
+    };
+  const examples = story.examples.length > 1 ? 'examples' : 'example';
+  const share = `${percent(fit.share)} of the faces bend more than their pattern did in the ${examples}; at most ${percent(fit.worst_share)} so far.`;
+  if (fit.fires || fit.first_fired !== null)
+    return {
+      light: 'fires',
+      title: `Does not fit the ${examples}`,
+      detail: `${share} More than ${percent(LARGEST_SHARE)} for ${FRAMES_TO_FIRE} frames in a row: the mesh was planned for another kind of motion.`,
+    };
+  if (fit.share > LARGEST_SHARE)
+    return {
+      light: 'uneasy',
+      title: 'Fits, but for now',
+      detail: `${share} That has lasted ${fit.n_in_a_row} of ${FRAMES_TO_FIRE} frames.`,
+    };
+  return { light: 'fits', title: `Fits the ${examples}`, detail: share };
+}
+
+/** Below the button that plans anew: what it does, or why it does nothing now. */
+export function anewSentence(state: RefinementState): string {
+  if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: half a minute or so.';
+  if (isExample(state)) return 'The plan is made of this motion already.';
+  return 'For a motion that does not fit, once the light says so.';
+}
+
+/** Where the frames come from, and who waits for whom. */
+export function sourceSentence({ panes }: RefinementState): string {
+  const named = (...sources: FrameSource[]) =>
+    PANES.filter((id) => sources.includes(panes[id].source)).map((id) =>
+      PANE_TITLES[id].toLowerCase(),
+    );
+  const here = named('computed', 'sampled');
+  const recorded = named('recorded');
+  const sentences: string[] = [];
+  if (recorded.length > 0)
+    sentences.push(
+      `Frames that come with the page: ${recorded.join(', ')}. They were computed by the same core on one core of a desktop, whose milliseconds are shown.`,
+    );
+  if (here.length > 0) sentences.push(`Computed on this device: ${here.join(', ')}.`);
+  if (panes.fine.source === 'computed') sentences.push('The others wait for the fine mesh.');
+  if (panes.fine.source === 'resting')
+    sentences.push('The fine mesh rests: there is nothing to hold the others against.');
+  return sentences.join(' ');
+}

@@ -1,0 +1,229 @@
+// The view of refinement: one garment on a walking figure, on a coarse, a planned and a fine mesh. Its
+// store, its workers, its stage and its panels, wired together.
+import type { View } from '../shared/page/view';
+import '../shared/page/panes.css';
+import './refinement.css';
+import { inputFailure } from '../shared/bindings/answers';
+import { fabricNamed } from '../shared/fabric/fabric-data';
+import { createAnnouncer } from '../shared/panels/announcer';
+import { element } from '../shared/panels/element';
+import { createFailureBanner } from '../shared/panels/failure-banner';
+import { createKeyList } from '../shared/panels/keys-panel';
+import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createLinkWriter } from '../shared/state/link-writer';
+import { createStore, type Store, watch } from '../shared/state/store';
+import type { SolidsAnswer } from './bindings/refinement-module';
+import { createDetailPanel } from './panels/detail-panel';
+import { createFitPanel } from './panels/fit-panel';
+import { createGarmentBadges } from './panels/garment-badges';
+import { createGarmentLegend } from './panels/garment-legend';
+import { createGarmentPanel } from './panels/garment-panel';
+import { garmentSentence } from './panels/garment-sentence';
+import { createGarmentToolbar } from './panels/garment-toolbar';
+import { paintOf, upperEnd } from './panels/paints';
+import { objText, save } from './panels/saving';
+import { createStoryPanel } from './panels/story-panel';
+import type { ShownFrame } from './run/pane-set';
+import { Trio } from './run/trio';
+import { createGarmentStage, type GarmentStage } from './stage/garment-stage';
+import { decodeRefinementLink, encodeRefinementLink } from './state/refinement-link';
+import {
+  initialRefinementState,
+  PANES,
+  type PaneId,
+  type RefinementState,
+} from './state/refinement-state';
+import type { GarmentMesh } from './worker/garment-protocol';
+
+const KEYS: readonly [string, string][] = [
+  ['Space', 'play or pause'],
+  ['.', 'one frame'],
+  ['R', 'reset'],
+  ['E and H', 'edges of the faces, hanging vertices'],
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
+
+/** The picture of the three panes, all of one store. */
+class Picture {
+  stage: GarmentStage | null = null;
+  readonly meshes: Partial<Record<PaneId, GarmentMesh>> = {};
+
+  constructor(private readonly store: Store<RefinementState>) {}
+
+  showMesh(id: PaneId, mesh: GarmentMesh): void {
+    this.meshes[id] = mesh;
+    this.stage?.setMesh(PANES.indexOf(id), mesh);
+  }
+
+  showFrames(frames: ShownFrame[], solids: SolidsAnswer | null): void {
+    for (const { pane, buffer } of frames) this.stage?.showFrame(PANES.indexOf(pane), buffer);
+    if (solids) this.stage?.setSolids(solids);
+    this.widenScale();
+  }
+
+  /** Opens the stage where the browser can draw it. */
+  open(box: HTMLElement, canvas: HTMLCanvasElement, key: (name: string) => boolean): void {
+    const { store } = this;
+    try {
+      this.stage = createGarmentStage(box, canvas, {
+        press(pane, face) {
+          if (PANES[pane] === 'planned') store.set({ face });
+        },
+        key,
+        contextLost: () => store.set({ problem: inputFailure(PICTURE_LOST) }),
+      });
+    } catch {
+      replaceCanvas(canvas, 'The numbers');
+    }
+  }
+
+  /** Follows the store from now on. */
+  follow(): void {
+    const { store } = this;
+    watch(store, ['colour', 'ranges', 'plan', 'phase'], (state) => this.repaint(state));
+    watch(store, ['panes'], ({ panes }) => {
+      PANES.forEach((id, pane) => {
+        this.stage?.setShown(pane, panes[id].source !== 'resting');
+      });
+    });
+    watch(store, ['edges'], ({ edges }) => this.stage?.setEdges(edges));
+    watch(store, ['hanging'], ({ hanging }) => this.stage?.setHanging(hanging));
+    watch(store, ['fabric'], ({ fabric }) => this.stage?.setFabric(fabricNamed(fabric).id));
+    const planned = PANES.indexOf('planned');
+    watch(store, ['face', 'phase'], ({ face }) => this.stage?.setChosen(planned, face));
+  }
+
+  async savePicture(): Promise<void> {
+    const picture = await this.stage?.picture();
+    if (picture) save('pleat-refinement.png', picture);
+  }
+
+  saveObj(): void {
+    const pane = PANES.indexOf('planned');
+    if (!this.stage) return;
+    const text = objText(this.stage.positions(pane), this.stage.triangles(pane));
+    save('pleat-garment.obj', new Blob([text], { type: 'model/obj' }));
+  }
+
+  private repaint(state: RefinementState): void {
+    PANES.forEach((id, pane) => {
+      const mesh = this.meshes[id];
+      if (mesh) this.stage?.setPaint(pane, paintOf(state, mesh, state.plan, id === 'fine'));
+    });
+  }
+
+  /** The scale of a quantity reaches as far as any pane's values did, and does not shrink. */
+  private widenScale(): void {
+    const { colour, ranges } = this.store.get();
+    if (colour !== 'curvature' && colour !== 'distance') return;
+    const values = PANES.map((_, pane) => this.stage?.scalars(pane) ?? new Float32Array(0));
+    const most = Math.max(...values.map(upperEnd));
+    if (most > ranges[colour]) this.store.set({ ranges: { ...ranges, [colour]: most } });
+  }
+}
+
+function runActions(trio: Trio) {
+  return {
+    play: () => trio.play(),
+    pause: () => trio.pause(),
+    step: () => trio.step(),
+    reset: () => trio.reset(),
+    cancel: () => trio.cancel(),
+  };
+}
+
+/** The boxes of the view, and its canvas. */
+function createBoxes(root: HTMLElement) {
+  const messages = element('div');
+  const stageBox = element('section', { class: 'stage', 'aria-label': 'Garment on three meshes' });
+  const legendBox = element('div');
+  const toolBox = element('section', { class: 'toolbar', 'aria-label': 'Run' });
+  const panel = element('aside', { class: 'panel', 'aria-label': 'Refinement' });
+  const canvas = createStageCanvas(
+    stageBox,
+    'A walking figure in a garment, three times. Space plays, arrows turn the view, a press on a face tells why it is so fine.',
+  );
+  const left = element('div', { class: 'left' }, messages, stageBox, legendBox, toolBox);
+  root.replaceChildren(left, panel);
+  return { messages, stageBox, legendBox, toolBox, panel, canvas };
+}
+
+function createPanels(
+  { messages, stageBox, legendBox, toolBox, panel }: ReturnType<typeof createBoxes>,
+  store: Store<RefinementState>,
+  run: ReturnType<typeof runActions>,
+  picture: Picture,
+): void {
+  createGarmentBadges(stageBox, store);
+  createGarmentLegend(legendBox, store);
+  picture.follow();
+  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
+  watch(store, ['problem', 'phase'], showProblem);
+  createAnnouncer(messages, store, garmentSentence);
+  createGarmentToolbar(toolBox, store, {
+    ...run,
+    homeView: () => picture.stage?.homeView(),
+    savePicture: () => picture.savePicture(),
+    saveObj: () => picture.saveObj(),
+  });
+  createGarmentPanel(panel, store);
+  createFitPanel(panel, store, run);
+  createDetailPanel(panel, store, run);
+  createStoryPanel(panel, store, () => picture.meshes.planned ?? null);
+  createKeyList(panel, KEYS);
+}
+
+export function createRefinementView(root: HTMLElement, hash: string): View {
+  const first = decodeRefinementLink(hash);
+  const store = createStore<RefinementState>(initialRefinementState(first.link, first.problems));
+  let isShown = false;
+  const boxes = createBoxes(root);
+  const picture = new Picture(store);
+  const trio = new Trio(store, {
+    showMesh: (id, mesh) => picture.showMesh(id, mesh),
+    showFrames: (frames, solids) => picture.showFrames(frames, solids),
+  });
+  const run = runActions(trio);
+  picture.open(boxes.stageBox, boxes.canvas, (name) => {
+    const { playing, edges, hanging } = store.get();
+    const actions: Record<string, () => void> = {
+      ' ': playing ? run.pause : run.play,
+      '.': run.step,
+      r: run.reset,
+      e: () => store.set({ edges: !edges }),
+      h: () => store.set({ hanging: !hanging }),
+    };
+    actions[name]?.();
+    return name in actions;
+  });
+  createPanels(boxes, store, run, picture);
+
+  /** Where the link starts: the shown time, while it rests. */
+  const link = () => {
+    const state = store.get();
+    const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
+    return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
+  };
+  const writeLink = createLinkWriter(store, link, () => isShown && store.get().plan !== null);
+
+  return {
+    link,
+    open(newHash) {
+      const read = decodeRefinementLink(newHash);
+      const { problem } = initialRefinementState(read.link, read.problems);
+      store.set({ ...read.link, problem });
+    },
+    setShown(value) {
+      isShown = value;
+      if (!value) run.pause();
+      writeLink();
+    },
+    probe: {
+      state: () => store.get(),
+      positions: (pane = 0) => Array.from(picture.stage?.positions(pane) ?? []),
+      project: (vertex: number, pane = 0) => picture.stage?.project(vertex, pane),
+    },
+  };
+}

@@ -1,0 +1,23 @@
+// Starts the workers of garments: one for each pane, and one for the examples.
+import { type Asked, createAsked } from '../../shared/workers/asked';
+import type {
+  ExampleAnswers,
+  GarmentAnswers,
+  ToExample,
+  ToGarment,
+} from '../worker/garment-protocol';
+
+export type GarmentClient = Asked<ToGarment, GarmentAnswers>;
+export type ExampleClient = Asked<ToExample, ExampleAnswers>;
+
+export function startGarmentWorker(): GarmentClient {
+  return createAsked(
+    new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
+  );
+}
+
+export function startExampleWorker(): ExampleClient {
+  return createAsked(
+    new Worker(new URL('../worker/example-worker.ts', import.meta.url), { type: 'module' }),
+  );
+}

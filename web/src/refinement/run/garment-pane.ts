@@ -1,0 +1,102 @@
+// One pane of a garment: its worker, what that has loaded, and the buffers of its frames.
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
+import { FRAME_S } from '../state/garment-frames';
+import { SCENE_FILES } from '../state/garments';
+import type { FrameSource, GarmentPane, PaneId } from '../state/refinement-state';
+import type { Advance, Described, Loaded, ToGarment } from '../worker/garment-protocol';
+import type { RecordingHead } from '../worker/recording';
+import type { GarmentClient } from './garment-client';
+
+type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 'buffer'>;
+
+export interface GarmentContent {
+  sceneText: string;
+  /** Address of a record of that scene; null for none. */
+  recordUrl: string | null;
+}
+
+export interface PaneRun {
+  readonly id: PaneId;
+  source: FrameSource;
+  /** Head of the record that is loaded. */
+  recording(): RecordingHead | null;
+  isLoaded(): boolean;
+  /** Null when that is loaded already. */
+  load(content: GarmentContent): Promise<Loaded | null>;
+  reset(): Promise<void>;
+  advance(frame: number, how: Advance): Promise<{ fit: FitAnswer | null; ended: string | null }>;
+  describe(wish: Wish): Promise<Described>;
+  /** That frame is drawn from now on, and the one before may be overwritten. */
+  keep(described: Described): void;
+  /** Cost of the frames computed here [ms]. */
+  costs(costs: GarmentCosts): Pick<GarmentPane, 'msPerFrame' | 'parts'>;
+}
+
+export function createPaneRun(
+  id: PaneId,
+  client: GarmentClient,
+  fetchBytes: (url: string) => Promise<ArrayBuffer>,
+): PaneRun {
+  let request = 0;
+  let loadedContent = '';
+  let recording: RecordingHead | null = null;
+  let stepS = FRAME_S;
+  let shown: ArrayBuffer | null = null;
+  let spare: ArrayBuffer | null = null;
+
+  return {
+    id,
+    source: 'resting',
+    recording: () => recording,
+    isLoaded: () => loadedContent !== '',
+    async load({ sceneText, recordUrl }) {
+      const content = `${recordUrl} ${sceneText}`;
+      request += 1;
+      const own = request;
+      if (loadedContent === content) return null;
+      loadedContent = '';
+      // Frames that cannot be had are computed.
+      const bytes = recordUrl ? await fetchBytes(recordUrl).catch(() => null) : null;
+      const files = SCENE_FILES;
+      const answer = await client.ask(
+        {
+          type: 'load',
+          request: own,
+          fabricsText,
+          sceneText,
+          files,
+          recording: bytes,
+          frameS: FRAME_S,
+        },
+        bytes ? [bytes] : [],
+      );
+      if (own !== request) return null; // another one follows
+      loadedContent = content;
+      recording = answer.recording;
+      stepS = answer.summary.step_s;
+      shown = null;
+      spare = null;
+      return answer;
+    },
+    async reset() {
+      await client.ask({ type: 'reset', request });
+    },
+    advance: (frame, how) => client.ask({ type: 'advance', request, frame, how }),
+    describe(wish) {
+      const buffer = spare;
+      spare = null;
+      return client.ask({ type: 'describe', request, ...wish, buffer }, buffer ? [buffer] : []);
+    },
+    keep({ buffer }) {
+      spare = shown;
+      shown = buffer;
+    },
+    costs({ steps_timed: nSteps, steps_ms: ms, parts_ms: partsMs }) {
+      if (nSteps === 0) return { msPerFrame: null, parts: [] };
+      const perFrame = Math.max(1, Math.round(FRAME_S / stepS)) / nSteps;
+      const parts = Object.entries(partsMs).map(([name, part]) => ({ name, ms: part * perFrame }));
+      return { msPerFrame: ms * perFrame, parts };
+    },
+  };
+}

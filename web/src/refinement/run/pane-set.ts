@@ -1,0 +1,217 @@
+// The three panes of a garment, which show one time: what each loads, how it gets to a frame, and its numbers.
+import { frameViews } from '../../shared/bindings/frame';
+import type { Store } from '../../shared/state/store';
+import type { SolidsAnswer } from '../bindings/refinement-module';
+import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';
+import type { PlanFile } from '../state/plan-file';
+import {
+  EMPTY_PANE,
+  type GarmentPane,
+  PANES,
+  type PaneId,
+  type RefinementState,
+} from '../state/refinement-state';
+import type { Advance, Described, GarmentMesh, GarmentScalar } from '../worker/garment-protocol';
+import type { GarmentClient } from './garment-client';
+import { createPaneRun, type PaneRun } from './garment-pane';
+import { contentOf } from './pane-content';
+import type { Fetched } from './planner';
+
+/** A run without records ends here [s]. */
+const LONGEST_S = 10;
+
+export interface ShownFrame {
+  pane: PaneId;
+  buffer: ArrayBuffer;
+}
+
+export interface TrioView {
+  showMesh(pane: PaneId, mesh: GarmentMesh): void;
+  /** Frames of one time. Buffers stay valid until the next call. */
+  showFrames(frames: ShownFrame[], solids: SolidsAnswer | null): void;
+}
+
+/** What the panes start and fetch with. */
+export interface PaneParts {
+  start(): GarmentClient;
+  fetchBytes: Fetched;
+}
+
+/** False when something else is wanted by now: then nothing is shown any more. */
+export type IsCurrent = () => boolean;
+
+function scalarOf({ colour }: RefinementState): GarmentScalar | null {
+  return colour === 'curvature' || colour === 'distance' ? colour : null;
+}
+
+export class PaneSet {
+  private readonly fine: PaneRun;
+  private readonly others: PaneRun[];
+  private readonly panes: PaneRun[];
+  /** The frame that is shown. */
+  private at = 0;
+  /** The computed panes show samples of the fine one, and start anew when they play. */
+  private isPreview = false;
+
+  constructor(
+    private readonly store: Store<RefinementState>,
+    private readonly view: TrioView,
+    { start, fetchBytes }: PaneParts,
+  ) {
+    const make = (id: PaneId) => createPaneRun(id, start(), fetchBytes);
+    this.others = PANES.filter((id) => id !== 'fine').map(make);
+    this.fine = make('fine');
+    this.panes = [...this.others, this.fine];
+  }
+
+  isLoaded(): boolean {
+    return this.panes.every((pane) => pane.isLoaded());
+  }
+
+  isComputed(): boolean {
+    return this.panes.some(({ source }) => source === 'computed');
+  }
+
+  isAtEnd(): boolean {
+    return this.at >= this.endFrame();
+  }
+
+  endFrame(): number {
+    const lengths = this.panes.map(
+      (pane) => pane.recording()?.n_frames ?? Number.POSITIVE_INFINITY,
+    );
+    return Math.min(...lengths, 1 + Math.round(LONGEST_S / FRAME_S)) - 1;
+  }
+
+  /** The time that is shown [s]. */
+  timeS(): number {
+    return this.at * FRAME_S;
+  }
+
+  async load(plan: PlanFile, isCurrent: IsCurrent): Promise<void> {
+    await Promise.all(this.panes.map((pane) => this.loadPane(pane, plan, isCurrent)));
+    if (!isCurrent()) return;
+    const { computeFine } = this.store.get();
+    for (const pane of this.panes) {
+      const isResting = pane === this.fine && !computeFine;
+      pane.source = pane.recording() ? 'recorded' : isResting ? 'resting' : 'computed';
+    }
+    this.isPreview = false;
+  }
+
+  /** The first picture: where the link says if frames come with the page, else at the beginning. */
+  async start(isCurrent: IsCurrent): Promise<void> {
+    const first = Math.min(Math.round(this.store.get().startS / FRAME_S), this.endFrame());
+    const isComputed = this.isComputed();
+    this.isPreview = isComputed && this.fine.source === 'recorded';
+    await this.restart(isComputed && !this.isPreview ? 0 : first, isCurrent);
+  }
+
+  /** Everything anew, and then at that frame, to which nothing is computed. */
+  async restart(frame: number, isCurrent: IsCurrent): Promise<void> {
+    this.store.set({ fit: null });
+    await Promise.all(this.panes.map((pane) => pane.reset()));
+    if (!isCurrent()) return;
+    this.at = frame;
+    await this.advance(({ source }) => (source === 'recorded' ? 'recorded' : 'still'), isCurrent);
+    await this.describe(true, isCurrent);
+  }
+
+  /** Leaves the samples, if they are what is shown: the panes are computed from the beginning. */
+  async leavePreview(isCurrent: IsCurrent): Promise<boolean> {
+    if (!this.isPreview) return false;
+    this.isPreview = false;
+    await this.restart(0, isCurrent);
+    return true;
+  }
+
+  /** Goes on by some frames, by one at most when they are computed. Why a run ended, or null. */
+  goOn(nFrames: number, isCurrent: IsCurrent): Promise<string | null> {
+    this.at = Math.min(this.endFrame(), this.at + (this.isComputed() ? 1 : nFrames));
+    const how = ({ source }: PaneRun): Advance => {
+      if (source === 'recorded') return 'recorded';
+      return source === 'computed' ? 'stepped' : 'still';
+    };
+    return this.advance(how, isCurrent);
+  }
+
+  /** The shown time in all panes, with numbers where they are due. */
+  async describe(wantsNumbers: boolean, isCurrent: IsCurrent): Promise<void> {
+    const last = await this.describePane(this.fine, null, wantsNumbers);
+    const isInStep = this.fine.source !== 'resting';
+    const reference = isInStep ? frameViews(last.buffer).positions.slice() : null;
+    const answers = await Promise.all(
+      this.others.map((pane) => this.describePane(pane, reference, wantsNumbers)),
+    );
+    if (!isCurrent()) return;
+    const shown = this.panes.map((pane, index) => ({ pane, described: answers[index] ?? last }));
+    if (wantsNumbers) for (const { pane, described } of shown) this.tell(pane, described);
+    this.view.showFrames(
+      shown.map(({ pane, described }) => ({ pane: pane.id, buffer: described.buffer })),
+      answers[0]?.solids ?? null,
+    );
+    for (const { pane, described } of shown) pane.keep(described);
+    this.store.set({ timeS: this.timeS() });
+  }
+
+  private set(id: PaneId, patch: Partial<GarmentPane>): void {
+    const { panes } = this.store.get();
+    this.store.set({ panes: { ...panes, [id]: { ...panes[id], ...patch } } });
+  }
+
+  private async loadPane(pane: PaneRun, plan: PlanFile, isCurrent: IsCurrent): Promise<void> {
+    const loaded = await pane.load(contentOf(pane.id, this.store.get(), plan));
+    if (!loaded || !isCurrent()) return;
+    this.view.showMesh(pane.id, loaded.mesh);
+    const nVertices = loaded.summary.n_vertices;
+    const msPerFrame = loaded.recording?.ms_per_frame ?? null;
+    const { source } = this.store.get().panes[pane.id];
+    this.set(pane.id, { ...EMPTY_PANE, source, nVertices, msPerFrame });
+  }
+
+  private async advance(
+    how: (pane: PaneRun) => Advance,
+    isCurrent: IsCurrent,
+  ): Promise<string | null> {
+    const reasons = await Promise.all(
+      this.panes.map(async (pane) => {
+        const { fit, ended } = await pane.advance(this.at, how(pane));
+        if (fit && isCurrent()) this.store.set({ fit });
+        return ended && `${pane.id}: ${ended}`;
+      }),
+    );
+    return reasons.find((reason) => reason !== null) ?? null;
+  }
+
+  private describePane(
+    pane: PaneRun,
+    reference: Float32Array | null,
+    wantsNumbers: boolean,
+  ): Promise<Described> {
+    const state = this.store.get();
+    const isOther = pane !== this.fine;
+    const isSampled = this.isPreview && isOther && pane.source === 'computed';
+    const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
+    return pane.describe({
+      scalar: scalarOf(state),
+      reference: isOther && isCompared ? reference : null,
+      fineLevel: FINE_LEVEL,
+      takesSample: isSampled,
+      timeS: this.timeS(),
+      wantsAll: wantsNumbers && !state.playing,
+    });
+  }
+
+  /** Puts the numbers of one pane into the state. */
+  private tell(pane: PaneRun, { errorM, surfaceM, faults, costs }: Described): void {
+    const isSampled = this.isPreview && pane.source === 'computed';
+    const patch: Partial<GarmentPane> = {
+      errorM: isSampled ? null : errorM,
+      surfaceM: isSampled ? null : surfaceM,
+      faults: isSampled ? null : faults,
+      source: isSampled ? 'sampled' : pane.source,
+    };
+    if (pane.source === 'computed' && costs) Object.assign(patch, pane.costs(costs));
+    this.set(pane.id, patch);
+  }
+}

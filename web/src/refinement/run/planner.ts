@@ -1,0 +1,195 @@
+// Plans for a garment: the usual one comes with the page, others are made of the recorded example and of
+// motions that are run here.
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import { FINE_LEVEL, FRAME_S, KEPT_OF, PATTERNS, SEEN_S, SETTLED_S } from '../state/garment-frames';
+import {
+  exampleName,
+  type GarmentId,
+  MOTIONS,
+  type MotionId,
+  SCENE_FILES,
+  sceneText,
+  usualFabric,
+} from '../state/garments';
+import type { PlanFile } from '../state/plan-file';
+import { DEMANDS, type RefinementState } from '../state/refinement-state';
+import type { PlanWish } from '../worker/garment-protocol';
+import { type ExampleClient, startExampleWorker } from './garment-client';
+import { exampleUrls } from './records';
+
+export type Fetched = (url: string) => Promise<ArrayBuffer>;
+
+export async function fetched(url: string): Promise<ArrayBuffer> {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
+  return answer.arrayBuffer();
+}
+
+export type Wish = Pick<
+  RefinementState,
+  'garment' | 'fabric' | 'further' | 'rule' | 'demand' | 'budget'
+>;
+
+export function isUsual({ further, rule, demand, budget }: Wish): boolean {
+  if (further.length > 0) return false;
+  return rule === 'budget' ? budget === null : demand === DEMANDS.usual;
+}
+
+/** Hears how much of an example has run. */
+export type Progress = (motion: MotionId, share: number) => void;
+
+export interface Planner {
+  /** Rejects when an example cannot be had. */
+  plan(wish: Wish, progress?: Progress): Promise<PlanFile>;
+  /** Gives up what is being planned; the next plan starts anew. */
+  cancel(): void;
+}
+
+/** What the worker has, or is getting. */
+interface Opened extends Pick<Wish, 'garment' | 'fabric'> {
+  further: MotionId[];
+  ready: Promise<unknown>;
+}
+
+/** Only what is missing in `opened` has to be run for `wish`. */
+function isPartOf(opened: Opened, { garment, fabric, further }: Wish): boolean {
+  return (
+    opened.garment === garment &&
+    (opened.further.length === 0 || opened.fabric === fabric) &&
+    opened.further.every((motion, index) => motion === further[index])
+  );
+}
+
+/** The frames of an example that count, when it is run here [s]. */
+interface Seen {
+  fromS: number;
+  toS: number;
+}
+
+async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: Fetched) {
+  const urls = exampleUrls(garment);
+  if (!urls) throw new Error('no example of this garment comes with the page');
+  const [features, frames] = await Promise.all([
+    fetchBytes(urls.features),
+    fetchBytes(urls.frames),
+  ]);
+  const { value: motion } = MOTIONS[0];
+  const fabric = usualFabric(garment);
+  await to.ask(
+    {
+      type: 'open',
+      fabricsText,
+      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
+      files: SCENE_FILES,
+      name: exampleName(garment, motion, fabric),
+      nPatterns: PATTERNS,
+      features,
+      frames,
+    },
+    [features, frames],
+  );
+}
+
+class ExamplePlanner implements Planner {
+  private request = 0; // number of the last question
+  private client: ExampleClient | null = null;
+  private opened: Opened | null = null;
+  private progress: Progress = () => undefined;
+
+  constructor(
+    private readonly start: () => ExampleClient,
+    private readonly fetchBytes: Fetched,
+    private readonly seen: Seen,
+  ) {}
+
+  async plan(wish: Wish, progress: Progress = () => undefined): Promise<PlanFile> {
+    const { garment, rule, demand, budget } = wish;
+    this.progress = progress;
+    if (this.opened && !isPartOf(this.opened, wish)) this.cancel();
+    if (isUsual(wish)) {
+      const plan = await this.usualPlan(garment);
+      if (plan) return plan;
+    }
+    const client = await this.withExamples(wish);
+    const asked: PlanWish =
+      rule === 'budget' && budget !== null ? { max_vertices: budget } : { demand };
+    const request = this.nextRequest();
+    return (await client.ask({ type: 'plan', request, wish: asked })).plan;
+  }
+
+  cancel(): void {
+    this.client?.terminate();
+    this.client = null;
+    this.opened = null;
+  }
+
+  private nextRequest(): number {
+    this.request += 1;
+    return this.request;
+  }
+
+  private async usualPlan(garment: GarmentId): Promise<PlanFile | null> {
+    const urls = exampleUrls(garment);
+    if (!urls) return null;
+    return JSON.parse(new TextDecoder().decode(await this.fetchBytes(urls.plan))) as PlanFile;
+  }
+
+  /** The worker, once it has all examples. */
+  private async withExamples(wish: Wish): Promise<ExampleClient> {
+    const { garment, fabric, further } = wish;
+    this.client ??= this.start();
+    const { client } = this;
+    const ready = () => openExample(client, garment, this.fetchBytes);
+    this.opened ??= { garment, fabric, further: [], ready: ready() };
+    const { opened } = this;
+    opened.fabric = fabric;
+    for (const motion of further.slice(opened.further.length)) {
+      opened.ready = opened.ready.then(() => this.run(client, wish, motion));
+      opened.further.push(motion);
+    }
+    try {
+      await opened.ready;
+    } catch (error) {
+      if (this.client === client) this.cancel();
+      throw error;
+    }
+    return client;
+  }
+
+  /** Runs one further example to its end. */
+  private async run(
+    client: ExampleClient,
+    { garment, fabric }: Wish,
+    motion: MotionId,
+  ): Promise<void> {
+    this.progress(motion, 0);
+    let { share } = await client.ask({
+      type: 'begin',
+      request: this.nextRequest(),
+      fabricsText,
+      sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
+      files: SCENE_FILES,
+      name: exampleName(garment, motion, fabric),
+      nPatterns: PATTERNS,
+      frameS: FRAME_S,
+      ...this.seen,
+      keptOf: KEPT_OF,
+    });
+    while (share < 1) {
+      this.progress(motion, share);
+      share = (await client.ask({ type: 'goOn', request: this.nextRequest() })).share;
+    }
+  }
+}
+
+export function createPlanner(
+  start = startExampleWorker,
+  fetchBytes: Fetched = fetched,
+  seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
+): Planner {
+  const planner = new ExamplePlanner(start, fetchBytes, seen);
+  return {
+    plan: (wish, progress) => planner.plan(wish, progress),
+    cancel: () => planner.cancel(),
+  };
+}

@@ -1,0 +1,234 @@
+// Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
+import {
+  brokenSentence,
+  describe,
+  type Failure,
+  inputFailure,
+  internalFailure,
+  quoted,
+} from '../../shared/bindings/answers';
+import type { Store } from '../../shared/state/store';
+import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { FRAME_S } from '../state/garment-frames';
+import type { MotionId } from '../state/garments';
+import type { PlanFile } from '../state/plan-file';
+import type { Doing, RefinementState } from '../state/refinement-state';
+import { FramePace } from './frame-pace';
+import { startGarmentWorker } from './garment-client';
+import { type IsCurrent, type PaneParts, PaneSet, type TrioView } from './pane-set';
+import { createPlanner, fetched, type Planner } from './planner';
+
+/** What it takes to run anywhere. */
+export interface TrioParts extends PaneParts {
+  planner: Planner;
+  /** Calls back with the next picture. */
+  later(callback: () => void): void;
+  nowMs(): number;
+}
+
+const BROWSER: TrioParts = {
+  start: startGarmentWorker,
+  fetchBytes: fetched,
+  planner: createPlanner(),
+  later: (callback) => requestAnimationFrame(callback),
+  nowMs: () => performance.now(),
+};
+
+function failureOf(error: unknown): Failure {
+  if (error instanceof Refused) return error.failure;
+  const reason = describe(error);
+  if (error instanceof BrokenWorker) return internalFailure(brokenSentence('The garment', reason));
+  return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
+}
+
+export class Trio {
+  private readonly panes: PaneSet;
+  private readonly pace: FramePace;
+  private wanted = 0; // counts loads: what belongs to an earlier one is dropped
+  private isBusy = false;
+  private isAskedAgain = false; // for colours, while busy
+  private isTakingBack = false; // a wish that was given up
+  private isBuilt = false; // all panes are as wanted, but for the plan
+  private planned: readonly MotionId[] = []; // further examples of the plan that is there
+
+  constructor(
+    private readonly store: Store<RefinementState>,
+    view: TrioView,
+    private readonly parts: TrioParts = BROWSER,
+  ) {
+    this.panes = new PaneSet(store, view, parts);
+    this.pace = new FramePace(parts.nowMs);
+    store.subscribe((state, previous) => this.follow(state, previous));
+    void this.load('all');
+  }
+
+  play(): void {
+    const { phase } = this.store.get();
+    if (phase !== 'ready' && phase !== 'loading') return;
+    const play = () => this.store.set({ playing: true });
+    if (this.panes.isAtEnd()) void this.restart().then(play);
+    else play();
+  }
+
+  pause(): void {
+    this.store.set({ playing: false });
+    this.recolour();
+  }
+
+  step(): void {
+    this.store.set({ playing: false });
+    if (this.store.get().phase === 'ready') void this.alone((isCurrent) => this.goOn(1, isCurrent));
+  }
+
+  reset(): void {
+    const { phase } = this.store.get();
+    if (phase === 'loading' || phase === 'broken') return;
+    this.store.set({ playing: false, phase: 'ready', problem: null });
+    void this.idle().then(() => this.restart());
+  }
+
+  /** Gives up what is on its way, if that can be given up. */
+  cancel(): void {
+    const { doing, plan } = this.store.get();
+    if (!doing?.canCancel) return;
+    this.wanted += 1;
+    this.parts.planner.cancel();
+    if (!plan || !this.isBuilt) return this.store.set({ further: [] }); // the rest is still wanted
+    const budget = plan.vertex_budget ?? null;
+    const demand = plan.detail_demand ?? this.store.get().demand;
+    const rule = budget === null ? 'demand' : 'budget';
+    const { planned: further } = this;
+    this.takeBack({ further, rule, demand, budget, phase: 'ready', doing: null });
+  }
+
+  private follow(state: RefinementState, previous: RefinementState): void {
+    const differs = (...keys: (keyof RefinementState)[]) =>
+      keys.some((key) => !Object.is(state[key], previous[key]));
+    if (state.phase === 'broken' || this.isTakingBack) return;
+    if (differs('garment', 'motion', 'fabric', 'useRecords', 'computeFine', 'startS'))
+      void this.load('all');
+    else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
+    else if (differs('colour')) this.recolour();
+    if (!state.playing || previous.playing) return;
+    this.pace.start();
+    this.parts.later(() => this.tick());
+  }
+
+  /** Everything that is wanted, then its first picture. */
+  private async load(what: 'all' | 'plan'): Promise<void> {
+    this.wanted += 1;
+    const { wanted } = this;
+    const isCurrent = () => wanted === this.wanted;
+    if (what === 'all') this.isBuilt = false;
+    const words = this.isBuilt ? 'Planning' : 'Fetching and building three meshes';
+    const doing: Doing = { what: words, canCancel: this.isBuilt, share: null };
+    this.store.set({ phase: 'loading', playing: false, doing });
+    try {
+      await this.bring(doing, isCurrent);
+      if (!isCurrent()) return;
+      this.isBuilt = true;
+      this.store.set({ phase: 'ready', doing: null });
+    } catch (error) {
+      if (isCurrent()) this.giveUp(error);
+    }
+  }
+
+  /** Makes the plan, has the panes load what it says, and shows the first picture. */
+  private async bring(doing: Doing, isCurrent: IsCurrent): Promise<void> {
+    const { further } = this.store.get();
+    const plan = await this.plan(isCurrent);
+    if (!isCurrent()) return;
+    this.store.set({ plan, doing, face: null, fit: null });
+    this.planned = further;
+    await this.panes.load(plan, isCurrent);
+    if (!isCurrent()) return;
+    const nFine = this.store.get().panes.fine.nVertices;
+    const budgetRange: [number, number] = [plan.base_mesh.vertices, nFine];
+    this.store.set({ budgetRange, endS: this.panes.endFrame() * FRAME_S });
+    await this.idle();
+    await this.panes.start(isCurrent);
+  }
+
+  private plan(isCurrent: IsCurrent): Promise<PlanFile> {
+    return this.parts.planner.plan(this.store.get(), (motion, share) => {
+      const what = `Running the ${motion.replaceAll('_', ' ')} on the fine mesh`;
+      if (isCurrent()) this.store.set({ doing: { what, canCancel: true, share } });
+    });
+  }
+
+  /** What could not be loaded is told; what is left is shown. */
+  private giveUp(error: unknown): void {
+    const isBroken = error instanceof BrokenWorker;
+    const problem = failureOf(error);
+    // When a link's further examples cannot be had, the rest of it is shown.
+    if (!this.isBuilt && !isBroken && this.store.get().further.length > 0)
+      return this.store.set({ further: [], problem });
+    if (this.isBuilt) this.takeBack({ further: this.planned });
+    const phase = isBroken ? 'broken' : this.panes.isLoaded() ? 'ready' : 'stopped';
+    this.store.set({ phase, doing: null, problem });
+  }
+
+  private takeBack(patch: Partial<RefinementState>): void {
+    this.isTakingBack = true;
+    this.store.set(patch);
+    this.isTakingBack = false;
+  }
+
+  /** What runs meanwhile comes to its end. */
+  private async idle(): Promise<void> {
+    while (this.isBusy) await new Promise<void>((resolve) => this.parts.later(resolve));
+  }
+
+  private restart(): Promise<void> {
+    return this.alone((isCurrent) => this.panes.restart(0, isCurrent));
+  }
+
+  /** Goes on by some frames; while it does not play, with all numbers. */
+  private async goOn(nFrames: number, isCurrent: IsCurrent): Promise<void> {
+    if (await this.panes.leavePreview(isCurrent)) return;
+    const isSingle = !this.store.get().playing;
+    if (this.panes.isAtEnd()) return this.store.set({ playing: false });
+    const ended = await this.panes.goOn(nFrames, isCurrent);
+    await this.panes.describe(this.pace.areNumbersDue(isSingle || ended !== null), isCurrent);
+    if (ended === null || !isCurrent()) return;
+    const what = `The run stopped at ${this.panes.timeS().toFixed(2)} s. ${ended}. The last good frame stays; reset to start again.`;
+    this.store.set({ phase: 'stopped', playing: false, problem: inputFailure(what) });
+  }
+
+  /** One thing at a time; what fails is told. */
+  private async alone(work: (isCurrent: IsCurrent) => Promise<void>): Promise<void> {
+    if (this.isBusy) return;
+    this.isBusy = true;
+    const { wanted } = this;
+    const isCurrent = () => wanted === this.wanted;
+    try {
+      await work(isCurrent);
+    } catch (error) {
+      const phase = error instanceof BrokenWorker ? 'broken' : 'stopped';
+      const problem = failureOf(error);
+      if (isCurrent()) this.store.set({ phase, playing: false, doing: null, problem });
+    }
+    this.isBusy = false;
+    if (!this.isAskedAgain) return;
+    this.isAskedAgain = false;
+    this.recolour();
+  }
+
+  private recolour(): void {
+    if (this.store.get().phase !== 'ready') return;
+    if (this.isBusy) this.isAskedAgain = true;
+    else void this.alone((isCurrent) => this.panes.describe(true, isCurrent));
+  }
+
+  private tick(): void {
+    const { playing, speed, phase } = this.store.get();
+    if (!playing) return;
+    this.pace.tick(speed);
+    const count = this.pace.due();
+    if (count > 0 && !this.isBusy && phase === 'ready') {
+      this.pace.take(count);
+      void this.alone((isCurrent) => this.goOn(count, isCurrent));
+    }
+    this.parts.later(() => this.tick());
+  }
+}

@@ -1,0 +1,236 @@
+// One garment in three panes, each on a mesh of its own, on the same figure: one renderer, one camera
+// that goes along. It gets frames and settings, never the workers, and draws only when something changed.
+import { type PerspectiveCamera, Vector3 } from 'three';
+import { lookOf } from '../../shared/fabric/fabric-look';
+import type { Box } from '../../shared/stage/grab';
+import { createPaneStage, type PaneStage } from '../../shared/stage/pane-stage';
+import { pick } from '../../shared/stage/pick';
+import type { SolidsAnswer } from '../bindings/refinement-module';
+import type { GarmentMesh } from '../worker/garment-protocol';
+import { createGradedCloth, type GradedCloth, type Paint } from './graded-cloth';
+import { createMannequin } from './mannequin';
+
+export interface GarmentStageEvents {
+  /** A press that was no drag: the face of that pane, or null beside the cloth. */
+  press(pane: number, face: number | null): void;
+  /** Keys that are not the camera's. True when used. */
+  key(name: string): boolean;
+  contextLost(): void;
+}
+
+export interface GarmentStage {
+  setMesh(pane: number, mesh: GarmentMesh): void;
+  showFrame(pane: number, buffer: ArrayBuffer): void;
+  setSolids(solids: SolidsAnswer): void;
+  /** A cloth that does not move with its figure is left out. */
+  setShown(pane: number, isShown: boolean): void;
+  setPaint(pane: number, paint: Paint): void;
+  setEdges(isShown: boolean): void;
+  setHanging(isShown: boolean): void;
+  setFabric(fabricId: number): void;
+  setChosen(pane: number, face: number | null): void;
+  homeView(): void;
+  redraw(): void;
+  positions(pane: number): Float32Array;
+  triangles(pane: number): Uint32Array;
+  scalars(pane: number): Float32Array;
+  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+  project(vertex: number, pane: number): { x: number; y: number };
+  /** The picture as it is, as a PNG. */
+  picture(): Promise<Blob | null>;
+}
+
+const N_PANES = 3;
+
+/** Direction of the first view: the front, and a little of the nearer side [rad]. */
+const AZIMUTH = 1.02;
+const POLAR = 1.36;
+
+/** What has to be seen of a walking person [m]: the middle above the floor, half of the width, height. */
+const MIDDLE_M = 0.78;
+const SEEN_ACROSS_M = 0.5;
+const SEEN_UP_M = 0.86;
+
+/** Radius of the light and the shadows around the person [m]. */
+const LIT_RADIUS_M = 0.8;
+
+/** A press that moved farther is a drag [CSS pixels], or lasted longer [ms]. */
+const PRESS_REACH = 5;
+const PRESS_MS = 500;
+
+/** Hears a press that was no drag, by where it was on the page. */
+function listenToPresses(canvas: HTMLCanvasElement, onPress: (x: number, y: number) => void): void {
+  let pressed: { x: number; y: number; timeMs: number } | null = null;
+  canvas.addEventListener('pointerdown', ({ clientX: x, clientY: y, timeStamp, isPrimary }) => {
+    pressed = isPrimary ? { x, y, timeMs: timeStamp } : null;
+  });
+  canvas.addEventListener('pointerup', ({ clientX: x, clientY: y, timeStamp }) => {
+    const start = pressed;
+    pressed = null;
+    if (!start || timeStamp - start.timeMs > PRESS_MS) return;
+    if (Math.hypot(x - start.x, y - start.y) <= PRESS_REACH) onPress(x, y);
+  });
+}
+
+/** The face of a cloth that is seen at a point of the page; null beside the cloth. */
+function faceAt(
+  cloth: GradedCloth,
+  camera: PerspectiveCamera,
+  box: Box,
+  x: number,
+  y: number,
+): number | null {
+  const across = (2 * (x - box.left)) / box.width - 1;
+  const up = 1 - (2 * (y - box.top)) / box.height;
+  const ahead = new Vector3(across, up, 0.5).unproject(camera).sub(camera.position).normalize();
+  const eye = camera.position.toArray();
+  const hit = pick(cloth.positions(), cloth.triangles(), eye, ahead.toArray());
+  return hit ? cloth.faceOf(hit.triangle) : null;
+}
+
+/** The first view of a person who stands there. */
+function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
+  surroundings.frame(centre, LIT_RADIUS_M, 0);
+  const view = { centre, radius: SEEN_ACROSS_M, azimuth: AZIMUTH, polar: POLAR };
+  control.frame({ ...view, upright: SEEN_UP_M / SEEN_ACROSS_M });
+}
+
+/** The three clothes on their figure, and what is drawn of them. */
+class Stage {
+  readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
+  readonly mannequin = createMannequin();
+  readonly leftOut: boolean[] = [];
+  readonly stage: PaneStage;
+  areEdgesShown = false;
+  areHangingShown = false;
+  onPicture: ((picture: Blob | null) => void) | null = null;
+  private isFramed = false;
+  private colours = { line: '#000000', dot: '#000000' };
+
+  constructor(
+    parent: HTMLElement,
+    private readonly canvas: HTMLCanvasElement,
+    events: GarmentStageEvents,
+  ) {
+    this.stage = createPaneStage(parent, canvas, {
+      fov: 30,
+      objects: [this.mannequin.object, ...this.clothes.map(({ object }) => object)],
+      isReady: () => this.isFramed,
+      prepare: (pane) => this.prepare(pane),
+      drawn: () => this.drawn(),
+      themed: (colour) => this.setTheme(colour),
+      key: events.key,
+      contextLost: events.contextLost,
+    });
+    const { grid, camera } = this.stage;
+    grid.set(N_PANES, N_PANES); // side by side, as people do: they are higher than wide
+    listenToPresses(canvas, (x, y) => {
+      const pane = grid.paneAt({ x, y });
+      const cloth = this.clothes[pane];
+      events.press(pane, cloth ? faceAt(cloth, camera, grid.boxOf(pane), x, y) : null);
+    });
+    this.stage.open();
+  }
+
+  showLines(): void {
+    for (const cloth of this.clothes) {
+      cloth.setEdges(this.areEdgesShown, this.colours.line);
+      cloth.setHanging(this.areHangingShown, this.colours.dot);
+    }
+    this.stage.redraw();
+  }
+
+  follow(pelvis: Vector3): void {
+    // The height stays: who squats goes down in the picture.
+    const centre = new Vector3(pelvis.x, MIDDLE_M, pelvis.z);
+    if (!this.isFramed) frame(this.stage, centre);
+    this.isFramed = true;
+    this.stage.control.follow(centre);
+    this.stage.surroundings.follow(centre.x, centre.z);
+  }
+
+  positions(pane: number): Float32Array {
+    return this.clothes[pane]?.positions() ?? new Float32Array(0);
+  }
+
+  private prepare(pane: number): void {
+    this.clothes.forEach((cloth, other) => {
+      const isHere = other === pane && !this.leftOut[other];
+      cloth.object.visible = isHere && cloth.positions().length > 0;
+    });
+    this.clothes[pane]?.update();
+  }
+
+  private drawn(): void {
+    if (this.onPicture) this.canvas.toBlob(this.onPicture);
+    this.onPicture = null;
+  }
+
+  private setTheme(colour: (name: string) => string): void {
+    this.mannequin.setColour(colour('--stage-body'));
+    this.colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
+    this.showLines();
+  }
+}
+
+/** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
+export function createGarmentStage(
+  parent: HTMLElement,
+  canvas: HTMLCanvasElement,
+  events: GarmentStageEvents,
+): GarmentStage {
+  const own = new Stage(parent, canvas, events);
+  const { clothes, stage } = own;
+  const { redraw } = stage;
+  return {
+    setMesh(pane, mesh) {
+      clothes[pane]?.setMesh(mesh);
+      redraw();
+    },
+    showFrame(pane, buffer) {
+      clothes[pane]?.setFrame(buffer);
+      redraw();
+    },
+    setSolids({ cones, pelvis_m: pelvis }) {
+      own.mannequin.setCones(cones);
+      if (pelvis) own.follow(new Vector3(...pelvis));
+      redraw();
+    },
+    setShown(pane, isShown) {
+      own.leftOut[pane] = !isShown;
+      redraw();
+    },
+    setPaint(pane, paint) {
+      clothes[pane]?.setPaint(paint);
+      redraw();
+    },
+    setEdges(isShown) {
+      own.areEdgesShown = isShown;
+      own.showLines();
+    },
+    setHanging(isShown) {
+      own.areHangingShown = isShown;
+      own.showLines();
+    },
+    setFabric(fabricId) {
+      for (const cloth of clothes) cloth.setLook(lookOf(fabricId));
+      redraw();
+    },
+    setChosen(pane, face) {
+      clothes[pane]?.setChosen(face);
+      redraw();
+    },
+    homeView: stage.control.home,
+    redraw,
+    positions: (pane) => own.positions(pane),
+    triangles: (pane) => clothes[pane]?.triangles() ?? new Uint32Array(0),
+    scalars: (pane) => clothes[pane]?.scalars() ?? new Float32Array(0),
+    project: (vertex, pane) => stage.grid.project(own.positions(pane), vertex, pane),
+    picture() {
+      return new Promise((resolve) => {
+        own.onPicture = resolve;
+        redraw();
+      });
+    },
+  };
+}

@@ -1,0 +1,22 @@
+// What the view of refinement and the program that makes its records agree on.
+
+/** Level of the mesh that all others are compared with, and the finest level of a plan. */
+export const FINE_LEVEL = 2;
+
+/** Time between frames [s]. */
+export const FRAME_S = 1 / 30;
+
+/** Frames of an example count from when the cloth has settled into the motion [s]. */
+export const SETTLED_S = 2;
+
+/** How long an example that is run on this device is watched: the longest cycle of a motion [s]. */
+export const SEEN_S = 3;
+
+/** One in so many of an example's frames is kept for a plan's limits. */
+export const KEPT_OF = 3;
+
+/** Patterns of a plan. */
+export const PATTERNS = 3;
+
+/** The detail demand of the plan that comes with the page. */
+export const USUAL_DEMAND = 3;

@@ -1,0 +1,85 @@
+// The garments and motions on offer, and the scene of each pane.
+import squat from '../../../../assets/motions/squat.json?raw';
+import turn from '../../../../assets/motions/turn.json?raw';
+import walkFast from '../../../../assets/motions/walk_fast.json?raw';
+import walkNormal from '../../../../assets/motions/walk_normal.json?raw';
+import skirtFastWalk from '../../../../assets/scenes/garments/skirt_fast_walk.json?raw';
+import skirtSquat from '../../../../assets/scenes/garments/skirt_squat.json?raw';
+import skirtTurn from '../../../../assets/scenes/garments/skirt_turn.json?raw';
+import skirtWalk from '../../../../assets/scenes/garments/skirt_walk.json?raw';
+import trousersFastWalk from '../../../../assets/scenes/garments/trousers_fast_walk.json?raw';
+import trousersSquat from '../../../../assets/scenes/garments/trousers_squat.json?raw';
+import trousersTurn from '../../../../assets/scenes/garments/trousers_turn.json?raw';
+import trousersWalk from '../../../../assets/scenes/garments/trousers_walk.json?raw';
+import type { HandedFiles } from '../bindings/refinement-module';
+import type { PlanFile } from './plan-file';
+
+export const GARMENTS = [
+  { value: 'skirt', title: 'Skirt' },
+  { value: 'trousers', title: 'Trousers' },
+] as const;
+export type GarmentId = (typeof GARMENTS)[number]['value'];
+
+/** The first one is what plans are made of. */
+export const MOTIONS = [
+  { value: 'walk', title: 'Normal walk: the example' },
+  { value: 'fast_walk', title: 'Fast walk: like the example' },
+  { value: 'turn', title: 'Turn on the spot' },
+  { value: 'squat', title: 'Squat: unlike the example' },
+] as const;
+export type MotionId = (typeof MOTIONS)[number]['value'];
+
+const SCENES: Record<GarmentId, Record<MotionId, string>> = {
+  skirt: { walk: skirtWalk, fast_walk: skirtFastWalk, turn: skirtTurn, squat: skirtSquat },
+  trousers: {
+    walk: trousersWalk,
+    fast_walk: trousersFastWalk,
+    turn: trousersTurn,
+    squat: trousersSquat,
+  },
+};
+
+/** The files that the scenes name. */
+export const SCENE_FILES: HandedFiles = {
+  '../../motions/walk_normal.json': walkNormal,
+  '../../motions/walk_fast.json': walkFast,
+  '../../motions/turn.json': turn,
+  '../../motions/squat.json': squat,
+};
+
+interface GarmentScene {
+  caption: string;
+  fabric: { name: string };
+  refinement: { level: number } | { plan: PlanFile };
+  duration_s: number;
+}
+
+function sceneOf(garment: GarmentId, motion: MotionId): GarmentScene {
+  return JSON.parse(SCENES[garment][motion]) as GarmentScene;
+}
+
+export function captionOf(garment: GarmentId, motion: MotionId): string {
+  return sceneOf(garment, motion).caption;
+}
+
+/** The fabric that a garment is made of when nobody says otherwise. */
+export function usualFabric(garment: GarmentId): string {
+  return sceneOf(garment, 'walk').fabric.name;
+}
+
+/** Name of the example that a motion gives a plan. */
+export function exampleName(garment: GarmentId, motion: MotionId, fabric: string): string {
+  const name = `${garment}_${motion}`;
+  return fabric === usualFabric(garment) ? name : `${name} in ${fabric}`;
+}
+
+/** The text of a scene, refined uniformly or by a plan. */
+export function sceneText(
+  garment: GarmentId,
+  motion: MotionId,
+  fabric: string,
+  refinement: { level: number } | { plan: PlanFile },
+): string {
+  const scene = sceneOf(garment, motion);
+  return JSON.stringify({ ...scene, fabric: { name: fabric }, refinement });
+}

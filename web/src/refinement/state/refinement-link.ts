@@ -1,0 +1,93 @@
+// The view of refinement to a link and back.
+
+import { fabrics } from '../../shared/fabric/fabric-data';
+import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
+import { SPEEDS } from '../../shared/state/speeds';
+import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';
+import { COLOURS, DEFAULT_LINK, DEMANDS, type RefinementLink } from './refinement-state';
+
+const ON_OFF = ['on', 'off'] as const;
+const LARGEST_BUDGET = 100000;
+const LATEST_START_S = 60;
+
+function demandIn(text: string): number | undefined {
+  const value = /^\d(\.5)?$/.test(text) ? Number(text) : Number.NaN;
+  return value <= DEMANDS.most ? value : undefined;
+}
+
+function budgetIn(text: string): number | undefined {
+  const value = /^\d{1,6}$/.test(text) ? Number(text) : 0;
+  return value > 0 && value <= LARGEST_BUDGET ? value : undefined;
+}
+
+function startIn(text: string): number | undefined {
+  const value = /^\d{1,2}(\.\d{1,3})?$/.test(text) ? Number(text) : Number.NaN;
+  return value <= LATEST_START_S ? value : undefined;
+}
+
+function motionsIn(text: string): MotionId[] | undefined {
+  const names = text.split(',');
+  const found = names.flatMap((name) => MOTIONS.find(({ value }) => value === name)?.value ?? []);
+  return new Set(found).size === names.length ? found : undefined;
+}
+
+/** The part of a link after `#`. */
+export function encodeRefinementLink(link: RefinementLink): string {
+  const flag = (isOn: boolean) => (isOn ? 'on' : 'off');
+  const parts: [string, string][] = [
+    ['view', 'refinement'],
+    ['garment', link.garment],
+    ['motion', link.motion],
+    ['fabric', slug(link.fabric)],
+    link.rule === 'budget' && link.budget !== null
+      ? ['vertices', String(link.budget)]
+      : ['demand', String(link.demand)],
+    ['records', flag(link.useRecords)],
+    ['fine', flag(link.computeFine)],
+    ['colour', link.colour],
+    ['edges', flag(link.edges)],
+    ['hanging', flag(link.hanging)],
+    ['speed', String(link.speed)],
+    ['start', String(Number(link.startS.toFixed(3)))],
+  ];
+  if (link.further.length > 0) parts.push(['examples', link.further.join(',')]);
+  return parts.map(([key, value]) => `${key}=${value}`).join('&');
+}
+
+/** The state a link stands for; `problems` says in words what could not be read. */
+export function decodeRefinementLink(hash: string): { link: RefinementLink; problems: string[] } {
+  const { take, finish } = createLinkReader(new URLSearchParams(hash.replace(/^#/, '')));
+  const isOn = (key: string, usual: boolean) =>
+    take(key, usual ? 'on' : 'off', 'on or off', oneOf(ON_OFF)) === 'on';
+  const valuesOf = <Value>(options: readonly { value: Value }[]) =>
+    options.map(({ value }) => value);
+  const usual = DEFAULT_LINK;
+  take('view', 'refinement', 'refinement', oneOf(['refinement']));
+  const garments = valuesOf(GARMENTS);
+  const garment = take('garment', usual.garment, garments.join(', '), oneOf(garments));
+  const motions = valuesOf(MOTIONS);
+  const motion = take('motion', usual.motion, motions.join(', '), oneOf(motions));
+  const fabric = take('fabric', usualFabric(garment), 'the name of a fabric', (text) => {
+    return fabrics.find(({ name_en: name }) => slug(name) === text)?.name_en;
+  });
+  const further = take('examples', usual.further, `some of ${motions.join(', ')}`, motionsIn);
+  const demand = take('demand', usual.demand, `0 to ${DEMANDS.most} in halves`, demandIn);
+  const budget = take<number | null>('vertices', null, 'a number of vertices', budgetIn);
+  const link: RefinementLink = {
+    garment,
+    motion,
+    fabric,
+    further,
+    rule: budget === null ? 'demand' : 'budget',
+    demand,
+    budget,
+    useRecords: isOn('records', usual.useRecords),
+    computeFine: isOn('fine', usual.computeFine),
+    colour: take('colour', usual.colour, COLOURS.join(', '), oneOf(COLOURS)),
+    edges: isOn('edges', usual.edges),
+    hanging: isOn('hanging', usual.hanging),
+    speed: take<number>('speed', usual.speed, SPEEDS.join(', '), oneOf(SPEEDS)),
+    startS: take('start', usual.startS, 'a time in seconds', startIn),
+  };
+  return { link, problems: finish() };
+}

@@ -1,0 +1,146 @@
+// What the view of refinement shows.
+import { type Failure, inputFailure } from '../../shared/bindings/answers';
+import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
+import { USUAL_DEMAND } from './garment-frames';
+import { type GarmentId, MOTIONS, type MotionId, usualFabric } from './garments';
+import type { PlanFile } from './plan-file';
+
+export const PANES = ['coarse', 'planned', 'fine'] as const;
+export type PaneId = (typeof PANES)[number];
+
+export const COLOURS = ['material', 'level', 'pattern', 'curvature', 'distance'] as const;
+export type ColourId = (typeof COLOURS)[number];
+
+/** A sum of four corners' patterns: with three patterns it ends below 8. */
+export const DEMANDS = { least: 0, most: 7.5, step: 0.5, usual: USUAL_DEMAND };
+
+/**
+ * Where a pane's frames come from: a record that comes with the page, this device, or, until it
+ * plays, the fine pane's shape as this mesh could show it.
+ */
+export type FrameSource = 'recorded' | 'computed' | 'sampled' | 'resting';
+
+export interface GarmentPane {
+  nVertices: number;
+  source: FrameSource;
+  /** Time of the work for one frame [ms], in parts. */
+  msPerFrame: number | null;
+  parts: { name: string; ms: number }[];
+  /** Against the fine pane, RMS of the same points and of the surfaces [m]. */
+  errorM: number | null;
+  surfaceM: number | null;
+  faults: FaultsAnswer | null;
+}
+
+export const EMPTY_PANE: GarmentPane = {
+  nVertices: 0,
+  source: 'resting',
+  msPerFrame: null,
+  parts: [],
+  errorM: null,
+  surfaceM: null,
+  faults: null,
+};
+
+/** What a link carries. */
+export interface RefinementLink {
+  garment: GarmentId;
+  motion: MotionId;
+  fabric: string;
+  /** Motions, in this fabric, that the plan is made of beside the example that comes with the page. */
+  further: readonly MotionId[];
+  /** Which of both sliders rules. */
+  rule: 'demand' | 'budget';
+  demand: number;
+  /** Vertices; null until it was first moved. */
+  budget: number | null;
+  /** Frames that come with the page are shown where there are some. */
+  useRecords: boolean;
+  /** Where no frames of the fine mesh come with the page, the others wait for it. */
+  computeFine: boolean;
+  colour: ColourId;
+  edges: boolean;
+  hanging: boolean;
+  speed: number;
+  /** Where the view starts, if frames come with the page [s]. */
+  startS: number;
+}
+
+export interface Doing {
+  what: string;
+  canCancel: boolean;
+  /** How much of a further example has run, 0 to 1; null when none runs. */
+  share: number | null;
+}
+
+export interface RefinementState extends RefinementLink {
+  phase: 'loading' | 'ready' | 'stopped' | 'broken';
+  playing: boolean;
+  timeS: number;
+  /** Where it ends [s]. */
+  endS: number;
+  panes: Record<PaneId, GarmentPane>;
+  plan: PlanFile | null;
+  /** Vertices that a budget can ask for. */
+  budgetRange: [number, number] | null;
+  fit: FitAnswer | null;
+  /** The face that was asked about, by its place in the plan's mesh. */
+  face: number | null;
+  /** Upper ends of the scales. */
+  ranges: { curvature: number; distance: number };
+  doing: Doing | null;
+  problem: Failure | null;
+}
+
+export const DEFAULT_LINK: RefinementLink = {
+  garment: 'skirt',
+  motion: 'fast_walk',
+  fabric: usualFabric('skirt'),
+  further: [],
+  rule: 'demand',
+  demand: DEMANDS.usual,
+  budget: null,
+  useRecords: true,
+  computeFine: true,
+  colour: 'level',
+  edges: true,
+  hanging: false,
+  speed: 1,
+  startS: 3,
+};
+
+/** The shown motion is one of those that the plan is made of. */
+export function isExample({ garment, motion, fabric, further }: RefinementLink): boolean {
+  if (further.includes(motion)) return true;
+  return motion === MOTIONS[0].value && fabric === usualFabric(garment);
+}
+
+/** The shown motion does not fit the plan's examples, and can become one of them. */
+export function canPlanAnew(state: RefinementState): boolean {
+  const { phase, fit } = state;
+  return phase === 'ready' && fit !== null && fit.first_fired !== null && !isExample(state);
+}
+
+export function initialRefinementState(
+  link: RefinementLink,
+  problems: readonly string[],
+): RefinementState {
+  return {
+    ...link,
+    phase: 'loading',
+    playing: false,
+    timeS: 0,
+    endS: 0,
+    panes: { coarse: EMPTY_PANE, planned: EMPTY_PANE, fine: EMPTY_PANE },
+    plan: null,
+    budgetRange: null,
+    fit: null,
+    face: null,
+    ranges: { curvature: 0, distance: 0 },
+    doing: null,
+    problem:
+      problems.length > 0
+        ? inputFailure(`The link was read in part. ${problems.join('; ')}.`)
+        : null,
+  };
+}

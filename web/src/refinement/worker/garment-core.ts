@@ -1,0 +1,177 @@
+// What the worker of one pane does with each message, as a function of the module and of where
+// answers go. The only file that calls delete() on its object.
+
+import {
+  describe,
+  type Failure,
+  internalFailure,
+  type RunStatus,
+  read,
+} from '../../shared/bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
+import type { Post } from '../../shared/workers/serve';
+import type {
+  FaultsAnswer,
+  FitAnswer,
+  GarmentCosts,
+  GarmentRunHandle,
+  GarmentSummary,
+  RefinementModule,
+  SolidsAnswer,
+} from '../bindings/refinement-module';
+import type { Described, FromGarment, ToGarment } from './garment-protocol';
+import { type Recording, readRecording } from './recording';
+
+type Message<Type> = Extract<ToGarment, { type: Type }>;
+
+/** The payload of an answer that a frame can do without; null when it was refused. */
+function payloadOf<Payload>(text: string): Payload | null {
+  const answer = read<Payload>(text);
+  return answer.ok ? answer : null;
+}
+
+/** Serves one pane. Call `receive` with each message, `close` at the end. */
+export class GarmentCore {
+  private run: GarmentRunHandle | null = null;
+  private summary: GarmentSummary | null = null;
+  private recording: Recording | null = null;
+  private stepsPerFrame = 1;
+
+  private refuse(request: number, failure: Failure): void {
+    this.post({ type: 'refused', request, failure }, []);
+  }
+
+  private async load(message: Message<'load'>): Promise<void> {
+    const { request, fabricsText, sceneText, files, frameS } = message;
+    this.run ??= new this.module.GarmentRun(fabricsText);
+    const answer = read<GarmentSummary>(this.run.load(sceneText, files));
+    if (!answer.ok) return this.refuse(request, answer);
+    this.summary = answer;
+    this.stepsPerFrame = Math.max(1, Math.round(frameS / answer.step_s));
+    const mesh = {
+      triangles: this.run.triangles().slice(),
+      triangleFaces: this.run.triangleFaces().slice(),
+      edges: this.run.edges().slice(),
+      hanging: this.run.hanging().slice(),
+      faces: this.run.faces().slice(),
+      parents: this.run.parents().slice(),
+    };
+    this.recording = message.recording
+      ? await readRecording(new Uint8Array(message.recording), mesh.parents)
+      : null;
+    const head = this.recording?.head ?? null;
+    this.post({ type: 'loaded', request, summary: answer, mesh, recording: head }, [
+      mesh.triangles.buffer,
+      mesh.triangleFaces.buffer,
+      mesh.edges.buffer,
+      mesh.hanging.buffer,
+      mesh.faces.buffer,
+      mesh.parents.buffer,
+    ]);
+  }
+
+  private ended(owner: GarmentRunHandle): string {
+    const status = payloadOf<RunStatus>(owner.status());
+    return status ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : 'no report';
+  }
+
+  private advance(owner: GarmentRunHandle, { request, frame, how }: Message<'advance'>): void {
+    let reason: string | null = null;
+    if (how === 'stepped' && owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
+    if (how === 'recorded') {
+      const places = this.recording?.frames[frame];
+      if (!places || !this.recording)
+        return this.refuse(request, internalFailure(`no frame ${frame}`));
+      const { first_s: firstS, every_s: everyS } = this.recording.head;
+      const put = read<object>(owner.put(places, firstS + frame * everyS));
+      if (!put.ok) return this.refuse(request, put);
+    }
+    const isWatched = this.summary?.has_monitor === true && how !== 'still';
+    const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
+    this.post({ type: 'advanced', request, frame, fit, ended: reason }, []);
+  }
+
+  private reset(owner: GarmentRunHandle, { request }: Message<'reset'>): void {
+    const answer = read<object>(owner.reset());
+    if (!answer.ok) return this.refuse(request, answer);
+    this.post({ type: 'wasReset', request }, []);
+  }
+
+  /** False when there is no such number. */
+  private fill(owner: GarmentRunHandle, message: Message<'describe'>, buffer: ArrayBuffer) {
+    const views = frameViews(buffer);
+    views.positions.set(owner.positions());
+    const { scalar } = message;
+    const values =
+      scalar === 'curvature' ? owner.curvature() : scalar === 'distance' ? owner.distances() : null;
+    if (values?.length === views.scalar.length) {
+      views.scalar.set(values);
+      return true;
+    }
+    views.scalar.fill(Number.NaN);
+    return false;
+  }
+
+  private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
+    const { request, reference, fineLevel, timeS } = message;
+    if (message.takesSample && reference) {
+      const answer = read<object>(owner.putSample(reference, fineLevel, timeS));
+      if (!answer.ok) return this.refuse(request, answer);
+    }
+    const isCompared = reference !== null && !message.takesSample;
+    const of = (text: string) => payloadOf<{ rms_m: number }>(text)?.rms_m ?? null;
+    const errorM = isCompared ? of(owner.compare(reference, fineLevel)) : null;
+    const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
+    const given = message.buffer;
+    const buffer = given?.byteLength === nBytes ? given : new ArrayBuffer(nBytes);
+    const isKnown = this.fill(owner, message, buffer);
+    const isSought = isCompared && message.wantsAll;
+    const surfaceM = isSought ? of(owner.compareSurface(reference, fineLevel)) : null;
+    const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
+    const costs = payloadOf<GarmentCosts>(owner.costs());
+    const solids = payloadOf<SolidsAnswer>(owner.solids());
+    const answer: Described = {
+      type: 'described',
+      request,
+      buffer,
+      isKnown,
+      errorM,
+      surfaceM,
+      faults,
+      costs,
+      solids,
+    };
+    this.post(answer satisfies FromGarment, [buffer]);
+  }
+
+  private async handle(message: ToGarment): Promise<void> {
+    if (message.type === 'load') return this.load(message);
+    if (!this.run || !this.summary) throw new Error(`${message.type} before this.load`);
+    switch (message.type) {
+      case 'advance':
+        return this.advance(this.run, message);
+      case 'reset':
+        return this.reset(this.run, message);
+      case 'describe':
+        return this.describeFrame(this.run, message);
+    }
+  }
+
+  constructor(
+    private readonly module: RefinementModule,
+    private readonly post: Post<FromGarment>,
+  ) {}
+
+  async receive(message: ToGarment): Promise<void> {
+    try {
+      await this.handle(message);
+    } catch (error) {
+      this.refuse(message.request, internalFailure(describe(error)));
+    }
+  }
+
+  close(): void {
+    this.run?.delete();
+    this.run = null;
+  }
+}

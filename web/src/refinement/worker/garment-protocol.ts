@@ -1,0 +1,181 @@
+// Messages between the page and the workers of garments: one for each pane, and one for the example.
+// Lengths in metres, times in seconds.
+import type { Failure } from '../../shared/bindings/answers';
+import type {
+  FaultsAnswer,
+  FitAnswer,
+  GarmentCosts,
+  GarmentSummary,
+  HandedFiles,
+  SolidsAnswer,
+} from '../bindings/refinement-module';
+import type { PlanFile } from '../state/plan-file';
+import type { RecordingHead } from './recording';
+
+/** What a frame is coloured by that has a number at each vertex. */
+export type GarmentScalar = 'curvature' | 'distance';
+
+/** How a pane comes to its next frame: from its record, by the steps of a frame, or it stays. */
+export type Advance = 'recorded' | 'stepped' | 'still';
+
+export type ToGarment =
+  | {
+      type: 'load';
+      request: number;
+      fabricsText: string;
+      sceneText: string;
+      files: HandedFiles;
+      /** The file of a record of this scene. */
+      recording: ArrayBuffer | null;
+      /** Time of a frame. */
+      frameS: number;
+    }
+  | { type: 'advance'; request: number; frame: number; how: Advance }
+  | { type: 'reset'; request: number }
+  | {
+      type: 'describe';
+      request: number;
+      scalar: GarmentScalar | null;
+      /** The fine pane's places at the same time, if they are there. */
+      reference: Float32Array | null;
+      fineLevel: number;
+      /** Shows the reference as this mesh could show it, in place of a frame of its own. */
+      takesSample: boolean;
+      timeS: number;
+      /** What takes longer than a frame: the distance between surfaces, and faults. */
+      wantsAll: boolean;
+      /** An earlier frame's, to be filled. */
+      buffer: ArrayBuffer | null;
+    };
+
+export interface GarmentMesh {
+  triangles: Uint32Array;
+  /** The face that each triangle is of. */
+  triangleFaces: Uint32Array;
+  edges: Uint32Array;
+  hanging: Uint32Array;
+  faces: Int32Array;
+  parents: Int32Array;
+}
+
+export interface Described {
+  type: 'described';
+  request: number;
+  /** As of any frame (frame.ts). */
+  buffer: ArrayBuffer;
+  /** NaN where the scalar is unknown. */
+  isKnown: boolean;
+  /** RMS against the reference: of the same points, and of the surfaces. */
+  errorM: number | null;
+  surfaceM: number | null;
+  faults: FaultsAnswer | null;
+  costs: GarmentCosts | null;
+  solids: SolidsAnswer | null;
+}
+
+export interface Loaded {
+  type: 'loaded';
+  request: number;
+  summary: GarmentSummary;
+  mesh: GarmentMesh;
+  /** Head of the record; null when there is none, or one of another mesh. */
+  recording: RecordingHead | null;
+}
+
+export interface Advanced {
+  type: 'advanced';
+  request: number;
+  frame: number;
+  fit: FitAnswer | null;
+  /** Why the run ended, or null. */
+  ended: string | null;
+}
+
+export interface WasReset {
+  type: 'wasReset';
+  request: number;
+}
+
+export type FromGarment =
+  | Loaded
+  | Advanced
+  | WasReset
+  | Described
+  | { type: 'refused'; request: number; failure: Failure };
+
+/** The answer to each question. */
+export interface GarmentAnswers {
+  load: Loaded;
+  advance: Advanced;
+  reset: WasReset;
+  describe: Described;
+}
+
+/** What a plan is asked by: one of both. */
+export type PlanWish = { demand: number } | { max_vertices: number };
+
+export type ToExample =
+  | {
+      type: 'open';
+      fabricsText: string;
+      sceneText: string;
+      files: HandedFiles;
+      name: string;
+      nPatterns: number;
+      /** The files of the features and of the frames that limits are taken from. */
+      features: ArrayBuffer;
+      frames: ArrayBuffer;
+    }
+  | {
+      /** An example more: the scene on the fine mesh, from its beginning. */
+      type: 'begin';
+      request: number;
+      fabricsText: string;
+      sceneText: string;
+      files: HandedFiles;
+      name: string;
+      nPatterns: number;
+      /** Time of a frame, of the last one before those that count, and of the last one. */
+      frameS: number;
+      fromS: number;
+      toS: number;
+      /** One in so many of the frames that count is kept for limits. */
+      keptOf: number;
+    }
+  /** A frame of it. */
+  | { type: 'goOn'; request: number }
+  | { type: 'plan'; request: number; wish: PlanWish };
+
+export interface ExampleOpened {
+  type: 'opened';
+  nFineVertices: number;
+  nBaseVertices: number;
+}
+
+/** So much of the example has run; at 1 plans are made of it too. */
+export interface WentOn {
+  type: 'wentOn';
+  request: number;
+  share: number;
+}
+
+export interface Planned {
+  type: 'planned';
+  request: number;
+  plan: PlanFile;
+  ms: number;
+}
+
+export type FromExample =
+  | ExampleOpened
+  | WentOn
+  | Planned
+  | { type: 'refused'; request: number; failure: Failure };
+
+/** The answer to each question. */
+export interface ExampleAnswers {
+  open: ExampleOpened;
+  begin: WentOn;
+  goOn: WentOn;
+  plan: Planned;
+}

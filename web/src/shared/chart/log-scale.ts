@@ -1,0 +1,51 @@
+// A logarithmic axis: where a value lies, and which values to write beside it.
+
+export interface LogScale {
+  low: number;
+  high: number;
+  /** 0 at `low`, 1 at `high`; values outside lie outside. */
+  part(value: number): number;
+  /** Labelled values: decades, with 2 and 5 when there are few. */
+  ticks: number[];
+  /** Unlabelled lines between them. */
+  minorTicks: number[];
+}
+
+/** An axis of fewer decades than this has labels at 2 and 5 too. */
+const FEW_DECADES = 2.3;
+
+function multiples(factors: readonly number[], low: number, high: number): number[] {
+  const found: number[] = [];
+  const last = Math.ceil(Math.log10(high));
+  for (let power = Math.floor(Math.log10(low)); power <= last; ++power) {
+    for (const factor of factors) {
+      const value = Number(`${factor}e${power}`);
+      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) found.push(value);
+    }
+  }
+  return found;
+}
+
+/**
+ * A scale that holds every positive finite value with some room on both sides; one decade about 1
+ * when there is none.
+ */
+export function logScale(values: readonly number[]): LogScale {
+  const usable = values.filter((value) => value > 0 && Number.isFinite(value));
+  const room = 1.35;
+  let low = usable.length > 0 ? Math.min(...usable) / room : 0.3;
+  let high = usable.length > 0 ? Math.max(...usable) * room : 3;
+  if (high / low < 10) {
+    const middle = Math.sqrt(low * high);
+    low = middle / Math.sqrt(10);
+    high = middle * Math.sqrt(10);
+  }
+  const decades = Math.log10(high / low);
+  return {
+    low,
+    high,
+    part: (value) => Math.log10(value / low) / decades,
+    ticks: multiples(decades < FEW_DECADES ? [1, 2, 5] : [1], low, high),
+    minorTicks: multiples([2, 3, 4, 5, 6, 7, 8, 9], low, high),
+  };
+}

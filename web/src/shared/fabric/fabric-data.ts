@@ -1,0 +1,62 @@
+// The fabric file as the page reads it: names, values with source and confidence, meanings.
+import fabricsText from '../../../../assets/fabrics/fabrics.json?raw';
+
+export type Confidence = 'measured' | 'typical' | 'estimated';
+
+export interface Measured {
+  value: number;
+  range: [number, number];
+  /** Keys of `sources`. */
+  source: string[];
+  confidence: Confidence;
+}
+
+/** The measured quantities, by key of the file; each key carries its unit. */
+export type FabricQuantity =
+  | 'areal_density_kg_per_m2'
+  | 'thickness_m'
+  | 'stretch_warp_n_per_m'
+  | 'stretch_weft_n_per_m'
+  | 'shear_n_per_m'
+  | 'bend_warp_n_m'
+  | 'bend_weft_n_m'
+  | 'damping_ratio'
+  | 'friction_fabric_solid';
+
+export type FabricRecord = Record<FabricQuantity, Measured> & {
+  id: number;
+  name_en: string;
+  use_en: string;
+  colour_en: string;
+  assumed_construction: string;
+  seed_table: GeometricRow;
+};
+
+/** A term as the fabric file's keys spell it. */
+export type SpelledTerm = 'recovery' | 'stretch' | 'bend';
+
+type GeometricRow = { source: string[] } & Record<
+  `v_${SpelledTerm}` | `vn_${SpelledTerm}` | `weight_${SpelledTerm}_percent`,
+  number
+>;
+
+interface FabricFile {
+  meta: { sources: Record<string, string>; confidence: Record<Confidence, string> };
+  fabrics: FabricRecord[];
+}
+
+const file = JSON.parse(fabricsText) as FabricFile;
+
+export const fabrics: readonly FabricRecord[] = file.fabrics;
+export const sources: Readonly<Record<string, string>> = file.meta.sources;
+export const confidenceMeaning: Readonly<Record<Confidence, string>> = file.meta.confidence;
+
+/** The file's text, as the module wants it. */
+export { fabricsText };
+
+/** The fabric of that name; the first one when the name is unknown. */
+export function fabricNamed(name: string): FabricRecord {
+  const found = fabrics.find((fabric) => fabric.name_en === name) ?? fabrics[0];
+  if (!found) throw new Error('the fabric file holds no fabric');
+  return found;
+}

@@ -1,0 +1,134 @@
+// A fabric's physical numbers with confidence, and where each comes from.
+import {
+  confidenceMeaning,
+  type FabricQuantity,
+  type FabricRecord,
+  sources,
+} from '../fabric/fabric-data';
+import { element } from './element';
+import { digits } from './quantity';
+
+interface Line {
+  key: FabricQuantity;
+  title: string;
+  unit: string;
+  /** Shown number for one SI unit. */
+  factor: number;
+  meaning: string;
+}
+
+const LINES: readonly Line[] = [
+  {
+    key: 'areal_density_kg_per_m2',
+    title: 'Weight',
+    unit: 'g/m²',
+    factor: 1000,
+    meaning: 'Mass of one square metre.',
+  },
+  {
+    key: 'stretch_warp_n_per_m',
+    title: 'Stretch, warp',
+    unit: 'N/m',
+    factor: 1,
+    meaning:
+      'Force a metre of width needs to double the length, along the warp (lengthwise yarns).',
+  },
+  {
+    key: 'stretch_weft_n_per_m',
+    title: 'Stretch, weft',
+    unit: 'N/m',
+    factor: 1,
+    meaning: 'The same along the weft (crosswise yarns).',
+  },
+  {
+    key: 'shear_n_per_m',
+    title: 'Shear',
+    unit: 'N/m',
+    factor: 1,
+    meaning: 'Resistance to turning squares of yarn into lozenges.',
+  },
+  {
+    key: 'bend_warp_n_m',
+    title: 'Bending, warp',
+    unit: 'µN·m',
+    factor: 1e6,
+    meaning: 'Moment a metre of width needs for a curvature of one per metre, bending the warp.',
+  },
+  {
+    key: 'bend_weft_n_m',
+    title: 'Bending, weft',
+    unit: 'µN·m',
+    factor: 1e6,
+    meaning: 'The same, bending the weft.',
+  },
+  {
+    key: 'thickness_m',
+    title: 'Thickness',
+    unit: 'mm',
+    factor: 1000,
+    meaning: 'Under light pressure.',
+  },
+  {
+    key: 'friction_fabric_solid',
+    title: 'Friction',
+    unit: '',
+    factor: 1,
+    meaning: 'Coulomb coefficient on a smooth dry body.',
+  },
+];
+
+function row(fabric: FabricRecord, line: Line): HTMLElement {
+  const { value, range, confidence, source } = fabric[line.key];
+  const [from, to] = range;
+  const shown = `${digits(value * line.factor, 2)} ${line.unit}`.trim();
+  const span = `${digits(from * line.factor, 2)} to ${digits(to * line.factor, 2)} ${line.unit}`;
+  const badge = element(
+    'span',
+    {
+      class: `badge badge-${confidence}`,
+      title: `${confidenceMeaning[confidence]}. Sources: ${source.join(', ')}`,
+    },
+    confidence,
+  );
+  return element(
+    'tr',
+    { title: `${line.meaning} Reported range: ${span.trim()}.` },
+    element('th', { scope: 'row' }, line.title),
+    element('td', { class: 'number' }, shown),
+    element('td', {}, badge),
+  );
+}
+
+/** Every source that some shown number of this fabric names, with its full reference. */
+export function sourceList(fabric: FabricRecord): HTMLElement {
+  const list = element('dl', { class: 'sources' });
+  const named = new Map<string, string[]>();
+  for (const line of LINES) {
+    for (const key of fabric[line.key].source) {
+      named.set(key, [...(named.get(key) ?? []), line.title.toLowerCase()]);
+    }
+  }
+  for (const [key, titles] of named) {
+    list.append(
+      element('dt', {}, `${key}: ${titles.join('; ')}`),
+      element('dd', {}, sources[key] ?? 'no reference in the fabric file'),
+    );
+  }
+  return list;
+}
+
+export function quantityMeanings(): HTMLElement {
+  const list = element('dl', { class: 'sources' });
+  for (const line of LINES) {
+    list.append(element('dt', {}, line.title), element('dd', {}, line.meaning));
+  }
+  for (const [word, meaning] of Object.entries(confidenceMeaning)) {
+    list.append(element('dt', {}, word), element('dd', {}, `${meaning}.`));
+  }
+  return list;
+}
+
+/** The rows of a table of class `quantities`. */
+export function quantityRows(fabric: FabricRecord): HTMLElement[] {
+  return LINES.map((line) => row(fabric, line));
+}

@@ -1,0 +1,29 @@
+// What cloth is drawn with: a fabric's two sides, of which the back has a tint of its own, so that folds
+// read; or colours for numbers.
+import { BackSide, DoubleSide, FrontSide, MeshBasicMaterial, MeshPhysicalMaterial } from 'three';
+import { type FabricLook, SHEEN_ROUGHNESS } from '../fabric/fabric-look';
+
+export function createClothMaterials() {
+  const front = new MeshPhysicalMaterial({ side: FrontSide, shadowSide: DoubleSide });
+  const back = new MeshPhysicalMaterial({ side: BackSide });
+  const heat = new MeshBasicMaterial({ side: DoubleSide, vertexColors: true });
+  heat.toneMapped = false;
+
+  function setLook(look: FabricLook): void {
+    for (const [material, colour] of [
+      [front, look.front],
+      [back, look.back],
+    ] as const) {
+      material.color.set(colour);
+      material.roughness = look.roughness;
+      material.sheen = look.sheen;
+      material.sheenRoughness = SHEEN_ROUGHNESS;
+      material.sheenColor.set(look.sheenColour);
+      material.transparent = look.opacity < 1;
+      material.opacity = look.opacity;
+      material.needsUpdate = true;
+    }
+  }
+
+  return { front, back, heat, setLook };
+}

@@ -1,0 +1,81 @@
+// Which point of the cloth a ray meets first.
+
+export type Point = [number, number, number];
+
+export interface Hit {
+  /** Along the ray, in lengths of its direction. */
+  distance: number;
+  point: Point;
+  /** Index in the list. */
+  triangle: number;
+  /** The corner of the met triangle that is nearest to the point. */
+  vertex: number;
+}
+
+function at(values: Float32Array, vertex: number): Point {
+  return [values[3 * vertex] ?? 0, values[3 * vertex + 1] ?? 0, values[3 * vertex + 2] ?? 0];
+}
+
+function minus(a: Point, b: Point): Point {
+  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+}
+
+function dot(a: Point, b: Point): number {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+function cross(a: Point, b: Point): Point {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+/**
+ * Distance along the ray to a triangle from either side, or null.
+ * Source: Möller and Trumbore, Fast, minimum storage ray-triangle intersection, JGT 2(1), 1997.
+ */
+function meets(origin: Point, direction: Point, x0: Point, x1: Point, x2: Point): number | null {
+  const edge1 = minus(x1, x0);
+  const edge2 = minus(x2, x0);
+  const p = cross(direction, edge2);
+  const determinant = dot(edge1, p);
+  if (determinant === 0) return null; // the ray lies in the plane, or the triangle has no area
+  const t = minus(origin, x0);
+  const u = dot(t, p) / determinant;
+  const q = cross(t, edge1);
+  const v = dot(direction, q) / determinant;
+  if (u < 0 || v < 0 || u + v > 1) return null;
+  const distance = dot(edge2, q) / determinant;
+  return distance > 0 ? distance : null;
+}
+
+/** The first triangle that the ray meets, from either side; null when it meets none. */
+export function pick(
+  positions: Float32Array,
+  triangles: Uint32Array,
+  origin: Point,
+  direction: Point,
+): Hit | null {
+  let nearest = Number.POSITIVE_INFINITY;
+  let corners: [number, number, number] | null = null;
+  let triangle = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [triangles[t] ?? 0, triangles[t + 1] ?? 0, triangles[t + 2] ?? 0];
+    const distance = meets(origin, direction, at(positions, a), at(positions, b), at(positions, c));
+    if (distance !== null && distance < nearest) {
+      nearest = distance;
+      corners = [a, b, c];
+      triangle = t / 3;
+    }
+  }
+  if (!corners) return null;
+  const point: Point = [
+    origin[0] + nearest * direction[0],
+    origin[1] + nearest * direction[1],
+    origin[2] + nearest * direction[2],
+  ];
+  const away = corners.map((vertex) => {
+    const offset = minus(at(positions, vertex), point);
+    return dot(offset, offset);
+  });
+  const vertex = corners[away.indexOf(Math.min(...away))] ?? corners[0];
+  return { distance: nearest, point, triangle, vertex };
+}

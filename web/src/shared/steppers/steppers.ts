@@ -1,0 +1,48 @@
+// The table of steppers: whatever the page says of one, offers, measures or draws comes from its row.
+import rows from './steppers-data';
+
+/** What holds the cloth together. */
+export type Model = 'springs' | 'membrane';
+
+/** What a scene says for as many substeps as the stability bound asks for. */
+export const STABLE_SUBSTEPS = 'stable';
+export type Substeps = number | typeof STABLE_SUBSTEPS;
+
+export type Count = 'substeps' | 'iterations';
+
+export interface StepperRow {
+  /** As a scene and a link have it. */
+  name: string;
+  title: string;
+  meaning: string;
+  /** It moves springs one by one and cannot run a membrane. */
+  needs_springs: boolean;
+  /** Each substep has equations, which may be left unsolved in part. */
+  solves: boolean;
+  /** The counts the stepper reads, each with what it starts from; 0 substeps: as many as are stable. */
+  settings: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
+  /** What a sweep measures it with, at every level. */
+  sweep: readonly { substeps?: Substeps; iterations?: number }[];
+  /** The models whose sweeps it takes part in. */
+  models: readonly Model[];
+  /** At finer levels a sweep leaves it out. */
+  finest_sweep_level?: number;
+  /** Its mark in a chart: an SVG path about the origin. */
+  mark: string;
+  colour: string;
+  dark_colour: string;
+}
+
+export const STEPPERS = rows as readonly StepperRow[];
+export const STEPPER_NAMES: readonly string[] = STEPPERS.map(({ name }) => name);
+
+/** The row of a stepper that is in the table. */
+export function stepperRow(name: string): StepperRow {
+  const found = STEPPERS.find((row) => row.name === name);
+  if (!found) throw new Error(`no stepper is called ${name}`);
+  return found;
+}
+
+export function canRun(name: string, model: Model): boolean {
+  return model === 'springs' || !stepperRow(name).needs_springs;
+}

@@ -1,0 +1,53 @@
+// The worker's end of the page: takes one message after the other to the core, and sends back what comes of it.
+import { describe } from '../bindings/answers';
+import type { Done, Letter, Message, Reply } from './asked';
+
+/** The part of a worker's scope that is used. */
+export interface Scope {
+  postMessage(message: Reply, options: { transfer: Transferable[] }): void;
+  onmessage: ((event: MessageEvent) => void) | null;
+}
+
+/** What does the work of a worker. */
+export interface Core<Question> {
+  receive(message: Question): void | Promise<void>;
+}
+
+export type Post<Answer> = (message: Answer, transfer: Transferable[]) => void;
+
+const DONE: Done = { type: 'done' };
+
+/**
+ * Serves a page with the core that `start` makes. The first message that the core posts while it has
+ * a question is its answer, `done` when it posts none; all others are news.
+ */
+export function serve<Question, Answer extends Message>(
+  scope: Scope,
+  start: (post: Post<Answer>) => Promise<Core<Question>>,
+): void {
+  let asked: number | null = null;
+  let isBroken = false;
+
+  function post(message: Message, transfer: Transferable[]): void {
+    const id = asked;
+    asked = null;
+    scope.postMessage({ id, message }, { transfer });
+  }
+
+  function breakDown(error: unknown): void {
+    if (!isBroken) scope.postMessage({ broken: describe(error) }, { transfer: [] });
+    isBroken = true;
+  }
+
+  const core = start(post);
+  let turn: Promise<unknown> = core;
+  turn.catch(breakDown);
+  scope.onmessage = ({ data: { id, message } }: MessageEvent<Letter<Question>>) => {
+    turn = turn.then(async () => {
+      asked = id;
+      await (await core).receive(message);
+      if (asked !== null) post(DONE, []);
+    });
+    turn.catch(breakDown);
+  };
+}

@@ -1,9 +1,0 @@
-import createPleat from '../wasm/pleat.mjs';
-import type { FromWorker, ToWorker } from './protocol';
-import { createWorkerCore } from './worker-core';
-
-const post = (message: FromWorker, transfer: Transferable[]) =>
-  self.postMessage(message, { transfer });
-const core = createPleat().then((module) => createWorkerCore(module, post));
-core.catch((error) => post({ type: 'broken', reason: String(error) }, []));
-self.onmessage = async (event: MessageEvent<ToWorker>) => (await core).receive(event.data);

@@ -1,0 +1,167 @@
+// The order in which the worker of deformed cloth calls a module that only keeps a record of the calls.
+import { describe, expect, it } from 'vitest';
+import {
+  type DeformationHandle,
+  type DeformModule,
+  PROGRESS,
+} from '../../src/fabrics/bindings/deform-module';
+import { DeformCore } from '../../src/fabrics/worker/deform-core';
+import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
+
+type Progress = (typeof PROGRESS)[keyof typeof PROGRESS];
+
+const ok = (payload: object = {}) => JSON.stringify({ ok: true, ...payload });
+const ONES = { recovery: 1, stretch: 1, bending: 1 };
+
+/** Answers each step by `progress`, which gets how many there were since the last other call. */
+function recorder(progress: (nSteps: number) => Progress) {
+  const calls: string[] = [];
+  let nSteps = 0;
+  let isShown = false;
+  const called = (name: string, answer = ok()) => {
+    calls.push(name);
+    nSteps = 0;
+    return answer;
+  };
+  class Recorded implements DeformationHandle {
+    open = () =>
+      ok({ n_vertices: 1, rest_m: [0, 0, 0], pins: [], handles: [], groups: [], name: 'point' });
+    show(text: string) {
+      const fresh = JSON.parse(text).weights.map(() => !isShown);
+      isShown = true;
+      return called('show', ok({ fresh }));
+    }
+    hold = () => ok();
+    moveHeld = () => undefined;
+    follow = (pane: number) => called(`follow ${pane}`);
+    step(pane: number, mayLinearise: boolean) {
+      calls.push(`step ${pane}${mayLinearise ? ' freely' : ''}`);
+      nSteps += 1;
+      return progress(nSteps);
+    }
+    restart = (pane: number) => called(`restart ${pane}`);
+    tryFromRest = (pane: number) => called(`from rest ${pane}`);
+    keepBetter = (pane: number) => called(`keep ${pane}`);
+    report = () => ok({ weights: ONES, energy: 0, terms: ONES, converged: true, steps: [] });
+    fitMeasures = () => ok();
+    clothSection = () => ok();
+    triangles = () => new Uint32Array(0);
+    positions = () => new Float32Array(3);
+    exactPositions = () => new Float64Array(3);
+    delete = () => undefined;
+  }
+  return { calls, module: { Deformation: Recorded } as DeformModule };
+}
+
+/**
+ * A core whose clock goes on by so much at each look: while it stands still, a slice ends where a
+ * stage does. Turns come at once.
+ */
+function serve(nPanes: number, progress: (nSteps: number) => Progress, msPerLook = 0) {
+  const { calls, module } = recorder(progress);
+  const frames: DeformFrame[] = [];
+  let isWoken = false;
+  let clockMs = 0;
+  const nowMs = () => {
+    clockMs += msPerLook;
+    return clockMs;
+  };
+  const later = () => {
+    isWoken = true;
+  };
+  const post = (message: FromDeform) => {
+    if (message.type !== 'frame') return;
+    calls.push(message.status);
+    frames.push(message);
+  };
+  const core = new DeformCore(module, post, { later, nowMs });
+  /** What was asked and shown in so many turns after a message. */
+  function send(message: ToDeform, nTurns = 100): string[] {
+    core.receive(message);
+    for (let turn = 0; isWoken && turn < nTurns; ++turn) {
+      isWoken = false;
+      core.advance();
+      for (const { cloth, pane, buffer } of frames.splice(0))
+        core.receive({ type: 'return', cloth, pane, buffer });
+    }
+    return calls.splice(0);
+  }
+  const [vertices, places] = [Int32Array.from([0]), new Float64Array(3)];
+  send({ type: 'open', cloth: 1, fabricsText: '', sceneText: '', objText: '' });
+  send({ type: 'hold', vertices, places });
+  const show = () => send({ type: 'show', form: 'consistent', weights: Array(nPanes).fill(ONES) });
+  return { first: show(), show, move: () => send({ type: 'move', places }), send };
+}
+
+const afterTwo = (n: number) => (n < 2 ? PROGRESS.moved : PROGRESS.converged);
+
+describe('the turns of deformed cloth', () => {
+  it('come from rest at first, and once only', () => {
+    const { first } = serve(1, afterTwo);
+    expect(first).toEqual(['show', 'restart 0', 'step 0 freely', 'step 0 freely', 'converged']);
+  });
+
+  it('leave matrices to the move itself while a hand moves', () => {
+    const { move } = serve(1, afterTwo);
+    expect(move()).toEqual(['follow 0', 'step 0', 'step 0', 'dragging']);
+  });
+
+  it('try the way from rest too once a hand has let go, and show only the better end', () => {
+    const { move, send } = serve(1, afterTwo);
+    move();
+    expect(send({ type: 'rest', isHeld: false })).toEqual([
+      'step 0 freely',
+      'settling',
+      'from rest 0',
+      'step 0 freely',
+      'step 0 freely',
+      'keep 0',
+      'converged',
+    ]);
+  });
+
+  it('show nothing of a long way from rest but its end', () => {
+    const isEven = (n: number) => (n % 2 === 1 ? PROGRESS.moved : PROGRESS.converged);
+    const { move, send } = serve(1, isEven, 50);
+    move();
+    const calls = send({ type: 'rest', isHeld: false });
+    expect(calls.slice(calls.indexOf('from rest 0'))).toEqual([
+      'from rest 0',
+      'step 0 freely',
+      'step 0 freely',
+      'keep 0',
+      'converged',
+    ]);
+  });
+
+  it('stay on the way at hand while the hand only rests', () => {
+    const { move, send } = serve(1, afterTwo);
+    move();
+    expect(send({ type: 'rest', isHeld: true })).toEqual(['step 0 freely', 'converged']);
+  });
+
+  it('end the way from rest before anything else changes', () => {
+    const { move, send, show } = serve(
+      1,
+      (n) => (n % 2 === 1 ? PROGRESS.moved : PROGRESS.converged),
+      50,
+    );
+    move();
+    expect(send({ type: 'rest', isHeld: false }, 3)).toContain('from rest 0');
+    expect(show()[0]).toBe('keep 0');
+  });
+
+  it('go around the panes', () => {
+    const { move } = serve(3, () => PROGRESS.converged);
+    expect(move().filter((call) => call.startsWith('follow'))).toEqual([
+      'follow 0',
+      'follow 1',
+      'follow 2',
+    ]);
+  });
+
+  it('end after fifteen matrices, though the shape is not found', () => {
+    const { first } = serve(1, () => PROGRESS.linearised);
+    expect(first.filter((call) => call.startsWith('step')).length).toBe(15);
+  });
+});

@@ -1,0 +1,149 @@
+// The page's end of the worker of deformed cloth: what it shows is what the worker has.
+import { beforeAll, describe, expect, it, vi } from 'vitest';
+import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
+import type { StartDeform } from '../../src/fabrics/run/deform-client';
+import { Deformer } from '../../src/fabrics/run/deformer';
+import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
+import { decodeFabricsLink, encodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
+import { initialFabricsState } from '../../src/fabrics/state/fabrics-state';
+import { joined } from '../../src/fabrics/state/holds';
+import { DeformCore } from '../../src/fabrics/worker/deform-core';
+import type { FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
+import { fabricNamed } from '../../src/shared/fabric/fabric-data';
+import { createStore } from '../../src/shared/state/store';
+import { createAsked } from '../../src/shared/workers/asked';
+import { isBuilt, loadModule } from '../support/built-module';
+import { workerPort } from '../support/worker-port';
+
+// The worker is a core in this thread. Messages to it and from it come later and in their order.
+let module: DeformModule;
+const start: StartDeform = (listener) =>
+  createAsked(
+    workerPort<ToDeform, FromDeform>((post) => {
+      const core = new DeformCore(module, post, {
+        later: () => setTimeout(() => core.advance(), 0),
+        nowMs: () => performance.now(),
+      });
+      return core;
+    }),
+    listener,
+  );
+
+/** The view's state at a link, with the frame of its first pane. */
+async function open(hash: string) {
+  const { link, problems } = decodeFabricsLink(hash);
+  const store = createStore(initialFabricsState(link, problems));
+  let positions = new Float32Array(0);
+  let onFrame: () => void = () => undefined;
+  const deformer = new Deformer(
+    store,
+    {
+      showMesh: () => undefined,
+      showFrame(pane, buffer) {
+        if (pane === 0) positions = frameViews(buffer).positions.slice();
+        onFrame();
+      },
+    },
+    start,
+  );
+  /** Until everything that was asked for is answered and every shape is found. */
+  async function found() {
+    await new Promise((resume) => setTimeout(resume, 30));
+    await vi.waitUntil(() => {
+      const { phase, panes, isDragging } = store.get();
+      const isDone = panes.every(({ status }) => /converged/.test(status));
+      return phase === 'ready' && isDone && !isDragging;
+    }, 20000);
+  }
+  deformer.openExperiment(link.experiment, link);
+  await found();
+  return {
+    store,
+    deformer,
+    found,
+    /** Largest distance of a held vertex from where the page says that it is held [m]. */
+    offHold() {
+      const { vertices, places } = joined(store.get().holds);
+      const off = (at: number, k: number) => Math.abs((positions[at] ?? 9) - (places[k] ?? 0));
+      return Math.max(
+        0,
+        ...[...vertices].flatMap((v, i) => [0, 1, 2].map((k) => off(3 * v + k, 3 * i + k))),
+      );
+    },
+    atNextFrame(work: () => void) {
+      onFrame = () => {
+        onFrame = () => undefined;
+        work();
+      };
+    },
+  };
+}
+
+const SCENE = '#view=fabrics&scene=terms&fabrics=wool';
+const NO_RECOVERY = { recovery: false, stretch: true, bending: true };
+
+describe.runIf(isBuilt('deform'))('deformer', () => {
+  beforeAll(async () => {
+    vi.stubGlobal('window', globalThis);
+    module = await loadModule('deform');
+  });
+
+  it('keeps what was moved by hand where it is when a later release is refused', async () => {
+    const { store, deformer, found, offHold } = await open(`${SCENE}&terms=stretch+bending`);
+    for (const { name } of store.get().pins) deformer.release(name);
+    await found();
+    deformer.nudge('middle', [0, 0.1, 0]);
+    await found();
+    deformer.release('middle');
+    await found();
+    const { holds, problem } = store.get();
+    expect(problem?.what).toMatch(/^Undone: .* Expected .*singular\.$/);
+    expect(holds.find(({ name }) => name === 'middle')?.offset).toEqual([0, 0.1, 0]);
+    expect(offHold()).toBeLessThan(1e-6);
+  });
+
+  it('shows what holds the cloth after several changes that were refused at once', async () => {
+    const { store, deformer, found, offHold } = await open(`${SCENE}&terms=stretch+bending`);
+    for (const { name } of store.get().holds) deformer.release(name);
+    deformer.release('middle');
+    await found();
+    expect(store.get().holds.map(({ name }) => name)).toContain('middle');
+    expect(offHold()).toBeLessThan(1e-6);
+    deformer.resetHolds();
+    await found();
+    expect(offHold()).toBeLessThan(1e-6);
+  });
+
+  it('goes back to the terms that could be shown, though a frame came before the answer', async () => {
+    const { store, deformer, found, atNextFrame } = await open(SCENE);
+    atNextFrame(() => store.set({ terms: NO_RECOVERY }));
+    for (const { name } of store.get().holds) deformer.release(name);
+    await found();
+    expect(store.get().terms.recovery).toBe(true);
+    expect(store.get().problem?.what).toMatch(/singular/);
+  });
+
+  it('shows all terms where those of a link leave no one shape', async () => {
+    const all = 'upper-left;upper-right;lower-left;lower-right;middle';
+    const { store } = await open(`${SCENE}&terms=stretch&free=${all}`);
+    const { holds, terms, problem } = store.get();
+    expect(holds).toEqual([]);
+    expect(terms.recovery).toBe(true);
+    expect(problem?.what).toMatch(/singular/);
+  });
+
+  it('has the measurements of the weights that are shown in its link', async () => {
+    const { measures } = geometryOf(fabricNamed('wool'));
+    const { store, deformer, found } = await open(
+      '#view=fabrics&scene=terms&fabrics=own:0.97,1.05,0.99',
+    );
+    deformer.measure(measures);
+    await found();
+    const { panes, ownFabric } = store.get();
+    expect(panes[0]?.weights).toEqual(ownFabric?.weights);
+    expect(panes[0]?.fabric).toEqual({ kind: 'own', measures });
+    const { recovery, stretch, bending } = measures;
+    expect(encodeFabricsLink(store.get())).toContain(`own:${recovery},${stretch},${bending}&`);
+  });
+});

@@ -1,0 +1,105 @@
+import { describe, expect, it } from 'vitest';
+import { TERMS, type Term, type Triple } from '../../src/fabrics/state/deform-state';
+import { EXPECTATIONS } from '../../src/fabrics/state/fabric-expectations';
+import { geometryOf } from '../../src/fabrics/state/fabric-geometry';
+import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
+
+const HARDLY = 0.05;
+const all = fabrics.map((fabric) => geometryOf(fabric).recomputed);
+const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
+
+/** 1 for the fabric with the least weight on that term. */
+const rank = (weights: Triple, term: Term) =>
+  1 + all.filter((other) => other[term] < weights[term]).length;
+
+const isTop = (weights: Triple, term: Term) =>
+  TERMS.every((other) => weights[other] <= weights[term]);
+
+const unevenness = (weights: Triple) => {
+  const shares = TERMS.map((term) => weights[term]);
+  return Math.max(...shares) - Math.min(...shares);
+};
+
+const isAlmost = (a: Triple, b: Triple) =>
+  TERMS.every((term) => Math.abs(a[term] - b[term]) < 0.005);
+
+const most = fabrics.length;
+
+/** What a sentence may say, and the weights of which that is true. */
+const CLAIMS: readonly [RegExp, (weights: Triple) => boolean][] = [
+  [/goes back to where it lay/i, (w) => isTop(w, 'recovery')],
+  [/goes back to where it lay, the most of all/i, (w) => rank(w, 'recovery') === most],
+  [/hardly goes back, the least of all/i, (w) => w.recovery < HARDLY && rank(w, 'recovery') === 1],
+  [/goes back almost as much/, (w) => w.recovery > 0.75 * w.bending],
+  [/far more than it resists stretch or bending/, (w) => w.recovery > 2 * (w.stretch + w.bending)],
+  [/than it resists stretch and bending together/, (w) => w.recovery > w.stretch + w.bending],
+  [/and these two evenly/, (w) => Math.abs(w.stretch - w.bending) < 0.02],
+  [/goes back and resists bending evenly/i, (w) => Math.abs(w.recovery - w.bending) < 0.005],
+  [/shares its weights (rather )?evenly/i, (w) => unevenness(w) < 0.2],
+  [/the most so of all/, (w) => all.every((other) => unevenness(w) <= unevenness(other))],
+  [/hardly resists stretch/i, (w) => w.stretch < HARDLY],
+  [/resists stretch more than anything else/i, (w) => isTop(w, 'stretch')],
+  [/anything else, and the most of all/, (w) => rank(w, 'stretch') === most],
+  [/and stretch more than wool does/, (w) => w.stretch > weightsOf('wool').stretch],
+  [/keeps its lengths/, (w) => w.stretch > 0.4],
+  [/hardly resists (stretch or )?bending/i, (w) => w.bending < HARDLY],
+  [/bending, the least of all/, (w) => rank(w, 'bending') === 1],
+  [/bending, the most of all/, (w) => rank(w, 'bending') === most],
+  [/resists bending more than anything else/i, (w) => isTop(w, 'bending')],
+  [/nothing to round its folds/, (w) => w.bending < 0.001],
+  [/\bround (dome|sweep)|folds stay round/, (w) => w.bending > 0.4],
+  [/spike/, (w) => w.stretch < HARDLY && w.bending < HARDLY],
+  [/stretches around the handle/, (w) => w.stretch < 0.01],
+  [/\bwide\b/, (w) => rank(w, 'recovery') <= 3],
+  [/whole sheet/, (w) => w.recovery < 0.001],
+  [/middling reach/, (w) => rank(w, 'recovery') >= 6 && rank(w, 'recovery') <= 10],
+  [/\bnarrow\b/, (w) => rank(w, 'recovery') > 11],
+  [/reaches farther than in wool/, (w) => w.recovery < weightsOf('wool').recovery],
+  [/the shape of leather/, (w) => isAlmost(w, weightsOf('leather'))],
+  [/the shape of gabardine/, (w) => isAlmost(w, weightsOf('gabardine'))],
+];
+
+const TOLD: Record<Term, RegExp> = {
+  recovery: /goes back/i,
+  stretch: /stretch/,
+  bending: /bending/,
+};
+
+describe('fabric-expectations', () => {
+  it('has one sentence for each fabric and no other', () => {
+    expect(Object.keys(EXPECTATIONS).sort()).toEqual(fabrics.map((f) => f.name_en).sort());
+    for (const sentence of Object.values(EXPECTATIONS)) expect(sentence).toMatch(/^[A-Z][^.]+\.$/);
+  });
+
+  it.each(Object.entries(EXPECTATIONS))(
+    'says of %s what its weights bear out',
+    (name, sentence) => {
+      const claimed = CLAIMS.filter(([phrase]) => phrase.test(sentence));
+      expect(claimed.length).toBeGreaterThan(1);
+      for (const [phrase, holds] of claimed)
+        expect(holds(weightsOf(name)), phrase.source).toBe(true);
+    },
+  );
+
+  it('tells of every superlative whose it is', () => {
+    for (const sentence of Object.values(EXPECTATIONS)) {
+      const superlatives = sentence.match(/of all fabrics/g)?.length ?? 0;
+      const checked = CLAIMS.filter(([phrase]) => /of all/.test(phrase.source));
+      expect(checked.filter(([phrase]) => phrase.test(sentence))).toHaveLength(superlatives);
+    }
+  });
+
+  it.each(Object.entries(EXPECTATIONS))('leaves out nothing %s hardly does', (name, sentence) => {
+    const weights = weightsOf(name);
+    for (const term of TERMS) {
+      if (weights[term] >= HARDLY) continue;
+      expect(sentence).toMatch(/hardly/i);
+      expect(sentence).toMatch(TOLD[term]);
+    }
+  });
+
+  it('uses every claim', () => {
+    const text = Object.values(EXPECTATIONS).join('\n');
+    for (const [phrase] of CLAIMS) expect(text).toMatch(phrase);
+  });
+});

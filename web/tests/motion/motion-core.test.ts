@@ -1,0 +1,517 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { DEFORM_METHODS } from '../../src/fabrics/bindings/deform-module';
+import type { PleatModule, RunNumbers } from '../../src/motion/bindings/pleat-module';
+import { PLEAT_METHODS } from '../../src/motion/bindings/pleat-module';
+import type { SweepModule } from '../../src/motion/bindings/sweep-module';
+import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
+import {
+  PRESET_IDS,
+  PRESETS,
+  presetSetting,
+  type Setting,
+  sceneOf,
+  withModel,
+  withStepper,
+} from '../../src/motion/state/setting';
+import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { MotionCore } from '../../src/motion/worker/motion-core';
+import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { runSweep } from '../../src/motion/worker/sweep-core';
+import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
+import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/steppers';
+import { boundMethods } from '../support/bound-methods';
+import { isBuilt, loadModule } from '../support/built-module';
+import { createFakeModule } from '../support/fake-module';
+
+type AllModules = PleatModule & SweepModule;
+
+const hasModule = (['pleat', 'sweep', 'deform'] as const).every(isBuilt);
+
+async function loadRealModule(): Promise<AllModules> {
+  const [pleat, sweep] = [await loadModule('pleat'), await loadModule('sweep')];
+  return { ...pleat, ...sweep };
+}
+
+type Posted = FromMotion | FromSweep;
+type Sent<Type extends Posted['type']> = Extract<Posted, { type: Type }>;
+
+/** A core with everything it posted; `take` removes and returns the next message. */
+function serve(module: AllModules) {
+  const posted: Posted[] = [];
+  const core = new MotionCore(module, (message) => posted.push(message));
+  return {
+    core,
+    posted,
+    send: (message: ToMotion) => core.receive(message),
+    sweep: (plan: object) =>
+      runSweep(module, { type: 'sweep', fabricsText, planText: JSON.stringify(plan) }, (message) =>
+        posted.push(message),
+      ),
+    take<Type extends Posted['type']>(type: Type): Sent<Type> {
+      const message = posted.shift();
+      if (message?.type !== type) throw new Error(`${type} expected: ${JSON.stringify(message)}`);
+      return message as Sent<Type>;
+    },
+  };
+}
+
+const setting: Setting = { ...presetSetting('curtain'), level: 1 };
+const sceneText = (patch: Partial<Setting> = {}) =>
+  JSON.stringify(sceneOf({ ...setting, ...patch }));
+
+function open(module: AllModules) {
+  const server = serve(module);
+  server.send({ type: 'open', fabricsText });
+  server.take('ready');
+  server.send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 1 });
+  return { ...server, loaded: server.take('loaded') };
+}
+
+/** Two triangles, upright or level, in a group. */
+function objText(isFlat: boolean, isTextured = false): string {
+  const point = (a: number, b: number) => (isFlat ? `v ${a} 1 ${b}` : `v ${a} ${b} 0`);
+  const points = [point(0, 1), point(0, 0), point(1, 0), point(1, 1)];
+  if (!isTextured) return [...points, 'g hem', 'f 1 2 3', 'f 1 3 4', ''].join('\n');
+  const texture = ['vt 0 0', 'vt 0 1', 'vt 1 1', 'vt 1 0'];
+  return [...points, ...texture, 'g hem', 'f 1/1 2/2 3/3', 'f 1/1 3/3 4/4', ''].join('\n');
+}
+
+const modules: [string, () => Promise<AllModules>][] = [
+  ['the stand-in', async () => createFakeModule().module],
+];
+if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
+
+describe.each(modules)('motion-core with %s', (_name, load) => {
+  it('answers a load with a mesh, a first frame and numbers that fit together', async () => {
+    const { loaded } = open(await load());
+    const { positions, scalar } = frameViews(loaded.buffers[0]);
+    expect(loaded.request).toBe(1);
+    expect(positions.length).toBe(3 * loaded.summary.n_vertices);
+    expect(scalar.length).toBe(loaded.summary.n_vertices);
+    expect(loaded.triangles.length).toBe(3 * loaded.summary.n_triangles);
+    expect(Math.max(...loaded.triangles)).toBe(loaded.summary.n_vertices - 1);
+    expect(loaded.buffers[1].byteLength).toBe(loaded.buffers[0].byteLength);
+    expect(loaded.numbers.time_s).toBe(0);
+  });
+
+  it('fills the buffer it was given with the moved cloth', async () => {
+    const { send, take, loaded } = open(await load());
+    const [first, buffer] = loaded.buffers;
+    send({ type: 'step', count: 5, wantsNumbers: true, request: 1, buffer });
+    const frame = take('frame');
+    expect(frame.buffer).toBe(buffer);
+    expect(frame.hasEnded).toBe(false);
+    expect(frame.report?.numbers.time_s).toBeCloseTo(5 * loaded.summary.step_s, 12);
+    expect(frameViews(frame.buffer).positions).not.toEqual(frameViews(first).positions);
+    expect(frameViews(frame.buffer).positions.every(Number.isFinite)).toBe(true);
+  });
+
+  it('keeps the motion when the level changes, and forgets it on a load', async () => {
+    const { send, take, loaded } = open(await load());
+    send({ type: 'step', count: 20, wantsNumbers: true, request: 1, buffer: loaded.buffers[1] });
+    const before = take('frame').report?.numbers.time_s ?? 0;
+    expect(before).toBeGreaterThan(0);
+    send({ type: 'load', sceneText: sceneText({ level: 2 }), keepMotion: true, request: 2 });
+    const carried = take('loaded');
+    expect(carried.summary.n_vertices).toBeGreaterThan(loaded.summary.n_vertices);
+    expect(carried.numbers.time_s).toBeCloseTo(before, 9);
+    send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 3 });
+    expect(take('loaded').numbers.time_s).toBe(0);
+  });
+
+  it('is back at the first frame after a reset', async () => {
+    const { send, take, loaded } = open(await load());
+    send({ type: 'step', count: 9, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    take('frame');
+    send({ type: 'reset', request: 2 });
+    const again = take('loaded');
+    expect(again.numbers.step).toBe(0);
+    expect(frameViews(again.buffers[0])).toEqual(frameViews(loaded.buffers[0]));
+  });
+
+  it('runs every stepper of the page from its usual setting', async () => {
+    const { send, take } = open(await load());
+    STEPPER_NAMES.forEach((stepper, index) => {
+      const text = JSON.stringify(sceneOf(withStepper({ ...setting, level: 0 }, stepper)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: index });
+      const [, buffer] = take('loaded').buffers;
+      send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
+      expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
+    });
+  });
+
+  it('runs a membrane with every stepper that the page offers for it', async () => {
+    const { send, take } = open(await load());
+    const membrane = withModel({ ...setting, level: 0 }, 'membrane');
+    const possible = STEPPER_NAMES.filter((stepper) => canRun(stepper, 'membrane'));
+    expect(possible).not.toContain('xpbd');
+    possible.forEach((stepper, index) => {
+      const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: index });
+      const [, buffer] = take('loaded').buffers;
+      send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
+      expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
+    });
+    for (const stepper of STEPPER_NAMES.filter((one) => !possible.includes(one))) {
+      if (_name === 'the stand-in') continue;
+      const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 9 });
+      expect(take('refused').failure.kind).toBe('input');
+    }
+  });
+
+  it('says why a scene is refused and keeps the cloth it had', async () => {
+    const { send, take, loaded } = open(await load());
+    const refusedText = sceneText({ stepper: 'explicit', substeps: 1 });
+    send({ type: 'load', sceneText: refusedText, keepMotion: false, request: 2 });
+    const refused = take('refused');
+    expect(refused).toMatchObject({ request: 2 });
+    const { failure } = refused;
+    expect(failure.kind).toBe('input');
+    expect(failure.where).toBe('/method/substeps');
+    expect(failure.what).toContain('substeps');
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    expect(take('frame').hasEnded).toBe(false);
+  });
+
+  it('moves a held vertex to its target and lets it go', async () => {
+    const { send, take, loaded } = open(await load());
+    const { positions } = frameViews(loaded.buffers[0]);
+    const vertex = loaded.summary.n_vertices - 1;
+    const target: [number, number, number] = [
+      (positions[3 * vertex] ?? 0) + 0.05,
+      positions[3 * vertex + 1] ?? 0,
+      (positions[3 * vertex + 2] ?? 0) + 0.05,
+    ];
+    send({ type: 'grab', vertex });
+    send({ type: 'moveGrab', target });
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    const moved = frameViews(take('frame').buffer).positions;
+    const held = moved.subarray(3 * vertex, 3 * vertex + 3);
+    // The stand-in swings what it steps; the module puts a held vertex at its target.
+    if (_name !== 'the stand-in') {
+      target.forEach((value, axis) => {
+        expect(held[axis]).toBeCloseTo(value, 5);
+      });
+    }
+    send({ type: 'releaseGrab' });
+    send({ type: 'moveGrab', target: [9, 9, 9] });
+    send({ type: 'step', count: 20, wantsNumbers: false, request: 1, buffer: loaded.buffers[0] });
+    const free = frameViews(take('frame').buffer).positions;
+    expect(Math.max(...free)).toBeLessThan(8);
+    const away = [0, 1, 2].map((axis) => (free[3 * vertex + axis] ?? 0) - (target[axis] ?? 0));
+    expect(Math.hypot(...away)).toBeGreaterThan(0.001);
+  });
+
+  it('measures a small sweep: every row with speed, error and reference', async () => {
+    const { sweep, posted } = open(await load());
+    const { scene, settings } = sweepPlan(setting, 0);
+    const plan = { scene, settings: settings.slice(0, 5), duration_s: 0.1, repeats: 1 };
+    sweep(plan);
+    const { report } = posted.at(-1) as Sent<'sweepReport'>;
+    expect(report.done).toBe(true);
+    expect(report.rows).toHaveLength(5);
+    for (const row of report.rows) {
+      expect(row.status).toBe('ok');
+      expect(row.reference.id).not.toBe('');
+      expect(row.reference.converged).toBe(false);
+      expect(row.ms_per_frame).toBeGreaterThan(0);
+      expect(row.position_error_m).toBeGreaterThan(0);
+      expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
+      if (_name !== 'the stand-in') expect(row.commit).toMatch(/\S/);
+    }
+  });
+
+  it('goes without a reference that cannot be read', async () => {
+    const { send, posted, take, loaded } = open(await load());
+    const [, buffer] = loaded.buffers;
+    send({ type: 'setReference', bytes: new TextEncoder().encode('<html>').buffer });
+    expect(posted).toEqual([]);
+    const wanted = { wantsNumbers: true, scalar: 'distance' } as const;
+    send({ type: 'step', count: 1, request: 1, buffer, ...wanted });
+    const frame = take('frame');
+    expect(frame.scalar).toBe('distance');
+    expect(frame.report?.numbers.reference).toBeNull();
+    expect(frameViews(frame.buffer).scalar.every(Number.isNaN)).toBe(true);
+  });
+
+  it('drops a buffer of another mesh instead of writing beyond it', async () => {
+    const { send, posted } = open(await load());
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: new ArrayBuffer(16) });
+    expect(posted).toEqual([]);
+  });
+
+  it('reads an OBJ file into a mesh that moves', async () => {
+    const { send, take } = open(await load());
+    send({ type: 'readObj', name: 'two.obj', objText: objText(false), isOwn: true });
+    const { mesh } = take('objRead');
+    expect(mesh).toMatchObject({
+      ...{ name: 'two.obj', isOwn: true, threads: 'down', groups: ['hem'] },
+      ...{ nVertices: 4, nTriangles: 2, low: [0, 0, 0], high: [1, 1, 0] },
+    });
+    for (const hold of ['highest', 'nothing', 'group:hem'] as const) {
+      const text = JSON.stringify(sceneOf({ ...presetSetting('obj'), hold }, mesh));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+      const { buffers } = take('loaded');
+      const [first, buffer] = buffers;
+      send({ type: 'step', count: 3, wantsNumbers: true, request: 2, buffer });
+      const moved = frameViews(take('frame').buffer).positions;
+      const [lowest, before] = [moved[4], frameViews(first).positions[4]];
+      if (_name === 'the stand-in') continue;
+      expect(before).toBe(0);
+      if (hold === 'group:hem') expect(lowest).toBe(0);
+      else expect(lowest).toBeLessThan(0);
+    }
+  });
+
+  it('takes threads from texture coordinates, else downward, or along x on a flat mesh', async () => {
+    const { send, take } = open(await load());
+    const threadsOf = (text: string) => {
+      send({ type: 'readObj', name: 'two.obj', objText: text, isOwn: false });
+      const { mesh } = take('objRead');
+      return { threads: mesh.threads, cloth: JSON.parse(mesh.clothText) };
+    };
+    expect(threadsOf(objText(false)).threads).toBe('down');
+    const { threads, cloth } = threadsOf(objText(true));
+    expect(threads).toBe('along_x');
+    if (_name === 'the stand-in') expect(cloth.mesh.warp_direction).toEqual([1, 0, 0]);
+    else expect(cloth.mesh.warp_directions[1][0]).toBeCloseTo(1, 12);
+    expect(threadsOf(objText(true, true)).threads).toBe('texture');
+  });
+
+  it('names the line of a bad OBJ file and keeps the cloth it had', async () => {
+    const { send, take, loaded } = open(await load());
+    const bad = `${objText(false)}wobble 3\n`;
+    send({ type: 'readObj', name: 'bad.obj', objText: bad, isOwn: true });
+    const { failure } = take('objRefused');
+    expect(failure).toMatchObject({ kind: 'input', where: 'bad.obj: line 8' });
+    expect(failure.what).toContain('expected');
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    expect(take('frame').hasEnded).toBe(false);
+  });
+
+  it('turns an exception into a refusal', async () => {
+    const { send, take } = serve(await load());
+    send({ type: 'reset', request: 4 });
+    expect(take('refused')).toMatchObject({ request: 4, failure: { kind: 'internal' } });
+  });
+});
+
+describe('motion-core', () => {
+  it('reports a run that ended, with its reason', () => {
+    const { send, take } = serve(createFakeModule().module);
+    send({ type: 'open', fabricsText });
+    take('ready');
+    const fragile = JSON.stringify({ ...sceneOf(setting), name: 'fragile' });
+    send({ type: 'load', sceneText: fragile, keepMotion: false, request: 1 });
+    const [, buffer] = take('loaded').buffers;
+    send({ type: 'step', count: 50, wantsNumbers: false, request: 1, buffer });
+    const frame = take('frame');
+    expect(frame.hasEnded).toBe(true);
+    expect(frame.report?.status).toBe('not_finite');
+  });
+
+  it('runs a sweep to its end, with growing rows', () => {
+    const { sweep, posted } = serve(createFakeModule().module);
+    sweep(sweepPlan(setting, 1));
+    const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
+    expect(reports.map((report) => report.rows.length)).toEqual(
+      Array.from({ length: 14 }, (_, index) => index + 1),
+    );
+    expect(reports.map((report) => report.done).indexOf(true)).toBe(13);
+  });
+
+  it('refuses a sweep with the reason of the module', () => {
+    const { sweep, take } = serve(createFakeModule().module);
+    const { scene } = sweepPlan(setting, 0);
+    sweep({ scene, settings: [] });
+    expect(take('refused').failure.where).toBe('/settings');
+  });
+
+  it('deletes every object of the module', () => {
+    const { module, alive } = createFakeModule();
+    const { send, sweep, core } = serve(module);
+    send({ type: 'open', fabricsText });
+    send({ type: 'open', fabricsText });
+    sweep(sweepPlan(setting, 1));
+    send({ type: 'readObj', name: 'two.obj', objText: objText(false), isOwn: true });
+    expect(alive()).toBe(1);
+    core.close();
+    expect(alive()).toBe(0);
+  });
+});
+
+describe('motion-core with a module that lacks CHOLMOD', () => {
+  const { module } = createFakeModule({ hasCholmod: false });
+
+  it('loads every preset with every stepper, and says what serves instead', () => {
+    const { send, take } = open(module);
+    for (const preset of PRESET_IDS) {
+      for (const stepper of STEPPER_NAMES) {
+        const text = JSON.stringify(sceneOf(withStepper(presetSetting(preset), stepper)));
+        send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+        expect(take('loaded').summary.notes).toEqual(['Eigen serves.']);
+      }
+    }
+  });
+
+  it('sweeps with Eigen, in the reference and in projective, and its rows can be applied', () => {
+    const { send, sweep, take, posted } = open(module);
+    sweep(sweepPlan(setting, 1));
+    const { rows } = (posted.at(-1) as Sent<'sweepReport'>).report;
+    expect(rows.every((row) => row.reference.description === 'implicit with eigen')).toBe(true);
+    const projective = rows.filter((row) => row.method.stepper === 'projective');
+    expect(projective.map((row) => row.method.solver)).toEqual([
+      'eigen',
+      'eigen',
+      'eigen',
+      'eigen',
+    ]);
+    posted.length = 0;
+    for (const row of rows) {
+      const text = JSON.stringify(sceneOf(settingOfRow(row, setting)));
+      send({ type: 'load', sceneText: text, keepMotion: false, request: 3 });
+      take('loaded');
+    }
+  });
+
+  it('refuses what names CHOLMOD', () => {
+    const { send, take } = open(module);
+    const scene = sceneOf(withStepper(setting, 'projective'));
+    const method = { ...(scene.method as object), solver: 'cholmod' };
+    const text = JSON.stringify({ ...scene, method });
+    send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+    expect(take('refused').failure.where).toBe('/method/solver');
+  });
+
+  it('has no option and no word that names it', () => {
+    const words = JSON.stringify([STEPPERS, PRESETS]);
+    expect(words.toLowerCase()).not.toContain('cholmod');
+  });
+});
+
+const shippedFile = new URL('../../../assets/references/swinging_sheet.reference', import.meta.url);
+
+describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () => {
+  const swinging = presetSetting('swinging-sheet');
+  const textOf = (patch: Partial<Setting>) => JSON.stringify(sceneOf({ ...swinging, ...patch }));
+
+  async function openReferred() {
+    const server = serve(await loadRealModule());
+    const { send, take } = server;
+    send({ type: 'open', fabricsText });
+    take('ready');
+    const loadWith = (patch: Partial<Setting>, keepMotion = false) => {
+      send({ type: 'load', sceneText: textOf(patch), keepMotion, request: 1, scalar: 'distance' });
+      return take('loaded');
+    };
+    const step = (count: number, { buffers }: Sent<'loaded'>) => {
+      const wanted = { wantsNumbers: true, scalar: 'distance' } as const;
+      send({ type: 'step', count, request: 1, buffer: buffers[1], ...wanted });
+      const { report, buffer } = take('frame');
+      return { reference: report?.numbers.reference, distances: frameViews(buffer).scalar };
+    };
+    const first = loadWith({});
+    send({ type: 'setReference', bytes: Uint8Array.from(readFileSync(shippedFile)).buffer });
+    const { reference } = take('referenceSet').numbers;
+    return { ...server, loadWith, step, first, reference };
+  }
+
+  it('tells the distance, of each point and of all, and how well that is known', async () => {
+    const { step, first, reference } = await openReferred();
+    expect(reference).toMatchObject({ distance_m: 0, disturbed: false });
+    const { reference: later, distances } = step(12, first);
+    const distance = later?.distance_m ?? Number.NaN;
+    expect(distance).toBeGreaterThan(0.001);
+    expect(later?.uncertainty_m).toBeLessThan(0.1 * distance);
+    expect(Math.max(...distances)).toBeGreaterThan(distance);
+    expect(Math.min(...distances)).toBe(0); // at the pins
+  });
+
+  it('grows as the step, for a method of first order', async () => {
+    const { loadWith, step } = await openReferred();
+    const distanceOf = (substeps: number) => {
+      const newton = { ...withStepper(swinging, 'newton'), substeps };
+      return step(3, loadWith(newton)).reference?.distance_m ?? Number.NaN;
+    };
+    const ratio = distanceOf(1) / distanceOf(4);
+    expect(ratio).toBeGreaterThan(3.4);
+    expect(ratio).toBeLessThan(4.6);
+  });
+
+  it('meets the same scene at any level and method, and no changed one', async () => {
+    const { loadWith } = await openReferred();
+    const meets = (patch: Partial<Setting>) => loadWith(patch).numbers.reference !== null;
+    expect(meets({ level: 1 })).toBe(true);
+    expect(meets(withStepper(swinging, 'xpbd'))).toBe(true);
+    expect(meets({ fabric: 'silk' })).toBe(false);
+    expect(meets({ model: 'membrane' })).toBe(false);
+    expect(meets({ preset: 'curtain' })).toBe(false);
+    expect(meets({})).toBe(true);
+  });
+
+  it('has no distance beyond its end', async () => {
+    const { step, first } = await openReferred();
+    const { reference, distances } = step(120, first);
+    expect(reference).toMatchObject({ distance_m: null, disturbed: false });
+    expect(reference?.end_s).toBeLessThan(2);
+    expect(distances.every(Number.isNaN)).toBe(true);
+  });
+
+  it('has no distance for a cloth that a hand or another fabric moved, until a reset', async () => {
+    const { send, take, loadWith, step, first } = await openReferred();
+    send({ type: 'grab', vertex: 40 });
+    expect(step(2, first).reference).toMatchObject({ distance_m: null, disturbed: true });
+    send({ type: 'reset', request: 1 });
+    expect(take('loaded').numbers.reference).toMatchObject({ distance_m: 0, disturbed: false });
+    step(5, loadWith({ fabric: 'silk' }));
+    const back = loadWith({}, true);
+    expect(back.numbers.reference).toMatchObject({ distance_m: null, disturbed: true });
+    const finer = step(5, loadWith({ level: 1 }));
+    expect(finer.reference?.disturbed).toBe(false);
+    expect(loadWith({}, true).numbers.reference?.disturbed).toBe(false);
+  });
+});
+
+describe.runIf(hasModule)('the cost of a step', () => {
+  async function projectiveRun() {
+    const module = await loadRealModule();
+    const simulation = new module.Simulation(fabricsText);
+    const method = withStepper({ ...setting, level: 3 }, 'projective');
+    simulation.load(JSON.stringify(sceneOf({ ...method, iterations: 1 })));
+    simulation.step(1);
+    const readNumbers = () => JSON.parse(simulation.numbers()) as RunNumbers;
+    return { simulation, readNumbers };
+  }
+
+  it('is the wall time of the whole step, of which parts are a part', async () => {
+    const { simulation, readNumbers } = await projectiveRun();
+    const begin = performance.now();
+    simulation.step(60);
+    const clockMs = performance.now() - begin;
+    const { steps_ms, steps_timed, parts_ms } = readNumbers();
+    expect(steps_timed).toBe(60);
+    expect(steps_ms).toBeLessThan(clockMs);
+    expect(steps_ms).toBeGreaterThan(0.85 * clockMs);
+    expect(Object.values(parts_ms).reduce((sum, ms) => sum + ms, 0)).toBeLessThan(steps_ms);
+  });
+
+  it('leaves out the first step, which builds what the others keep', async () => {
+    const { readNumbers } = await projectiveRun();
+    expect(readNumbers()).toMatchObject({ steps_timed: 0, steps_ms: 0, parts_ms: {} });
+  });
+});
+
+describe.runIf(hasModule)('the modules', () => {
+  it('binds exactly the classes and methods that the types name', async () => {
+    const module: object = { ...(await loadRealModule()), ...(await loadModule('deform')) };
+    expect(boundMethods(module)).toEqual({
+      ...PLEAT_METHODS,
+      ...SWEEP_METHODS,
+      ...DEFORM_METHODS,
+    });
+  });
+});

@@ -1,0 +1,305 @@
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import type { PleatModule } from '../../src/motion/bindings/pleat-module';
+import type { StartMotion } from '../../src/motion/run/motion-client';
+import { MotionRun } from '../../src/motion/run/motion-run';
+import { decodeMotionLink } from '../../src/motion/state/motion-link';
+import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
+import { presetSetting, withModel } from '../../src/motion/state/setting';
+import { MotionCore } from '../../src/motion/worker/motion-core';
+import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
+import { createStore } from '../../src/shared/state/store';
+import { createAsked } from '../../src/shared/workers/asked';
+import { isBuilt, loadModule } from '../support/built-module';
+import diverging from '../support/diverging.json';
+import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';
+import { workerPort } from '../support/worker-port';
+
+// The worker is a core in this thread, whose answers come later, as a worker's do.
+let module: PleatModule;
+let changeScene = (scene: Record<string, unknown>) => scene;
+const start: StartMotion = (listener) =>
+  createAsked(
+    workerPort<ToMotion, FromMotion>((post) => {
+      const core = new MotionCore(module, post);
+      return {
+        receive(message) {
+          if (message.type !== 'load') return core.receive(message);
+          const scene = changeScene(JSON.parse(message.sceneText));
+          core.receive({ ...message, sceneText: JSON.stringify(scene) });
+        },
+        close: () => core.close(),
+      };
+    }),
+    listener,
+  );
+
+/** A run at a link, with the frame that is shown. */
+function open(hash: string) {
+  const { link, problems } = decodeMotionLink(hash);
+  const store = createStore(initialMotionState(link, problems));
+  let shown = { positions: new Float32Array(0), values: new Float32Array(0), scalar: '' };
+  const run = new MotionRun(
+    store,
+    {
+      showMesh: () => undefined,
+      showFrame(buffer, scalar) {
+        const views = frameViews(buffer);
+        shown = { positions: views.positions.slice(), values: views.scalar.slice(), scalar };
+      },
+    },
+    start,
+  );
+  return { store, run, shown: () => shown };
+}
+
+const phaseOf = ({ store }: ReturnType<typeof open>) => store.get().phase;
+
+beforeEach(() => {
+  vi.stubGlobal('requestAnimationFrame', (work: () => void) => setTimeout(work, 1));
+  vi.stubGlobal('cancelAnimationFrame', clearTimeout);
+});
+
+describe('motion run of a run that diverges', () => {
+  it('says in which step and where, keeps the last finite frame, and resets', async () => {
+    module = createFakeModule().module;
+    changeScene = (scene) => ({ ...scene, name: 'fragile' });
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const start = page.shown().positions;
+    page.run.play();
+    await vi.waitUntil(() => phaseOf(page) === 'stopped');
+    const { problem, playing, numbers } = page.store.get();
+    expect(playing).toBe(false);
+    expect(numbers?.step).toBe(FRAGILE_STEPS);
+    expect(problem?.source).toBe('run');
+    expect(problem?.sentence).toContain(`in step ${FRAGILE_STEPS + 1}`);
+    expect(problem?.sentence).toContain('vertex 3');
+    const place = Array.from(page.shown().positions.subarray(9, 12), (metres) => metres.toFixed(2));
+    expect(problem?.sentence).toContain(`(${place.join(', ')}) m`);
+    expect(page.shown().positions).not.toEqual(start);
+
+    page.run.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({ problem: null, numbers: { step: 0 } });
+    expect(page.shown().positions).toEqual(start);
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+  });
+
+  it.runIf(isBuilt('pleat'))('does so with the WebAssembly module', async () => {
+    module = await loadModule('pleat');
+    changeScene = (scene) => ({ ...scene, ...diverging });
+    const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const start = page.shown().positions;
+    page.run.play();
+    await vi.waitUntil(() => phaseOf(page) === 'stopped', 20000);
+    const { problem, numbers } = page.store.get();
+    expect(numbers?.time_s).toBeCloseTo(0.2, 9);
+    expect(problem?.sentence).toMatch(/in step 13, .*vertex \d+ .*0\.2.* It was last at \(/);
+    expect(page.shown().positions.every((metres) => Math.abs(metres) < 3)).toBe(true);
+    page.run.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+    expect(page.shown().positions).toEqual(start);
+  });
+});
+
+describe('motion run', () => {
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+  });
+
+  it('keeps the motion over a change of level, and not over one of the scene', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    const { setting } = page.store.get();
+    page.store.set({ setting: { ...setting, level: 1 } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(1);
+    page.store.set({ setting: { ...setting, preset: 'tablecloth' } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(0);
+  });
+
+  it('starts anew when the model changes', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    page.store.set({ setting: withModel(page.store.get().setting, 'membrane') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(0);
+  });
+
+  it('answers a refused setting with the sentence, and the next good one clears it', async () => {
+    const page = open('#scene=curtain&level=0&stepper=explicit');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const { setting } = page.store.get();
+    page.store.set({ setting: { ...setting, substeps: 1 } });
+    await vi.waitUntil(() => phaseOf(page) === 'refused');
+    expect(page.store.get().problem?.sentence).toContain('expected at least 300 substeps');
+    page.store.set({ setting });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+  });
+});
+
+describe('motion run of a mesh', () => {
+  const triangle = (top: number) => `v 0 ${top} 0\nv 1 0 0\nv 0 0 1\ng waist\nf 1 2 3\n`;
+  const file = (name: string, text: string) => new File([text], name);
+  const fetched = vi.fn();
+  const aMesh = expect.stringContaining('.obj');
+
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+    fetched.mockReset();
+    fetched.mockImplementation(async () => new Response(triangle(1)));
+    vi.stubGlobal('fetch', fetched);
+  });
+
+  it('fetches the example only when it is wanted', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(fetched).not.toHaveBeenCalledWith(aMesh);
+    page.store.set({ setting: presetSetting('obj') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().mesh).toMatchObject({ name: 'skirt.obj', isOwn: false });
+  });
+
+  it('puts the visitor’s file in its place, from any scene, and keeps it', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await page.run.openObj(file('hat.OBJ', triangle(2)));
+    await vi.waitUntil(() => page.store.get().mesh !== null && phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({
+      mesh: { name: 'hat.OBJ', isOwn: true, high: [1, 2, 1] },
+      setting: { preset: 'obj', hold: 'highest' },
+    });
+    const { setting } = page.store.get();
+    page.store.set({ setting: presetSetting('curtain') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.store.set({ setting });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().mesh?.name).toBe('hat.OBJ');
+    expect(fetched).not.toHaveBeenCalledWith(aMesh);
+  });
+
+  it('says what is wrong with a file and goes on with the cloth', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const sentence = () => page.store.get().problem?.sentence ?? '';
+    const { setting } = page.store.get();
+    await page.run.openObj(file('hat.obj', 'v 0 0 0\nwobble\n'));
+    await vi.waitUntil(() => sentence() !== '');
+    expect(sentence()).toContain('hat.obj: line 2: expected');
+    await page.run.openObj(file('hat.stl', 'solid'));
+    expect(sentence()).toContain('hat.stl is no OBJ file');
+    expect(page.store.get()).toMatchObject({ setting, mesh: null, phase: 'ready' });
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+  });
+
+  it('says that the example cannot be had, and takes a file all the same', async () => {
+    fetched.mockRejectedValue(new TypeError('offline'));
+    const page = open('#scene=obj');
+    await vi.waitUntil(() => phaseOf(page) === 'refused');
+    expect(page.store.get().problem?.sentence).toContain('could not be fetched');
+    await page.run.openObj(file('hat.obj', triangle(1)));
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+  });
+
+  it('keeps a file that came before the example did', async () => {
+    let bring: (answer: Response) => void = () => undefined;
+    const late = new Promise<Response>((resolve) => {
+      bring = resolve;
+    });
+    fetched.mockReturnValue(late);
+    const page = open('#scene=obj');
+    await vi.waitUntil(() => fetched.mock.calls.length > 0);
+    await page.run.openObj(file('hat.obj', triangle(1)));
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    bring(new Response(triangle(2)));
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    await new Promise((resume) => setTimeout(resume, 20));
+    expect(page.store.get().mesh?.name).toBe('hat.obj');
+  });
+
+  it('starts anew when the fabric changes, as there are no mesh lines', async () => {
+    const page = open('#scene=obj');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    page.store.set({ setting: { ...page.store.get().setting, fabric: 'silk' } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(0);
+  });
+});
+
+describe('motion run with a reference', () => {
+  const reference = { name: 'swinging sheet', end_s: 0.1, uncertainty_m: 0.001 };
+  const fetched = vi.fn();
+  const answer = (content: object) => async () => new Response(JSON.stringify(content));
+
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+    fetched.mockReset();
+    fetched.mockImplementation(answer(reference));
+    vi.stubGlobal('fetch', fetched);
+  });
+
+  const referenceOf = ({ store }: ReturnType<typeof open>) => store.get().numbers?.reference;
+
+  it('fetches it after the cloth is there, and compares', async () => {
+    fetched.mockImplementation(() => {
+      expect(page.store.get().phase).toBe('ready');
+      return answer(reference)();
+    });
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => referenceOf(page));
+    expect(referenceOf(page)).toMatchObject({ distance_m: 0.012, end_s: 0.1 });
+    expect(fetched).toHaveBeenCalledOnce();
+  });
+
+  it('fetches none for another fabric or model than it is of', async () => {
+    const page = open('#scene=swinging-sheet&level=0&fabric=silk');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.store.set({ setting: withModel(presetSetting('swinging-sheet'), 'membrane') });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(fetched).not.toHaveBeenCalled();
+  });
+
+  it('goes without when it cannot be fetched, and tries again at the next load', async () => {
+    fetched.mockRejectedValueOnce(new TypeError('offline'));
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+    page.store.set({ setting: { ...page.store.get().setting, level: 1 } });
+    await vi.waitUntil(() => referenceOf(page));
+  });
+
+  it('fills the frame that stands with distances once they are to be shown', async () => {
+    const page = open('#scene=swinging-sheet&level=0&heat=distance');
+    await vi.waitUntil(() => page.shown().scalar === 'distance');
+    expect(page.shown().values.every((metres) => Math.abs(metres - 0.012) < 1e-6)).toBe(true);
+    expect(page.store.get().numbers?.step).toBe(0);
+    page.store.set({ heat: 'magnitude' });
+    await vi.waitUntil(() => page.shown().scalar === 'stretch');
+  });
+
+  it('shows the fabric for a heat map that has no reference', async () => {
+    fetched.mockRejectedValue(new TypeError('offline'));
+    const page = open('#scene=swinging-sheet&level=0&heat=distance');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(shownHeat(page.store.get())).toBe('off');
+    expect(page.shown().scalar).toBe('stretch');
+  });
+});

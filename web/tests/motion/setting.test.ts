@@ -1,0 +1,139 @@
+import { describe, expect, it } from 'vitest';
+import type { BenchRow } from '../../src/motion/bindings/sweep-module';
+import {
+  isSameMethod,
+  modelsOf,
+  PRESET_IDS,
+  presetSetting,
+  sceneOf,
+  withModel,
+  withStepper,
+} from '../../src/motion/state/setting';
+import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
+import { NO_SWEEP, rowOfSetting, sweptScene } from '../../src/motion/state/sweep-state';
+import { STEPPER_NAMES } from '../../src/shared/steppers/steppers';
+
+const start = presetSetting('curtain');
+
+function rowFor(level: number, method: BenchRow['method']): BenchRow {
+  return { level, method, status: 'ok' } as BenchRow;
+}
+
+describe('setting', () => {
+  it('writes only the counts that the stepper listens to', () => {
+    const implicit = sceneOf(withStepper(start, 'implicit')).method as Record<string, unknown>;
+    const xpbd = sceneOf(withStepper(start, 'xpbd')).method as Record<string, unknown>;
+    expect(implicit).not.toHaveProperty('iterations');
+    expect(implicit).toHaveProperty('substeps');
+    expect(xpbd).toMatchObject({ stepper: 'xpbd', substeps: 30, iterations: 1 });
+  });
+
+  it('writes 0 substeps as the word of the scene format', () => {
+    const method = sceneOf(withStepper(start, 'explicit')).method;
+    expect(method).toMatchObject({ stepper: 'explicit', substeps: 'stable' });
+    const row = rowFor(1, { stepper: 'explicit', step_s: 1 / 60, substeps: 'stable' });
+    expect(settingOfRow(row, start).substeps).toBe(0);
+  });
+
+  it('keeps the fine print of a stepper away from the others', () => {
+    for (const preset of PRESET_IDS) {
+      const own = presetSetting(preset);
+      for (const stepper of STEPPER_NAMES.filter((other) => other !== own.stepper)) {
+        const method = sceneOf(withStepper(own, stepper)).method as Record<string, unknown>;
+        const known = ['stepper', 'step_s', 'substeps', 'iterations', 'solver'];
+        expect(Object.keys(method).filter((key) => !known.includes(key))).toEqual([]);
+      }
+    }
+  });
+
+  it('changes fabric and level of the scene and nothing else', () => {
+    const scene = sceneOf({ ...start, fabric: 'silk', level: 4 });
+    const before = sceneOf(start);
+    expect(scene).toMatchObject({ fabric: { name: 'silk' }, refinement: { level: 4 } });
+    expect({ ...scene, fabric: 0, refinement: 0 }).toEqual({ ...before, fabric: 0, refinement: 0 });
+  });
+
+  it('tells methods apart by the counts that matter only', () => {
+    const implicit = withStepper(start, 'implicit');
+    const projective = withStepper(start, 'projective');
+    expect(isSameMethod(implicit, { ...implicit, iterations: 99 })).toBe(true);
+    expect(isSameMethod(projective, { ...projective, iterations: 99 })).toBe(false);
+    expect(isSameMethod(implicit, { ...implicit, stepS: 1 / 240 })).toBe(false);
+  });
+});
+
+describe('model', () => {
+  it('is the one choice of a mesh, and springs first for a sheet', () => {
+    expect(modelsOf('obj')).toEqual(['membrane']);
+    expect(presetSetting('obj').model).toBe('membrane');
+    expect(presetSetting('curtain').model).toBe('springs');
+  });
+
+  it('takes a stepper that can run it, and leaves one that can', () => {
+    const xpbd = withStepper(start, 'xpbd');
+    expect(withModel(xpbd, 'membrane')).toMatchObject({ model: 'membrane', stepper: 'implicit' });
+    expect(withModel(withStepper(start, 'rk4'), 'membrane').stepper).toBe('rk4');
+    expect(withModel(xpbd, 'springs').stepper).toBe('xpbd');
+  });
+
+  it('stands in the scene', () => {
+    const scene = sceneOf(withModel(start, 'membrane'));
+    expect(scene.model).toEqual({ elasticity: 'membrane' });
+  });
+});
+
+describe('sweep-plan', () => {
+  const settingsOf = (level: number, finest: number) =>
+    sweepPlan(start, finest).settings.filter((one) => one['/refinement/level'] === level);
+  const steppersOf = (level: number) =>
+    new Set(settingsOf(level, 3).map((one) => one['/method'].stepper));
+
+  it('measures every level up to the finest, with every stepper that can keep up', () => {
+    expect(settingsOf(3, 3).length).toBeGreaterThan(0);
+    expect(settingsOf(4, 3)).toEqual([]);
+    const others = ['implicit', 'projective', 'xpbd'];
+    for (const level of [0, 1, 2, 3]) {
+      const expected = level <= 1 ? [...others, 'explicit'] : others;
+      expect(steppersOf(level)).toEqual(new Set(expected));
+    }
+  });
+
+  it('measures a membrane with what can run it', () => {
+    const { scene, settings } = sweepPlan(withModel(start, 'membrane'), 1);
+    expect(scene.model).toEqual({ elasticity: 'membrane' });
+    expect(settings.map((one) => one['/method'].stepper)).toEqual([
+      ...['implicit', 'implicit', 'newton'],
+      ...['implicit', 'implicit', 'newton'],
+    ]);
+  });
+
+  it('gives explicit as many substeps as each level asks for', () => {
+    const methods = settingsOf(1, 1).map((one) => one['/method']);
+    expect(methods.find(({ stepper }) => stepper === 'explicit')?.substeps).toBe('stable');
+  });
+
+  it('finds the row of a setting that a row was applied from', () => {
+    const rows = sweepPlan(start, 2).settings.map((one) =>
+      rowFor(one['/refinement/level'], { ...one['/method'] }),
+    );
+    const scene = sweptScene(start, null);
+    for (const row of rows) {
+      const setting = settingOfRow(row, start);
+      expect(rowOfSetting({ sweep: { ...NO_SWEEP, rows, scene }, setting, mesh: null })).toBe(row);
+    }
+  });
+
+  it('takes no row of another fabric or model, or of a failed run', () => {
+    const method = { stepper: 'implicit', step_s: 1 / 60, substeps: 1 };
+    const row = rowFor(1, method);
+    const setting = settingOfRow(row, start);
+    for (const change of [{ fabric: 'silk' }, { model: 'membrane' as const }]) {
+      const scene = { ...sweptScene(start, null), ...change };
+      const sweep = { ...NO_SWEEP, rows: [row], scene };
+      expect(rowOfSetting({ sweep, setting, mesh: null })).toBeNull();
+    }
+    const failed = { ...row, status: 'not_positive_definite' };
+    const sweep = { ...NO_SWEEP, rows: [failed], scene: sweptScene(start, null) };
+    expect(rowOfSetting({ sweep, setting, mesh: null })).toBeNull();
+  });
+});

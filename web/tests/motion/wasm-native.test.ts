@@ -1,0 +1,139 @@
+// The same core natively and in WebAssembly: smooth scenes end at the same places.
+import { beforeAll, describe, expect, it } from 'vitest';
+import type { PleatModule } from '../../src/motion/bindings/pleat-module';
+import { MODELS } from '../../src/motion/state/setting';
+import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { canRun, type Model, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
+import { loadModule } from '../support/built-module';
+import { nativePositions } from '../support/native-command';
+
+/** Steps of a run: rk4, in its hundreds of stable substeps, takes seconds for twenty. */
+const stepsOf = (stepper: string) => (stepper === 'rk4' ? 20 : 100);
+const stepS = 0.004;
+const PATIENCE_MS = 60000;
+
+/**
+ * Relative to the largest coordinate: rounding, carried through so many smooth steps. xpbd computes in 32 bits, whose
+ * rounding is 1e-7.
+ */
+const toleranceOf = (stepper: string) => (stepper === 'xpbd' ? 2e-5 : 1e-9);
+
+const sheet = (warp: number[], cells: number) => ({
+  cloth: {
+    sheet: {
+      width_m: 1,
+      height_m: 1,
+      columns: cells,
+      rows: cells,
+      origin_m: [-0.5, 1.5, 0],
+      warp_direction: warp,
+      weft_direction: [1, 0, 0],
+    },
+  },
+  pins: [{ part: 'upper_edge' }],
+});
+
+// Smooth: nothing buckles and nothing comes into contact.
+const scenes: Record<string, object> = {
+  'spring pendulum': {
+    cloth: {
+      particles: {
+        positions_m: [
+          [0, 1, 0],
+          [0.6, 1, 0.1],
+        ],
+        masses_kg: [1, 0.5],
+        springs: [{ a: 0, b: 1, stiffness_n_per_m: 40, damping_n_s_per_m: 0.1 }],
+      },
+    },
+    pins: [{ vertices: [0] }],
+  },
+  'sheet swinging from its edge': { ...sheet([0, -0.8, 0.6], 8), fabric: { name: 'fine cotton' } },
+  'sheet stretched by its weight': {
+    ...sheet([0, -1, 0], 16),
+    fabric: { name: 'spandex' },
+    world: { air: {} },
+  },
+};
+
+/** Every stepper, each with what makes it do the same work in both builds. */
+const methods: Record<string, { stepper: string; [detail: string]: unknown }> = {
+  'implicit, CHOLMOD': { stepper: 'implicit', solver: 'cholmod' },
+  'implicit, CG to 1e-12': { stepper: 'implicit', solver: 'cg', tolerance: 1e-12 },
+  projective: { stepper: 'projective', iterations: 10, solver: 'cholmod' },
+  xpbd: { stepper: 'xpbd', substeps: 4, iterations: 2 },
+  explicit: { stepper: 'explicit', substeps: 'stable' },
+  rk4: { stepper: 'rk4', substeps: 'stable' },
+  newton: { stepper: 'newton' },
+};
+
+let module: PleatModule;
+beforeAll(async () => {
+  module = await loadModule('pleat');
+});
+
+function wasmPositions(scene: object, steps: number): Float64Array {
+  const simulation = new module.Simulation(fabricsText);
+  try {
+    expect(JSON.parse(simulation.load(JSON.stringify(scene)))).toMatchObject({ ok: true });
+    expect(simulation.step(steps)).toBe(0);
+    return Float64Array.from(simulation.exactPositions());
+  } finally {
+    simulation.delete();
+  }
+}
+
+function relativeDifference(a: Float64Array, b: Float64Array): number {
+  expect(a.length).toBe(b.length);
+  let difference = 0;
+  let largest = 0;
+  a.forEach((value, i) => {
+    difference = Math.max(difference, Math.abs(value - (b[i] ?? Number.NaN)));
+    largest = Math.max(largest, Math.abs(value));
+  });
+  return difference / largest;
+}
+
+/** The scene with its model, for the models that it can have: particles have springs alone. */
+function modelled(scene: object): [Model, object][] {
+  const models: Model[] = 'fabric' in scene ? ['springs', 'membrane'] : ['springs'];
+  return models.map((model) => [
+    model,
+    'fabric' in scene ? { ...scene, model: { elasticity: model } } : scene,
+  ]);
+}
+
+const runs = Object.entries(scenes).flatMap(([sceneName, scene]) =>
+  modelled(scene).flatMap(([model, whole]) =>
+    Object.entries(methods)
+      .filter(([, { stepper }]) => canRun(stepper, model))
+      .map(([methodName, method]) => ({ sceneName, model, methodName, scene: whole, method })),
+  ),
+);
+
+describe('WebAssembly against native', () => {
+  it('is held for every stepper and every model of the page', () => {
+    const held = (model: Model) =>
+      new Set(runs.filter((run) => run.model === model).map(({ method }) => method.stepper));
+    for (const model of MODELS)
+      expect(held(model)).toEqual(new Set(STEPPER_NAMES.filter((name) => canRun(name, model))));
+  });
+
+  it.each(runs)(
+    '$sceneName, $model: $methodName ends at the same places',
+    ({ sceneName, scene, method }) => {
+      const steps = stepsOf(method.stepper);
+      const whole = {
+        name: sceneName,
+        ...scene,
+        method: { step_s: stepS, ...method },
+        duration_s: stepS * steps,
+        record: { every_s: stepS * steps, format: 'binary' },
+      };
+      const native = nativePositions(whole);
+      const moved = wasmPositions(whole, steps);
+      expect(relativeDifference(moved, native)).toBeLessThan(toleranceOf(method.stepper));
+    },
+    PATIENCE_MS,
+  );
+});

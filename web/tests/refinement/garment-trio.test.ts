@@ -1,0 +1,388 @@
+// The three panes with the real module and the frames that come with the page.
+import { beforeAll, describe, expect, it } from 'vitest';
+import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import type { ShownFrame } from '../../src/refinement/run/pane-set';
+import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
+import { exampleUrls } from '../../src/refinement/run/records';
+import { Trio, type TrioParts } from '../../src/refinement/run/trio';
+import { basePatterns, type PlanFile } from '../../src/refinement/state/plan-file';
+import {
+  DEFAULT_LINK,
+  initialRefinementState,
+  type PaneId,
+  type RefinementLink,
+  type RefinementState,
+} from '../../src/refinement/state/refinement-state';
+import type { GarmentMesh, ToGarment } from '../../src/refinement/worker/garment-protocol';
+import { frameViews } from '../../src/shared/bindings/frame';
+import { createStore, type Store } from '../../src/shared/state/store';
+import { loadModule } from '../support/built-module';
+import { exampleClient, garmentClient, recordBytes } from '../support/garment-workers';
+
+let module: RefinementModule;
+beforeAll(async () => {
+  module = await loadModule('refinement');
+});
+
+const PATIENCE_MS = 60000;
+
+/** The first three frames of a further example count, instead of minutes of work. */
+const SEEN = { fromS: 0, toS: 0.1 };
+
+const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes, SEEN);
+
+interface Stand {
+  store: Store<RefinementState>;
+  trio: Trio;
+  meshes: Partial<Record<PaneId, GarmentMesh>>;
+  shown: Partial<Record<PaneId, Float32Array>>;
+  questions: ToGarment[];
+  settled(test: (state: RefinementState) => boolean): Promise<RefinementState>;
+}
+
+function stand(link: Partial<RefinementLink> = {}, changes: Partial<TrioParts> = {}): Stand {
+  const store = createStore(initialRefinementState({ ...DEFAULT_LINK, ...link }, []));
+  const meshes: Stand['meshes'] = {};
+  const shown: Stand['shown'] = {};
+  const questions: ToGarment[] = [];
+  const held: Partial<Record<PaneId, ArrayBuffer>> = {};
+  const view = {
+    showMesh(pane: PaneId, mesh: GarmentMesh) {
+      meshes[pane] = mesh;
+    },
+    showFrames(frames: ShownFrame[]) {
+      for (const { pane, buffer } of frames) {
+        expect(buffer).not.toBe(held[pane]); // that is drawn until now
+        held[pane] = buffer;
+        shown[pane] = frameViews(buffer).positions.slice();
+      }
+    },
+  };
+  const trio = new Trio(store, view, {
+    start: () => garmentClient(module, questions),
+    fetchBytes: recordBytes,
+    planner: plannerParts(),
+    later: (callback) => setTimeout(callback, 1),
+    nowMs: () => performance.now(),
+    ...changes,
+  });
+  const settled = (test: (state: RefinementState) => boolean) =>
+    new Promise<RefinementState>((resolve) => {
+      const look = () => {
+        if (test(store.get())) resolve(store.get());
+        else setTimeout(look, 2);
+      };
+      look();
+    });
+  return { store, trio, meshes, shown, questions, settled };
+}
+
+const isReady = ({ phase }: RefinementState) => phase === 'ready';
+
+describe('planner', () => {
+  it('makes of the example the very plan that comes with the page', async () => {
+    const urls = exampleUrls('skirt');
+    const shipped: PlanFile = JSON.parse(
+      new TextDecoder().decode(await recordBytes(urls?.plan ?? '')),
+    );
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'demand', demand: 3, budget: null };
+    const planner = plannerParts();
+    // A hair more demand is another wish, and the same mesh.
+    const near = await planner.plan({ ...wish, demand: 3.01 });
+    expect(near.splits).toEqual(shipped.splits);
+    near.curvature_limits_per_m.forEach((limit, pattern) => {
+      expect(limit).toBeCloseTo(shipped.curvature_limits_per_m[pattern] ?? 0, 6);
+    });
+  });
+
+  it('keeps a budget of vertices, nearly used up', async () => {
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'budget', demand: 3, budget: 2000 };
+    const plan = await plannerParts().plan(wish);
+    expect(plan.vertices).toBeLessThanOrEqual(2000);
+    expect(plan.vertices).toBeGreaterThan(1940);
+    expect(plan.curvature_limits_per_m.every((limit) => limit > 0)).toBe(true);
+  });
+
+  it('says what is wrong with a budget below the coarse mesh', async () => {
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'budget', demand: 3, budget: 10 };
+    await expect(plannerParts().plan(wish)).rejects.toThrow('at least the base mesh');
+  });
+});
+
+/** What is said when an example fails with the words "no room". */
+const NO_ROOM = 'Not all of it could be fetched (no room). Check the connection.';
+
+describe('further examples', () => {
+  it(
+    'are run, told of, merged with the one that comes with the page, and kept',
+    async () => {
+      const planner = plannerParts();
+      const wish: Wish = { ...DEFAULT_LINK, demand: 4 };
+      const alone = await planner.plan(wish);
+      const heard: [string, number][] = [];
+      const hear = (motion: string, share: number) => heard.push([motion, share]);
+      const both = await planner.plan({ ...wish, further: ['squat'] }, hear);
+      expect(both.examples.map(({ name }) => name)).toEqual(['skirt_walk', 'skirt_squat']);
+      expect(heard.map(([motion]) => motion)).toEqual(Array(4).fill('squat'));
+      expect(heard.map(([, share]) => Math.round(3 * share))).toEqual([0, 0, 1, 2]);
+      const before = basePatterns(alone);
+      const after = basePatterns(both);
+      expect(after.every((pattern, vertex) => pattern >= (before[vertex] ?? 9))).toBe(true);
+      expect(after).not.toEqual(before);
+      // Another demand runs nothing.
+      heard.length = 0;
+      const again = await planner.plan({ ...wish, demand: 5, further: ['squat'] }, hear);
+      expect([heard.length, again.examples.length]).toEqual([0, 2]);
+      // Another fabric is another cloth.
+      const other = await planner.plan({ ...wish, fabric: 'silk' });
+      expect(other.examples.length).toBe(1);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'say what is wrong with one that cannot run',
+    async () => {
+      const steep = createPlanner(
+        () => {
+          const client = exampleClient(module);
+          return {
+            ...client,
+            ask: (question) =>
+              client.ask(question.type === 'begin' ? { ...question, sceneText: '{' } : question),
+          };
+        },
+        recordBytes,
+        SEEN,
+      );
+      const wish: Wish = { ...DEFAULT_LINK, further: ['squat'] };
+      await expect(steep.plan(wish)).rejects.toThrow(
+        /^expected JSON, got an error while parsing object key/,
+      );
+      expect((await steep.plan({ ...wish, further: [] })).examples.length).toBe(1);
+    },
+    PATIENCE_MS,
+  );
+
+  /** Stays at half of any further example, or fails there. */
+  function halfway(failure: Error | null) {
+    const planner = plannerParts();
+    return {
+      ...planner,
+      async plan(wish: Wish, progress?: Progress) {
+        if (wish.further.length === 0) return planner.plan(wish);
+        progress?.('squat', 0.5);
+        if (failure) throw failure;
+        return new Promise<PlanFile>(() => undefined);
+      },
+    };
+  }
+
+  it(
+    'are given up by cancelling, and the plan stays',
+    async () => {
+      const { store, trio, settled } = stand({}, { planner: halfway(null) });
+      const { plan } = await settled(isReady);
+      store.set({ further: ['squat'] });
+      expect(store.get()).toMatchObject({
+        phase: 'loading',
+        doing: { share: 0.5, canCancel: true },
+      });
+      trio.cancel();
+      expect(store.get()).toMatchObject({ phase: 'ready', doing: null, further: [], plan });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'are given up when they cannot run, with a sentence',
+    async () => {
+      const { store, settled } = stand({}, { planner: halfway(new Error('no room')) });
+      await settled(isReady);
+      store.set({ further: ['squat'] });
+      const state = await settled(({ problem }) => problem !== null);
+      expect(state).toMatchObject({ phase: 'ready', doing: null, further: [] });
+      expect(state.problem?.what).toBe(NO_ROOM);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'of a link can be cancelled too, and what is left is shown',
+    async () => {
+      const link = { further: ['squat'] as const };
+      const { store, trio, settled } = stand(link, { planner: halfway(null) });
+      expect(store.get()).toMatchObject({ plan: null, doing: { share: 0.5, canCancel: true } });
+      trio.cancel();
+      const state = await settled(isReady);
+      expect(state.further).toEqual([]);
+      expect(state.plan?.examples.length).toBe(1);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'of a link that cannot run leave the rest of it',
+    async () => {
+      const link = { further: ['squat'] as const };
+      const { settled } = stand(link, { planner: halfway(new Error('no room')) });
+      const state = await settled(isReady);
+      expect(state.further).toEqual([]);
+      expect(state.problem?.what).toBe(NO_ROOM);
+    },
+    PATIENCE_MS,
+  );
+});
+
+describe('trio', () => {
+  it(
+    'starts still, in the middle of a walk, with errors of both coarser meshes',
+    async () => {
+      const { settled, meshes, shown } = stand();
+      const state = await settled(isReady);
+      expect(state.problem).toBeNull();
+      expect(state.timeS).toBeCloseTo(3, 9);
+      const { coarse, planned, fine } = state.panes;
+      expect([coarse.source, planned.source, fine.source]).toEqual(Array(3).fill('recorded'));
+      expect([coarse.nVertices, fine.nVertices]).toEqual([714, 10920]);
+      expect(planned.nVertices).toBe(state.plan?.vertices);
+      expect(meshes.planned?.hanging.length).toBeGreaterThan(100);
+      expect(coarse.errorM).toBeGreaterThan(0.005);
+      expect(planned.errorM).toBeGreaterThan(0.005);
+      // What slid along the surface is no distance between surfaces.
+      for (const { surfaceM, errorM } of [coarse, planned])
+        expect(surfaceM ?? 1).toBeLessThan(errorM ?? 0);
+      expect(shown.fine?.length).toBe(3 * 10920);
+      for (const { faults } of [coarse, planned, fine]) {
+        expect(faults?.n_inside).toBe(0);
+        expect(faults?.n_crossings).toBeGreaterThanOrEqual(0);
+      }
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'plays records in step and ends with them',
+    async () => {
+      const { store, trio, settled } = stand({ startS: 4.9 });
+      await settled(isReady);
+      trio.play();
+      const state = await settled(({ playing }) => !playing);
+      expect(state.timeS).toBeCloseTo(state.endS, 9);
+      expect(state.fit?.fires).toBe(false);
+      expect(state.fit?.n_frames).toBeGreaterThan(1);
+      trio.reset();
+      await settled(({ timeS, fit }) => timeS === 0 && fit !== null);
+      expect(store.get().phase).toBe('ready');
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'shows the fine shape on a new plan at once, and computes it from the start',
+    async () => {
+      const { store, trio, settled, shown, questions } = stand();
+      await settled(isReady);
+      const before = questions.length;
+      store.set({ rule: 'demand', demand: 5 });
+      const state = await settled(
+        ({ phase, plan }) => phase === 'ready' && plan?.detail_demand === 5,
+      );
+      expect(state.panes.planned.source).toBe('sampled');
+      expect(state.panes.planned.errorM).toBeNull();
+      expect(state.timeS).toBeCloseTo(3, 9);
+      // Vertices of the base mesh are vertices of all.
+      expect(shown.planned?.slice(0, 9)).toEqual(shown.fine?.slice(0, 9));
+      const loads = questions.slice(before).filter(({ type }) => type === 'load');
+      expect(loads.length).toBe(1);
+      trio.step();
+      await settled(({ timeS }) => timeS === 0);
+      trio.step();
+      const moved = await settled(({ timeS }) => timeS > 0);
+      expect(moved.panes.planned.source).toBe('computed');
+      expect(moved.panes.planned.errorM).toBeLessThan(0.02);
+      expect(moved.timeS).toBeCloseTo(1 / 30, 9);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'computes what no record has, and leaves fine out when asked to',
+    async () => {
+      const { trio, settled, shown, questions } = stand({ motion: 'squat', computeFine: false });
+      const state = await settled(isReady);
+      expect(state.timeS).toBe(0);
+      expect(state.panes.fine.source).toBe('resting');
+      const begin = shown.coarse?.slice();
+      trio.step();
+      const moved = await settled(({ timeS }) => timeS > 0);
+      expect(shown.coarse).not.toEqual(begin);
+      expect(moved.panes.coarse.errorM).toBeNull();
+      expect(moved.panes.coarse.msPerFrame).toBeGreaterThan(0);
+      const steps = questions.filter(
+        (asked) => asked.type === 'advance' && asked.how === 'stepped',
+      );
+      expect(steps.length).toBe(2);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'goes on without records that cannot be fetched',
+    async () => {
+      const fetchBytes = async () => {
+        throw new Error('offline');
+      };
+      const { settled } = stand({ computeFine: false }, { fetchBytes });
+      const state = await settled(isReady);
+      expect(state.problem).toBeNull();
+      expect(state.panes.planned.source).toBe('computed');
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'gives a plan up when told to, and keeps the one it has',
+    async () => {
+      const planner = plannerParts();
+      let isSlow = false;
+      const slow = {
+        ...planner,
+        plan: (wish: Wish) =>
+          isSlow ? new Promise<PlanFile>(() => undefined) : planner.plan(wish),
+      };
+      const { store, trio, settled } = stand({}, { planner: slow });
+      await settled(isReady);
+      isSlow = true;
+      store.set({ rule: 'budget', budget: 4000 });
+      expect(store.get()).toMatchObject({ phase: 'loading', doing: { canCancel: true } });
+      trio.cancel();
+      expect(store.get()).toMatchObject({ phase: 'ready', doing: null, rule: 'demand', demand: 3 });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'tells of a plan that cannot be made, and goes on with the one it has',
+    async () => {
+      const { store, settled } = stand();
+      await settled(isReady);
+      store.set({ rule: 'budget', budget: 10 });
+      const state = await settled(({ problem }) => problem !== null);
+      expect(state.phase).toBe('ready');
+      expect(state.problem?.what).toContain('at least the base mesh');
+    },
+    PATIENCE_MS,
+  );
+
+  it('is broken when its module is', async () => {
+    const broken = () => {
+      const client = garmentClient(module);
+      client.terminate();
+      return client;
+    };
+    const { settled } = stand({}, { start: broken });
+    const state = await settled(({ phase }) => phase === 'broken');
+    expect(state.problem?.what).toContain('did not start');
+  });
+});

@@ -1,0 +1,137 @@
+import { describe, expect, it } from 'vitest';
+import type { FitAnswer } from '../../src/refinement/bindings/refinement-module';
+import { garmentSentence } from '../../src/refinement/panels/garment-sentence';
+import {
+  anewSentence,
+  costWords,
+  errorWords,
+  fitReading,
+  fromTo,
+  sourceSentence,
+  storySentences,
+} from '../../src/refinement/panels/garment-words';
+import { upperEnd } from '../../src/refinement/panels/paints';
+import { objText } from '../../src/refinement/panels/saving';
+import type { PlanStory } from '../../src/refinement/state/plan-file';
+import {
+  canPlanAnew,
+  DEFAULT_LINK,
+  EMPTY_PANE,
+  initialRefinementState,
+  isExample,
+} from '../../src/refinement/state/refinement-state';
+
+const STORY: PlanStory = {
+  examples: ['skirt_walk'],
+  patterns: [
+    { meansPerM: [5], deviationsPerM: [2], nVertices: 10, limitPerM: 15 },
+    { meansPerM: [15], deviationsPerM: [6], nVertices: 5, limitPerM: 40 },
+  ],
+  nVertices: 900,
+  nSplits: 30,
+  nForBalance: 4,
+  rule: { kind: 'demand', value: 3 },
+};
+
+const FIT: FitAnswer = {
+  share: 0.01,
+  worst_share: 0.03,
+  n_in_a_row: 0,
+  n_frames: 20,
+  fires: false,
+  first_fired: null,
+};
+
+const STATE = initialRefinementState(DEFAULT_LINK, []);
+
+describe('garment-words', () => {
+  it('says where a cost was found out', () => {
+    const pane = { ...EMPTY_PANE, nVertices: 5, msPerFrame: 12.34 };
+    expect(costWords({ ...pane, source: 'recorded' })).toBe('12 ms a frame, recorded');
+    expect(costWords({ ...pane, source: 'computed' })).toBe('12 ms a frame here');
+    expect(costWords({ ...pane, source: 'computed', msPerFrame: null })).toBe('computed here');
+    expect(errorWords('coarse', { ...pane, errorM: 0.0123 })).toBe('12 mm off fine');
+    expect(errorWords('fine', { ...pane, source: 'resting' })).toBe('');
+  });
+
+  it('tells splits that were asked for from those for balance', () => {
+    const text = storySentences(STORY);
+    expect(text).toContain('2 patterns');
+    expect(text).toContain('30 faces were split: 26 where the patterns');
+    expect(text).toContain('the other 4 only to keep neighbours');
+    expect(storySentences({ ...STORY, nForBalance: 0 })).toContain('none only to keep');
+  });
+
+  it('names every example that a plan is made of', () => {
+    expect(storySentences(STORY)).toContain('The example walk sorted the coarse');
+    const two = { ...STORY, examples: ['skirt_walk', 'skirt_fast_walk in silk'] };
+    expect(storySentences(two)).toContain('The examples walk and fast walk in silk each sorted');
+    expect(fitReading(FIT, two).title).toBe('Fits the examples');
+    expect(fromTo([1.23, 4.56])).toBe('1.2–4.6');
+    expect(fromTo([1.23, 1.231])).toBe('1.2');
+  });
+
+  it('offers a plan anew for a motion that did not fit and is no example', () => {
+    const fired = { ...FIT, fires: true, first_fired: 34 };
+    const squat = { ...STATE, phase: 'ready' as const, motion: 'squat' as const, fit: fired };
+    expect(canPlanAnew(squat)).toBe(true);
+    expect(anewSentence(squat)).toContain('on the fine mesh');
+    expect(canPlanAnew({ ...squat, fit: FIT })).toBe(false);
+    expect(anewSentence({ ...squat, fit: FIT })).toContain('once the light says so');
+    expect(canPlanAnew({ ...squat, phase: 'loading' })).toBe(false);
+    const known = { ...squat, further: ['squat' as const] };
+    expect(canPlanAnew(known)).toBe(false);
+    expect(anewSentence(known)).toContain('already');
+    // The example that comes with the page is of one fabric.
+    const walk = { ...squat, motion: 'walk' as const };
+    expect(isExample(walk)).toBe(true);
+    expect(canPlanAnew({ ...walk, fabric: 'silk' })).toBe(true);
+  });
+
+  it('lights by what the monitor says', () => {
+    expect(fitReading(null, STORY).light).toBe('unknown');
+    expect(fitReading(FIT, null).light).toBe('unknown');
+    expect(fitReading(FIT, STORY)).toMatchObject({ light: 'fits' });
+    expect(fitReading({ ...FIT, share: 0.2, n_in_a_row: 3 }, STORY).detail).toContain('3 of 10');
+    expect(fitReading({ ...FIT, fires: true, first_fired: 34 }, STORY).light).toBe('fires');
+    // Once it has fired the plan stays doubtful.
+    expect(fitReading({ ...FIT, first_fired: 34 }, STORY).light).toBe('fires');
+  });
+
+  it('says who is computed where, and who waits', () => {
+    const computed = { ...EMPTY_PANE, source: 'computed' as const };
+    const recorded = { ...EMPTY_PANE, source: 'recorded' as const };
+    const mixed = { ...STATE, panes: { coarse: computed, planned: computed, fine: recorded } };
+    expect(sourceSentence(mixed)).toContain('come with the page: fine.');
+    expect(sourceSentence(mixed)).toContain('on this device: coarse, multi-resolution.');
+    const slow = { ...STATE, panes: { coarse: computed, planned: computed, fine: computed } };
+    expect(sourceSentence(slow)).toContain('wait for the fine mesh');
+    const rest = { ...slow, panes: { ...slow.panes, fine: EMPTY_PANE } };
+    expect(sourceSentence(rest)).toContain('rests');
+  });
+
+  it('announces events, not numbers', () => {
+    const ready = { ...STATE, phase: 'ready' as const };
+    expect(garmentSentence(ready, STATE)).toContain('Ready');
+    expect(garmentSentence({ ...ready, timeS: 1 }, ready)).toBeNull();
+    const fired = { ...ready, fit: { ...FIT, fires: true, first_fired: 3 } };
+    expect(garmentSentence(fired, ready)).toContain('does not fit');
+    expect(garmentSentence({ ...fired, timeS: 2 }, fired)).toBeNull();
+    expect(garmentSentence(ready, { ...ready, playing: true })).toBe('Paused at 0.0 seconds.');
+  });
+});
+
+describe('what is saved and painted', () => {
+  it('leaves a fiftieth of the values beyond the scale, and unknown ones out', () => {
+    const values = Float32Array.from({ length: 101 }, (_, k) => (k === 100 ? 1e6 : k));
+    expect(upperEnd(values)).toBe(98);
+    expect(upperEnd(Float32Array.of(Number.NaN))).toBe(0);
+  });
+
+  it('writes an OBJ with vertices counted from one', () => {
+    const text = objText(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), Uint32Array.of(0, 1, 2));
+    expect(text).toBe(
+      'v 0.00000 0.00000 0.00000\nv 1.00000 0.00000 0.00000\nv 0.00000 1.00000 0.00000\nf 1 2 3\n',
+    );
+  });
+});

@@ -1,0 +1,52 @@
+import { describe, expect, it } from 'vitest';
+import {
+  decodeRefinementLink,
+  encodeRefinementLink,
+} from '../../src/refinement/state/refinement-link';
+import { DEFAULT_LINK, type RefinementLink } from '../../src/refinement/state/refinement-state';
+
+describe('refinement-link', () => {
+  it('starts from the default for whoever comes without a wish', () => {
+    expect(decodeRefinementLink('#view=refinement')).toEqual({ link: DEFAULT_LINK, problems: [] });
+  });
+
+  it('comes back as it went', () => {
+    const link: RefinementLink = {
+      garment: 'trousers',
+      motion: 'squat',
+      fabric: 'silk',
+      further: ['squat', 'walk'],
+      rule: 'budget',
+      demand: DEFAULT_LINK.demand,
+      budget: 2500,
+      useRecords: false,
+      computeFine: false,
+      colour: 'distance',
+      edges: false,
+      hanging: true,
+      speed: 0.25,
+      startS: 1.233,
+    };
+    expect(decodeRefinementLink(`#${encodeRefinementLink(link)}`)).toEqual({ link, problems: [] });
+    const demand = { ...link, rule: 'demand' as const, budget: null, demand: 4.5 };
+    expect(decodeRefinementLink(encodeRefinementLink(demand))).toEqual({
+      link: demand,
+      problems: [],
+    });
+  });
+
+  it('says what it cannot read and goes on with the rest', () => {
+    const { link, problems } = decodeRefinementLink(
+      '#view=refinement&garment=hat&motion=turn&examples=squat,hat&demand=8&vertices=-3&start=late&hat=1',
+    );
+    expect(link).toEqual({ ...DEFAULT_LINK, motion: 'turn' });
+    expect(problems).toEqual([
+      'garment: expected skirt, trousers, found "hat"',
+      'examples: expected some of walk, fast_walk, turn, squat, found "squat,hat"',
+      'demand: expected 0 to 7.5 in halves, found "8"',
+      'vertices: expected a number of vertices, found "-3"',
+      'start: expected a time in seconds, found "late"',
+      'hat: not a known part',
+    ]);
+  });
+});
