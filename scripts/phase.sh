@@ -18,14 +18,32 @@ bad_usage() {
   exit 2
 }
 
+# Shows how far a running phase is, by the last "[57/222]" in its log, until it is killed or ./pleat ends.
+show_progress() {
+  local what=$1 log=$2 count
+  while sleep 0.5 && kill -0 $$ 2>/dev/null; do
+    count=$(tail -n 20 "$log" | sed -n 's/^\[\([0-9]\+\/[0-9]\+\)\].*/\1/p' | tail -n 1)
+    printf '\r%-46s %s' "$what" "$count" >&3
+  done
+}
+
 # phase NAME "what it does" COMMAND…: runs COMMAND in the repository; its status is the phase's.
 phase() {
-  local name=$1 what=$2 status=0 start=$SECONDS log
+  local name=$1 what=$2 status=0 start=$SECONDS log watcher=''
   shift 2
   log=build/logs/$name.log
   mkdir -p "$root/build/logs"
   printf '%-46s ' "$what" >&3
+  : >"$root/$log"
+  if [ -t 3 ]; then
+    show_progress "$what" "$root/$log" &
+    watcher=$!
+  fi
   (cd "$root" && "$@") >"$root/$log" 2>&1 </dev/null || status=$?
+  if [ -n "$watcher" ]; then
+    kill "$watcher" && wait "$watcher" 2>/dev/null
+    printf '\r\e[K%-46s ' "$what" >&3
+  fi
   if [ "$status" -eq 0 ]; then
     say "$((SECONDS - start)) s"
   else
@@ -66,18 +84,19 @@ suite() {
 }
 
 # Catch2's console reporter ends with "All tests passed (7 assertions in 3 test cases)" or
-# "test cases: 3 | 2 passed | 1 failed".
+# "test cases: 3 | 2 passed | 1 failed"; sums over the programs whose outputs are in the log. One that
+# finds no test to run says "No tests ran" and counts as a failure.
 read_catch2() {
   awk '
-    /^All tests passed \(/ { match($0, /in [0-9]+ test case/); print substr($0, RSTART + 3) + 0, 0 }
+    /^All tests passed \(/ { match($0, /in [0-9]+ test case/); good += substr($0, RSTART + 3) }
+    /^No tests ran/ { bad++ }
     /^test cases: / {
-      good = bad = 0
       for (i = 3; i < NF; i++) {
-        if ($(i + 1) == "passed") good = $i
-        if ($(i + 1) == "failed" && $(i + 2) != "as") bad = $i
+        if ($(i + 1) == "passed") good += $i
+        if ($(i + 1) == "failed" && $(i + 2) != "as") bad += $i
       }
-      print good, bad
-    }' | tail -n 1
+    }
+    END { print good + 0, bad + 0 }'
 }
 
 # Vitest ends with "Tests  1 failed | 8 passed | 2 skipped (11)". Everything a test could need has been

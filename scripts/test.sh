@@ -27,30 +27,71 @@ changed_files() {
   git ls-files --others --exclude-standard
 }
 
+# clang-tidy reads one file at a time, as a build without unity files and precompiled headers compiles it.
+configure_tidy() {
+  cmake --preset release -B build/tidy -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+}
+
 # Sources the native build compiles; a changed header is checked through the source beside it.
 tidy_sources() {
   sed -n 's/\.h$/.cpp/p; /\.cpp$/p' | sort -u | while read -r source; do
-    if grep -qF "$root/$source\"" build/release/compile_commands.json; then echo "$source"; fi
+    if grep -qF "$root/$source\"" build/tidy/compile_commands.json; then echo "$source"; fi
   done
 }
 
 # tidy LIST: clang-tidy over the files the command LIST names, one process per core.
 tidy() {
   "$1" | tidy_sources | tee /dev/stderr |
-    xargs -r -n 1 -P "$(nproc)" clang-tidy -p build/release --quiet
+    xargs -r -n 1 -P "$(nproc)" clang-tidy -p build/tidy --quiet
 }
 
-# run_native_tests PRESET [SELECTION]: all tests, or those that Catch2's SELECTION names.
-run_native_tests() { "build/$1/native-tests/pleat_tests" --use-colour no "${@:2}"; }
+# The modules that have native tests, one a line.
+tested_modules() { (cd "$root/native-tests" && printf '%s\n' */*_test.cpp) | cut -d / -f 1 | sort -u; }
+
+# run_native_tests "MODULE…" PRESET [SELECTION]: their tests, or those that Catch2's SELECTION names; as many programs
+# at a time as there are cores, the largest first.
+run_native_tests() {
+  local modules=$1 preset=$2 total module
+  shift 2
+  total=$(wc -w <<<"$modules")
+  # shellcheck disable=SC2086,SC2016
+  (cd "build/$preset/native-tests" && ls -S $(printf '%s_tests ' $modules)) |
+    awk -v total="$total" '{ print NR "/" total, $1 }' |
+    xargs -L 1 -P "$(nproc)" bash -c '
+      program=$PWD/build/$0/native-tests/${*: -1}
+      echo "[${*: -2:1}] ${*: -1}"
+      "$program" --use-colour no "${@:1:$#-2}" >"$program.log" 2>&1
+      status=$?
+      cat "$program.log"
+      exit "$status"' "$preset" "$@"
+}
 
 test_native() {
+  local modules
+  modules=$(tested_modules | tr '\n' ' ')
   step release-build "Build, Release" build_preset release &&
-    suite read_catch2 release-tests "Test, Release" run_native_tests release
-  step dev-build "Build with sanitizers" build_preset dev &&
+    suite read_catch2 release-tests "Test, Release" run_native_tests "$modules" release
+  step dev-build "Build with sanitizers" build_preset dev pleat_tests &&
     # Long motions walk the same code as short ones, twenty times slower here.
-    suite read_catch2 dev-tests "Test with sanitizers" run_native_tests dev '~[long]'
-  [ ! -f "$root/build/release/compile_commands.json" ] ||
+    suite read_catch2 dev-tests "Test with sanitizers" run_native_tests "$modules" dev '~[long]'
+  step tidy-configure "Configure for clang-tidy" configure_tidy &&
     check tidy "Tidy what changed" tidy changed_files
+}
+
+# One module alone, in Release.
+test_module() {
+  if [ $# -ne 1 ] || ! tested_modules | grep -qxF -- "$1"; then
+    bad_usage "test: expected nothing or one of $(tested_modules | paste -sd ' '), got '$*'."
+  fi
+  install_tools "$native_tools" "$test_tools"
+  step "$1-build" "Build the tests of $1" build_preset release "$1_tests" &&
+    suite read_catch2 "$1-tests" "Test $1" run_native_tests "$1" release
+  summary
+}
+
+summary() {
+  echo "$passed passed, $failed failed"
+  [ "$failed" -eq 0 ]
 }
 
 test_wasm_build() {
@@ -78,12 +119,11 @@ run_all_tests() {
   test_wasm_build
   test_page
   say "Took $((SECONDS / 60)) min $((SECONDS % 60)) s."
-  echo "$passed passed, $failed failed"
-  [ "$failed" -eq 0 ]
+  summary
 }
 
 tidy_everything() {
   install_tools "$native_tools" "$test_tools"
-  phase release-configure "Configure, Release" cmake --preset release &&
+  phase tidy-configure "Configure for clang-tidy" configure_tidy &&
     phase tidy "Tidy everything" tidy cpp_files
 }

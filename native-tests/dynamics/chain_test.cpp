@@ -4,12 +4,11 @@
 #include <complex>
 
 #include "core/dynamics/stepper_table.h"
+#include "native-tests/support/analytic.h"
 #include "native-tests/support/models.h"
 
 namespace pleat {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 /// How a mode moves: q ~ exp(-decay t) cos(omega t).
 struct Swing {
