@@ -79,10 +79,6 @@ double largest_gap(const ClothModel& model, const Positions& columns) {
   return (placed - columns).cwiseAbs().maxCoeff();
 }
 
-Positions columns(const Eigen::VectorXd& x) {
-  return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3);
-}
-
 /// y of x = S y.
 Eigen::VectorXd free_part(const ClothModel& model, const Positions& x) {
   Eigen::VectorXd y(3 * (model.n_vertices() - static_cast<int>(model.hanging.size())));
@@ -255,7 +251,7 @@ TEST_CASE("graded: the angular momentum is kept as on uniform sheets", "[dynamic
   const Vec3 before = angular_momentum(sheet.model, sheet.state);
   for (const auto& [kind, tolerance] :
        {std::pair{&steppers::explicit_euler, 1e-11}, std::pair{&steppers::rk4, 1e-6}}) {
-    CAPTURE(name(kind));
+    CAPTURE(kind->name);
     const State end = after_steps(sheet.model, method(kind, 0.001), sheet.state, 20);
     CHECK((angular_momentum(sheet.model, end) - before).norm() < tolerance * before.norm());
   }

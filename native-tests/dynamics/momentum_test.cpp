@@ -83,7 +83,7 @@ TEST_CASE("steppers: backward Euler's loss of angular momentum falls with the st
   };
   const double coarse = lost(0.0004);
   const double fine = lost(0.0002);
-  CAPTURE(name(kind), coarse, fine);
+  CAPTURE(kind->name, coarse, fine);
   CHECK(std::log2(coarse / fine) == Approx(1).margin(0.2));
   CHECK(fine < 0.05);
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/run/simulation.h"
+#include "core/scene/particle_cloth.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;
@@ -19,7 +20,10 @@ double sum(const StageTimer& parts) {
 /// One particle that a force of 1e308 N takes out of all bounds in the first step.
 Scene lost_scene() {
   Scene scene;
-  scene.cloth = InlineCloth{Positions::Zero(3, 1), Positions::Zero(3, 1), Eigen::VectorXd::Ones(1)};
+  ParticleCloth particle;
+  particle.positions = particle.velocities = Positions::Zero(3, 1);
+  particle.masses = Eigen::VectorXd::Ones(1);
+  scene.cloth = particle;
   scene.method.stepper = &steppers::explicit_euler;
   scene.method.step = 100;
   scene.gravity = Vec3(0, 1e308, 0);
