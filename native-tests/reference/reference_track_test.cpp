@@ -81,7 +81,7 @@ TEST_CASE("reference_track: coarser and finer cloth is compared along the mesh",
 }
 
 TEST_CASE("reference_track: cloth that was led astray has no distance", "[reference]") {
-  const Scene scene = swinging_scene(1);
+  const Scene scene = swinging_sheet_scene(1);
   ReferenceTrack track(run_of(scene, 5));
   Simulation simulation(scene);
   const Positions start = simulation.rest_positions();
@@ -110,10 +110,10 @@ TEST_CASE("reference_track: cloth that was led astray has no distance", "[refere
     Simulation of_another(other);
     simulation.carry_over(of_another);
     CHECK_FALSE(has_distance());
-    Simulation finer(swinging_scene(2));
+    Simulation finer(swinging_sheet_scene(2));
     finer.carry_over(simulation);
     CHECK(finer.is_disturbed());
-    Simulation undisturbed(swinging_scene(2));
+    Simulation undisturbed(swinging_sheet_scene(2));
     undisturbed.carry_over(Simulation(scene));
     CHECK(track.distance(undisturbed));
   }
