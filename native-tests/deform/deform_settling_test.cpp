@@ -7,18 +7,19 @@
 namespace pleat {
 namespace {
 
-constexpr double kSide = 0.4;  // [m]
+constexpr double kClothSide = 0.4;  // [m]
 
 /// Pushed together in its plane and solved there: flat, where buckled is lower.
 DeformSolver pushed_flat() {
-  const TriangleMesh mesh = triangulated_sheet(Triangulation::alternating, 12, 12, kSide / 12);
+  const TriangleMesh mesh = triangulated_sheet(Triangulation::alternating, 12, 12, kClothSide / 12);
   std::vector<VertexId> ends;
   std::vector<Vec3> places;
   for (Eigen::Index v = 0; v < mesh.rest_positions.cols(); ++v) {
     const Vec3 x = mesh.rest_positions.col(v);
-    if (x.x() > 1e-9 && x.x() < kSide - 1e-9) continue;
+    if (x.x() > 1e-9 && x.x() < kClothSide - 1e-9) continue;
     ends.emplace_back(v);
-    places.push_back(x + Vec3(x.x() < kSide / 2 ? 0.05 * kSide : -0.05 * kSide, 0, 0));
+    places.push_back(x +
+                     Vec3(x.x() < kClothSide / 2 ? 0.05 * kClothSide : -0.05 * kClothSide, 0, 0));
   }
   Positions columns(3, static_cast<Eigen::Index>(places.size()));
   for (std::size_t k = 0; k < places.size(); ++k)

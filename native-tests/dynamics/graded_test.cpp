@@ -79,10 +79,6 @@ double largest_gap(const ClothModel& model, const Positions& columns) {
   return (placed - columns).cwiseAbs().maxCoeff();
 }
 
-Positions columns(const Eigen::VectorXd& x) {
-  return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3);
-}
-
 /// y of x = S y.
 Eigen::VectorXd free_part(const ClothModel& model, const Positions& x) {
   Eigen::VectorXd y(3 * (model.n_vertices() - static_cast<int>(model.hanging.size())));

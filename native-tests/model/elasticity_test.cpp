@@ -25,10 +25,6 @@ Positions inflated(const QuadMesh& mesh, Random& random) {
   return shaken(1.3 * mesh.rest_positions(), 0.02 * kEdge, random);
 }
 
-Positions columns(const Eigen::VectorXd& x) {
-  return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3);
-}
-
 Eigen::VectorXd elastic_forces(const ClothModel& model, const Eigen::VectorXd& x) {
   Positions forces = Positions::Zero(3, x.size() / 3);
   add_elastic_forces(model, columns(x), forces);

@@ -10,11 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kEdge = 1.0 / 3;  // of the small sheet [m]
-
-Positions columns(const Eigen::VectorXd& x) {
-  return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3);
-}
+constexpr double kThird = 1.0 / 3;  // of the small sheet [m]
 
 /// A dense matrix that elements put their blocks in.
 class DenseBlocks {
@@ -103,8 +99,8 @@ TEST_CASE("elements: each kind alone has its own derivatives", "[model]") {
   Random random(GENERATE(1, 2, 3));
   const QuadMesh mesh = sheet_with_aspect(3, 3, 1.2);
   const ClothModel model = model_of_everything(mesh, library_fabric("wool"));
-  const Positions x = shaken(mesh.rest_positions(), 0.2 * kEdge, random);
-  const double step = difference_step(kEdge);
+  const Positions x = shaken(mesh.rest_positions(), 0.2 * kThird, random);
+  const double step = difference_step(kThird);
   int kind_number = 0;
   for_each_element_kind(model, [&](const auto& kind) {
     CAPTURE(kind_number++);
@@ -130,7 +126,7 @@ TEST_CASE("elements: each kind's projected stiffness is positive", "[model]") {
   Random random(GENERATE(5, 6));
   const QuadMesh mesh = sheet_with_aspect(3, 3, 1.2);
   const ClothModel model = model_of_everything(mesh, library_fabric("wool"));
-  const Positions x = shaken(mesh.rest_positions(), 0.2 * kEdge, random);
+  const Positions x = shaken(mesh.rest_positions(), 0.2 * kThird, random);
   int kind_number = 0;
   for_each_element_kind(model, [&](const auto& kind) {
     CAPTURE(kind_number++);

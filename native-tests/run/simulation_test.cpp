@@ -8,11 +8,10 @@
 #include "core/scene/particle_cloth.h"
 #include "core/scene/scene_file.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/particle.h"
 
 namespace pleat {
 namespace {
-
-constexpr double kGravity = 9.81;  // [m/s^2]
 
 Scene asset_scene(const char* name) { return read_scene(scene_text(name), fabric_library()); }
 

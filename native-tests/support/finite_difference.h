@@ -4,7 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/vec.h"
+
 namespace pleat {
+
+/// Coordinates x y z x y z … as one column per vertex.
+inline Positions columns(const Eigen::VectorXd& x) {
+  return Eigen::Map<const Positions>(x.data(), 3, x.size() / 3);
+}
 
 /// Step of a central difference that balances truncation (step^2) against rounding (epsilon / step)
 /// for a function whose variables and scale of change are both about `scale`: the relative error is
