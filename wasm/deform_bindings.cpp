@@ -9,6 +9,7 @@
 #include "core/base/check.h"
 #include "core/deform/deform_settling.h"
 #include "core/scene/deform_scene.h"
+#include "core/scene/mesh_cloth.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/vertex_place.h"
 #include "wasm/arrays.h"
