@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/deform/deform_settling.h"
+#include "core/deform/deform_solver.h"
 #include "core/scene/deform_scene.h"
 #include "core/scene/mesh_cloth.h"
 #include "core/scene/scene_file.h"
@@ -18,7 +18,6 @@
 namespace {
 
 using emscripten::val;
-using pleat::DeformSettling;
 using pleat::DeformSolver;
 using pleat::guarded;
 using pleat::json_array;
@@ -29,9 +28,6 @@ using pleat::view_of;
 
 /// What a step came to.
 enum class Progress { moved = 0, linearised = 1, converged = 2, stuck = 3 };
-
-/// Where a pane is on its way to the least energy.
-enum class Settling { from_here = 0, from_rest = 1, converged = 2, not_converged = 3 };
 
 val json_ids(const std::vector<VertexId>& vertices) {
   std::vector<double> ids;
@@ -224,34 +220,6 @@ class Deformation {
     });
   }
 
-  /// The pane begins its way to the least energy: from its shape, and where it tries both, then
-  /// from rest as well.
-  std::string begin_settling(int pane, bool tries_rest) {
-    return guarded([&](val&) {
-      Pane& chosen = at(pane);
-      chosen.settling.emplace(chosen.solver, tries_rest ? DeformSettling::Ways::from_here_and_rest
-                                                        : DeformSettling::Ways::from_here);
-    });
-  }
-
-  /// One step on that way.
-  int settle(int pane) {
-    try {
-      DeformSettling& settling = settling_of(pane);
-      settling.step();
-      return static_cast<int>(stage_of(settling));
-    } catch (const std::exception&) {
-      return static_cast<int>(Settling::not_converged);
-    }
-  }
-
-  /// Gives up a way from rest, with the lower of both shapes; nothing on the other way.
-  std::string end_trial(int pane) {
-    return guarded([&](val&) {
-      if (at(pane).settling) settling_of(pane).end_trial();
-    });
-  }
-
   std::string report(int pane) {
     return guarded([&](val& envelope) {
       const DeformSolver& solver = at(pane).solver;
@@ -305,7 +273,6 @@ class Deformation {
     explicit Pane(DeformSolver with) : solver(std::move(with)) {}
 
     DeformSolver solver;
-    std::optional<DeformSettling> settling;  // of the solver
     std::optional<pleat::DeformShape> aside;
     double aside_energy = 0;
   };
@@ -318,16 +285,6 @@ class Deformation {
   Pane& at(int pane) {
     PLEAT_CHECK(pane >= 0 && pane < static_cast<int>(panes_.size()), "a pane that is shown");
     return *panes_[static_cast<std::size_t>(pane)];
-  }
-
-  DeformSettling& settling_of(int pane) {
-    PLEAT_CHECK(at(pane).settling.has_value(), "a pane that began to settle");
-    return *at(pane).settling;
-  }
-
-  static Settling stage_of(const DeformSettling& settling) {
-    if (!settling.done()) return settling.is_on_trial() ? Settling::from_rest : Settling::from_here;
-    return settling.report().ok() ? Settling::converged : Settling::not_converged;
   }
 
   /// Throws InputError where there is no one shape of least energy.
@@ -372,9 +329,6 @@ EMSCRIPTEN_BINDINGS(deform) {
       .function("restart", &Deformation::restart)
       .function("tryFromRest", &Deformation::try_from_rest)
       .function("keepBetter", &Deformation::keep_better)
-      .function("beginSettling", &Deformation::begin_settling)
-      .function("settle", &Deformation::settle)
-      .function("endTrial", &Deformation::end_trial)
       .function("report", &Deformation::report)
       .function("fitMeasures", &Deformation::fit_measures)
       .function("clothSection", &Deformation::cloth_section)

@@ -2,12 +2,13 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { firstLoadBudget } from './build-steps/first-load-budget.ts';
 import { offlineCopy } from './build-steps/offline-copy.ts';
+import { stepperRows } from './build-steps/stepper-rows.ts';
 
 const repository = fileURLToPath(new URL('..', import.meta.url));
 
 export default defineConfig({
   base: './', // any static folder will do
-  plugins: [offlineCopy(), firstLoadBudget()],
+  plugins: [stepperRows(), offlineCopy(), firstLoadBudget()],
   server: { fs: { allow: [repository] } }, // fabrics and scenes lie in assets/
   worker: { format: 'es' },
   build: {

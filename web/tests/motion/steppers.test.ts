@@ -6,7 +6,7 @@ import { decodeMotionLink, encodeMotionLink } from '../../src/motion/state/motio
 import { presetSetting, sceneOf, withModel, withStepper } from '../../src/motion/state/setting';
 import { sweepPlan } from '../../src/motion/state/sweep-plan';
 
-vi.mock('../../src/shared/steppers/steppers-data', async (original) => {
+vi.mock('virtual:pleat-steppers', async (original) => {
   const { default: rows } = await original<{ default: object[] }>();
   const leapfrog = {
     name: 'leapfrog',

@@ -322,6 +322,7 @@ export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
     private readonly onDelete = born();
     fabrics = () => ok({ fabrics: [] });
     schema = () => ok({ schema: {} });
+    steppers = () => ok({ steppers: [] });
     parse = () => ok({});
     readObj = fakeObj;
     delete(): void {

@@ -60,6 +60,8 @@ export interface ObjAnswer {
 export interface SceneHandle {
   fabrics(): string;
   schema(): string;
+  /** The table of steppers, a StepperRow each. */
+  steppers(): string;
   parse(sceneText: string): string;
   /** The mesh of an OBJ file. `meshText`: the section "mesh" of a scene that names the file. */
   readObj(objText: string, meshText: string): string;
@@ -106,6 +108,7 @@ export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
   Scene: methodsOf<SceneHandle>({
     fabrics: true,
     schema: true,
+    steppers: true,
     parse: true,
     readObj: true,
     delete: true,

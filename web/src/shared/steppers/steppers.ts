@@ -1,5 +1,5 @@
 // The table of steppers: whatever the page says of one, offers, measures or draws comes from its row.
-import rows from './steppers-data';
+import rows from 'virtual:pleat-steppers';
 
 /** What holds the cloth together. */
 export type Model = 'springs' | 'membrane';
