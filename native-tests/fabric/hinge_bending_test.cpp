@@ -43,16 +43,16 @@ std::vector<Positions> smooth_shapes() {
 /// Energy of a slightly bent cylinder over that of its closed form, by the hinges whose edge has
 /// its middle in a half-open square of cells away from the border: each cell's hinges once.
 double cylinder_ratio(Triangulation pattern, double angle) {
-  constexpr int kCells = 16;
-  constexpr int kFrame = 2;        // cells left out all around; what is left has whole periods
-  constexpr double kRadius = 100;  // of edges
-  constexpr double kSlack = 1e-9;  // of an edge
+  constexpr int kRowCells = 16;
+  constexpr int kFrame = 2;  // cells left out all around; what is left has whole periods
+  constexpr double kCylinderRadius = 100;  // of edges
+  constexpr double kSlack = 1e-9;          // of an edge
   const double row_height = pattern == Triangulation::equilateral ? std::sqrt(0.75) : 1;
   const double shift = pattern == Triangulation::equilateral ? 0.5 : 0;
-  const TriangleMesh mesh = triangulated_sheet(pattern, kCells, kCells, 1);
+  const TriangleMesh mesh = triangulated_sheet(pattern, kRowCells, kRowCells, 1);
   const Positions& rest = mesh.rest_positions;
   const auto is_inside = [&](double cells) {
-    return cells > kFrame - kSlack && cells < kCells - kFrame - kSlack;
+    return cells > kFrame - kSlack && cells < kRowCells - kFrame - kSlack;
   };
   std::vector<Hinge> inner;
   for (const Hinge& hinge : hinges(mesh, 1)) {
@@ -60,9 +60,9 @@ double cylinder_ratio(Triangulation pattern, double angle) {
     const double row = middle.y() / row_height;
     if (is_inside(row) && is_inside(middle.x() - shift * row)) inner.push_back(hinge);
   }
-  const double area = std::pow(kCells - 2 * kFrame, 2) * row_height;
-  return hinge_energy(inner, on_cylinder(rest, angle, kRadius)) /
-         (0.5 * area / (kRadius * kRadius));
+  const double area = std::pow(kRowCells - 2 * kFrame, 2) * row_height;
+  return hinge_energy(inner, on_cylinder(rest, angle, kCylinderRadius)) /
+         (0.5 * area / (kCylinderRadius * kCylinderRadius));
 }
 
 }  // namespace

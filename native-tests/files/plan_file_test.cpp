@@ -38,10 +38,10 @@ PlanOptions budget(int max_vertices) {
 
 /// The pointer at which a text is refused that has one value replaced.
 std::string refused_at(const std::string& pointer, const Json& value) {
-  Json json = parse_json(plan_text(plan_of_two_examples({})));
-  json[Json::json_pointer(pointer)] = value;
+  Json document = parse_json(plan_text(plan_of_two_examples({})));
+  document[Json::json_pointer(pointer)] = value;
   try {
-    read_plan(json.dump());
+    read_plan(document.dump());
     return "nowhere";
   } catch (const InputError& error) {
     return error.where();
