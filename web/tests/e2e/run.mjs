@@ -454,10 +454,10 @@ await check('the sweep fills chart and table, and a click on a point applies it'
     await until(page, (state) => state.sweep.phase !== 'running', SWEEP_MS);
     const { sweep } = await stateOf(page);
     expectThat(sweep.phase === 'done', `the sweep ended as ${sweep.phase}: ${sweep.message}`);
-    expectThat(sweep.rows.length === 14, `${sweep.rows.length} rows`);
+    expectThat(sweep.rows.length === 16, `${sweep.rows.length} rows`);
     const others = sweep.rows.filter((row) => row.status !== 'ok');
     expectThat(others.length === 0, `not ok: ${others.map((row) => row.message).join('; ')}`);
-    expectThat((await page.locator('.rows tbody tr').count()) === 14, 'the table differs');
+    expectThat((await page.locator('.rows tbody tr').count()) === 16, 'the table differs');
     const cut = await page
       .locator('.table-box')
       .evaluate((box) => box.scrollWidth - box.clientWidth);

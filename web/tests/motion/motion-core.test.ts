@@ -319,9 +319,9 @@ describe('motion-core', () => {
     sweep(sweepPlan(setting, 1));
     const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
     expect(reports.map((report) => report.rows.length)).toEqual(
-      Array.from({ length: 14 }, (_, index) => index + 1),
+      Array.from({ length: 16 }, (_, index) => index + 1),
     );
-    expect(reports.map((report) => report.done).indexOf(true)).toBe(13);
+    expect(reports.map((report) => report.done).indexOf(true)).toBe(15);
   });
 
   it('refuses a sweep with the reason of the module', () => {

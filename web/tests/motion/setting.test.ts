@@ -102,8 +102,8 @@ describe('sweep-plan', () => {
     const { scene, settings } = sweepPlan(withModel(start, 'membrane'), 1);
     expect(scene.model).toEqual({ elasticity: 'membrane' });
     expect(settings.map((one) => one['/method'].stepper)).toEqual([
-      ...['implicit', 'implicit', 'newton'],
-      ...['implicit', 'implicit', 'newton'],
+      ...['implicit', 'implicit', 'newton', 'newton'],
+      ...['implicit', 'implicit', 'newton', 'newton'],
     ]);
   });
 
