@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/deform/deform_settling.h"
 #include "core/deform/deform_solver.h"
 #include "core/scene/deform_scene.h"
 #include "core/scene/mesh_cloth.h"
@@ -26,8 +27,11 @@ using pleat::positions_in;
 using pleat::VertexId;
 using pleat::view_of;
 
-/// What a step came to.
-enum class Progress { moved = 0, linearised = 1, converged = 2, stuck = 3 };
+/// What a step after a hand came to.
+enum class Progress { moved = 0, ended = 1 };
+
+/// Where a pane is on its way to the least energy.
+enum class Way { from_here = 0, between = 1, from_rest = 2, done = 3 };
 
 val json_ids(const std::vector<VertexId>& vertices) {
   std::vector<double> ids;
@@ -147,7 +151,7 @@ class Deformation {
         if (is_fresh)
           panes_.push_back(std::make_unique<Pane>(DeformSolver(cloth().mesh, form, weights[p])));
         else
-          panes_[p]->solver.set_weights(weights[p]);
+          panes_[p]->set_weights(weights[p]);
       }
       envelope.set("fresh", fresh);
     });
@@ -178,19 +182,14 @@ class Deformation {
     return guarded([&](val&) { held_as_all(pane).follow(places_); });
   }
 
-  int step(int pane, bool may_linearise) {
+  /// One step after the hand, with the factor at hand.
+  int step(int pane) {
     try {
       DeformSolver& solver = at(pane).solver;
-      if (solver.converged()) return static_cast<int>(Progress::converged);
-      const std::size_t n_steps = solver.steps().size();
-      const pleat::SolveReport report =
-          solver.step(may_linearise ? pleat::Linearise::when_needed : pleat::Linearise::never);
-      if (!report.ok()) return static_cast<int>(Progress::stuck);
-      if (solver.converged()) return static_cast<int>(Progress::converged);
-      const bool linearised = solver.steps().size() > n_steps && solver.steps().back().linearised;
-      return static_cast<int>(linearised ? Progress::linearised : Progress::moved);
+      const bool moves = solver.step(pleat::Linearise::never).ok() && !solver.converged();
+      return static_cast<int>(moves ? Progress::moved : Progress::ended);
     } catch (const std::exception&) {
-      return static_cast<int>(Progress::stuck);
+      return static_cast<int>(Progress::ended);
     }
   }
 
@@ -199,25 +198,32 @@ class Deformation {
     return guarded([&](val&) { held_as_all(pane).restart(places_); });
   }
 
-  /// The same, with the present shape set aside for `keep_better`.
-  std::string try_from_rest(int pane) {
+  /// The pane is to find its least energy, by `settle`.
+  std::string begin_settling(int pane, bool tries_rest) {
     return guarded([&](val&) {
-      Pane& chosen = at(pane);
-      chosen.aside = chosen.solver.shape();
-      chosen.aside_energy = chosen.solver.energy();
-      chosen.solver.restart();
+      using Ways = pleat::DeformSettling::Ways;
+      at(pane).end_settling();
+      at(pane).settling.emplace(at(pane).solver,
+                                tries_rest ? Ways::from_here_and_rest : Ways::from_here);
     });
   }
 
-  /// Keeps the lower of the present shape and the one set aside.
-  std::string keep_better(int pane) {
-    return guarded([&](val& envelope) {
-      Pane& chosen = at(pane);
-      const bool was_better = chosen.aside && !(chosen.solver.energy() < chosen.aside_energy);
-      if (was_better) chosen.solver.take_back(std::move(*chosen.aside));
-      chosen.aside.reset();
-      envelope.set("from_rest", !was_better);
-    });
+  /// One step towards it; one of Way.
+  int settle(int pane) {
+    try {
+      auto& settling = at(pane).settling;
+      if (settling) settling->step();
+      Way way = Way::from_here;
+      if (!settling || settling->done())
+        way = Way::done;
+      else if (settling->is_between())
+        way = Way::between;
+      else if (settling->is_on_trial())
+        way = Way::from_rest;
+      return static_cast<int>(way);
+    } catch (const std::exception&) {
+      return static_cast<int>(Way::done);
+    }
   }
 
   std::string report(int pane) {
@@ -266,15 +272,29 @@ class Deformation {
     frame_.assign(x.data(), x.data() + x.size());
     return view_of(frame_);
   }
-  val exact_positions(int pane) { return view_of(at(pane).solver.positions()); }
+  /// Of the shape that counts, also while the way from rest is under way.
+  val exact_positions(int pane) {
+    at(pane).end_settling();
+    return view_of(at(pane).solver.positions());
+  }
 
  private:
   struct Pane {
     explicit Pane(DeformSolver with) : solver(std::move(with)) {}
 
+    /// Before anything else moves the solver: a way from rest that is under way counts for nothing.
+    void end_settling() {
+      if (settling) settling->end_trial();
+      settling.reset();
+    }
+
+    void set_weights(const pleat::DeformWeights& weights) {
+      end_settling();
+      solver.set_weights(weights);
+    }
+
     DeformSolver solver;
-    std::optional<pleat::DeformShape> aside;
-    double aside_energy = 0;
+    std::optional<pleat::DeformSettling> settling;
   };
 
   const pleat::DeformScene& cloth() const {
@@ -300,6 +320,7 @@ class Deformation {
   }
 
   DeformSolver& held_as_all(int pane) {
+    at(pane).end_settling();
     DeformSolver& solver = at(pane).solver;
     if (solver.held() != held_) solver.hold(held_);
     return solver;
@@ -327,8 +348,8 @@ EMSCRIPTEN_BINDINGS(deform) {
       .function("follow", &Deformation::follow)
       .function("step", &Deformation::step)
       .function("restart", &Deformation::restart)
-      .function("tryFromRest", &Deformation::try_from_rest)
-      .function("keepBetter", &Deformation::keep_better)
+      .function("beginSettling", &Deformation::begin_settling)
+      .function("settle", &Deformation::settle)
       .function("report", &Deformation::report)
       .function("fitMeasures", &Deformation::fit_measures)
       .function("clothSection", &Deformation::cloth_section)

@@ -7,23 +7,24 @@ DeformSettling::DeformSettling(DeformSolver& solver, Ways ways, int max_linearis
 
 void DeformSettling::step() {
   if (done()) return;
+  if (is_between()) begin_trial();
   SolveReport report;
   if (!solver_.converged()) report = solver_.step_towards_end(max_linearisations_);
   if (solver_.converged() || !report.ok()) end_way(std::move(report));
+}
+
+void DeformSettling::begin_trial() {
+  kept_ = solver_.shape();
+  kept_energy_ = solver_.energy();
+  solver_.restart();
+  stage_ = Stage::from_rest;
 }
 
 void DeformSettling::end_way(SolveReport report) {
   report.iterations = solver_.n_recent_linearisations();
   if (stage_ == Stage::from_rest) return keep_lower(std::move(report));
   report_ = std::move(report);
-  if (ways_ == Ways::from_here) {
-    stage_ = Stage::done;
-    return;
-  }
-  kept_ = solver_.shape();
-  kept_energy_ = solver_.energy();
-  solver_.restart();
-  stage_ = Stage::from_rest;
+  stage_ = ways_ == Ways::from_here ? Stage::done : Stage::between;
 }
 
 void DeformSettling::keep_lower(SolveReport from_rest) {

@@ -19,6 +19,8 @@ class DeformSettling {
   /// One step on the way at hand; nothing once done.
   void step();
   bool done() const { return stage_ == Stage::done; }
+  /// The first way is at its end, and the next step goes back to rest.
+  bool is_between() const { return stage_ == Stage::between; }
   /// True on the way from rest, whose shapes are worth nothing unless it ends lower.
   bool is_on_trial() const { return stage_ == Stage::from_rest; }
   /// Ends a way from rest where it is and keeps the shape of lower energy; nothing on the other.
@@ -28,8 +30,9 @@ class DeformSettling {
   const SolveReport& report() const { return report_; }
 
  private:
-  enum class Stage { from_here, from_rest, done };
+  enum class Stage { from_here, between, from_rest, done };
 
+  void begin_trial();
   void end_way(SolveReport report);
   void keep_lower(SolveReport from_rest);
 

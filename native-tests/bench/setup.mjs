@@ -15,7 +15,7 @@ import { delimiter, join } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { oneOf, readOptions, rowsFile, runBench } from './bench-options.mjs';
 import { goal, markdown, short } from './bench-rows.mjs';
-import { root } from './contestants.mjs';
+import { root } from './command.mjs';
 
 const kPort = 4873;
 const kAddress = `http://127.0.0.1:${kPort}/`;

@@ -38,11 +38,17 @@ TEST_CASE("deform_settling: step by step it comes to the bit where settling come
   const SolveReport whole = at_once.settle();
   DeformSolver stepped = pushed_flat();
   DeformSettling settling(stepped);
+  bool was_between = false;
   bool was_on_trial = false;
   while (!settling.done()) {
+    if (settling.is_between()) {
+      was_between = true;
+      CHECK(stepped.converged());  // the end of the first way, to be shown
+    }
     settling.step();
     was_on_trial = was_on_trial || settling.is_on_trial();
   }
+  CHECK(was_between);
   CHECK(was_on_trial);
   CHECK(stepped.positions() == at_once.positions());
   CHECK(settling.report().status == whole.status);

@@ -22,7 +22,7 @@ const sceneText = (side = 9) => {
 const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
 
 /** A core whose turns are taken by `settle`, one after the other, and a page that gives buffers back. */
-async function serve() {
+async function serve(nowMs = () => performance.now()) {
   const module = await loadModule('deform');
   const posted: FromDeform[] = [];
   const grants: string[] = [];
@@ -33,7 +33,7 @@ async function serve() {
     later: () => {
       isWoken = true;
     },
-    nowMs: () => performance.now(),
+    nowMs,
   });
   const send = (message: ToDeform) => core.receive(message);
   function take<Type extends FromDeform['type']>(type: Type): Extract<FromDeform, { type: Type }> {
@@ -62,8 +62,8 @@ async function serve() {
 }
 
 /** Opened, held as the experiment is, with a pane for each of these fabrics. */
-async function opened(fabrics = ['linen'], text = sceneText()) {
-  const server = await serve();
+async function opened(fabrics = ['linen'], text = sceneText(), nowMs?: () => number) {
+  const server = await serve(nowMs);
   server.send({ type: 'open', cloth: 1, fabricsText, sceneText: text, objText: '' });
   const { answer, triangles } = server.take('opened');
   const holds = holdsOf(answer, triangles);
@@ -145,6 +145,26 @@ describe.runIf(isBuilt('deform'))('deform-core', () => {
     }
     send({ type: 'rest', isHeld: false });
     expect(distance(before, positions(settle()[0]))).toBeLessThan(1e-5);
+  });
+
+  it('keeps the lower shape when a way from rest is given up', async () => {
+    let clockMs = 0; // a turn is one step
+    const nowMs = () => {
+      clockMs += 100;
+      return clockMs;
+    };
+    const { core, settle, send, posted, positions } = await opened(['linen'], sceneText(), nowMs);
+    const there = positions(settle()[0]);
+    send({ type: 'rest', isHeld: false });
+    core.advance(); // the first way is at its end
+    core.advance(); // one step from rest
+    posted.length = 0;
+    send({ type: 'section', pane: 0 });
+    const [section] = posted;
+    if (section?.type !== 'section')
+      throw new Error(`section expected: ${JSON.stringify(section)}`);
+    const kept = Float32Array.from(section.positions);
+    expect(distance(there, kept)).toBeLessThan(1e-5);
   });
 
   it('keeps shapes through other weights, and starts anew in another form', async () => {

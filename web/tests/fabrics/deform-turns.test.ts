@@ -4,17 +4,19 @@ import {
   type DeformationHandle,
   type DeformModule,
   PROGRESS,
+  WAY,
 } from '../../src/fabrics/bindings/deform-module';
 import { DeformCore } from '../../src/fabrics/worker/deform-core';
 import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 
-type Progress = (typeof PROGRESS)[keyof typeof PROGRESS];
-
 const ok = (payload: object = {}) => JSON.stringify({ ok: true, ...payload });
 const ONES = { recovery: 1, stretch: 1, bending: 1 };
 
-/** Answers each step by `progress`, which gets how many there were since the last other call. */
-function recorder(progress: (nSteps: number) => Progress) {
+/** What `settle` answers, one after the other from `beginSettling` on. */
+type Ways = (keyof typeof WAY)[];
+
+/** After a hand it takes two steps; on its way to the least energy it answers `ways`. */
+function recorder(ways: Ways) {
   const calls: string[] = [];
   let nSteps = 0;
   let isShown = false;
@@ -34,14 +36,20 @@ function recorder(progress: (nSteps: number) => Progress) {
     hold = () => ok();
     moveHeld = () => undefined;
     follow = (pane: number) => called(`follow ${pane}`);
-    step(pane: number, mayLinearise: boolean) {
-      calls.push(`step ${pane}${mayLinearise ? ' freely' : ''}`);
+    step(pane: number) {
+      calls.push(`step ${pane}`);
       nSteps += 1;
-      return progress(nSteps);
+      return nSteps < 2 ? PROGRESS.moved : PROGRESS.ended;
     }
     restart = (pane: number) => called(`restart ${pane}`);
-    tryFromRest = (pane: number) => called(`from rest ${pane}`);
-    keepBetter = (pane: number) => called(`keep ${pane}`);
+    beginSettling = (pane: number, triesRest: boolean) =>
+      called(`begin ${pane}${triesRest ? ', rest too' : ''}`);
+    settle(_pane: number) {
+      const way = ways[nSteps] ?? 'done';
+      nSteps += 1;
+      calls.push(way);
+      return WAY[way];
+    }
     report = () => ok({ weights: ONES, energy: 0, terms: ONES, converged: true, steps: [] });
     fitMeasures = () => ok();
     clothSection = () => ok();
@@ -57,8 +65,8 @@ function recorder(progress: (nSteps: number) => Progress) {
  * A core whose clock goes on by so much at each look: while it stands still, a slice ends where a
  * stage does. Turns come at once.
  */
-function serve(nPanes: number, progress: (nSteps: number) => Progress, msPerLook = 0) {
-  const { calls, module } = recorder(progress);
+function serve(nPanes: number, ways: Ways, msPerLook = 0) {
+  const { calls, module } = recorder(ways);
   const frames: DeformFrame[] = [];
   let isWoken = false;
   let clockMs = 0;
@@ -93,75 +101,72 @@ function serve(nPanes: number, progress: (nSteps: number) => Progress, msPerLook
   return { first: show(), show, move: () => send({ type: 'move', places }), send };
 }
 
-const afterTwo = (n: number) => (n < 2 ? PROGRESS.moved : PROGRESS.converged);
+const ALONE: Ways = ['fromHere', 'done'];
+const BOTH: Ways = ['fromHere', 'between', 'fromRest', 'done'];
 
 describe('the turns of deformed cloth', () => {
   it('come from rest at first, and once only', () => {
-    const { first } = serve(1, afterTwo);
-    expect(first).toEqual(['show', 'restart 0', 'step 0 freely', 'step 0 freely', 'converged']);
+    const { first } = serve(1, ALONE);
+    expect(first).toEqual(['show', 'restart 0', 'begin 0', 'fromHere', 'done', 'converged']);
   });
 
   it('leave matrices to the move itself while a hand moves', () => {
-    const { move } = serve(1, afterTwo);
+    const { move } = serve(1, ALONE);
     expect(move()).toEqual(['follow 0', 'step 0', 'step 0', 'dragging']);
   });
 
-  it('try the way from rest too once a hand has let go, and show only the better end', () => {
-    const { move, send } = serve(1, afterTwo);
+  it('try the way from rest too once a hand has let go, and show where the first way ends', () => {
+    const { move, send } = serve(1, BOTH);
     move();
     expect(send({ type: 'rest', isHeld: false })).toEqual([
-      'step 0 freely',
+      'begin 0, rest too',
+      'fromHere',
+      'between',
       'settling',
-      'from rest 0',
-      'step 0 freely',
-      'step 0 freely',
-      'keep 0',
+      'fromRest',
+      'done',
       'converged',
     ]);
   });
 
   it('show nothing of a long way from rest but its end', () => {
-    const isEven = (n: number) => (n % 2 === 1 ? PROGRESS.moved : PROGRESS.converged);
-    const { move, send } = serve(1, isEven, 50);
+    const { move, send } = serve(1, ['between', 'fromRest', 'fromRest', 'done'], 50);
     move();
-    const calls = send({ type: 'rest', isHeld: false });
-    expect(calls.slice(calls.indexOf('from rest 0'))).toEqual([
-      'from rest 0',
-      'step 0 freely',
-      'step 0 freely',
-      'keep 0',
+    expect(send({ type: 'rest', isHeld: false })).toEqual([
+      'begin 0, rest too',
+      'between',
+      'settling',
+      'fromRest',
+      'fromRest',
+      'done',
       'converged',
     ]);
   });
 
   it('stay on the way at hand while the hand only rests', () => {
-    const { move, send } = serve(1, afterTwo);
+    const { move, send } = serve(1, ALONE);
     move();
-    expect(send({ type: 'rest', isHeld: true })).toEqual(['step 0 freely', 'converged']);
+    expect(send({ type: 'rest', isHeld: true })).toEqual([
+      'begin 0',
+      'fromHere',
+      'done',
+      'converged',
+    ]);
   });
 
-  it('end the way from rest before anything else changes', () => {
-    const { move, send, show } = serve(
-      1,
-      (n) => (n % 2 === 1 ? PROGRESS.moved : PROGRESS.converged),
-      50,
-    );
+  it('settle anew when something else changes on the way from rest', () => {
+    const { move, send, show } = serve(1, ['between', 'fromRest', 'fromRest', 'done'], 50);
     move();
-    expect(send({ type: 'rest', isHeld: false }, 3)).toContain('from rest 0');
-    expect(show()[0]).toBe('keep 0');
+    expect(send({ type: 'rest', isHeld: false }, 3)).toContain('fromRest');
+    expect(show().slice(0, 2)).toEqual(['show', 'begin 0, rest too']);
   });
 
   it('go around the panes', () => {
-    const { move } = serve(3, () => PROGRESS.converged);
+    const { move } = serve(3, ALONE);
     expect(move().filter((call) => call.startsWith('follow'))).toEqual([
       'follow 0',
       'follow 1',
       'follow 2',
     ]);
-  });
-
-  it('end after fifteen matrices, though the shape is not found', () => {
-    const { first } = serve(1, () => PROGRESS.linearised);
-    expect(first.filter((call) => call.startsWith('step')).length).toBe(15);
   });
 });

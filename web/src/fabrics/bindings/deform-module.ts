@@ -47,7 +47,13 @@ export interface FitAnswer {
 }
 
 /** What `Deformation.step` answers. */
-export const PROGRESS = { moved: 0, linearised: 1, converged: 2, stuck: 3 } as const;
+export const PROGRESS = { moved: 0, ended: 1 } as const;
+
+/**
+ * What `Deformation.settle` answers. Between the ways the first is at its end and the next step goes
+ * back to rest; the shapes on the way from there count for nothing.
+ */
+export const WAY = { fromHere: 0, between: 1, fromRest: 2, done: 3 } as const;
 
 /** One cloth in several panes, each with weights of its own, all under the same hold. */
 export interface DeformationHandle {
@@ -59,12 +65,13 @@ export interface DeformationHandle {
   hold(vertices: Int32Array, places: Float64Array): string;
   moveHeld(places: Float64Array): void;
   follow(pane: number): string;
-  /** One of PROGRESS. */
-  step(pane: number, mayLinearise: boolean): number;
+  /** A step after the hand, with the factor at hand; one of PROGRESS. */
+  step(pane: number): number;
   restart(pane: number): string;
-  /** `restart`, with the present shape set aside for `keepBetter`. */
-  tryFromRest(pane: number): string;
-  keepBetter(pane: number): string;
+  /** The pane is to find its least energy, if wanted from rest as well; `follow` and `show` end it. */
+  beginSettling(pane: number, triesRest: boolean): string;
+  /** A step towards it; one of WAY. */
+  settle(pane: number): number;
   report(pane: number): string;
   fitMeasures(measuresText: string): string;
   /** The section "cloth" of a scene in motion, with what is held as the group "held". */
@@ -72,6 +79,7 @@ export interface DeformationHandle {
   /** Views of module memory, dead after the next call. */
   triangles(): Uint32Array;
   positions(pane: number): Float32Array;
+  /** Ends `settle`. */
   exactPositions(pane: number): Float64Array;
   delete(): void;
 }
@@ -90,8 +98,8 @@ export const DEFORM_METHODS: Record<keyof DeformModule, string[]> = {
     follow: true,
     step: true,
     restart: true,
-    tryFromRest: true,
-    keepBetter: true,
+    beginSettling: true,
+    settle: true,
     report: true,
     fitMeasures: true,
     clothSection: true,

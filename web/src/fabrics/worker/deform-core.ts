@@ -11,15 +11,13 @@ import {
   type DeformReport,
   type FitAnswer,
   PROGRESS,
+  WAY,
 } from '../bindings/deform-module';
 import type { DeformStatus, FromDeform, ShowMessage, ToDeform } from './deform-protocol';
 
 /** Work for one pane before the next one, or a message, gets its turn [ms]. */
 const DRAG_SLICE_MS = 16;
 const SETTLE_SLICE_MS = 30;
-
-/** As the core's own cap: a shape that is not found by then is reported as not converged. */
-const MOST_LINEARISATIONS = 15;
 
 export interface Turns {
   /** Has `advance` called once what is waiting has had its turn. */
@@ -28,10 +26,10 @@ export interface Turns {
 }
 
 /**
- * What a pane is at: following the hand, on its way to the least energy from the shape at hand,
- * about to go back to rest, on its way from there to see if that ends lower, or done.
+ * What a pane is at: following the hand, about to settle, on its way to the least energy, on its
+ * way there from rest to see if that ends lower, or done.
  */
-type Stage = 'following' | 'here' | 'at_rest' | 'from_rest' | 'done';
+type Stage = 'following' | 'to_settle' | 'from_here' | 'from_rest' | 'done';
 
 interface Pane {
   stage: Stage;
@@ -43,8 +41,6 @@ interface Pane {
   isBehind: boolean;
   /** It has work to do; while following, until the factor at hand leads no further. */
   isBusy: boolean;
-  nLinearisations: number;
-  converged: boolean;
   updateMs: number;
   /** Its shape has not been sent for want of a buffer. */
   isUnsent: boolean;
@@ -77,10 +73,10 @@ export class DeformCore {
     this.turns.later();
   }
 
-  private statusOf(pane: Pane): DeformStatus {
+  private statusOf(pane: Pane, report: DeformReport): DeformStatus {
     if (pane.stage === 'following') return 'dragging';
     if (pane.stage !== 'done') return 'settling';
-    return pane.converged ? 'converged' : 'not_converged';
+    return report.converged ? 'converged' : 'not_converged';
   }
 
   private send(run: DeformationHandle, index: number): void {
@@ -99,7 +95,7 @@ export class DeformCore {
         cloth: this.cloth,
         pane: index,
         buffer,
-        status: this.statusOf(pane),
+        status: this.statusOf(pane, report),
         report,
         updateMs,
       },
@@ -107,36 +103,23 @@ export class DeformCore {
     );
   }
 
-  /** Steps until the slice is over; false when there is nothing left to do in this way. */
-  private stepFor(run: DeformationHandle, index: number, pane: Pane, endMs: number): boolean {
-    do {
-      const mayLinearise = pane.stage !== 'following';
-      const progress = run.step(index, mayLinearise);
-      pane.converged = progress === PROGRESS.converged;
-      if (progress === PROGRESS.converged || progress === PROGRESS.stuck) return false;
-      if (progress === PROGRESS.linearised) pane.nLinearisations += 1;
-      if (mayLinearise && pane.nLinearisations >= MOST_LINEARISATIONS) return false;
-    } while (this.turns.nowMs() < endMs);
-    return true;
+  /** True while the same way goes on. */
+  private stepAfterHand(run: DeformationHandle, index: number, pane: Pane): boolean {
+    pane.isBusy = run.step(index) === PROGRESS.moved;
+    if (!pane.isBusy) pane.isFresh = false;
+    return pane.isBusy;
   }
 
-  /** The way from here is at its end. */
-  private endStage(run: DeformationHandle, index: number, pane: Pane): void {
-    pane.nLinearisations = 0;
-    if (pane.stage === 'here' && pane.triesRest && !pane.isFresh) {
-      pane.stage = 'at_rest';
-      return;
-    }
-    if (pane.stage === 'from_rest') this.keepBetter(run, index, pane);
+  /** The same. */
+  private settle(run: DeformationHandle, index: number, pane: Pane): boolean {
+    if (pane.stage === 'to_settle') run.beginSettling(index, pane.triesRest && !pane.isFresh);
+    const way = run.settle(index);
+    pane.stage = way === WAY.fromRest ? 'from_rest' : 'from_here';
+    if (way !== WAY.done) return way !== WAY.between;
+    pane.stage = 'done';
     pane.isBusy = false;
     pane.isFresh = false;
-    if (pane.stage !== 'following') pane.stage = 'done';
-  }
-
-  private keepBetter(run: DeformationHandle, index: number, pane: Pane): void {
-    run.keepBetter(index);
-    const report = read<DeformReport>(run.report(index));
-    pane.converged = report.ok && report.converged;
+    return false;
   }
 
   private work(run: DeformationHandle, index: number, pane: Pane): void {
@@ -148,37 +131,23 @@ export class DeformCore {
       else run.follow(index);
       pane.isBehind = false;
     }
-    if (pane.stage === 'at_rest') {
-      run.tryFromRest(index);
-      pane.stage = 'from_rest';
-    }
-    const sliceMs = isFollowing ? DRAG_SLICE_MS : SETTLE_SLICE_MS;
-    const goesOn = this.stepFor(run, index, pane, beginMs + sliceMs);
-    const wasOnTrial = pane.stage === 'from_rest';
-    if (!goesOn) this.endStage(run, index, pane);
+    const endMs = beginMs + (isFollowing ? DRAG_SLICE_MS : SETTLE_SLICE_MS);
+    const goesOn = isFollowing
+      ? () => this.stepAfterHand(run, index, pane)
+      : () => this.settle(run, index, pane);
+    while (goesOn() && this.turns.nowMs() < endMs);
     pane.updateMs += this.turns.nowMs() - beginMs;
     // The way from rest is not shown: only where it ends may be better.
-    if (!wasOnTrial || pane.stage === 'done') this.send(run, index);
-  }
-
-  /** Whoever is on the way from rest goes on from the better of both shapes. */
-  private endTrials(run: DeformationHandle): void {
-    this.panes.forEach((pane, index) => {
-      if (pane.stage !== 'from_rest') return;
-      this.keepBetter(run, index, pane);
-      pane.stage = 'here';
-    });
+    if (pane.stage !== 'from_rest') this.send(run, index);
   }
 
   /** Every pane has something new to do, from the shape that it has. */
-  private begin(stage: 'following' | 'here', isMoved: boolean, triesRest = true): void {
-    if (this.deformation) this.endTrials(this.deformation);
+  private begin(stage: 'following' | 'to_settle', isMoved: boolean, triesRest = true): void {
     for (const pane of this.panes) {
       pane.stage = stage;
       pane.triesRest = triesRest;
       pane.isBusy = true;
       pane.isBehind = pane.isBehind || isMoved;
-      pane.nLinearisations = 0;
     }
     this.wake();
   }
@@ -201,13 +170,11 @@ export class DeformCore {
   private freshPane(): Pane {
     const nBytes = 4 * FLOATS_PER_VERTEX * this.nVertices;
     return {
-      stage: 'here',
+      stage: 'to_settle',
       isFresh: true,
       triesRest: true,
       isBehind: true,
       isBusy: true,
-      nLinearisations: 0,
-      converged: false,
       updateMs: 0,
       isUnsent: false,
       buffers: [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)],
@@ -215,7 +182,6 @@ export class DeformCore {
   }
 
   private show(run: DeformationHandle, { form, weights }: ShowMessage): void {
-    this.endTrials(run); // what they would be compared by changes
     const answer = this.granted<{ fresh: boolean[] }>(
       'show',
       run.show(JSON.stringify({ form, weights })),
@@ -228,14 +194,14 @@ export class DeformCore {
       return isFresh ? { ...this.freshPane(), buffers: pane.buffers } : { ...pane, updateMs: 0 };
     });
     this.next = 0;
-    this.begin('here', false);
+    this.begin('to_settle', false);
   }
 
   private hold(run: DeformationHandle, vertices: Int32Array, places: Float64Array): void {
     if (this.granted('hold', run.hold(vertices, places)) === null) return;
     this.post({ type: 'granted', what: 'hold' }, []);
     this.held = vertices;
-    this.begin('here', true);
+    this.begin('to_settle', true);
   }
 
   private move(run: DeformationHandle, places: Float64Array): void {
@@ -269,7 +235,7 @@ export class DeformCore {
       case 'move':
         return this.move(this.deformation, message.places);
       case 'rest':
-        return this.begin('here', false, !message.isHeld);
+        return this.begin('to_settle', false, !message.isHeld);
       case 'return':
         if (message.cloth === this.cloth) this.takeBack(message);
         return;
