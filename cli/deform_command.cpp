@@ -37,7 +37,7 @@ Deformation deformed(const DeformScene& scene) {
   return result;
 }
 
-/// What to know about the shape that these weights have; mostly nothing.
+/// A warning about the shape that these weights have; mostly none.
 std::string caution(const DeformWeights& weights) {
   if (weights.recovery > 0 || weights.bending > 0) return "";
   return "stretch alone resists no bending: where cloth is not taut it crumples at no cost, and "

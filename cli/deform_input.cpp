@@ -25,7 +25,7 @@ Json values(const std::vector<std::string>& parts, std::size_t begin, std::size_
   return json;
 }
 
-/// As many values as the option takes.
+/// The values of an option, as many as it takes.
 std::vector<std::string> split(const std::string& text, std::size_t at_least, std::size_t at_most,
                                const char* option) {
   std::vector<std::string> parts = split(text);

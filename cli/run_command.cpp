@@ -22,7 +22,7 @@
 namespace pleat {
 namespace {
 
-/// What a whole run showed.
+/// The results of a whole run.
 struct RunSummary {
   SolveReport report;  // of all steps
   Stretch last_stretch;
@@ -101,7 +101,7 @@ struct Watchers {
   EnergyLedger* ledger = nullptr;
 };
 
-/// What every frame is watched for.
+/// Hands a frame to everything that watches them.
 void add_frame(const Simulation& simulation, const Watchers& watchers, RunSummary& summary) {
   const Positions& positions = simulation.state().positions;
   if (watchers.frames != nullptr) watchers.frames->write(positions, simulation.time());
@@ -196,7 +196,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text.empty() ? "nothing" : text;
 }
 
-/// So many that the first step, and with it the first sign of progress, may take minutes.
+/// There may be so many that the first step, and so the first sign of progress, takes minutes.
 bool chooses_substeps(const Scene& scene) { return scene.method.substeps == 0; }
 
 /// Says what a long run is of.

@@ -11,7 +11,7 @@ namespace pleat {
 /// Rows as JSON lines.
 std::string json_lines(const std::vector<BenchRow>& rows);
 
-/// For people: what was measured against what, and the table.
+/// What was measured against what, and the table, for people.
 std::string sweep_table(const Sweep& sweep);
 
 /// The folder of a sweep that can be stopped at any moment and goes on where it was.
@@ -24,7 +24,7 @@ class SweepFolder {
   /// another. Refuses one that holds another sweep, and changes nothing then.
   SweepFolder(std::filesystem::path folder, const std::string& identity, bool overwrite);
 
-  /// Where references are kept that no other folder was named for.
+  /// The folder of references for which no other one was named.
   std::filesystem::path references() const { return folder_ / "references"; }
   /// The runs of an earlier start.
   std::string journal() const;

@@ -51,7 +51,7 @@ Json value_list(const std::string& text) {
   return values;
 }
 
-/// What the options say about a plan.
+/// The options that say something about a plan.
 struct SweepOptions {
   Json values = Json::object();  // of the grid
   std::map<std::string, const char*> grid;

@@ -117,7 +117,7 @@ fetch_suitesparse() {
   [ "$(id -u)" -eq 0 ] && apt-get update && scripts/fetch-suitesparse.sh third_party/suitesparse
 }
 
-# Without it the WebAssembly build does with Eigen's Cholesky, and the page says so.
+# Without it the WebAssembly build uses Eigen's Cholesky, and the page says so.
 install_suitesparse() {
   [ ! -d "$root/third_party/suitesparse/src" ] || return 0
   phase suitesparse "Fetch SuiteSparse's source" fetch_suitesparse

@@ -72,7 +72,7 @@ class Scene {
     });
   }
 
-  /// What a page says of each stepper and draws it with.
+  /// The words and marks by which a page shows each stepper.
   std::string steppers() const {
     return guarded([](val& envelope) {
       envelope.set("steppers", json_value(pleat::json_steppers(pleat::standard_steppers()).dump()));

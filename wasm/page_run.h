@@ -26,8 +26,8 @@ class PageRun {
   /// Throws InputError when nothing is loaded.
   Simulation& running() const;
 
-  /// So many steps, fewer when the numbers end the run, and then `show`. Returns 0, or the status
-  /// that ended the run: what either throws ends it as well.
+  /// Makes so many steps, fewer when the numbers end the run, and then calls `show`. Returns 0, or
+  /// the status that ended the run: an exception of either ends it as well.
   int step(int n, const std::function<void()>& show);
   /// The last step's report.
   const SolveReport& report() const { return report_; }

@@ -153,8 +153,8 @@ class GarmentRun {
     });
   }
 
-  /// What is wrong with the shown frame: vertices inside of solids, and where the cloth passes
-  /// through itself.
+  /// Faults of the shown frame: vertices inside of solids, and where the cloth passes through
+  /// itself.
   std::string faults() {
     return guarded([&](val& envelope) {
       pleat::Penetration inside;

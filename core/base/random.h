@@ -20,12 +20,12 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// In [low, high).
+  /// A number in [low, high).
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(next() >> 11) * 0x1.0p-53;
   }
 
-  /// In [0, n). n at least 1.
+  /// A number in [0, n); n at least 1.
   std::int64_t below(std::int64_t n) {
     return static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(n));
   }

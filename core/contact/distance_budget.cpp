@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// What rounding may add up to, relative to the ways and places that are summed [1]: a million
+/// Bound of accumulated rounding, relative to the ways and places that are summed [1]: a million
 /// substeps round to 1e-10 at worst. Larger would look at pairs too early.
 constexpr double kRounding = 1e-9;
 

@@ -61,7 +61,7 @@ Gap row_gap(const BallRow& row, double share, const RowPlace& place) {
           side_normal(row, place.off > 0 ? Vec3(place.arm / place.off) : kOff)};
 }
 
-/// Without width, edge and axis are one.
+/// The edge of a cone without width is its axis.
 Gap edge_gap(const SweptCone& cone, const Vec3& folded) {
   const RowPlace beside = seen_from(cone.edge, folded);
   return row_gap(cone.edge, nearest_share(cone.edge, beside), beside);

@@ -50,8 +50,8 @@ struct ConeMeeting {
   std::optional<Impact> impact;
 };
 
-/// As first_impact for a sphere. The place where the surface is met is found to 1e-12 of the larger
-/// radius, and never too late.
+/// The counterpart of first_impact for a sphere. The place where the surface is met is found to
+/// 1e-12 of the larger radius, and never too late.
 ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, double slack);
 
 Gap gap(const SweptCone& cone, const Vec3& place);

@@ -5,7 +5,7 @@
 namespace pleat {
 namespace {
 
-/// Where a vertex in the very centre of a sphere is pushed.
+/// The direction in which a vertex in the very centre of a sphere is pushed.
 const Vec3 kUp{0, 1, 0};
 
 Vec3 outward(const Vec3& from_centre, double distance) {

@@ -27,8 +27,8 @@ struct SweptSphere {
   Vec3 shift;         ///< how far the solid moves during the substep [m]
 };
 
-/// Where the straight path of a vertex, seen from the moving solid, first meets the solid's grown
-/// surface.
+/// The first meeting of a vertex's straight path, seen from the moving solid, with the solid's
+/// grown surface.
 struct Impact {
   double fraction = 0;  ///< of the substep, in [0, 1]; 0 for a vertex that begins inside
   Vec3 normal;          ///< unit, away from the solid

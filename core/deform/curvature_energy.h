@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-/// What a triangle's second derivatives k_ww, k_ff, k_wf differ from those at rest:
+/// The difference r of a triangle's second derivatives k_ww, k_ff, k_wf from those at rest:
 ///
 ///     r = sum_i w_i x_i - b n,
 ///

@@ -20,7 +20,7 @@ constexpr const char* name(EnergyForm form) {
   return form == EnergyForm::consistent ? "consistent" : "published";
 }
 
-/// What a shape costs, term by term and without weights; numbers without unit.
+/// The cost of a shape, term by term and without weights; numbers without unit.
 struct DeformTerms {
   double recovery = 0;  ///< E_P: distance from where it lay
   double stretch = 0;   ///< E_L

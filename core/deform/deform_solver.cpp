@@ -33,7 +33,7 @@ constexpr int kFactorsInVain = 2;
 constexpr double kWorthMore = 1e-7;
 constexpr double kNoStep = 1e-8;  // DeformStep::relative_step
 
-/// Of a hand's move; a gain of energy below this share is not seen.
+/// Steps that a hand's move takes at most; a gain of energy below this share is not seen.
 constexpr int kStepsOfMove = 4;
 constexpr double kWorthAStep = 1e-3;
 
@@ -60,8 +60,8 @@ Positions vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-/// Up and down along the normals in waves of a fifth to a third of the extent, that depend on the
-/// place alone and not on the mesh.
+/// Moves up and down along the normals in waves of a fifth to a third of the extent, which depend
+/// on the place alone and not on the mesh.
 Positions bulges(const TriangleMesh& mesh, double extent) {
   const std::array<Vec3, 3> waves = {Vec3(19, 11, 7), Vec3(-13, 17, 29), Vec3(5, -31, 3)};
   Positions result = vertex_normals(mesh);
@@ -163,7 +163,7 @@ Positions DeformSolver::free_gradient() const {
   return gradient;
 }
 
-/// Where the linearised problem is at rest once what is held has moved.
+/// The shape in which the linearised problem is at rest once what is held has moved.
 Positions DeformSolver::foreseen(const Positions& moves) {
   const StageScope stage(observer_, Stage::solve);
   Positions change = Positions::Zero(3, positions_.cols());
@@ -175,7 +175,7 @@ Positions DeformSolver::foreseen(const Positions& moves) {
   return positions_ + change + descent(load);
 }
 
-/// With what is held where it is; the present shape stays unless that has less energy.
+/// Takes `shape`, with what is held left in place, if it has less energy than the present one.
 void DeformSolver::take_if_lower(Positions shape) {
   for (const VertexId v : held_) shape.col(v) = positions_.col(v);
   if (energy_.terms(shape).weighted(weights_) < energy()) positions_ = std::move(shape);
@@ -281,7 +281,7 @@ bool DeformSolver::descend(const Positions& direction, double slope, double befo
   return false;
 }
 
-/// What a step from that energy says about the factor and the end.
+/// Judges by a step, from the energy `before`, whether the factor serves and the end is reached.
 void DeformSolver::judge(const DeformStep& step, double before) {
   const bool is_halved = step.halvings > kPatienceWithHalving;
   if (n_with_factor_++ == 0) {

@@ -20,7 +20,7 @@ struct DeformStep {
   double damping = 0;        ///< Levenberg's, over the mean of the metric's diagonal
 };
 
-/// What a step may cost.
+/// When a step may make a new metric and factor.
 enum class Linearise {
   when_needed,  ///< a new metric and factor as soon as those at hand serve badly
   never,        ///< only where there is none at all
@@ -98,9 +98,9 @@ class DeformSolver {
   bool converged() const { return converged_; }
   /// Made so far, for steps and for moves.
   int n_linearisations() const { return n_linearisations_; }
-  /// Of them, since something was last moved, held or weighted otherwise.
+  /// Those made since something was last moved, held or weighted otherwise.
   int n_recent_linearisations() const { return n_linearisations_ - n_before_; }
-  /// Likewise since then.
+  /// Made since then as well.
   const std::vector<DeformStep>& steps() const { return steps_; }
   const Positions& positions() const { return positions_; }
   const std::vector<VertexId>& held() const { return held_; }

@@ -18,7 +18,7 @@ constexpr std::array<MeasureField, 3> kMeasures{{{"recovery", &GeometricMeasures
                                                  {"stretch", &GeometricMeasures::stretch},
                                                  {"bending", &GeometricMeasures::bending}}};
 
-/// What three measurements of a fabric make likely, and how far that is to be trusted.
+/// The weights that three measurements of a fabric make likely, and how far to trust them.
 struct FittedWeights {
   DeformWeights weights;         ///< they add up to one
   GeometricMeasures normalised;  ///< v' on the curves, each within [0, 1]
@@ -29,11 +29,11 @@ struct FittedWeights {
   GeometricMeasures measured_high;        ///< largest v of the measured fabrics
   std::vector<std::string_view> clamped;  ///< names of those beyond, taken at the nearer end
   std::size_t nearest = 0;                ///< index of the fabric whose v are nearest
-  /// From that fabric, each v in units of its standard deviation over the fabrics.
+  /// How far that fabric is off, each v in units of its standard deviation over the fabrics.
   double distance = 0;
 };
 
-/// From measurements v to weights, by a curve through the measured fabrics' v' over their v for
+/// Maps measurements v to weights, by a curve through the measured fabrics' v' over their v for
 /// each measure on its own. It claims no more than that: docs/methods/fabric_weights.md.
 class MeasureFit {
  public:

@@ -17,7 +17,7 @@ Positions RigidMotion::of(const Positions& places) const {
 ///
 ///     N = (tr S  d^T; d  S + S^T - tr S I),   d = (S_yz - S_zy, S_zx - S_xz, S_xy - S_yx).
 ///
-/// What is added to its first entry favours w = cos(angle/2).
+/// A small addition to its first entry favours w = cos(angle/2).
 RigidMotion nearest_rigid_motion(const Eigen::Ref<const Positions>& before,
                                  const Eigen::Ref<const Positions>& after) {
   constexpr double kFavour = 1e-6;  // of S; turns the result by about as many radians

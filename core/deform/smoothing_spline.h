@@ -34,7 +34,7 @@ struct SmoothingSpline {
 
   double low() const { return knots.front().x; }
   double high() const { return knots.back().x; }
-  /// At the nearest place from low() to high(). Throws ContractError for NaN.
+  /// Taken at the place from low() to high() nearest to x. Throws ContractError for NaN.
   double value(double x) const;
 };
 
@@ -50,9 +50,9 @@ struct SmoothingSpline {
 /// 2 and 3.
 SmoothingSpline smoothing_spline(std::span<const CurvePoint> points, double smoothing);
 
-/// Of the splines of all lambda and the mean of y, the one of least leave-one-out error (of lambda
-/// between the limits, the lowest on a grid, refined). Throws ContractError as smoothing_spline
-/// does.
+/// The curve of least leave-one-out error among the mean of y and the splines of all lambda
+/// (between the limits of lambda the lowest on a grid, refined). Throws ContractError as
+/// smoothing_spline does.
 SmoothingSpline best_smoothing_spline(std::span<const CurvePoint> points);
 
 }  // namespace pleat

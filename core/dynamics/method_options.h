@@ -19,7 +19,7 @@ enum class Constraints {
   rigid,      ///< compliance 0
 };
 
-/// What `newton` solves for in a substep.
+/// The equations that `newton` solves in a substep.
 enum class NewtonRule {
   backward_euler,  ///< first order, loses energy
   midpoint,        ///< implicit midpoint: second order, keeps all energy: for small steps

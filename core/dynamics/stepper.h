@@ -25,12 +25,12 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  /// From `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at their
-  /// pins, hanging ones in the middle of their parents, where they are put to begin with. After
-  /// each substep the model's contact corrects the result. The report's residual is that of the
-  /// last substep's own equations, its iterations the sum. A state that is not finite, or beyond
-  /// kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates nothing
-  /// after the first call but messages.
+  /// Steps from `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at
+  /// their pins, hanging ones in the middle of their parents, where they are put to begin with.
+  /// After each substep the model's contact corrects the result. The report's residual is that of
+  /// the last substep's own equations, its iterations the sum. A state that is not finite, or
+  /// beyond kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates
+  /// nothing after the first call but messages.
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;
@@ -49,9 +49,9 @@ class Stepper {
 
  protected:
   /// Whether the force with which a solid held a vertex in one substep is among the forces of the
-  /// next. What a stepper that solves for the end of a substep rests on is then in its equations:
-  /// it comes to rest in equilibrium instead of falling into the solid and being put back in every
-  /// substep.
+  /// next. The equations of a stepper that solves for the end of a substep then contain the
+  /// support: cloth comes to rest in equilibrium instead of falling into the solid and being put
+  /// back in every substep.
   enum class ContactMemory { none, last_substep };
 
   Stepper(ClothModel& model, const MethodOptions& options, int substeps, ContactMemory memory);
@@ -96,8 +96,8 @@ class Stepper {
 
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
-  /// What is remembered of the last substep: by which force [N] solids held each vertex, and how
-  /// the last of them touched it.
+  /// Kept from the last substep: the force [N] with which solids held each vertex, and how the last
+  /// of them touched it.
   Positions contact_forces_;
   std::vector<ContactStage::Touch> touches_;
 

@@ -106,8 +106,8 @@ void StepperNewton::place_first_guess(const State& state, double time_end) {
   place_between_parents(model_.hanging, positions_);
 }
 
-/// What a substep minimises, with drag expanded about the present iterate. `magnitude` (may be
-/// null) gets the sum of the terms' sizes.
+/// The function that a substep minimises, with drag expanded about the present iterate. `magnitude`
+/// (may be null) gets the sum of the terms' sizes.
 double StepperNewton::potential(const Positions& positions, double* magnitude) {
   change_ = flat(positions) - flat(begin_);
   flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
@@ -152,7 +152,7 @@ void StepperNewton::fill_matrix(ElementHessian hessian) {
     for (int i = 0; i < model_.n_vertices(); ++i)
       matrix_.add_diagonal(VertexId(i), model_.air->resistance(VertexId(i)) / interval_);
   if (shift_ > 0) matrix_.add_masses(shift_);
-  // What rounding of places alone changes in the forces.
+  // The change of the forces by rounding of places alone.
   rounding_ = kEpsilon * extent_ * diagonal_norm(matrix_.lower());
   right_side_ = -flat(gradient_);
   matrix_.reduce_to_parents(right_side_);

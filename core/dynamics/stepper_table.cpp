@@ -93,7 +93,7 @@ constinit const StepperType steppers::xpbd = {
     .solves_equations = true,
     .usual_counts = kSmallSteps,
     .is_usual_for_springs = true,
-    // In single precision, four springs at a time, and no forces.
+    // Single precision, four springs at a time, and no forces.
     .substep_cost = [](const MethodOptions& options) { return 0.2 * options.iterations; },
     .mark = {"M0-5.4L5 3.8H-5Z", "#4f6f00", "#b3d15a"},
     .make = make<StepperXpbd>,

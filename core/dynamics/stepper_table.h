@@ -13,14 +13,14 @@
 
 namespace pleat {
 
-/// What a scene's section "method" may set beside stepper and step.
+/// The settings of a scene's section "method" beside stepper and step.
 enum class MethodSetting { substeps, iterations, solver, tolerance, constraints, rule };
 
 constexpr std::array<MethodSetting, 6> kMethodSettings = {
     MethodSetting::substeps,  MethodSetting::iterations,  MethodSetting::solver,
     MethodSetting::tolerance, MethodSetting::constraints, MethodSetting::rule};
 
-/// As scenes write it.
+/// Spelled as in scenes.
 const char* key(MethodSetting setting);
 
 /// How often a stepper works in a step.
@@ -42,11 +42,11 @@ struct StepperType {
   const char* name;     ///< as scenes write it
   const char* title;    ///< for people
   const char* meaning;  ///< for people, a sentence
-  /// What it reads; others are refused in a scene.
+  /// The settings that it reads; others are refused in a scene.
   std::span<const MethodSetting> settings;
   const char* substeps_meaning = "";    ///< what more substeps do, a sentence
   const char* iterations_meaning = "";  ///< the same of iterations, where it reads them
-  /// Where a scene says nothing.
+  /// Used where a scene says nothing.
   MethodCounts start = {};
   double tolerance = MethodOptions{}.tolerance;
   double largest_tolerance = 1;  ///< excluded when 1
@@ -62,7 +62,7 @@ struct StepperType {
   bool is_usual_for_springs = false;    ///< taken by sweeps that name no stepper
   bool is_usual_for_membranes = false;  ///< the same
   int finest_usual_level = kMaxLevel;   ///< at finer ones the page's sweep leaves it out
-  /// What a substep costs per vertex, roughly, in units of what the forces of explicit cost.
+  /// Rough cost of a substep per vertex, in units of what the forces of explicit cost.
   double (*substep_cost)(const MethodOptions& options);
 
   StepperMark mark;
@@ -73,7 +73,7 @@ struct StepperType {
   bool reads(MethodSetting setting) const {
     return std::find(settings.begin(), settings.end(), setting) != settings.end();
   }
-  /// What a scene gets that names this stepper and nothing else.
+  /// The options of a scene that names this stepper and nothing else.
   MethodOptions usual_method() const;
 };
 
@@ -89,7 +89,7 @@ const StepperType* find_stepper(StepperTable table, std::string_view name);
 /// "implicit, projective, ...".
 std::string stepper_names(StepperTable table);
 
-/// For the command's help: a line or two for each, with what it reads.
+/// A line or two for each stepper, with the settings it reads, for the command's help.
 std::string stepper_help(StepperTable table);
 
 /// The stepper that the options name. Throws InputError when the method cannot run on this model

@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-/// Of one value or more.
+/// Takes one value or more.
 double root_mean_square(std::span<const double> values);
 
 /// The middle value, of an even number the mean of the two middle ones; NaN of none.
@@ -27,7 +27,7 @@ double position_error(const Eigen::Ref<const Positions>& positions,
                       const Eigen::Ref<const Positions>& reference,
                       const Eigen::Ref<const Eigen::VectorXd>& areas);
 
-/// Where positions on three meshes lead, each with edges half as long as the one before.
+/// The limit of positions on three meshes, each with edges half as long as the one before.
 struct MeshLimit {
   Positions positions;              ///< [m], of the vertices of the coarsest mesh
   double rate = 0;                  ///< distances fall by two to this power at each halving

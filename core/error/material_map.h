@@ -6,15 +6,15 @@
 
 namespace pleat {
 
-/// Where points of a cloth at rest lie on another mesh of the same cloth: meshes of different
-/// fineness differ in how they follow a curved rest shape, so each point has the nearest place.
+/// Maps points of a cloth at rest to another mesh of the same cloth: meshes of different fineness
+/// differ in how they follow a curved rest shape, so each point has the nearest place.
 class MaterialMap {
  public:
   /// mesh    at rest, with a triangle
   /// points  of the cloth at rest [m]
   MaterialMap(const TriangleMesh& mesh, const Eigen::Ref<const Positions>& points);
 
-  /// Where the points are when the mesh is at `positions` [m].
+  /// The points' places when the mesh is at `positions` [m].
   Positions of(const Eigen::Ref<const Positions>& positions) const;
 
   double farthest() const { return farthest_; }  ///< of a point from the mesh at rest [m]

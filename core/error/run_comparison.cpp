@@ -39,7 +39,7 @@ void check_times(std::span<const Sample> run, std::span<const Sample> reference)
     PLEAT_CHECK(run[s].time == reference[s].time, "two runs are compared at the same times");
 }
 
-/// Over vertices that both have, for each time [m].
+/// Errors over the vertices that both have, one per time [m].
 std::vector<double> position_errors(std::span<const Sample> run, std::span<const Sample> reference,
                                     const Eigen::VectorXd& areas) {
   check_times(run, reference);

@@ -34,9 +34,9 @@ class RunComparison {
   /// reference_level  of the run that is taken for right
   RunComparison(const Scene& scene, int reference_level);
 
-  /// Of runs on any two meshes of one cloth, graded ones too: compared at the material points that
-  /// are the vertices of the reference, and smoothed over an edge of its unrefined mesh. Both are
-  /// cloth with triangles.
+  /// Compares runs on any two meshes of one cloth, graded ones too, at the material points that are
+  /// the vertices of the reference, smoothed over an edge of its unrefined mesh. Both are cloth
+  /// with triangles.
   RunComparison(const Scene& scene, const Scene& reference);
 
   /// Throws ContractError unless both have samples at the same times.

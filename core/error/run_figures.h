@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-/// What one run of a scene showed, whichever program computed it.
+/// Cost, stretch and shapes of one run of a scene, whichever program computed it.
 struct RunRecord {
   std::vector<double> frame_ms;         ///< wall time of each frame but the first [ms]
   std::vector<double> processor_ms;     ///< processor time of the same frames [ms]

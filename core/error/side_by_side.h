@@ -78,7 +78,7 @@ class SideBySide {
   bool done() const { return frame_ == options_.n_frames(); }
   double progress() const { return static_cast<double>(frame_) / options_.n_frames(); }
 
-  /// Once done. Errors are NaN for runs that ended early and where the first one did.
+  /// Call once done. Errors are NaN for runs that ended early and where the first one did.
   std::vector<ContestantResult> results() const;
 
  private:

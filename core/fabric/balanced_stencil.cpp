@@ -109,7 +109,7 @@ Vec3 boundary_term(const EdgeSide& side, double length, const Vec2& g) {
                        (side.n.x() * gradient.y() + side.n.y() * gradient.x()) / 2);
 }
 
-/// Without the vertices whose terms cancelled but for rounding, which would only widen matrices.
+/// Leaves out vertices whose terms cancelled but for rounding: they would only widen matrices.
 CurvatureStencil without_noise(const Combination<Vec3>& sum, double area) {
   constexpr double kRounding = 1e-11;  // area times weight is of order 1 on any scale
   CurvatureStencil stencil;

@@ -85,7 +85,7 @@ class UnfoldedPatch {
     places_.push_back(where);
   }
 
-  /// Where the vertex is, or null when it has no place yet.
+  /// The vertex's place, or null when it has none yet.
   const Vec2* find(VertexId v) const {
     const auto found = std::find(vertices_.begin(), vertices_.end(), v);
     return found == vertices_.end() ? nullptr : &places_[found - vertices_.begin()];
@@ -129,8 +129,8 @@ class UnfoldedPatch {
 
 using PerPlace = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// What is left of y1^2/2, y2^2/2 and y1 y2/sqrt(2) at places of mean 0 and covariance 1 beside
-/// every affine function: 1, y1, y2 are orthogonal there, each of squared length n.
+/// The parts of y1^2/2, y2^2/2 and y1 y2/sqrt(2) that are orthogonal to every affine function, at
+/// places of mean 0 and covariance 1: there 1, y1, y2 are orthogonal, each of squared length n.
 PerPlace bare_quadratics(const Places& y) {
   const auto n = static_cast<double>(y.cols());
   PerPlace affine(y.cols(), 3);

@@ -14,8 +14,8 @@ namespace pleat {
 /// bend_twist            rigidity against torsion [N m], not negative; a sheet with all three equal
 ///                       bends alike in every direction
 ///
-/// What the mesh does not see costs nothing (curvature_stencils). Throws ContractError for a
-/// negative rigidity.
+/// Curvature that the mesh does not see costs nothing (curvature_stencils). Throws ContractError
+/// for a negative rigidity.
 /// Source: docs/methods/fitted_bending.md.
 SparseMatrix fitted_bending(const TriangleMesh& mesh, double bend_warp, double bend_weft,
                             double bend_twist);

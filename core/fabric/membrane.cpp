@@ -11,8 +11,8 @@
 namespace pleat {
 namespace {
 
-/// What yarns that stretch instead of straightening add beyond the stiffening strain, in shares of
-/// the stiffness before it.
+/// The stiffness that yarns add beyond the stiffening strain, where they stretch instead of
+/// straightening, in shares of the stiffness before it.
 constexpr double kStiffening = kTautFactor - 1;
 
 /// The columns of F = dx/d(u, v) and the Green strain E = 1/2 (F^T F - I).

@@ -21,7 +21,7 @@ struct MembraneLaw {
 
 struct MembraneElement {
   Triangle vertices;
-  /// Of the three shape functions along warp (u) and weft (v) [1/m]; a row per vertex.
+  /// Derivatives of the three shape functions along warp (u) and weft (v) [1/m]; a row per vertex.
   Eigen::Matrix<double, 3, 2> gradients;
   double area = 0;  ///< at rest [m^2]
 };

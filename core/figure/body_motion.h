@@ -7,7 +7,7 @@
 
 namespace pleat {
 
-/// What moves a body: angles of its joints [rad] and the path of its pelvis [m].
+/// The motions of a body: angles of its joints [rad] and the path of its pelvis [m].
 ///
 /// Tilt leans forward, obliquity lifts the right side, rotation brings the right side forward;
 /// those of thorax and head are measured from the world. Hip, knee, ankle, shoulder and elbow are

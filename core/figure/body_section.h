@@ -17,7 +17,7 @@ using Outline = Eigen::ArrayXd;
 /// height  [m]; throws ContractError where no part is
 Outline outline(std::span<const BodyPart> parts, double height, int n_directions);
 
-/// What a tape around it measures [m].
+/// The length of a tape around the section [m].
 double girth(const Outline& outline);
 
 /// The first point of a line and those at whole multiples of one n-th of its length.

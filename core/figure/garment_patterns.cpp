@@ -17,11 +17,11 @@ constexpr double kTwoPi = 6.283185307179586;
 constexpr double kWaistHeight = 0.984;  // [m], where the body is narrowest
 constexpr int kDirections = 360;        // an outline's; its polygon is 4e-5 of its radius larger
 
-/// From the skin [m]: 5 mm of air and twice what contact keeps quads of 12 mm off a shank of 59 mm.
+/// Air of 5 mm over the skin and twice what contact keeps quads of 12 mm off a shank of 59 mm [m].
 constexpr double kGap = 0.0057;
 
-/// Below the body's crotch hangs the garment's, above it its fork [m]: the line between the legs
-/// has to pass under the hips and between the thighs.
+/// How far the garment's crotch is below the body's, and its fork above the body's [m]: the line
+/// between the legs has to pass under the hips and between the thighs.
 constexpr double kCrotchDrop = 0.02;
 constexpr double kForkRise = 0.05;
 
@@ -46,7 +46,7 @@ double length_of(const std::vector<Vec3>& line) {
   return length;
 }
 
-/// What grows into a garment's patch.
+/// The vertices and quads from which a garment's patch grows.
 struct Pattern {
   std::vector<Vec3> places;
   std::vector<Eigen::Vector2d> coordinates;

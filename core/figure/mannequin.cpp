@@ -108,7 +108,7 @@ void add_leg(const Measures& m, const LegBones& leg, std::vector<BodyPart>& part
       {"thigh_" + name, cone(hip, hip_section, knee, knee_section, Vec3(1, 0, 0)), leg.thigh});
   parts.push_back({"upper_shank_" + name, round_cone(knee, m.calf_top, calf, m.calf), leg.shank});
   parts.push_back({"lower_shank_" + name, round_cone(calf, m.calf, ankle, m.ankle), leg.shank});
-  // From the heel to where the toes begin, 0.18 m, standing on the floor.
+  // The foot from the heel to where the toes begin, 0.18 m, standing on the floor.
   constexpr Section kHeel{0.032, 0};
   constexpr Section kBall{0.022, 0.022};
   const Vec3 heel = on_side(leg.side, {-0.018, kHeel.radius, 0.085});

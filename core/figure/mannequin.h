@@ -26,8 +26,8 @@ struct BodyPart {
 /// Source: girths and breadths as docs/methods/figure.md gives them.
 std::vector<BodyPart> mannequin(BodyBuild build);
 
-/// Of these, hips and legs: what garments of the lower body meet. The trunk above turns and tilts
-/// against the pelvis, to which a waistband is fixed, and hanging arms cut into the hips.
+/// The hips and legs among `parts`, which garments of the lower body meet. The trunk above turns
+/// and tilts against the pelvis, to which a waistband is fixed, and hanging arms cut into the hips.
 std::vector<BodyPart> below_waist(std::vector<BodyPart> parts);
 
 }  // namespace pleat

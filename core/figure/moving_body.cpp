@@ -9,7 +9,7 @@
 namespace pleat {
 namespace {
 
-/// Of the pelvis while standing [rad], 10 degrees; the hips are flexed by as much, so that the
+/// The pelvis's tilt while standing [rad], 10 degrees; the hips are flexed by as much, so that the
 /// thighs hang straight.
 constexpr double kStandingTilt = 0.17453292519943295;
 
@@ -89,7 +89,7 @@ Mat3 trunk_rotation(const ChannelValues& v, MotionChannel tilt) {
   return about_y(v[first + 2]) * about_x(-v[first + 1]) * about_z(-v[first]);
 }
 
-/// From the parent's axes to the bone's; thorax and head are turned from the world's.
+/// Turns the parent's axes into the bone's; thorax and head are turned from the world's.
 Mat3 joint_rotation(Bone bone, const Posture& posture) {
   const ChannelValues& v = is_left(bone) ? posture.left : posture.right;
   const double s = side(bone);

@@ -30,8 +30,8 @@ const char* bone_name(Bone bone);
 
 bool is_below_waist(Bone bone);
 
-/// Where a bone hangs while the body stands [m]: x forward, y up from the floor, z to the right,
-/// the hips midway over the origin; a woman of 1.635 m.
+/// The joint that a bone hangs from while the body stands [m]: x forward, y up from the floor, z to
+/// the right, the hips midway over the origin; a woman of 1.635 m.
 Vec3 standing_joint(Bone bone);
 
 /// How a motion is played.
@@ -53,7 +53,7 @@ class MovingBody {
   /// How a bone has moved since time 0 [s].
   Pose pose(Bone bone, double time) const;
 
-  /// Where the joint is that the bone hangs from [m].
+  /// The place of the joint that the bone hangs from [m].
   Vec3 joint(Bone bone, double time) const { return pose(bone, time) * standing_joint(bone); }
 
  private:

@@ -61,7 +61,7 @@ fs::path target_of(const fs::path& path) {
   return target;
 }
 
-/// Where a file stands until it is whole: beside it, under a name that nothing had.
+/// A file that is not whole yet: it stands beside its target, under a name that nothing had.
 class PartFile {
  public:
   /// Throws FileError naming `path`.

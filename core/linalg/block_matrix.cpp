@@ -21,7 +21,7 @@ inline void multiply_both_ways(const double* B, const double* x, const double* z
   y[2] += B[2] * z[0] + B[5] * z[1] + B[8] * z[2];
 }
 
-/// Of each block row the others that it has a block with.
+/// The other block rows with which each one has a block.
 std::vector<std::vector<int>> block_neighbours(const SparseMatrix& lower) {
   std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(lower.rows() / 3));
   for (Eigen::Index column = 0; column < lower.cols(); ++column) {

@@ -29,7 +29,7 @@ class BlockMatrix {
   /// Takes the values; the pattern is the one last analysed.
   void set_values(const SparseMatrix& lower);
 
-  /// From the order of the sparse matrix to that of the rows, and back; 3 n_rows() each.
+  /// Reorder from the order of the sparse matrix to that of the rows, and back; 3 n_rows() each.
   void gather(const double* from, double* ordered) const;
   void scatter(const double* ordered, double* to) const;
 

@@ -70,7 +70,7 @@ class ConjugateGradient final : public LinearSolver {
  private:
   const BlockMatrix& rows() const { return factor_.rows(); }
 
-  /// From x, and without a direction yet.
+  /// Starts from x, without a direction yet.
   void start() {
     factor_.multiply(x_.data(), r_.data());
     for (std::size_t k = 0; k < r_.size(); ++k) r_[k] = b_[k] - r_[k];
@@ -149,7 +149,7 @@ class ConjugateGradient final : public LinearSolver {
 
   SolverOptions options_;
   IncompleteFactor factor_;
-  // In the order of rows().
+  // Vectors in the order of rows().
   std::vector<double> b_;
   std::vector<double> x_;
   std::vector<double> r_;

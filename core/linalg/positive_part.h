@@ -6,7 +6,7 @@
 
 namespace pleat {
 
-/// Of a 3 x 3 block's symmetric part: without its negative eigenvalues, packed.
+/// The symmetric part of a 3 x 3 block without its negative eigenvalues, packed.
 /// block  row by row
 std::array<double, kPackedSize> positive_part(const double* block);
 

@@ -25,7 +25,7 @@ bool has_area(const Vec3& x0, const Vec3& x1, const Vec3& x2) {
   return sides[0].cross(sides[2]).norm() > kSlimmest * longest;
 }
 
-/// Of the side `later`, whose edge the sides before it in `group` have too; empty when it is sound.
+/// The fault of the side `later`, whose edge sides before it in `group` have too; empty when sound.
 std::string side_fault(const Side* group, const Side* later, int first_vertex) {
   const auto number = [&](VertexId v) { return std::to_string(v.value + first_vertex); };
   const std::string ends = number(later->from) + " to " + number(later->to);

@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-/// What keeps triangles from being cloth, and where.
+/// A fault that keeps triangles from being cloth, and its place.
 struct MeshFault {
   FaceId triangle;       ///< invalid when a vertex in no triangle is at fault
   VertexId vertex;       ///< then this one

@@ -188,7 +188,7 @@ std::vector<LineChord> line_chords(const QuadMesh& mesh, const ThreadEdges& edge
                          first.thread, second.thread}});
     }
   }
-  // In the order of the edges that they come from: springs and bends of one thread lie together.
+  // Ordered by the edges that they come from: springs and bends of one thread lie together.
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.first_edge < b.first_edge; });
   std::vector<LineChord> chords;

@@ -23,7 +23,7 @@ struct ThreadEdge {
 
 struct ThreadEdges {
   std::vector<ThreadEdge> edges;  ///< warp, then weft, each in the order of the faces
-  /// Of each active face in order: its edges 0-1, 3-2, 0-3 and 1-2.
+  /// The edges 0-1, 3-2, 0-3 and 1-2 of each active face in order.
   std::vector<std::array<int, 4>> of_faces;
 };
 

@@ -20,8 +20,8 @@ void check_shape(const SheetShape& shape) {
               "warp and weft directions are orthonormal");
 }
 
-/// Of the middle between two vertices, round along weft. Where a tube closes, the coordinate falls
-/// from its end to its begin though the way is short: the middle goes on from the end.
+/// The weft coordinate of the middle between two vertices. Where a tube round along weft closes, it
+/// falls from its end to its begin though the way is short: the middle goes on from the end.
 double middle_coordinate(const Positions& x, const RestCoordinates& uv, int a, int b) {
   constexpr double kSeam =
       2;  // in lengths of the edge, which is longer than its share when slanted

@@ -90,7 +90,7 @@ class QuadMesh {
   std::span<const VertexParents> parents() const { return parents_; }
   int n_base_faces() const { return n_base_faces_; }  ///< the first ones
 
-  /// In the order of the active faces whose edges they halve.
+  /// Ordered by the active faces whose edges they halve.
   std::vector<HangingVertex> hanging_vertices() const;
 
   /// The vertex that halves the edge of a face; invalid when no face with that edge is split.

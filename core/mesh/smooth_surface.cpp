@@ -15,7 +15,7 @@ namespace {
 /// Lines that turn by more than 60 degrees end there, as between a garment's legs.
 constexpr double kLeastCosine = 0.5;
 
-/// From which vertex a line comes to an edge, by the edge's ends in order.
+/// The vertex from which a line comes to an edge, by the edge's ends in order.
 using LinesBefore = std::map<std::pair<int, int>, VertexId>;
 
 LinesBefore lines_before(const QuadMesh& base) {
@@ -51,7 +51,7 @@ class SmoothSurface {
  private:
   Vec3 position(VertexId vertex) const { return base_.rest_positions().col(vertex); }
 
-  /// As long as the edge; none where a line begins with the edge.
+  /// Has the length of the edge; none where a line begins with the edge.
   std::optional<Vec3> tangent(VertexId a, VertexId b) const {
     const auto found = before_.find({a.value, b.value});
     if (found == before_.end()) return std::nullopt;

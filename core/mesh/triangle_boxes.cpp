@@ -37,7 +37,7 @@ void TriangleBoxes::fit(const std::vector<Corners>& ordered) {
   }
 }
 
-/// At the median of the centroids along the box's longest side.
+/// Splits at the median of the centroids along the box's longest side.
 void TriangleBoxes::split(const std::vector<Corners>& triangles, std::size_t begin,
                           std::size_t end) {
   const std::size_t index = nodes_.size();

@@ -25,7 +25,7 @@ bool is_above(const Vec3& p, const Corners& c, const Vec3& normal) {
   return normal.squaredNorm() > 0;
 }
 
-/// To the plane where the foot lies inside, else to the nearest edge.
+/// Measured to the plane where the foot lies inside, else to the nearest edge.
 double triangle_distance_squared(const Vec3& p, const Corners& c) {
   const Vec3 normal = doubled_area(c);
   if (is_above(p, c, normal)) {

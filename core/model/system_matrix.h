@@ -46,7 +46,7 @@ class SystemMatrix {
   void prescribe(const Eigen::Ref<const Positions>& values, Eigen::Ref<Eigen::VectorXd> rhs);
 
  private:
-  /// Where the block (row, column), row > column, lies: as the `rank`th block below the diagonal of
+  /// The place of the block (row, column), row > column: it is the `rank`th below the diagonal of
   /// its column.
   struct Slot {
     VertexId row, column;
@@ -70,7 +70,7 @@ class SystemMatrix {
     Slot between_parents;
   };
 
-  /// Where kinds of elements put their blocks.
+  /// Puts the blocks of each kind of element into their slots.
   class Blocks;
 
   void join_parents();

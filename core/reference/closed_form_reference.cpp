@@ -140,7 +140,7 @@ struct Chain {
   std::vector<VertexId> particles;  // one more
 };
 
-/// From the end `begin` on; nothing unless it passes every particle.
+/// The chain from the end `begin` on; empty unless it passes every particle.
 Chain chain_from(VertexId begin, const ParticleCloth& cloth) {
   const auto n_particles = static_cast<std::size_t>(cloth.positions.cols());
   std::vector<std::array<const Spring*, 2>> ends_at(n_particles, {nullptr, nullptr});

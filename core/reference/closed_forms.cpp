@@ -66,7 +66,7 @@ void expand(double load, ElasticaPiece& piece) {
   }
 }
 
-/// From the tip to the clamp, or to where the angle passes the right angle.
+/// Pieces from the tip to the clamp, or to where the angle passes the right angle.
 std::vector<ElasticaPiece> shoot(double load, double tip_angle, int n_steps) {
   const double step = 1.0 / n_steps;
   std::vector<ElasticaPiece> pieces;

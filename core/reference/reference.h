@@ -14,7 +14,7 @@
 
 namespace pleat {
 
-/// What an error is measured against.
+/// Names what an error is measured against.
 struct ReferenceLabel {
   std::string id;           ///< names the content; never empty
   std::string description;  ///< a phrase for people

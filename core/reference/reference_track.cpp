@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kTimeTolerance = 1e-9;  // [s]: a sample at the very time
 
-/// What the vertices of a simulation are to be compared with: those that both have, and between
-/// them, where the reference is coarser, what lies along its mesh lines.
+/// The reference's places for the vertices of a simulation: of those that both have, and between
+/// them, where the reference is coarser, along its mesh lines.
 Positions at_vertices_of(const Simulation& simulation, const Positions& reference) {
   const Eigen::Index n = simulation.model().n_vertices();
   if (reference.cols() >= n) return reference.leftCols(n);

@@ -25,15 +25,15 @@ class ReferenceTrack {
     double uncertainty = 0;  ///< of the reference then [m]; NaN: unknown
   };
 
-  /// From the simulation's present state to the reference at its time; nothing beyond its end and
-  /// for a disturbed simulation (Simulation::is_disturbed).
+  /// Measured from the simulation's present state to the reference at its time; nothing beyond its
+  /// end and for a disturbed simulation (Simulation::is_disturbed).
   /// Between samples the reference goes straight. A sheet that is finer than it is compared with
   /// it along its mesh lines, another mesh at the vertices that both have.
   ///
   /// simulation  whose scene `is_of` accepts
   std::optional<Distance> distance(const Simulation& simulation);
 
-  /// Of each vertex, as `distance` found them [m]; 0 where the reference has none.
+  /// A distance per vertex, as `distance` found it [m]; 0 where the reference has none.
   const std::vector<float>& distances() const { return distances_; }
 
  private:

@@ -4,8 +4,8 @@
 
 namespace pleat {
 
-/// Of each vertex over the frames of a motion, a column each: mean and standard deviation of its
-/// curvature [1/m].
+/// Mean and standard deviation of each vertex's curvature over the frames of a motion [1/m], a
+/// column per vertex.
 using BendFeatures = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
 /// Gathers the features of a motion frame by frame, without keeping the frames.

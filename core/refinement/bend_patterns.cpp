@@ -39,7 +39,7 @@ BendPatterns bend_patterns(const BendFeatures& features, const PatternOptions& o
     patterns.low = features.rowwise().minCoeff();
     patterns.high = features.rowwise().maxCoeff();
   }
-  // What is the same at all vertices tells nothing and becomes 0.
+  // A feature that is the same at all vertices tells nothing and becomes 0.
   const Eigen::Array2d range = patterns.high - patterns.low;
   const Eigen::Array2d per_unit = (range > 0).select(range.inverse(), 0);
   const PlanePoints points = per_unit.matrix().asDiagonal() * (features.colwise() - patterns.low);

@@ -76,7 +76,7 @@ Positions gathered_velocities(const GradedState& old, const QuadMesh& coarser) {
   std::vector<bool> stays(static_cast<std::size_t>(old.mesh.n_vertices()), false);
   for (const VertexId v : matching) stays[v] = true;
   for (const HangingVertex& h : coarser.hanging_vertices()) stays[matching[h.vertex]] = false;
-  // Per areal density: masses are areas [m^2], momenta [m^3/s].
+  // Both are per areal density: masses are areas [m^2], momenta [m^3/s].
   Eigen::VectorXd masses = old.mesh.vertex_areas();
   Positions momenta = old.velocities * masses.asDiagonal();
   for (Eigen::Index v = masses.size(); v-- > 0;) {  // parents come before

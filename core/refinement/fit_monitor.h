@@ -27,7 +27,7 @@ class FaceCurvature {
 /// are continued to all vertices as means, and the largest of a face's corners, rounded, counts.
 std::vector<int> face_patterns(const QuadMesh& mesh, const RefinementPlan& plan);
 
-/// What the examples show at a plan's own spacing.
+/// The curvatures that examples reach at a plan's own spacing.
 class ExampleEnvelope {
  public:
   /// mesh  of the plan
@@ -37,8 +37,8 @@ class ExampleEnvelope {
   /// A frame of an example: the fine mesh's positions [m].
   void add(const Eigen::Ref<const Positions>& fine_positions);
 
-  /// Of each pattern the curvature that 99.9 % of its faces and frames do not exceed [1/m]; 0 for a
-  /// pattern without faces. Throws ContractError when there was no frame.
+  /// One value per pattern: the curvature that 99.9 % of its faces and frames do not exceed [1/m],
+  /// 0 for a pattern without faces. Throws ContractError when there was no frame.
   std::vector<double> limits() const;
 
  private:

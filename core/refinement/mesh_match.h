@@ -11,13 +11,13 @@ namespace pleat {
 /// corners and the base vertices' rest positions, these to a micrometre.
 std::uint64_t base_fingerprint(const QuadMesh& mesh);
 
-/// For each face, split or not, the face of a finer mesh that covers the same cloth.
+/// The face of a finer mesh that covers the same cloth, for each face, split or not.
 ///
 /// finer  a refinement of the same base in which every split of `mesh` was made too;
 ///        ContractError otherwise
 std::vector<FaceId> matching_faces(const QuadMesh& mesh, const QuadMesh& finer);
 
-/// For each vertex the same vertex of a finer mesh. Errors as above.
+/// The same vertex of a finer mesh, for each vertex. Errors as above.
 std::vector<VertexId> matching_vertices(const QuadMesh& mesh, const QuadMesh& finer);
 
 /// Values at the first vertices of a mesh, a column each, continued to all of them: a later vertex
@@ -32,7 +32,7 @@ Eigen::MatrixXd on_finer_mesh(const Eigen::Ref<const Eigen::MatrixXd>& values, c
 /// Puts hanging vertices into the middle of their parents, a column each.
 void straighten(std::span<const HangingVertex> hanging, Positions& columns);
 
-/// What a mesh can show of the shapes of a finer one.
+/// Takes shapes of a finer mesh to a mesh, as far as it can show them.
 class MeshSample {
  public:
   /// Errors as matching_vertices.

@@ -33,7 +33,7 @@ struct PlanOptions {
 void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMesh& base,
                         int max_level);
 
-/// What a plan keeps of an example.
+/// The part of an example that a plan keeps.
 struct PlanExample {
   std::string name;
   BendFeatures centres;        ///< a column for each pattern [1/m]
@@ -48,7 +48,7 @@ struct PlannedSplit {
   bool for_balance = false;  ///< only because a neighbour needed it
 };
 
-/// Where a base mesh is fine, built once from examples and used for every motion of their kind.
+/// The splits of a base mesh, built once from examples and used for every motion of their kind.
 struct RefinementPlan {
   std::vector<PlanExample> examples;
   int n_patterns = 3;
@@ -57,7 +57,7 @@ struct RefinementPlan {
   std::vector<PlannedSplit> splits;  ///< in the order in which they make the mesh
   int n_vertices = 0;                ///< of the mesh
   std::uint64_t base_mesh = 0;       ///< its fingerprint
-  /// Of each pattern the mean curvature of a face's corners that the examples hardly exceeded,
+  /// Mean curvature of a face's corners that the examples hardly exceeded, one value per pattern,
   /// ExampleEnvelope::limits [1/m]; empty while these were not measured.
   std::vector<double> curvature_limits;
 };

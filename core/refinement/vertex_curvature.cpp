@@ -9,7 +9,7 @@
 namespace pleat {
 namespace {
 
-/// Of t in powers of e, from the inversion of e = 1 - sin(sqrt t) / sqrt t = t/6 - t^2/120 + ...
+/// Coefficients of t(e), from inverting e = 1 - sin(sqrt t) / sqrt t = t/6 - t^2/120 + ...
 /// All are positive and the series converges up to e = 1.217, where the sine cardinal turns.
 constexpr std::array<double, 9> kSeries = {6.0,
                                            9.0 / 5,

@@ -11,7 +11,7 @@ namespace pleat {
 /// chord   not negative
 /// length  of the arc [m], positive
 ///
-/// As a function of chord / length within 1e-10 of itself from 0.05 to 1 - 1e-12.
+/// The relative error is at most 1e-10 for a given chord / length from 0.05 to 1 - 1e-12.
 double arc_curvature(double chord, double length);
 
 /// How far cloth bends at each vertex of a mesh [1/m]: the mean over the up to eight vertices two

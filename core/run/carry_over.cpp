@@ -25,8 +25,8 @@ Membrane projection(const Spring& spring, const RestCoordinates& uv) {
   return {d.x() * d.x(), d.y() * d.y(), d.x() * d.y()};
 }
 
-/// Without its negative principal values, since cloth holds no compression but folds, and scaled so
-/// that the largest one is at most `largest` [N/m].
+/// The resultants without negative principal values, since cloth holds no compression but folds,
+/// and scaled so that the largest one is at most `largest` [N/m].
 Membrane tensile_part(const Membrane& resultants, double largest) {
   const double mean = (resultants[0] + resultants[1]) / 2;
   const double half = (resultants[0] - resultants[1]) / 2;
@@ -40,9 +40,9 @@ Membrane tensile_part(const Membrane& resultants, double largest) {
   return scale * major / 2 * Membrane(1 + cosine, 1 - cosine, resultants[2] / radius);
 }
 
-/// What the whole sheet's weight and swing can ask for: areal density (g l + v^2), with its rest
-/// diagonal l and largest speed v [N/m]. Stretch beyond that is what a stepper has not worked off
-/// yet, and no force: in a softer fabric it would be a catapult.
+/// The most that the whole sheet's weight and swing can ask for: areal density (g l + v^2), with
+/// its rest diagonal l and largest speed v [N/m]. Stretch beyond that is what a stepper has not
+/// worked off yet, and no force: in a softer fabric it would be a catapult.
 double largest_resultant(const MovingSheet& sheet, double area) {
   const RestCoordinates& uv = sheet.mesh.rest_coordinates();
   const double diagonal = (uv.rowwise().maxCoeff() - uv.rowwise().minCoeff()).norm();

@@ -14,7 +14,7 @@ struct MovingSheet {
   const State& state;
 };
 
-/// Of the new cloth's mass to the old one's.
+/// The new cloth's mass over the old one's.
 double mass_ratio(const MovingSheet& old, const MovingSheet& fresh);
 
 /// Places of vertices [m], or any other columns, on another refinement of the same base mesh.

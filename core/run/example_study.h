@@ -26,7 +26,7 @@ class ExampleStudy {
   /// places.
   void add_frame(Positions places);
   const std::vector<Positions>& frames() const { return frames_; }
-  /// Of the frames from this one on. Throws InputError as BendFeatureSum does.
+  /// Features of the motion from this frame on. Throws InputError as BendFeatureSum does.
   BendFeatures features(std::size_t first_frame = 0) const;
 
   /// Sorts the fine mesh's vertices by these features: one example more that plans are made of.
@@ -34,8 +34,8 @@ class ExampleStudy {
   void add_example(std::string name, const BendFeatures& features, const PatternOptions& options);
   std::size_t n_examples() const { return examples_.size(); }
 
-  /// With limits where there are frames: those of all. Throws InputError without an example and as
-  /// refinement_plan does.
+  /// The plan has limits when there are frames, taken from all of them. Throws InputError without
+  /// an example and as refinement_plan does.
   RefinementPlan plan(const PlanOptions& options) const;
 
  private:

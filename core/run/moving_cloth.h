@@ -21,7 +21,7 @@ class MovingCloth {
   virtual SolveReport step() = 0;
   virtual const State& state() const = 0;
   virtual const ClothModel& model() const = 0;
-  /// What stretch is measured by.
+  /// The edges by which stretch is measured.
   virtual const std::vector<GaugeEdge>& gauge() const = 0;
   /// Null for cloth that is not of quads.
   virtual const QuadMesh* mesh() const = 0;

@@ -17,13 +17,13 @@ struct Sample {
   double time;          ///< [s]
   Positions positions;  ///< [m]
   Stretch stretch;
-  /// Of a reference whose step or mesh was halved: how far that moved it, RMS [m]; else NaN.
+  /// How far halving the step or mesh moved a reference, RMS [m]; NaN where neither was halved.
   double uncertainty = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A scene run from its beginning through given times, in slices.
 ///
-/// Where a sample time lies inside a step, positions come from the cubic through both ends'
+/// When a sample time lies inside a step, positions come from the cubic through both ends'
 /// positions and velocities, whose error is of fourth order in the step. Sampling is outside the
 /// clock, and so is the first step, in which steppers build what they keep.
 class SampledRun {

@@ -55,7 +55,7 @@ class Simulation final : public MovingCloth {
   const State& state() const override { return state_; }
   const QuadMesh* mesh() const override { return cloth_.quads ? &*cloth_.quads : nullptr; }
   const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
-  /// Where the scene starts [m].
+  /// Positions in which the scene starts [m].
   const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
   /// The rest area of each vertex [m^2]; particles count by their mass.
   Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }

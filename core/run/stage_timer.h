@@ -24,7 +24,7 @@ class StageTimer : public StageObserver {
   void end(Stage stage) override;
 
   double total(Stage stage) const { return totals_[static_cast<std::size_t>(stage)]; }  ///< [s]
-  /// Of each part its share of one of `n` equal stretches of the whole, such as frames [ms].
+  /// Each part's share of one of `n` equal stretches of the whole, such as frames [ms].
   std::array<double, kStageCount> mean_ms(double n) const;
   void clear() { totals_.fill(0); }
 

@@ -27,13 +27,13 @@ class TimedRun {
   /// One step, with its own report.
   SolveReport step();
 
-  /// So many steps, fewer when the numbers end the run. Returns their wall time [s], with that of a
-  /// first step among them.
+  /// Makes so many steps, fewer when the numbers end the run. Returns their wall time [s], with
+  /// that of a first step among them.
   double advance(std::int64_t n_steps);
 
   /// The numbers cannot go on.
   bool has_ended() const { return report_.ends_run(); }
-  /// Of all steps (SolveReport::add).
+  /// The reports of all steps, added up (SolveReport::add).
   const SolveReport& report() const { return report_; }
   std::int64_t n_timed() const { return n_timed_; }   ///< steps on the clock
   double seconds() const { return seconds_; }         ///< of these steps, parts and all else

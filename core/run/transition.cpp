@@ -13,8 +13,8 @@ double share_at(double seconds) {
 
 double between(double own, double carried, double share) { return own + share * (carried - own); }
 
-/// Those on the way from the cloth's own to the least of the old one's, which puts no vertex out of
-/// a solid at the change.
+/// Options on the way from the cloth's own to the least of the old one's, which puts no vertex out
+/// of a solid at the change.
 ContactOptions between(ContactOptions own, const ContactOptions& carried, double share) {
   own.half_thickness = between(own.half_thickness, carried.half_thickness, share);
   const double least = carried.face_radii.size() > 0 ? carried.face_radii.minCoeff() : 0;

@@ -29,7 +29,7 @@ constexpr std::array<Word<bool DeformTermChoice::*>, 3> kTerms{
      {"stretch", &DeformTermChoice::stretch},
      {"bending", &DeformTermChoice::bending}}};
 
-/// Along warp, along weft [m].
+/// Coordinates of the corners along warp and weft [m].
 CornerTexture sheet_texture(const SheetShape& shape, const TriangleMesh& mesh, const Triangle& t) {
   CornerTexture texture;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -9,10 +9,10 @@ namespace pleat {
 /// The section "method" of a scene file: a stepper of the table, its step and the settings that it
 /// reads. Throws InputError for a setting that it does not read.
 MethodOptions read_method(const JsonReader& reader, StepperTable steppers);
-/// With every setting that the stepper reads.
+/// Contains every setting that the stepper reads.
 Json json_method(const MethodOptions& method);
 
-/// What a page needs to know of each stepper: the rows of the table as JSON.
+/// The rows of the table as JSON: all that a page needs to know of each stepper.
 Json json_steppers(StepperTable steppers);
 
 /// The section "record": which frames are kept, and how.

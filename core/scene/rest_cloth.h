@@ -20,7 +20,7 @@ RestCloth rest_cloth(const Scene& scene, int level);
 /// Rest area of each vertex [m^2]; particles count by their mass.
 Eigen::VectorXd rest_areas(const RestCloth& cloth);
 
-/// What the cloth's stretch is measured by.
+/// The edges by which the cloth's stretch is measured.
 std::vector<GaugeEdge> gauge_edges(const RestCloth& cloth);
 
 /// The vertices that a rule pins, ascending unless the scene lists them.

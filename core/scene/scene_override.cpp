@@ -93,7 +93,7 @@ void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
   if (type->largest_tolerance < 1) method.erase("tolerance");  // that of another stepper's solves
 }
 
-/// Those of lower rank are set first.
+/// Overrides of lower rank are set first.
 std::size_t rank(const SceneOverride& change) {
   const bool clears = change.pointer == kStepperPointer || change.pointer == kFabricPointer;
   return 2 * tokens_of(change.pointer).size() - (clears ? 1 : 0);

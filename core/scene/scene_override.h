@@ -23,8 +23,8 @@ struct SceneOverride {
 /// factor where it needs one. Another fabric's name leaves out the scene's own numbers, but for
 /// "bending" beside a name.
 ///
-/// What is no object though it should be is left for the reader of the scene to refuse. Throws
-/// InputError{pointer} for what is no pointer and for an element that an array does not have.
+/// A value that is no object though it should be is left to the scene's reader to refuse. Throws
+/// InputError{pointer} for text that is no pointer and for an element that an array does not have.
 void override_scene(Json& scene, std::span<const SceneOverride> overrides,
                     StepperTable steppers = standard_steppers());
 

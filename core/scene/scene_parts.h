@@ -13,21 +13,21 @@ namespace pleat {
 struct RefinementPlan;
 struct Scene;
 
-/// What has been read before a scene's cloth.
+/// The parts of a scene that are read before its cloth.
 struct ClothSurroundings {
   const FileSource& files;
   const Figure* figure;  ///< or null
 };
 
-/// What a program lets a scene be made of, and who reads it. A program contains the code of the
-/// parts that it registers here. What has no reader is known and refused (refuse_part).
+/// The parts that a program lets a scene have, and their readers. A program contains the code of
+/// the parts that it registers here. A part without a reader is known and refused (refuse_part).
 struct SceneParts {
   struct ClothKind {
     const char* key;  ///< in the section "cloth", as ClothSource::key()
     SceneCloth (*read)(const JsonReader& reader, const ClothSurroundings& around) = nullptr;
   };
   std::vector<ClothKind> cloths;
-  /// What the section "method" may name.
+  /// The steppers that the section "method" may name.
   StepperTable steppers = standard_steppers();
   /// The section "figure".
   std::shared_ptr<const Figure> (*read_figure)(const JsonReader& reader,

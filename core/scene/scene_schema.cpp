@@ -3,8 +3,8 @@
 namespace pleat {
 namespace {
 
-/// What a setting may be under this stepper, beyond what it may be under any. Solvers have no
-/// default here where that depends on the build.
+/// The schema of a setting under this stepper, added to the one under any. Solvers have no default
+/// here where that depends on the build.
 Json setting_schema(const StepperType& type, MethodSetting setting) {
   const MethodOptions usual = type.usual_method();
   Json schema = Json::object();

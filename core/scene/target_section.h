@@ -5,8 +5,8 @@
 
 namespace pleat {
 
-/// Where a handle of a deformation takes its vertices [m]: onto a ball, with a bone, or turned
-/// first and then moved.
+/// The places to which a handle of a deformation takes its vertices [m]: onto a ball, with a bone,
+/// or turned first and then moved.
 ///
 /// reader   the handle
 /// posing   null without a figure

@@ -121,7 +121,7 @@ std::vector<std::string> varying_pointers(std::span<const BenchRow> rows) {
   return varying;
 }
 
-/// Of a Markdown table.
+/// The text escaped for a row of a Markdown table.
 std::string cell(std::string_view text) {
   std::string escaped;
   for (const char c : printable(text)) escaped += c == '|' ? std::string("\\|") : std::string(1, c);

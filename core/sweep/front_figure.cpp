@@ -108,7 +108,7 @@ class Axis {
   int high_ = 1;
 };
 
-/// Where a row lies.
+/// A row's coordinates in the figure.
 struct Place {
   double ms;
   double error;  // [mm]

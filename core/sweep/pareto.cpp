@@ -14,7 +14,7 @@ std::vector<std::size_t> pareto_front(std::span<const CostAndError> points) {
     return std::tie(points[a].cost, points[a].error, a) <
            std::tie(points[b].cost, points[b].error, b);
   });
-  // From cheap to dear, a point is on the front when it is less wrong than every cheaper one.
+  // Cheapest first: a point is on the front when it is less wrong than every cheaper one.
   std::vector<std::size_t> front;
   for (const std::size_t i : order)
     if (front.empty() || points[i].error < points[front.back()].error) front.push_back(i);

@@ -12,8 +12,8 @@ const char* build_target();
 /// memory, which only grows. Nothing where the platform does not tell.
 std::optional<std::int64_t> process_peak_memory();
 
-/// What all threads of this process have had of processors so far [s]: time during which other
-/// programs ran is not in it. Nothing where the platform does not tell.
+/// Processor time of all threads of this process so far [s], without the time during which other
+/// programs ran. Nothing where the platform does not tell.
 std::optional<double> process_processor_time();
 
 }  // namespace pleat

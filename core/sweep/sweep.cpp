@@ -32,7 +32,7 @@ std::string unconverged_sentence(double distance, double uncertainty) {
   return sentence;
 }
 
-/// Over the sample times: RMS of the RMS, largest of the largest.
+/// The RMS over the sample times of the RMS, and the largest of the largest.
 Stretch overall_stretch(const std::vector<Sample>& samples) {
   Stretch overall;
   std::vector<double> values;
@@ -80,7 +80,7 @@ bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_fra
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// For progress alone: vertices times substeps times their cost, per second of motion.
+/// Vertices times substeps times their cost, per second of motion; for progress alone.
 double expected_work(double n_vertices, const MethodOptions& method) {
   constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
   const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;

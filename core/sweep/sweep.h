@@ -13,9 +13,8 @@
 
 namespace pleat {
 
-/// What makes a sweep of this plan the one it is, as JSON text: another plan, scene, fabric, core
-/// or commit has another text. Throws InputError at /duration_s when a reference has too many
-/// steps.
+/// The identity of a sweep of this plan as JSON text: another plan, scene, fabric, core or commit
+/// has another text. Throws InputError at /duration_s when a reference has too many steps.
 std::string sweep_identity(const SweepPlan& plan, const std::string& commit);
 
 /// Works through a plan in slices, so that a page can show progress and give up at any time.
@@ -41,14 +40,14 @@ class Sweep {
   void on_run(std::function<void(const std::string& line)> record) { record_ = std::move(record); }
 
   bool done() const { return n_done_ == n_runs(); }
-  /// Of the first round, with parts timed, and the repeats.
+  /// Counts the first round, in which parts are timed, and the repeats.
   int n_rounds_done() const { return static_cast<int>(n_done_ / n_settings()); }
   double progress() const;  ///< share of the expected work, in [0, 1]
   /// Works for about `budget` [s]: a step is never cut.
   void advance(double budget);
 
   const SweepPlan& plan() const { return plan_; }
-  /// Of the settings measured so far, in the order of the plan.
+  /// A row for each setting measured so far, in the order of the plan.
   const std::vector<BenchRow>& rows() const { return rows_; }
   std::string message() const;  ///< what is being worked on, for people; empty when done
 

@@ -127,7 +127,7 @@ Json changes_json(const PlannedChanges& changes) {
   return json;
 }
 
-/// What all settings share that differ in level and method alone.
+/// Equal for all settings that differ in level and method alone.
 std::string family_of(Json scene) {
   scene.erase("method");
   scene.erase("refinement");

@@ -19,7 +19,7 @@
 namespace pleat {
 namespace {
 
-/// What the reference of some settings depends on.
+/// The settings that share a reference, as far as it depends on them.
 struct Group {
   std::size_t first;                                                  // setting
   int level = 0;                                                      // the finest
@@ -39,7 +39,7 @@ struct Group {
 /// (implicit, newton, projective), and of the steps where there is none of them.
 double reference_step(const Group& group) {
   constexpr double kShareOfSmallest = 0.25;
-  // Of first order `finest` would be further off, with a longer step, than small substeps that it
+  // With a longer step `finest`, of first order, would be further off than small substeps that it
   // judges.
   constexpr double kLargestStep = 1.0 / 960;  // [s]
   const double smallest =
@@ -217,7 +217,7 @@ class NewtonMaker : public ReferenceMaker {
   std::string failure_;
 };
 
-/// What takes seconds at most and is not cut.
+/// Makes a reference that takes seconds at most, in one slice.
 class WholeMaker : public ReferenceMaker {
  public:
   explicit WholeMaker(std::function<Reference()> make) : make_(std::move(make)) {}

@@ -41,7 +41,7 @@ class ReferenceMaker {
   virtual void advance(double budget) = 0;
   virtual bool done() const = 0;
   virtual double progress() const = 0;  ///< share of the work done, in [0, 1]
-  /// Once done. It has fewer samples than times when the numbers ended its run, and says so.
+  /// Call once done. It has fewer samples than times when the numbers ended its run, and says so.
   virtual Reference reference() const = 0;
 };
 

@@ -12,8 +12,8 @@ namespace pleat {
 std::vector<MethodOptions> usual_settings(const StepperType& type,
                                           const MethodOptions& scene_method);
 
-/// Those of the table that are worth comparing on a scene: fast ones for springs, exact ones for a
-/// membrane.
+/// The steppers of the table that are worth comparing on a scene: fast ones for springs, exact ones
+/// for a membrane.
 std::vector<const StepperType*> usual_steppers(StepperTable steppers, const Scene& scene);
 
 }  // namespace pleat

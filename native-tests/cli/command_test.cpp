@@ -368,7 +368,7 @@ TEST_CASE("command: a folder of another sweep is refused or replaced", "[cli]") 
   fs::remove(out + "/plan.json");
   CHECK(sweep({"--duration", "0.3"}).status == 2);
   REQUIRE(sweep({"--duration", "0.3", "--overwrite"}).status == 0);
-  // What a kill leaves in the middle of a line.
+  // The journal that a kill in the middle of a line leaves.
   const std::string journal = text_of(out + "/runs.jsonl");
   write(out + "/runs.jsonl", journal.substr(0, journal.size() - 3));
   REQUIRE(sweep({"--duration", "0.3"}).status == 0);

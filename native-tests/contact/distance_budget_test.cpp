@@ -139,7 +139,7 @@ TEST_CASE("contact: a vertex is looked at when its way has used its distance up"
       return 0.505;
     });
   }
-  // At 1 m/s 0.505 m last 50 substeps, and half of that when both move.
+  // A distance of 0.505 m lasts 50 substeps at 1 m/s, and half of that when both move.
   REQUIRE(looks.size() >= 2);
   CHECK(looks[0] == 0);
   CHECK(looks[1] == (speed_of_solid == 0 ? 50 : 25));

@@ -19,7 +19,7 @@ constexpr double kEdge = 0.1;
 
 TriangleMesh flat_mesh() { return triangulated_sheet(Triangulation::jittered, 3, 3, kEdge); }
 
-/// At rest bent, with threads in the planes of its faces.
+/// A mesh that is bent at rest, with threads in the planes of its faces.
 TriangleMesh bent_mesh() {
   TriangleMesh mesh = flat_mesh();
   mesh.rest_positions = on_cylinder(mesh.rest_positions, 0.4, 2 * kEdge);

@@ -41,7 +41,7 @@ struct HeldPatch {
         }
   }
 
-  /// With the middle moved [m].
+  /// Places of the held vertices with the middle ones moved [m].
   Positions places(const TriangleMesh& mesh, const Vec3& move) const {
     Positions result(3, static_cast<Eigen::Index>(vertices.size()));
     for (std::size_t k = 0; k < vertices.size(); ++k)

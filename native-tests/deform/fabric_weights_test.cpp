@@ -18,7 +18,7 @@ struct PrintedSlip {
   double recovery, stretch, bending;
 };
 
-/// To four digits after the point.
+/// The slips, to four digits after the point.
 constexpr PrintedSlip kSlips[] = {{0, 0.0010, -0.0031, -0.0069},  {5, 0.0008, -0.0095, -0.0003},
                                   {8, 0.0000, -0.0135, 0.0135},   {9, -0.0035, -0.0089, 0.0124},
                                   {10, 0.1387, 0.0110, -0.1497},  {11, 0.5789, -0.0232, -0.5567},

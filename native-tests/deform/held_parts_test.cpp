@@ -84,7 +84,7 @@ TEST_CASE("held parts: what counts is where vertices are held, at any scale", "[
   CHECK(holds(mesh, corners, bent) == std::vector<Hold>{Hold::firm});
   const Positions point = line.col(1).replicate<1, 3>();
   CHECK(holds(mesh, corners, point) == std::vector<Hold>{Hold::point});
-  // On a line in rest, but not where they are held.
+  // These lie on a line at rest, but not where they are held.
   const std::vector<VertexId> edge{VertexId(0), VertexId(1), VertexId(2)};
   CHECK(holds(mesh, edge, bent) == std::vector<Hold>{Hold::firm});
 }

@@ -118,7 +118,7 @@ TEST_CASE("measure fit: the curves through the measured fabrics miss one left ou
   CHECK(bending.leave_one_out_error == Approx(0.3076).margin(5e-5));
   CHECK(recovery.smoothing == Approx(0.00727).epsilon(1e-3));
   CHECK(bending.smoothing == Approx(0.00811).epsilon(1e-3));
-  // Of stretch the mean tells more than any curve, the best of which is a line.
+  // For stretch the mean tells more than any curve, the best of which is a line.
   CHECK(stretch.shape == CurveShape::level);
   CHECK(stretch.value(1.05) == Approx(0.2872).margin(5e-5));
   std::vector<CurvePoint> points;

@@ -17,7 +17,7 @@ using Points = std::vector<CurvePoint>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Without order; the last two share the x of the first.
+/// Points in no order; the last two share the x of the first.
 Points scattered_points(std::uint64_t seed) {
   Random random(seed);
   Points points;

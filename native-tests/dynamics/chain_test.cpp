@@ -33,7 +33,7 @@ Swing fitted_swing(const std::vector<double>& q, double h) {
   return {std::abs(std::arg(root)) / h, -std::log(std::abs(root)) / h};
 }
 
-/// What a first-order method makes of an undamped swing of omega at steps of h.
+/// The swing that a first-order method makes of an undamped one of omega at steps of h.
 Swing expected_swing(const StepperType* stepper, double omega, double h) {
   if (stepper == &steppers::explicit_euler) return {2 / h * std::asin(omega * h / 2), 0};
   // Backward Euler: root 1/(1 - i omega h).

@@ -45,7 +45,7 @@ TEST_CASE("contact: a particle leaves a smooth ball where cos = 2/3, with every 
       advance(*stepper, state, s, s + 1);
       if (state.positions.norm() > 1 + 1e-5) left_at = state.positions.col(0).normalized().y();
     }
-    // From rest at cos 0.1. It hops by 1e-6 m per substep, and is a little lower when it is clear.
+    // It starts at rest at cos 0.1, hops by 1e-6 m per substep, and is a little lower when clear.
     CHECK(left_at == Approx(2.0 / 3 * std::cos(0.1)).margin(0.05));
   }
 }

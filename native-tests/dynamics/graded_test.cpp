@@ -72,7 +72,7 @@ State after_steps(ClothModel& model, const MethodOptions& options, State state, 
   return state;
 }
 
-/// Of hanging vertices from the middle of their parents [m or m/s].
+/// The largest gap between hanging vertices and the middle of their parents [m or m/s].
 double largest_gap(const ClothModel& model, const Positions& columns) {
   Positions placed = columns;
   place_between_parents(model.hanging, placed);

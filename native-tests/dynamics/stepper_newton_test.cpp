@@ -107,7 +107,7 @@ TEST_CASE("newton: converges quadratically", "[dynamics]") {
   for (double tolerance = 0.5; tolerance > 1e-12 && known < last; tolerance /= 1.5) {
     int iterations = 0;
     const double error = (after(tolerance, iterations) - exact).norm();
-    // Below, the linear solves show.
+    // Smaller errors are those of the linear solves.
     if (iterations > known && error > 1e-9) errors.push_back(error);
     known = std::max(known, iterations);
   }

@@ -33,13 +33,13 @@ Positions wavy(const Positions& flat, double amplitude, int n_waves, double phas
       flat, [=](double x, double) { return amplitude * std::sin(2 * kPi * n_waves * x + phase); });
 }
 
-/// What smoothing over `radius` leaves of exp(i k s), s along a thread.
+/// The share of exp(i k s), s along a thread, that smoothing over `radius` leaves.
 double hat_factor(double k, double radius) {
   const double half = k * radius / 2;
   return std::pow(std::sin(half) / half, 2);
 }
 
-/// Of a sheet of 1 m x 1 m, without curvature to compare with: the mean over it [1/m].
+/// The mean over a sheet of 1 m x 1 m, without curvature to compare with [1/m].
 double mean_curvature(const BendMeasure& measure, const Positions& positions) {
   return measure.curvatures(positions).dot(measure.areas()) / measure.areas().sum();
 }
@@ -123,8 +123,8 @@ TEST_CASE("bend_error: wrinkles on the other side are told by regions alone", "[
   CHECK(error.regions == Approx(2 * mean).epsilon(0.05));
 }
 
-// What a mesh with four times the spacing knows of waves of 11 and 14 of its edges, against the
-// waves themselves. Between its vertices a curve takes the place of the wave along mesh lines;
+// Waves of 11 and 14 edges of a mesh with four times the spacing, as that mesh has them, against
+// the waves themselves. Between its vertices a curve takes the place of the wave along mesh lines;
 // elsewhere a chord does, which lacks a share (k h)^2/12 in each direction, 4 % together, and all
 // of whose curvature is in its corners: these the smoothing must spread.
 TEST_CASE("bend_error: one state on two meshes is hardly wrong once it is smoothed", "[error]") {

@@ -114,7 +114,7 @@ TEST_CASE("curvature_stencil: a strip of two lines sees what bends along it", "[
 TEST_CASE("curvature_stencil: a tail of two lines sees bending across from the next ring",
           "[fabric]") {
   TriangleMesh mesh = turned_sheet(Triangulation::one_way, 2, 2, 0);
-  // Of the second row only the last cell stays.
+  // Only the last cell of the second row stays.
   mesh.triangles.erase(mesh.triangles.begin() + 4, mesh.triangles.begin() + 6);
   mesh.warp_directions.resize(mesh.triangles.size());
   CHECK(largest_miss(mesh) < kExact);

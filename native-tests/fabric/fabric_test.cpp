@@ -30,7 +30,7 @@ TEST_CASE("fabric: weights, lengths and stiffnesses are those of cloth", "[fabri
     CHECK(numbers.thickness < 3e-3);
     CHECK(bending_length(numbers) > 5e-3);
     CHECK(bending_length(numbers) < 60e-3);
-    // From spandex to canvas; of shear, from chiffon to leather.
+    // Stretch is bounded by spandex and canvas, shear by chiffon and leather.
     CHECK(numbers.stretch_warp > 70);
     CHECK(numbers.stretch_warp < 15e3);
     CHECK(numbers.stretch_weft > 70);

@@ -48,7 +48,7 @@ void place_hanging(const QuadMesh& mesh, Positions& x) {
     x.col(h.vertex) = (x.col(h.parents[0]) + x.col(h.parents[1])) / 2;
 }
 
-/// On a cylinder of this radius [m], rolled along warp (u) or weft (v).
+/// The mesh on a cylinder of this radius [m], rolled along warp (u) or weft (v).
 Positions rolled(const QuadMesh& mesh, double radius, bool along_warp) {
   Positions x(3, mesh.n_vertices());
   for (int i = 0; i < mesh.n_vertices(); ++i) {
@@ -73,8 +73,8 @@ FabricConstants equal_bending() {
   return fabric;
 }
 
-/// Within 5 % of what uniform sheets have: these differ by the half cells at the ends of lines, in
-/// which no chord has its middle.
+/// The energy is within 5 % of those of uniform sheets: these differ by the half cells at the ends
+/// of lines, in which no chord has its middle.
 void check_between_uniform(const QuadMesh& graded, int finest, double radius, bool along_warp) {
   const FabricConstants fabric = equal_bending();
   const auto energy = [&](const QuadMesh& mesh) {

@@ -50,11 +50,11 @@ TEST_CASE("body section: a tape spans what lies between two parts", "[figure]") 
 TEST_CASE("body section: clearance is the distance from a widened cone", "[figure]") {
   const Parts cone = only({{0, 0, 0}, {0, 1, 0}, 0.3, 0.1, {0, 0, 1}, 0.2, 0.1});
   const double cosine = std::sqrt(1 - 0.04);
-  // Beside the middle: across x a cone of sin 0.2, within the width.
+  // Beside the middle, within the width, the section across x is a cone of sin 0.2.
   CHECK(clearance(cone, {1, 0.5, 0.1}) == Approx(cosine - 0.2).epsilon(1e-12));
   CHECK(clearance(cone, {0, 1.4, 0.1}) == Approx(0.3).epsilon(1e-12));
   CHECK(clearance(cone, {0, -0.7, 0.4}) == Approx(std::sqrt(0.49 + 0.04) - 0.3).epsilon(1e-12));
-  // In the axis at half height balls of all radii meet; the nearest surface is that of the slope.
+  // On the axis at half height balls of all radii meet; the nearest surface is that of the slope.
   CHECK(clearance(cone, {0, 0.5, 0}) == Approx(-0.2).margin(0.01));
 }
 

@@ -63,7 +63,7 @@ class RawFigure {
     return {mean_way + at(path["ahead_m"], 0), at(path["height_m"], 0), at(path["right_m"], 0)};
   }
 
-  /// From hip to ball of foot.
+  /// The joints from hip to ball of foot.
   std::array<Vec3, 5> leg(double s, double mean_way) const {
     const Mat3 thigh = trunk("pelvis") * rz(angle("hip_flexion", s)) *
                        rx(s * angle("hip_adduction", s)) * ry(s * angle("hip_rotation", s));
@@ -76,8 +76,8 @@ class RawFigure {
             ankle + foot * Vec3(0.13, -0.064, s * 0.005)};
   }
 
-  /// From shoulder to wrist. In a pelvis tilted by ten degrees the lumbar joint stands 0.118 m
-  /// above the hips and 0.01 m behind them.
+  /// The joints from shoulder to wrist. In a pelvis tilted by ten degrees the lumbar joint stands
+  /// 0.118 m above the hips and 0.01 m behind them.
   std::array<Vec3, 3> arm(double s, double mean_way) const {
     const Vec3 lumbar = pelvis(mean_way) + trunk("pelvis") * rz(kPi / 18) * Vec3(-0.01, 0.118, 0);
     const Mat3 upper = trunk("thorax") * rz(angle("shoulder_flexion", s)) *
@@ -147,7 +147,8 @@ TEST_CASE("moving body: joints are where the chain of rotations puts the file's 
   const BodyMotion motion = motion_named(name);
   const MovingBody body(motion, {});
   const RawFigure raw(json::parse(motion_text(name)), key);
-  // In the third cycle; half of the first second's way is lost while the motion is blended in.
+  // The time is in the third cycle; half of the first second's way is lost to blending the motion
+  // in.
   const double time = (3 + key / 50.0) * motion.cycle_time;
   const double way = motion.forward_speed * (time - 0.5);
   CHECK((body.joint(Bone::pelvis, time) - raw.pelvis(way)).norm() < 1e-9);
@@ -238,7 +239,7 @@ TEST_CASE("moving body: acceleration does not jump at the start nor where the mo
   const auto jump = [&](double step) -> double {
     return (acceleration(at + step, step) - acceleration(at - step, step)).norm();
   };
-  // What is continuous differs by as much as the step.
+  // The jump of a continuous acceleration is proportional to the step.
   CHECK(jump(2.5e-4) < 0.6 * jump(5e-4));
 }
 

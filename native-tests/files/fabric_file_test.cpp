@@ -149,7 +149,7 @@ TEST_CASE("fabric file: the published weights sum to a whole but for leather's",
   for (const Fabric& fabric : fabric_library().fabrics) {
     CAPTURE(fabric.name);
     const DeformWeights& weights = fabric.published_weights;
-    // As printed: three rounded percentages, and a slip in leather's row.
+    // The printed numbers: three rounded percentages, and a slip in leather's row.
     const double printed = fabric.name == "leather" ? 0.99936 : 1;
     CHECK(weights.recovery + weights.stretch + weights.bending == Approx(printed).margin(1.5e-4));
   }

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the work says is wrong with the file at `path`.
+/// The fault that the work finds with the file at `path`.
 template <class Work>
 std::string complaint(const fs::path& path, Work&& work) {
   try {

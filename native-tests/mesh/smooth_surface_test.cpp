@@ -36,7 +36,7 @@ QuadMesh tube(const std::vector<double>& angles, bool is_closed) {
   return QuadMesh::from_patch(patch);
 }
 
-/// All round, every other by a share of the step further on.
+/// Angles all round, every other one further on by a share of the step.
 std::vector<double> angles_round(double shift) {
   std::vector<double> angles(kFacesRound);
   for (int c = 0; c < kFacesRound; ++c)
@@ -46,7 +46,7 @@ std::vector<double> angles_round(double shift) {
 
 QuadMesh tube() { return tube(angles_round(0), true); }
 
-/// Of the middle of the edge between two base vertices.
+/// The place of the middle of the edge between two base vertices.
 Vec3 middle_on_surface(const QuadMesh& base, int a, int b) {
   QuadMesh fine = base;
   fine.refine_uniformly(1);

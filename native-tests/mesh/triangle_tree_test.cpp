@@ -17,7 +17,7 @@ Vec3 place_of(const Vec3& weights, const Corners& corners) {
   return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
 }
 
-/// By projecting onto the plane, the three edges and the corners, the best that lies within.
+/// Projects onto the plane, the three edges and the corners, and takes the best that lies within.
 double distance_by_cases(const Vec3& p, const Corners& corners) {
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {

@@ -84,7 +84,7 @@ TEST_CASE("system_matrix: prescribed vertices are eliminated as in a dense solve
   const Positions load = shaken(Positions::Zero(3, n), 1, random);
   const Eigen::VectorXd rhs = Eigen::Map<const Eigen::VectorXd>(load.data(), 3 * n);
 
-  // By Lagrange multipliers on the untouched matrix.
+  // The expected solution, by Lagrange multipliers on the untouched matrix.
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3 * n + 12, 3 * n + 12);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * n + 12);
   A.topLeftCorner(3 * n, 3 * n) = expected_sum(model);

@@ -26,7 +26,7 @@ std::vector<VertexId> first_vertices(int count) {
   return vertices;
 }
 
-/// Without springs against shear, so that it hangs as a strip does.
+/// A sheet without springs against shear, so that it hangs as a strip does.
 Scene hanging_scene(int cells) {
   Scene scene = released_sheet_scene(cells, "spandex");
   change_cloth<SheetCloth>(scene, [](SheetCloth& sheet) { sheet.shape.width = 0.8; });

@@ -22,7 +22,7 @@ Cantilever strip_with_load(double load) {
   return strip;
 }
 
-/// Of the free end, in units of the length.
+/// The free end's place, in units of the length.
 Eigen::Vector2d elastica_tip(double load) {
   const Cantilever strip = strip_with_load(load);
   const double tip[] = {strip.length};

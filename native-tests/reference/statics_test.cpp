@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// At rest by newton, from the rest shape.
+/// Positions at rest, found by newton from the rest shape.
 Positions at_rest(Scene scene) {
   scene.method = MethodOptions{};
   scene.method.stepper = &steppers::newton;

@@ -120,7 +120,7 @@ TEST_CASE("fit monitor: a face has the largest pattern between its corners", "[r
 TEST_CASE("fit monitor: faces of a cylinder bend like their corners in the mean", "[refinement]") {
   const QuadMesh mesh = lying_sheet(8);
   const Eigen::VectorXd bends = FaceCurvature(mesh).of(on_cylinder(mesh.rest_positions(), 0, 2));
-  // With all neighbours (2 + 4/2) / 8 of 1/R; chords of an eighth of the radius add little.
+  // A vertex with all neighbours has (2 + 4/2) / 8 of 1/R; chords of an eighth of R add little.
   CHECK(bends[3 * 8 + 3] == Approx(0.25).epsilon(1e-2));
 }
 

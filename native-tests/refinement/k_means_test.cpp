@@ -50,7 +50,7 @@ TEST_CASE("k-means: no assignment of a small set is better", "[refinement]") {
 }
 
 TEST_CASE("k-means: points go to the nearest centre, centres to their mean", "[refinement]") {
-  // In one run from the last three seeds a cluster loses all its points on the way.
+  // From each of the last three seeds, a cluster loses all its points on the way.
   const auto sizes = GENERATE(std::tuple(400, 5, 7), std::tuple(7, 3, 193), std::tuple(13, 3, 500),
                               std::tuple(14, 5, 121));
   const auto [n, k, seed] = sizes;

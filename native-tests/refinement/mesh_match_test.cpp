@@ -55,7 +55,7 @@ TEST_CASE("mesh match: affine functions are continued exactly", "[refinement]") 
   };
   CHECK((continued(affine(base), mesh) - affine(mesh)).cwiseAbs().maxCoeff() < 1e-14);
   CHECK((on_finer_mesh(affine(mesh), mesh, fine) - affine(fine)).cwiseAbs().maxCoeff() < 1e-14);
-  // What is known is kept to the bit, however it varies.
+  // Known values are kept to the bit, however they vary.
   Random random(6);
   Eigen::MatrixXd values(1, mesh.n_vertices());
   for (Eigen::Index v = 0; v < values.cols(); ++v) values(0, v) = random.uniform(-1, 1);

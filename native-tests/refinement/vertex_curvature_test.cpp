@@ -28,7 +28,7 @@ long double bisected_curvature(long double chord, long double length) {
   return (low + high) / length;
 }
 
-/// Of a chord over two cells in direction (warp, weft) on a cylinder about weft.
+/// The curvature of a chord over two cells in direction (warp, weft) on a cylinder about weft.
 double chord_curvature(double warp, double weft, double radius) {
   const double across = 2 * radius * std::sin(warp / (2 * radius));
   return static_cast<double>(bisected_curvature(std::hypot(across, weft), std::hypot(warp, weft)));

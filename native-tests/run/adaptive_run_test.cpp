@@ -29,7 +29,7 @@ Scene hanging_scene() {
 
 using Places = std::map<std::pair<double, double>, Vec3>;
 
-/// By rest coordinates, which refinement takes exact means of.
+/// Keyed by rest coordinates, of which refinement takes exact means.
 Places places(const AdaptiveRun& run) {
   Places all;
   for (int v = 0; v < run.mesh()->n_vertices(); ++v) {

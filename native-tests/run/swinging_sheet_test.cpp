@@ -21,7 +21,7 @@ Scene limp_sheet(const MethodOptions& method) {
   return scene;
 }
 
-/// As many rigid links, the last node with half the mass.
+/// As many rigid links as the sheet has rows, the last node with half the mass.
 RigidChain sheet_chain() {
   std::vector<double> masses(kRows, 1.0 / kRows);
   masses.back() /= 2;

@@ -53,7 +53,7 @@ std::string sheet_error(const std::string& rest) {
   return error_of([&] { sheet_with(rest); });
 }
 
-/// Where the only handle of the sheet takes its vertices.
+/// The places to which the only handle of the sheet takes its vertices.
 Positions targets_of(const std::string& handle) {
   return sheet_with(R"("handles": [{"name": "hand", )" + handle + "}]").handles.at(0).targets;
 }
@@ -110,7 +110,7 @@ TEST_CASE("deform scene: places are lists, groups, boxes or what is near a point
   // Points on the circle count, as close as rounding tells.
   CHECK(pins(R"({"near": {"point_m": [0, 0, 0], "radius_m": 0.1}})") ==
         std::vector<int>{2, 6, 7, 8, 12});
-  // By default a twentieth of 0.4 m; the nearest where that holds none.
+  // The default radius is a twentieth of 0.4 m; the nearest is taken where that holds none.
   CHECK(pins(R"({"near": {"point_m": [0.015, 0, 0]}})") == std::vector<int>{7});
   CHECK(pins(R"({"near": {"point_m": [0.04, 0.3, 0]}})") == std::vector<int>{7});
   CHECK(pins(R"({"near": {"point_m": [0, 10, 0], "radius_m": 10}})") == std::vector<int>{7});

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// Only required keys, so that everything else in the written scene is a default.
+// Scenes of required keys alone, so that everything else in the written scene is a default.
 const char* const kShortScenes[] = {
     R"({"cloth": {"sheet": {}}, "world": {"air": {}, "colliders": [{"plane": {}}, {"sphere": {}}]},
         "pins": [{"part": "upper_left", "motion": {"kind": "ease", "offset_m": [1, 0, 0], "end_s": 1}},
@@ -35,7 +35,7 @@ const char* const kShortScenes[] = {
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "newton"}})",
 };
 
-// What no short scene has.
+// Scenes with keys that no short one has.
 const char* const kFurtherScenes[] = {
     R"({"cloth": {"mesh": {"obj": "triangle.obj", "warp_direction": [1, 0, 0],
         "initial_velocity_m_per_s": [0, 1, 0]}}})",

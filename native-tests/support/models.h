@@ -28,7 +28,7 @@ ClothModel membrane_model(const QuadMesh& mesh, const FabricConstants& fabric);
 /// A sheet on which every kind of element acts at once.
 ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabric);
 
-/// At rest in the rest shape.
+/// The state at rest in the rest shape.
 State rest_state(const QuadMesh& mesh);
 
 /// A chain of equal springs that hangs from a pin at the origin. Vertex 0 is the pin.
@@ -43,7 +43,7 @@ struct Chain {
 
 ClothModel chain_model(const Chain& chain);
 
-/// At rest where weight and springs balance: spring i carries everything below it.
+/// The state at rest where weight and springs balance: spring i carries everything below it.
 State hanging_state(const Chain& chain);
 
 /// The whole of a symmetric matrix held by its lower triangle.

@@ -8,7 +8,7 @@ namespace pleat {
 constexpr double kGravity = 9.81;  // [m/s^2]
 inline const Vec3 kUp{0, 1, 0};
 
-/// What rounding may leave of a distance when coordinates are near 1 m [m].
+/// Bound of the distance that rounding leaves when coordinates are near 1 m [m].
 constexpr double kRoundingDepth = 1e-14;
 
 struct Particle {
@@ -28,7 +28,7 @@ Motion steady_motion(const Vec3& velocity);
 Motion turning_motion(const Vec3& spin, const Vec3& velocity);
 
 Vec3 random_direction(Random& random);
-/// Within a metre of the origin, of any of its kinds: cones, capsules, with and without width, one
+/// A cone within a metre of the origin, of any kind: cones, capsules, with and without width, one
 /// end inside of the other, hardly any length or none.
 RoundedCone random_cone(Random& random);
 

@@ -16,7 +16,7 @@ bool beats(const CostAndError& a, const CostAndError& b) {
   return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
 }
 
-/// By definition, in the square of the number of points.
+/// The front by its definition, in a time of the square of the number of points.
 Indices front_by_definition(const std::vector<CostAndError>& points) {
   Indices front;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -88,7 +88,7 @@ double reference_step(const Json& plan) {
   return sweep_references(plan_of(plan)).recipes.at(0).scene.method.step;
 }
 
-/// Where a plan is refused, and what for.
+/// The error with which a plan is refused.
 InputError fault_of(const Json& plan) {
   try {
     const SweepPlan read = plan_of(plan);
@@ -196,7 +196,7 @@ TEST_CASE("sweep: a journal cut anywhere gives every row once, to the bit", "[sw
     CHECK(std::count(both.begin(), both.end(), '\n') == 90);  // no run lost, none again
     CHECK(same_but_times(sweep.rows(), whole.rows()));
     for (const BenchRow& row : sweep.rows()) CHECK(row.n_runs == 2);
-    // What was measured before the cut has the times that it had then.
+    // Rows measured before the cut have the times that they had then.
     Sweep again(plan_of(plan), store, "test");
     REQUIRE(again.resume(both) == both.size());
     for (std::size_t i = 0; i < 30; ++i)
@@ -286,7 +286,7 @@ TEST_CASE("sweep: a smaller step and a finer mesh come nearer to the reference",
   const std::vector<BenchRow> rows = rows_of(small_plan(), kLongSlice);
   CHECK(rows[1].position_error < rows[0].position_error);
   CHECK(rows[3].position_error < rows[2].position_error);
-  // With steps small enough to leave the mesh's error.
+  // These steps are small enough to leave the mesh's error.
   CHECK(rows[3].position_error < rows[1].position_error);
 }
 

@@ -26,7 +26,7 @@ import {
 } from '../src/refinement/worker/recording.ts';
 import createRefinement from '../src/wasm/refinement.mjs';
 
-/** As long as the frames of the test motion are [s]. */
+/** Duration of the frames of the test motion [s]. */
 const TEST_S = 5;
 
 /** The end of the example [s]. */

@@ -31,7 +31,7 @@ function motionView(hash: string): MotionView {
   return motion;
 }
 
-/** What one view hands to the view of motion, which is shown from then on. */
+/** Hands a fabric or a start shape to the view of motion, which is shown from then on. */
 const toMotion: FabricsActions = {
   wear(fabric) {
     motionView('#').wear(fabric);
@@ -60,7 +60,7 @@ async function fetchedView(id: keyof typeof FETCHED, hash: string): Promise<View
   return views[id];
 }
 
-/** For the console and for tests: the shown view's state and frame. */
+/** Gives the shown view's state and frame to the console and to tests. */
 function expose({ probe }: View): void {
   Object.assign(window, { pleat: probe });
 }

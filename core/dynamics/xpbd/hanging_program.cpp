@@ -32,7 +32,7 @@ Vec3Lanes<Float1> value(const SlotSum& sum, const std::array<Pointer, 3>& arrays
   return total;
 }
 
-/// What the sum moves by per pull.
+/// How far the sum moves per pull.
 Float1 inverse_mass_of(const SlotSum& sum, const LaneView& view) {
   float total = 0;
   for (std::size_t t = 0; t < sum.n_terms; ++t)

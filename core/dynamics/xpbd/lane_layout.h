@@ -10,7 +10,7 @@ namespace pleat {
 /// before it; four rows hide that wait.
 constexpr int kPanelRows = 4;
 
-/// Where each vertex lies in arrays that are computed with four floats at a time.
+/// The place of each vertex in arrays that are computed with four floats at a time.
 ///
 /// The sheet is cut into rows of equal rest coordinate, the row nearest to the pins first. A row of
 /// m vertices is cut into four equal pieces of `stride` columns, and one group of four floats holds

@@ -15,7 +15,7 @@ namespace pleat {
 /// Compliance of a rigid constraint, relative to the inverse masses: far below what their sum
 /// rounds off, but a denominator that never is zero, even between pinned vertices.
 constexpr float kRigidCompliance = 1e-12f;
-/// What stands in a lane without an element for its share of the denominator: nothing moves there.
+/// Share of the denominator in a lane without an element: nothing moves there.
 constexpr float kEmptyLane = std::numeric_limits<float>::infinity();
 
 /// The vertices in lane order, as projections see them: each is at begin + move. A move is small

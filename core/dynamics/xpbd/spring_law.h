@@ -109,10 +109,10 @@ Vec3Lanes<Lanes> across(const Vec3Lanes<Lanes>& motion, const Vec3Lanes<Lanes>& 
   return motion - (dot(d, motion) / max(dot(d, d), Lanes::all(kTinySquare))) * d;
 }
 
-/// What projecting a spring moves x_a by, per inverse mass; x_b moves the other way. Adds to the
+/// How far projecting a spring moves x_a, per inverse mass; x_b moves the other way. Adds to the
 /// multipliers.
 ///
-/// w  what d moves by per pull: the sum of both inverse masses
+/// w  how far d moves per pull: the sum of both inverse masses
 template <class Lanes, SpringLaw law, bool first>
 Vec3Lanes<Lanes> pull_of(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& change_of_d,
                          Lanes w, const SpringBlock& block, int lane, float* multiplier) {

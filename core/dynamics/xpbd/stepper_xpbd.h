@@ -28,7 +28,7 @@ class StepperXpbd final : public Stepper {
   void store(State& state, SolveReport& report) override;
 
  private:
-  /// What the arrays hold per slot, each as one array after the other.
+  /// Numbers of a slot, each in an array of its own, one after the other.
   ///
   /// A vertex is at begin + move. Single precision rounds a begin; what it rounds off is
   /// `rounded_off` and is contained in the move, so that move - rounded_off is the velocity times

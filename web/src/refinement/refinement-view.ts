@@ -200,7 +200,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
   });
   createPanels(boxes, store, run, picture);
 
-  /** Where the link starts: the shown time, while it rests. */
+  /** The link starts at the shown time, while that rests. */
   const link = () => {
     const state = store.get();
     const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;

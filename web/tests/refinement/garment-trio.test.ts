@@ -109,7 +109,7 @@ describe('planner', () => {
   });
 });
 
-/** What is said when an example fails with the words "no room". */
+/** The sentence for an example that fails with the words "no room". */
 const NO_ROOM = 'Not all of it could be fetched (no room). Check the connection.';
 
 describe('further examples', () => {
@@ -249,7 +249,7 @@ describe('trio', () => {
       expect(meshes.planned?.hanging.length).toBeGreaterThan(100);
       expect(coarse.errorM).toBeGreaterThan(0.005);
       expect(planned.errorM).toBeGreaterThan(0.005);
-      // What slid along the surface is no distance between surfaces.
+      // A slide along the surface adds no distance between surfaces.
       for (const { surfaceM, errorM } of [coarse, planned])
         expect(surfaceM ?? 1).toBeLessThan(errorM ?? 0);
       expect(shown.fine?.length).toBe(3 * 10920);

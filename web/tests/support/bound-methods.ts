@@ -1,4 +1,4 @@
-/** What Embind itself gives to every class. */
+/** The methods that Embind itself gives to every class. */
 const INHERITED = ['constructor', 'isAliasOf', 'clone', 'isDeleted', 'deleteLater'];
 
 /** The methods of each class that a module binds, by name, sorted. */

@@ -28,7 +28,7 @@ interface FakeScene {
   method: FakeMethod;
 }
 
-/** What the module is built with. */
+/** The parts that the module is built with. */
 interface FakeBuild {
   hasCholmod: boolean;
 }

@@ -1,4 +1,4 @@
-// What the worker of deformed cloth does with each message, as a function of the module, of where
+// Answers each message to the worker of deformed cloth, as a function of the module, of where
 // answers go, and of the clock. The only file that calls delete() on its objects.
 
 import { describe, internalFailure, read } from '../../shared/bindings/answers';

@@ -37,14 +37,14 @@ export interface RunNumbers {
   iterations: number;
   /** Total wall time since load, the first step not counted: of each part that was timed [ms]. */
   parts_ms: Record<string, number>;
-  /** And of the steps as a whole [ms], of which there were `steps_timed`. */
+  /** The same of the steps as a whole [ms], of which there were `steps_timed`. */
   steps_ms: number;
   steps_timed: number;
   /** Null where there is none of this scene. */
   reference: ReferenceNumbers | null;
 }
 
-/** What `readObj` finds in a file. */
+/** The answer of `readObj`. */
 export interface ObjAnswer {
   /** The section "cloth" of a scene, with the mesh written out. */
   cloth: object;

@@ -13,7 +13,7 @@ export interface BenchMethod {
 /** One measured setting; a number that could not be measured is null. */
 export interface BenchRow {
   scene: string;
-  /** What it changes in the plan's scene: values by their JSON pointers. */
+  /** Its changes to the plan's scene: values by their JSON pointers. */
   setting: Record<string, unknown>;
   method: BenchMethod;
   level: number;

@@ -1,4 +1,4 @@
-// What is painted on the cloth: its material, stretch or distance; and the edges of the mesh.
+// Chooses what is painted on the cloth: its material, stretch or distance; and the mesh's edges.
 import { choice, element, field } from '../../shared/panels/element';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';

@@ -48,7 +48,7 @@ function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWo
   return { value, detail: known, sentence: `${value} from the reference (${known}).` };
 }
 
-/** What can be said without a reference: what is left of the equations, and of the length. */
+/** The error as far as it is known without a reference: the equations' residual and the stretch. */
 function fromItself(numbers: RunNumbers, solves: boolean): string {
   const parts = ['No reference for this scene.'];
   if (numbers.step === 0) return parts.join(' ');

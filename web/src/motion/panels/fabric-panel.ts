@@ -1,4 +1,4 @@
-// Which fabric, its measured numbers, and where each comes from.
+// The choice of a fabric, its measured numbers, and where each comes from.
 import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { choice, element, field } from '../../shared/panels/element';

@@ -18,7 +18,7 @@ const TITLES: Record<HeatMap, string> = {
   distance: 'Distance to reference',
 };
 
-/** What the frame holds now, in the unit of the scale. */
+/** The range of the present frame, in the unit of the scale. */
 function presentText({ least, most }: HeatScale, text: (value: number) => string): string {
   if (Number.isNaN(most)) return 'no reference at this time';
   // Beside two digits of the largest value, less than a hundredth of it is zero.

@@ -1,4 +1,4 @@
-// How it is computed: model, level, stepper, step, and the one count that the stepper listens to.
+// The choice of a method: model, level, stepper, step, and the one count that the stepper reads.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { stepTitle } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';

@@ -1,4 +1,4 @@
-// What a screen reader says of the cloth in motion.
+// The sentence that a screen reader says of the cloth in motion.
 import type { MotionState } from '../state/motion-state';
 import { PRESETS } from '../state/setting';
 

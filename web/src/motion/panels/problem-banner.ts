@@ -1,4 +1,4 @@
-// What went wrong, in a sentence, with what can be done about it.
+// A banner that says what went wrong in a sentence, with what can be done about it.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';

@@ -1,4 +1,4 @@
-// Which scene, what to notice in it, and the visitor's mesh.
+// The choice of a scene, what to notice in it, and the visitor's mesh.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';

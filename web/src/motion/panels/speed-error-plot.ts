@@ -41,7 +41,7 @@ export function titleOf(row: BenchRow): string {
   return parts.filter((part) => part !== '').join(', ');
 }
 
-/** Where a row lies: [ms for a frame, position error in mm]; null when it has no place. */
+/** A row's place: [ms for a frame, position error in mm]; null when it has none. */
 function placeOf(row: BenchRow): [number, number] | null {
   const { ms_per_frame: ms, position_error_m: metres } = row;
   if (!hasFinished(row) || ms === null || metres === null) return null;

@@ -31,7 +31,7 @@ function createLegend() {
   };
 }
 
-/** What the numbers are, and how far to trust them. */
+/** Says what the numbers are, and how far to trust them. */
 function footnote({ sweep }: MotionState): string {
   const { rows, disturbed } = sweep;
   const [first] = rows;

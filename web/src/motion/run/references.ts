@@ -7,7 +7,7 @@ const FILES = import.meta.glob<string>('../../../../assets/references/*.referenc
   eager: true,
 });
 
-/** Where the reference of a setting is, by the names "curtain" and "curtain_membrane". */
+/** The address of a setting's reference, by the names "curtain" and "curtain_membrane". */
 export function referenceUrl({ preset, fabric, model }: Setting): string | null {
   const own = presetSetting(preset);
   if (fabric !== own.fabric) return null; // it could not match: half a megabyte for nothing

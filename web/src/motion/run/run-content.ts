@@ -1,4 +1,4 @@
-// What a load is of, and what one load can keep of the one before.
+// The content of a load, and whether it can keep the motion of the one before.
 import type { ObjMesh } from '../state/obj-mesh';
 import { type Setting, sceneOf } from '../state/setting';
 

@@ -4,7 +4,7 @@ import type { Scalar } from '../../shared/bindings/frame';
 export class RunFrames {
   private spare: ArrayBuffer | null = null;
   shown: ArrayBuffer | null = null;
-  /** What the shown frame holds beside positions. */
+  /** The numbers that the shown frame holds beside positions. */
   scalar: Scalar = 'stretch';
 
   /** The buffers of another mesh. */

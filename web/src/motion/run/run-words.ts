@@ -1,4 +1,4 @@
-// What ended a run, in words.
+// The words for what ended a run.
 import { frameViews } from '../../shared/bindings/frame';
 import type { RunReport } from '../worker/motion-protocol';
 
@@ -10,7 +10,7 @@ function placeOf(message: string, frame: ArrayBuffer): string {
   return ` It was last at (${Array.from(place, (metres) => metres.toFixed(2)).join(', ')}) m.`;
 }
 
-/** What ended a run: in which step and where. `frame` is the last finite one. */
+/** Says what ended a run, in which step and where. `frame` is the last finite one. */
 export function endOf(report: RunReport | null, frame: ArrayBuffer): string {
   const next = 'The last good frame stays; reset to start again.';
   if (!report) return `The run stopped without a report. ${next}`;

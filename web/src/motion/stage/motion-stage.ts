@@ -14,7 +14,7 @@ export interface MotionStageEvents {
   releaseGrab(): void;
   /** Keys that are neither the camera's nor the hand's. True when used. */
   key(name: string): boolean;
-  /** After each drawn frame: the heat map's scale, and the invitation's place in pixels. */
+  /** Hears after each drawn frame the heat map's scale, and the invitation's place in pixels. */
   drawn(scale: HeatScale, invitation: { x: number; y: number }): void;
   contextLost(): void;
 }
@@ -52,7 +52,7 @@ const FLOOR_COSINE = 0.99;
 /** A metre lower counts for the invitation as much as two metres nearer: free corners hang low. */
 const LOW_OVER_NEAR = 2;
 
-/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
+/** The sphere to keep in view: where the cloth is, where it can swing to, and the bodies. */
 function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
   const box = new Box3().setFromArray(positions);
   const reach = box.getSize(new Vector3());
@@ -97,7 +97,7 @@ function invitingVertex(positions: Float32Array, towards: Vector3): number {
   return best;
 }
 
-/** What is set of how the cloth is drawn. */
+/** The setters of how the cloth is drawn. */
 function drawingOf(
   cloth: ClothMesh,
   redraw: () => void,

@@ -32,7 +32,7 @@ export interface MotionState extends MotionLink {
   held: boolean;
   /** Nobody has grabbed or played yet: the invitation is shown. */
   invited: boolean;
-  /** What "Your OBJ" shows: the visitor's mesh or the example, null until one is there. */
+  /** The mesh of "Your OBJ": the visitor's or the example, null until one is there. */
   mesh: ObjMesh | null;
   summary: SceneSummary | null;
   numbers: RunNumbers | null;

@@ -5,7 +5,7 @@ import type { ObjAnswer } from '../bindings/pleat-module';
 /** "highest", "nothing", or "group:" and the name of a group of the mesh. */
 export type Hold = 'highest' | 'nothing' | `group:${string}`;
 
-/** What says how the threads run: texture coordinates, or a direction for want of them. */
+/** The source of the threads' directions: texture coordinates, or a direction for want of them. */
 export type Threads = 'texture' | 'down' | 'along_x';
 
 export interface ObjMesh {
@@ -21,7 +21,7 @@ export interface ObjMesh {
   low: Triple;
   high: Triple;
   threads: Threads;
-  /** Where its vertices start when that is not where they rest, three numbers each [m]. */
+  /** Places where its vertices start, unless they start where they rest, three numbers each [m]. */
   start?: Float64Array;
 }
 
@@ -63,7 +63,7 @@ export function objMesh(
   };
 }
 
-/** What may hold a mesh. Of a flat one the highest points would be all. */
+/** The holds that a mesh may have. The highest points of a flat one would be all. */
 export function holdsOf(mesh: ObjMesh): Hold[] {
   const groups = mesh.groups.map((name): Hold => `group:${name}`);
   return liesFlat(mesh) ? [...groups, 'nothing'] : ['highest', ...groups, 'nothing'];

@@ -1,4 +1,5 @@
-// What is computed: preset, fabric, model, level, method. The scene text given to the module is made here.
+// The setting to compute: preset, fabric, model, level, method. The scene text given to the module
+// is made here.
 import curtainText from '../../../../assets/scenes/curtain.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
@@ -29,7 +30,7 @@ export interface Setting {
   /** 0: as many as the stability bound asks for. */
   substeps: number;
   iterations: number;
-  /** What holds the mesh; of no meaning to other presets. */
+  /** The vertices that hold the mesh; of no meaning to other presets. */
   hold: Hold;
 }
 
@@ -97,7 +98,7 @@ export const PRESETS: Record<PresetId, Preset> = {
 
 export const PRESET_IDS = Object.keys(PRESETS) as PresetId[];
 
-/** What the preset's cloth can be made of: springs follow the threads of a sheet. */
+/** The models that a preset's cloth can have: springs follow the threads of a sheet. */
 export function modelsOf(preset: PresetId): Model[] {
   return PRESETS[preset].scene.cloth.sheet ? ['springs', 'membrane'] : ['membrane'];
 }

@@ -1,4 +1,4 @@
-// What one press of the sweep button measures, and how its rows map back to settings.
+// The plan that one press of the sweep button measures, and how its rows map back to settings.
 import {
   type Model,
   STABLE_SUBSTEPS,
@@ -35,7 +35,7 @@ export interface SweepPlan {
   duration_s: number;
 }
 
-/** What is measured at one level, of every stepper that takes part there. */
+/** The methods measured at one level: those of every stepper that takes part there. */
 function methodsAt(level: number, model: Model): PlannedMethod[] {
   const taking = STEPPERS.filter(
     ({ models, finest_sweep_level: finest }) =>

@@ -28,7 +28,7 @@ export const NO_SWEEP: SweepState = {
   disturbed: false,
 };
 
-/** What a sweep is of: a row of another scene, fabric or model says nothing about this one. */
+/** The scene that a sweep measures: rows of another scene, fabric or model say nothing of it. */
 export interface SweptScene extends Pick<Setting, 'preset' | 'fabric' | 'model' | 'hold'> {
   mesh: ObjMesh | null;
 }

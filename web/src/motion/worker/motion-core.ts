@@ -1,4 +1,4 @@
-// What the worker of cloth in motion does with each message, as a function of the module and of where
+// Answers each message to the worker of cloth in motion, as a function of the module and of where
 // answers go. The only file that calls delete() on its objects.
 
 import {

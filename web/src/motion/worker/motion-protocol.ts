@@ -23,7 +23,7 @@ export interface LoadMessage {
   keepMotion: boolean;
   request: number;
   scalar?: Scalar;
-  /** Where the vertices start when that is not where they rest. */
+  /** Places where the vertices start, unless they start where they rest. */
   start?: Float64Array;
 }
 
@@ -70,7 +70,7 @@ export interface FrameMessage {
   scalar: Scalar;
   /** The run cannot go on; the buffer holds its last finite frame. */
   hasEnded: boolean;
-  /** Only when it was asked for, or when the run has ended. */
+  /** Null unless it was asked for or the run has ended. */
   report: RunReport | null;
   colliders: Collider[];
 }

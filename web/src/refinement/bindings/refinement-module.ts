@@ -2,13 +2,13 @@
 import type { Triple } from '../../shared/bindings/geometry';
 import { methodsOf } from '../../shared/bindings/methods';
 
-/** What `GarmentRun.load` built. */
+/** The answer of `GarmentRun.load`. */
 export interface GarmentSummary {
   name: string;
   caption: string;
   fabric: string;
   n_vertices: number;
-  /** That are not split. */
+  /** Faces that are not split. */
   n_faces: number;
   n_base_faces: number;
   n_hanging: number;

@@ -1,4 +1,4 @@
-// How fine: the demand or the number of vertices, whichever was moved last; and where frames come from.
+// The demand or the number of vertices, whichever was moved last; and the source of the frames.
 import { element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { DEMANDS, type RefinementState } from '../state/refinement-state';

@@ -1,4 +1,4 @@
-// What each pane shows: its mesh, what a frame costs, and how far it is from fine.
+// The badge of each pane: its mesh, what a frame costs, and how far it is from fine.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { PANES, type RefinementState } from '../state/refinement-state';

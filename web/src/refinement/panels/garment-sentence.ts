@@ -1,4 +1,4 @@
-// What a screen reader says of the view of refinement.
+// The sentence that a screen reader says of the view of refinement.
 import { planStory } from '../state/plan-file';
 import type { RefinementState } from '../state/refinement-state';
 import { examplesWords, vertices } from './garment-words';

@@ -1,4 +1,4 @@
-// What the view of refinement says.
+// The words of the view of refinement.
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import type { FitAnswer } from '../bindings/refinement-module';
 import { exampleName, GARMENTS } from '../state/garments';
@@ -19,7 +19,7 @@ export const PANE_TITLES: Record<PaneId, string> = {
   fine: 'Fine',
 };
 
-/** Beyond this share of its faces for ten frames the monitor fires; docs/methods/multiresolution.md. */
+/** The monitor fires beyond this share of faces for ten frames; docs/methods/multiresolution.md. */
 export const LARGEST_SHARE = 0.05;
 export const FRAMES_TO_FIRE = 10;
 
@@ -27,7 +27,7 @@ export function vertices(count: number): string {
   return `${count.toLocaleString('en').replaceAll(',', '\u202f')} vertices`;
 }
 
-/** How dear a frame is, and where that was found out. */
+/** The cost of a frame, and where it was measured. */
 export function costWords({ source, msPerFrame }: GarmentPane): string {
   const cost = msPerFrame === null ? '' : `${milliseconds(msPerFrame)} a frame`;
   switch (source) {
@@ -137,14 +137,14 @@ export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitR
   return { light: 'fits', title: `Fits the ${examples}`, detail: share };
 }
 
-/** Below the button that plans anew: what it does, or why it does nothing now. */
+/** Says below the button that plans anew what it does, or why it does nothing now. */
 export function anewSentence(state: RefinementState): string {
   if (canPlanAnew(state)) return 'Runs it once on the fine mesh first: half a minute or so.';
   if (isExample(state)) return 'The plan is made of this motion already.';
   return 'For a motion that does not fit, once the light says so.';
 }
 
-/** Where the frames come from, and who waits for whom. */
+/** Says where the frames come from, and which panes wait. */
 export function sourceSentence({ panes }: RefinementState): string {
   const named = (...sources: FrameSource[]) =>
     PANES.filter((id) => sources.includes(panes[id].source)).map((id) =>

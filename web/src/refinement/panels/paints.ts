@@ -1,4 +1,4 @@
-// What the panes are painted with.
+// The colours that the panes are painted with.
 import { linearColour, MAGNITUDE_MAP } from '../../shared/stage/colormap';
 import type { Paint } from '../stage/graded-cloth';
 import { countFaces, faceAt, facePatterns, type PlanFile } from '../state/plan-file';

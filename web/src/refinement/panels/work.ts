@@ -1,4 +1,4 @@
-// What is being done, how far it is, and the way out of it.
+// The work under way, how far it is, and the way out of it.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { Doing, RefinementState } from '../state/refinement-state';

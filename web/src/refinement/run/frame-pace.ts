@@ -32,7 +32,7 @@ export class FramePace {
     return Math.floor(this.dueFrames);
   }
 
-  /** Those frames are on their way. */
+  /** Counts these frames as on their way. */
   take(nFrames: number): void {
     this.dueFrames -= nFrames;
   }

@@ -27,7 +27,7 @@ export interface PaneRun {
   reset(): Promise<void>;
   advance(frame: number, how: Advance): Promise<{ fit: FitAnswer | null; ended: string | null }>;
   describe(wish: Wish): Promise<Described>;
-  /** That frame is drawn from now on, and the one before may be overwritten. */
+  /** Draws this frame from now on; the one before may be overwritten. */
   keep(described: Described): void;
   /** Cost of the frames computed here [ms]. */
   costs(costs: GarmentCosts): Pick<GarmentPane, 'msPerFrame' | 'parts'>;

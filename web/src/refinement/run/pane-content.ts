@@ -1,4 +1,4 @@
-// What each pane of the view of refinement has to load.
+// The content that each pane of the view of refinement has to load.
 import { FINE_LEVEL } from '../state/garment-frames';
 import { sceneText, usualFabric } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';

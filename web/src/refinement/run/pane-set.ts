@@ -31,7 +31,7 @@ export interface TrioView {
   showFrames(frames: ShownFrame[], solids: SolidsAnswer | null): void;
 }
 
-/** What the panes start and fetch with. */
+/** The functions by which panes start their workers and fetch files. */
 export interface PaneParts {
   start(): GarmentClient;
   fetchBytes: Fetched;
@@ -107,7 +107,7 @@ export class PaneSet {
     await this.restart(isComputed && !this.isPreview ? 0 : first, isCurrent);
   }
 
-  /** Everything anew, and then at that frame, to which nothing is computed. */
+  /** Starts all panes anew and goes to that frame, to which nothing is computed. */
   async restart(frame: number, isCurrent: IsCurrent): Promise<void> {
     this.store.set({ fit: null });
     await Promise.all(this.panes.map((pane) => pane.reset()));

@@ -45,7 +45,7 @@ export interface Planner {
   cancel(): void;
 }
 
-/** What the worker has, or is getting. */
+/** The examples that the worker has, or is getting. */
 interface Opened extends Pick<Wish, 'garment' | 'fabric'> {
   further: MotionId[];
   ready: Promise<unknown>;

@@ -1,4 +1,4 @@
-// Which frames come with the page. They are made by `npm run recordings`.
+// The frames that come with the page. They are made by `npm run recordings`.
 import type { GarmentId, MotionId } from '../state/garments';
 import type { PaneId } from '../state/refinement-state';
 
@@ -23,7 +23,7 @@ export interface ExampleUrls {
   frames: string;
 }
 
-/** What plans are made of, and the one that is made when nobody says otherwise. */
+/** Addresses of the usual plan and of the example that plans are made of. */
 export function exampleUrls(garment: GarmentId): ExampleUrls | null {
   const folder = `${garment}_walk`;
   const plan = urlOf(folder, 'plan.json');

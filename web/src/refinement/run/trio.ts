@@ -18,7 +18,7 @@ import { startGarmentWorker } from './garment-client';
 import { type IsCurrent, type PaneParts, PaneSet, type TrioView } from './pane-set';
 import { createPlanner, fetched, type Planner } from './planner';
 
-/** What it takes to run anywhere. */
+/** The parts of the browser that a trio needs: tests have their own. */
 export interface TrioParts extends PaneParts {
   planner: Planner;
   /** Calls back with the next picture. */
@@ -114,7 +114,7 @@ export class Trio {
     this.parts.later(() => this.tick());
   }
 
-  /** Everything that is wanted, then its first picture. */
+  /** Loads everything that is wanted, then shows its first picture. */
   private async load(what: 'all' | 'plan'): Promise<void> {
     this.wanted += 1;
     const { wanted } = this;
@@ -156,7 +156,7 @@ export class Trio {
     });
   }
 
-  /** What could not be loaded is told; what is left is shown. */
+  /** Says what could not be loaded, and shows what is left. */
   private giveUp(error: unknown): void {
     const isBroken = error instanceof BrokenWorker;
     const problem = failureOf(error);
@@ -174,7 +174,7 @@ export class Trio {
     this.isTakingBack = false;
   }
 
-  /** What runs meanwhile comes to its end. */
+  /** Waits until the work under way has ended. */
   private async idle(): Promise<void> {
     while (this.isBusy) await new Promise<void>((resolve) => this.parts.later(resolve));
   }

@@ -46,7 +46,7 @@ const N_PANES = 3;
 const AZIMUTH = 1.02;
 const POLAR = 1.36;
 
-/** What has to be seen of a walking person [m]: the middle above the floor, half of the width, height. */
+/** The view of a walking person [m]: the middle above the floor, half of the width, height. */
 const MIDDLE_M = 0.78;
 const SEEN_ACROSS_M = 0.5;
 const SEEN_UP_M = 0.86;

@@ -21,7 +21,7 @@ import { createClothMaterials } from '../../shared/stage/fabric-material';
 import { changingTriples, showPositions } from '../../shared/stage/normals';
 import type { GarmentMesh } from '../worker/garment-protocol';
 
-/** What a cloth is painted with. */
+/** The paint of a cloth: its material, or colours of faces or vertices. */
 export type Paint =
   | { kind: 'material' }
   /** Linear red, green, blue for each face. */
@@ -61,7 +61,7 @@ function behindLines(materials: Material[]): void {
   }
 }
 
-/** What is drawn, and of which geometries. */
+/** The drawn objects and their geometries. */
 function createParts() {
   const geometry = new BufferGeometry();
   const soup = new BufferGeometry(); // each corner by itself, so that faces have colours of their own

@@ -1,4 +1,4 @@
-// What the view of refinement and the program that makes its records agree on.
+// Numbers that the view of refinement and the program that makes its records agree on.
 
 /** Level of the mesh that all others are compared with, and the finest level of a plan. */
 export const FINE_LEVEL = 2;

@@ -76,7 +76,7 @@ export interface PatternStory {
   deviationsPerM: number[];
   /** Base vertices. */
   nVertices: number;
-  /** What the examples hardly exceeded [1/m]; null when that was not measured. */
+  /** The curvature that the examples hardly exceeded [1/m]; null when that was not measured. */
   limitPerM: number | null;
 }
 

@@ -1,4 +1,4 @@
-// What the view of refinement shows.
+// The state of the view of refinement.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
 import { USUAL_DEMAND } from './garment-frames';
@@ -26,7 +26,7 @@ export interface GarmentPane {
   /** Time of the work for one frame [ms], in parts. */
   msPerFrame: number | null;
   parts: { name: string; ms: number }[];
-  /** Against the fine pane, RMS of the same points and of the surfaces [m]. */
+  /** Distance to the fine pane, RMS of the same points and of the surfaces [m]. */
   errorM: number | null;
   surfaceM: number | null;
   faults: FaultsAnswer | null;
@@ -42,7 +42,7 @@ export const EMPTY_PANE: GarmentPane = {
   faults: null,
 };
 
-/** What a link carries. */
+/** The state that a link carries. */
 export interface RefinementLink {
   garment: GarmentId;
   motion: MotionId;
@@ -56,13 +56,13 @@ export interface RefinementLink {
   budget: number | null;
   /** Frames that come with the page are shown where there are some. */
   useRecords: boolean;
-  /** Where no frames of the fine mesh come with the page, the others wait for it. */
+  /** When no frames of the fine mesh come with the page, the other panes wait for it. */
   computeFine: boolean;
   colour: ColourId;
   edges: boolean;
   hanging: boolean;
   speed: number;
-  /** Where the view starts, if frames come with the page [s]. */
+  /** The time at which the view starts, if frames come with the page [s]. */
   startS: number;
 }
 
@@ -77,7 +77,7 @@ export interface RefinementState extends RefinementLink {
   phase: 'loading' | 'ready' | 'stopped' | 'broken';
   playing: boolean;
   timeS: number;
-  /** Where it ends [s]. */
+  /** The time at which the frames end [s]. */
   endS: number;
   panes: Record<PaneId, GarmentPane>;
   plan: PlanFile | null;

@@ -1,4 +1,4 @@
-// What the worker of the examples does with each message: plans in an instant, from what was recorded
+// Answers each message to the worker of the examples: plans in an instant, from what was recorded
 // and from what it ran itself. The only file that calls delete() on its objects.
 
 import {

@@ -1,5 +1,5 @@
-// What the worker of one pane does with each message, as a function of the module and of where
-// answers go. The only file that calls delete() on its object.
+// Answers each message to the worker of one pane, as a function of the module and of where answers
+// go. The only file that calls delete() on its object.
 
 import {
   describe,

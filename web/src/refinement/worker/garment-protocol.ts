@@ -12,7 +12,7 @@ import type {
 import type { PlanFile } from '../state/plan-file';
 import type { RecordingHead } from './recording';
 
-/** What a frame is coloured by that has a number at each vertex. */
+/** Numbers at the vertices by which a frame can be coloured. */
 export type GarmentScalar = 'curvature' | 'distance';
 
 /** How a pane comes to its next frame: from its record, by the steps of a frame, or it stays. */
@@ -42,7 +42,7 @@ export type ToGarment =
       /** Shows the reference as this mesh could show it, in place of a frame of its own. */
       takesSample: boolean;
       timeS: number;
-      /** What takes longer than a frame: the distance between surfaces, and faults. */
+      /** Also what takes longer than a frame: the distance between surfaces, and faults. */
       wantsAll: boolean;
       /** An earlier frame's, to be filled. */
       buffer: ArrayBuffer | null;
@@ -61,7 +61,7 @@ export interface GarmentMesh {
 export interface Described {
   type: 'described';
   request: number;
-  /** As of any frame (frame.ts). */
+  /** Laid out as any frame is (frame.ts). */
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
   isKnown: boolean;
@@ -111,7 +111,7 @@ export interface GarmentAnswers {
   describe: Described;
 }
 
-/** What a plan is asked by: one of both. */
+/** The one number by which a plan is asked for. */
 export type PlanWish = { demand: number } | { max_vertices: number };
 
 export type ToExample =
@@ -152,7 +152,7 @@ export interface ExampleOpened {
   nBaseVertices: number;
 }
 
-/** So much of the example has run; at 1 plans are made of it too. */
+/** The share of the example that has run; at 1 plans are made of it too. */
 export interface WentOn {
   type: 'wentOn';
   request: number;

@@ -3,7 +3,7 @@
 
 export interface RecordingHead {
   format: 'pleat recording 1';
-  /** What it is of. */
+  /** The name of what was recorded. */
   name: string;
   n_vertices: number;
   /** Numbers a vertex: 3 for places, 2 for mean and deviation of curvature. */
@@ -33,7 +33,7 @@ function createPredictor(head: RecordingHead, parents: Parents) {
   let next = new Int32Array(nVertices * nComponents);
   let nFrames = 0;
 
-  /** What is foretold of a number; `next` holds those of the vertex's parents already. */
+  /** The prediction of a number; `next` holds those of the vertex's parents already. */
   function foretold(vertex: number, component: number): number {
     const at = vertex * nComponents + component;
     let nParents = 0;

@@ -1,6 +1,6 @@
 // The buffer in which a frame travels between a worker and the page.
 
-/** What a frame holds beside positions: stretch as a ratio (usual), or distance to the reference [m]. */
+/** Numbers of a frame beside positions: stretch, a ratio (usual), or distance to reference [m]. */
 export type Scalar = 'stretch' | 'distance';
 
 /** A frame buffer holds the positions (3 n) and then the scalar (n) as 32-bit floats. */

@@ -27,7 +27,7 @@ function look(
   return { front, back, roughness, sheen, sheenColour, opacity };
 }
 
-/** By id in the fabric file: front, back, roughness, sheen and its colour, opacity. */
+/** Ordered by id in the fabric file: front, back, roughness, sheen and its colour, opacity. */
 const LOOKS: readonly FabricLook[] = [
   look('#3a9db8', '#9fcfd9', 0.85, 0.25, '#d9f2f7'), // fine cotton, lake blue
   look('#34548a', '#a9b6cc', 0.95, 0.1, '#93a7cc'), // denim, blue with a pale wrong side

@@ -1,4 +1,4 @@
-// What the page asks of each of its views, and what one view hands to another.
+// The interface of the page's views, and the shape that one view hands to another.
 
 export interface View {
   /** The part of the address after `#` at which this view is as it is. */
@@ -7,11 +7,11 @@ export interface View {
   open(hash: string): void;
   /** One that is hidden rests and leaves the address alone. */
   setShown(isShown: boolean): void;
-  /** For the console and for tests: state and frame to look at. */
+  /** State and frame to look at, for the console and for tests. */
   probe: object;
 }
 
-/** What a cloth in motion starts from. */
+/** The cloth and the places that a motion starts from. */
 export interface StartShape {
   /** The section "cloth" of a scene; what was held is its group "held". */
   section: object;

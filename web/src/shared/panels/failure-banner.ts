@@ -2,7 +2,7 @@
 import { type Failure, sentenceOf } from '../bindings/answers';
 import { element, setText } from './element';
 
-/** What went wrong, in a sentence. */
+/** A banner that says what went wrong in a sentence. */
 export function createFailureBanner(parent: HTMLElement, dismiss: () => void) {
   const sentence = element('p');
   const button = element('button', { type: 'button', click: dismiss }, 'Dismiss');

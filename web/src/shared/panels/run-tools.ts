@@ -24,7 +24,7 @@ export interface RunWords {
   step: string;
   reset: string;
   view: string;
-  /** What a speed is of. */
+  /** The unit of a speed, in words. */
   speed: string;
 }
 

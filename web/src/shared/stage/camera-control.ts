@@ -60,7 +60,7 @@ export function uprightOf(places: readonly number[], view: View, fov: number): n
   return Math.min(1, (MARGIN * most) / view.radius);
 }
 
-/** Where the camera is: about a turning point, at a distance in which the view is seen. */
+/** The camera's place: about a turning point, at a distance in which the view is seen. */
 class Orbit {
   private readonly target = new Vector3();
   private readonly pose = new Spherical(1, 1.3, 0.5);

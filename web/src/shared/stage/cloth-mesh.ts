@@ -52,7 +52,7 @@ export interface ClothMesh {
   close(): void;
 }
 
-/** What is drawn: both sides of the cloth, the heat map in their place, and the edges. */
+/** The drawn meshes: both sides of the cloth, the heat map in their place, and the edges. */
 function createParts(geometry: BufferGeometry, edgeGeometry: BufferGeometry) {
   const materials = createClothMaterials();
   const front = new Mesh(geometry, materials.front);

@@ -60,7 +60,7 @@ export function roundedUp(value: number): number {
   return nice * power;
 }
 
-/** Where there is no number: a grey that neither scale has. */
+/** A grey for places without a number: neither scale has it. */
 const NO_NUMBER = 0.2;
 
 /**

@@ -1,5 +1,5 @@
-// What cloth is drawn with: a fabric's two sides, of which the back has a tint of its own, so that folds
-// read; or colours for numbers.
+// The materials of cloth: a fabric's two sides, of which the back has a tint of its own, so that
+// folds read; or colours for numbers.
 import { BackSide, DoubleSide, FrontSide, MeshBasicMaterial, MeshPhysicalMaterial } from 'three';
 import { type FabricLook, SHEEN_ROUGHNESS } from '../fabric/fabric-look';
 

@@ -9,7 +9,7 @@ const KEY_REACH = 0.02;
 export interface Hand {
   /** The held vertex, or null. */
   vertex(): number | null;
-  /** Where the hand wants it [m]. */
+  /** Where the hand wants the vertex [m]. */
   target(): Vector3;
   /** True when the key was the hand's: G takes and lets go, arrows and page keys move while held. */
   key(name: string): boolean;
@@ -21,7 +21,7 @@ export interface Hand {
 export type Box = Pick<DOMRect, 'left' | 'top' | 'width' | 'height'>;
 
 export interface HandEvents {
-  /** Where the picture is that has this point of the page; null asks for the one that keys act on. */
+  /** The box of the picture at this point of the page; null asks for the one that keys act on. */
   picture(at: { x: number; y: number } | null): () => Box;
   /** True when a press there is used up otherwise. */
   press?(vertex: number): boolean;
@@ -51,7 +51,7 @@ export function stepSeen(
     .addScaledVector(axis(2), -away * reach);
 }
 
-/** What the hand holds and where it wants it. */
+/** The vertex that the hand holds and where it wants it. */
 class Grip {
   readonly target = new Vector3();
   vertex: number | null = null;

@@ -1,4 +1,4 @@
-// What is held, and the thread to where the hand wants it.
+// A mark on the held vertex, and the thread to where the hand wants it.
 import {
   BufferAttribute,
   BufferGeometry,

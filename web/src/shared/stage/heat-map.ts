@@ -1,4 +1,4 @@
-// What the colours of a cloth show.
+// The numbers that the colours of a cloth show.
 
 /** Nothing, stretch, stretch with its sign, or distance to the reference. */
 export type HeatMap = 'off' | 'magnitude' | 'signed' | 'distance';

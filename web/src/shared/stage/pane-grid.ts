@@ -17,19 +17,19 @@ export function createPaneGrid(canvas: HTMLCanvasElement, camera: PerspectiveCam
     };
   }
 
-  /** Where a pane is on the canvas. */
+  /** A pane's box on the canvas. */
   function cutCanvas(pane: number): Box {
     return cut(pane, { left: 0, top: 0, width: canvas.clientWidth, height: canvas.clientHeight });
   }
 
-  /** Where a pane is on the page. */
+  /** A pane's box on the page. */
   function boxOf(pane: number): Box {
     return cut(pane, canvas.getBoundingClientRect());
   }
 
   return {
     boxOf,
-    /** So many panes, `columns` of them side by side. */
+    /** Shows so many panes, `columns` of them side by side. */
     set(panes: number, columns: number): void {
       nPanes = panes;
       nColumns = columns;

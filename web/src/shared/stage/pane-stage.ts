@@ -1,5 +1,5 @@
-// What every stage is made of: one scene with floor and light, one camera under control, and a canvas that
-// is cut into panes and drawn only when something changed.
+// The base of every stage: one scene with floor and light, one camera under control, and a canvas
+// that is cut into panes and drawn only when something changed.
 import { type Object3D, PerspectiveCamera, Scene, Vector3 } from 'three';
 import { createCameraControl } from './camera-control';
 import { createCanvas } from './canvas';

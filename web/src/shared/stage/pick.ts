@@ -3,7 +3,7 @@
 export type Point = [number, number, number];
 
 export interface Hit {
-  /** Along the ray, in lengths of its direction. */
+  /** Distance along the ray, in lengths of its direction. */
   distance: number;
   point: Point;
   /** Index in the list. */

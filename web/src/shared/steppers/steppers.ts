@@ -1,17 +1,17 @@
 // The table of steppers: whatever the page says of one, offers, measures or draws comes from its row.
 import rows from 'virtual:pleat-steppers';
 
-/** What holds the cloth together. */
+/** The elements that hold the cloth together. */
 export type Model = 'springs' | 'membrane';
 
-/** What a scene says for as many substeps as the stability bound asks for. */
+/** A scene's word for as many substeps as the stability bound asks for. */
 export const STABLE_SUBSTEPS = 'stable';
 export type Substeps = number | typeof STABLE_SUBSTEPS;
 
 export type Count = 'substeps' | 'iterations';
 
 export interface StepperRow {
-  /** As a scene and a link have it. */
+  /** Spelled as in a scene and a link. */
   name: string;
   title: string;
   meaning: string;
@@ -21,7 +21,7 @@ export interface StepperRow {
   solves: boolean;
   /** The counts the stepper reads, each with what it starts from; 0 substeps: as many as are stable. */
   settings: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
-  /** What a sweep measures it with, at every level. */
+  /** The counts with which a sweep measures it at every level. */
   sweep: readonly { substeps?: Substeps; iterations?: number }[];
   /** The models whose sweeps it takes part in. */
   models: readonly Model[];

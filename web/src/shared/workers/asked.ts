@@ -4,7 +4,7 @@ import type { Failure } from '../bindings/answers';
 /** A worker that will not answer any more. */
 export class BrokenWorker extends Error {}
 
-/** What a question was refused with. */
+/** The error of a question that was refused. */
 export class Refused extends Error {
   constructor(readonly failure: Failure) {
     super(failure.what);
@@ -20,13 +20,13 @@ export interface Done {
   type: 'done';
 }
 
-/** What the page sends. `id` is null for what is told and not asked. */
+/** A message from the page. `id` is null when it is told and not asked. */
 export interface Letter<Question> {
   id: number | null;
   message: Question;
 }
 
-/** What the worker sends: an answer with the id of its question, news without one, or why it cannot go on. */
+/** A message from the worker: an answer with its question's id, news, or why it cannot go on. */
 export type Reply = { id: number | null; message: Message } | { broken: string };
 
 /** Which answer each type of question has. */
@@ -44,7 +44,7 @@ export interface Asked<Question extends Message, Answers extends AnswersTo<Quest
   terminate(): void;
 }
 
-/** What hears what nobody asked for. */
+/** Hears what the worker sends unasked. */
 export interface Listener<News> {
   news?(message: News): void;
   /** The worker cannot go on; its open questions are rejected as well. */

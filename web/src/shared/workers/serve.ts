@@ -8,7 +8,7 @@ export interface Scope {
   onmessage: ((event: MessageEvent) => void) | null;
 }
 
-/** What does the work of a worker. */
+/** Does the work of a worker. */
 export interface Core<Question> {
   receive(message: Question): void | Promise<void>;
 }
