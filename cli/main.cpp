@@ -31,9 +31,11 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --levels 0,1,2         the same for /refinement/level (default: the scene's)
   --steppers A,B         usual settings of these (default: those that suit the model; with --set the
                          scene's own method)
-  --reference KIND       finest (default): the finest level by implicit; newton: the same exactly,
-                         with step and mesh checked; same_mesh: what steps alone do wrong;
-                         closed_form: a shape at rest; rigid_chain: a sheet swinging from its edge
+  --reference KIND       converged (default): newton with its step checked and, where levels are
+                         compared, on the next finer mesh, checked too; same_mesh: what steps alone
+                         do wrong; closed_form: a shape at rest; rigid_chain: a sheet swinging from
+                         its edge
+  --reference-level N    of the mesh of converged, at least the finest compared
   --repeat N             timed runs of each setting (default 5)
   --steps N | --duration S    compare over this time
   --out DIR              write rows.jsonl, table.md and front.svg into this folder; started again, a
@@ -42,7 +44,8 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --cache DIR            keep references here (default: in the folder after --out)
   --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
 pleat reference SCENE.json    make one by newton and tell how well it is known
-  --kind same_mesh       (default) halve its step; newton: halve its step and its mesh
+  --kind same_mesh       (default) halve its step; converged: halve its step and its mesh
+  --keep-level N         keep the vertices of this coarser mesh alone
   --step S               of it (default 1/960 s);  --every S  of its samples (default 1/60 s)
   --steps N | --duration S
   --out FILE             keep it, with 32-bit positions

@@ -17,8 +17,8 @@ constexpr double kUsualStep = 1.0 / 960;  // [s]
 ReferenceKind take_kind(Arguments& arguments) {
   const std::string kind = arguments.text("--kind").value_or("same_mesh");
   if (kind == "same_mesh") return ReferenceKind::same_mesh;
-  if (kind == "newton") return ReferenceKind::newton;
-  throw InputError("--kind", "expected same_mesh or newton, got " + abbreviated(Json(kind)));
+  if (kind == "converged") return ReferenceKind::converged;
+  throw InputError("--kind", "expected same_mesh or converged, got " + abbreviated(Json(kind)));
 }
 
 /// Multiples of `every` [s] up to the scene's end.
@@ -48,10 +48,40 @@ void print_reference(const Reference& reference) {
   }
 }
 
-Reference made(const ReferenceRecipe& recipe, const std::vector<double>& times) {
-  const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times);
-  finish(*maker, recipe.scene.name);
+ReferenceRecipe recipe_of(ReferenceKind kind, const Scene& scene,
+                          const std::vector<double>& times) {
+  return {reference_id(id_prefix(kind), scene, times), kind, scene, {}};
+}
+
+Reference made(const ReferenceRecipe& recipe, const std::vector<double>& times,
+               const Reference* coarser = nullptr) {
+  const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times, coarser);
+  finish(*maker, recipe.scene.name + ", level " + std::to_string(recipe.scene.level));
   return maker->reference();
+}
+
+Reference made(ReferenceKind kind, const Scene& scene, const std::vector<double>& times) {
+  ReferenceRecipe recipe = recipe_of(kind, scene, times);
+  if (kind == ReferenceKind::same_mesh) return made(recipe, times);
+  if (scene.level == 0)
+    throw InputError("/refinement/level",
+                     "expected at least 1, as the mesh is to be halved, got 0");
+  Scene coarser = scene;
+  --coarser.level;
+  const Reference below = made(recipe_of(ReferenceKind::same_mesh, coarser, times), times);
+  recipe.coarser = 0;
+  return made(recipe, times, &below);
+}
+
+/// With the vertices of one of its coarser meshes alone.
+void keep_level(Reference& reference, const Scene& scene, int level) {
+  if (level > scene.level)
+    throw InputError("--keep-level", "expected at most the level of the run, " +
+                                         std::to_string(scene.level) + ", got " +
+                                         std::to_string(level));
+  const int n_vertices = scene.cloth->n_vertices(level);
+  for (Sample& sample : reference.samples)
+    sample.positions = sample.positions.leftCols(n_vertices).eval();
 }
 
 }  // namespace
@@ -64,15 +94,19 @@ Outcome reference_command(Arguments arguments) {
       every_text ? parse_positive_number(*every_text, "--every") : RecordOptions{}.every;
   for (const char* option : {"--stepper", "--substeps", "--iterations", "--solver", "--tolerance"})
     arguments.refuse(option, "a reference is made by newton with the midpoint rule");
+  const auto kept_level = arguments.whole_number("--keep-level", 0, kMaxLevel);
   const SceneInput input = take_scene(arguments);
   arguments.finish();
-  ReferenceRecipe recipe{"", kind, input.scene};
+  Scene scene = input.scene;
   const double step = input.is_set_by("--step") ? input.scene.method.step : kUsualStep;
-  recipe.scene.method = exact_method(step);
+  if (step > every)
+    throw InputError("--step", "expected at most the " + Json(every).dump() +
+                                   " s between two samples, got " + Json(step).dump());
+  scene.method = exact_method(step);
   const std::vector<double> times = sample_times(input.scene, every);
-  recipe.id = reference_id(id_prefix(kind), recipe.scene, times);
   if (out) check_writable(*out);
-  const Reference reference = with_source_named(input, [&] { return made(recipe, times); });
+  Reference reference = with_source_named(input, [&] { return made(kind, scene, times); });
+  if (kept_level) keep_level(reference, scene, *kept_level);
   print_reference(reference);
   if (reference.samples.empty()) return Outcome::check_failed;
   if (out) write_file(*out, write_reference(reference, Precision::float32));

@@ -35,20 +35,25 @@ void work_through(Sweep& sweep, const SweepInput& input, SweepFolder* folder) {
   if (folder != nullptr) folder->write_results(sweep);
 }
 
-/// Says on stderr when there was nothing to compare with. An error below what the reference can
-/// tell is told in its row.
+bool has_error(const BenchRow& row) { return std::isfinite(row.position_error); }
+
+/// Says on stderr when no error is known. One of several that is below what the reference can tell
+/// is told in its row.
 Outcome judged(const std::vector<BenchRow>& rows) {
-  const auto lacks_error = [](const BenchRow& row) {
-    const bool is_withheld = std::isfinite(row.reference.uncertainty);
-    return row.finished() && !std::isfinite(row.position_error) && !is_withheld;
+  const auto finished = [](const BenchRow& row) { return row.finished(); };
+  const auto lacks_reference = [](const BenchRow& row) {
+    return row.finished() && !has_error(row) && !std::isfinite(row.reference.uncertainty);
   };
-  const auto unmeasured = std::find_if(rows.begin(), rows.end(), lacks_error);
+  const auto unmeasured = std::find_if(rows.begin(), rows.end(), lacks_reference);
+  const bool none_known = std::none_of(rows.begin(), rows.end(), has_error);
   if (unmeasured != rows.end())
     std::fprintf(stderr, "pleat: no errors, as the reference is %s\n",
                  unmeasured->reference.description.c_str());
-  const bool all_finished =
-      std::all_of(rows.begin(), rows.end(), [](const BenchRow& row) { return row.finished(); });
-  return all_finished && unmeasured == rows.end() ? Outcome::ok : Outcome::check_failed;
+  else if (none_known && std::any_of(rows.begin(), rows.end(), finished))
+    std::fputs("pleat: no errors, as the reference is not known well enough to tell any\n", stderr);
+  const bool all_finished = std::all_of(rows.begin(), rows.end(), finished);
+  const bool all_well = all_finished && unmeasured == rows.end() && !none_known;
+  return all_well ? Outcome::ok : Outcome::check_failed;
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ struct SweepOptions {
   std::vector<std::string> steppers;
   std::optional<int> n_repeats;
   std::optional<std::string> reference;
+  std::optional<int> reference_level;
   std::vector<std::string_view> given;
 
   void add_list(const char* option, const std::string& pointer, const std::string& list) {
@@ -91,6 +92,8 @@ SweepOptions take_plan_options(Arguments& arguments) {
   if (options.n_repeats) options.given.emplace_back("--repeat");
   options.reference = arguments.text("--reference");
   if (options.reference) options.given.emplace_back("--reference");
+  options.reference_level = arguments.whole_number("--reference-level", 0, kMaxLevel);
+  if (options.reference_level) options.given.emplace_back("--reference-level");
   arguments.refuse("--level", "a sweep does not take this option, but --levels");
   for (const char* option : {"--stepper", "--substeps", "--iterations"})
     arguments.refuse(option, "a sweep does not take this option, but --steppers and --set");
@@ -131,6 +134,7 @@ Json plan_of_options(const SweepOptions& options, const SceneInput& scene) {
     plan["settings"] = stepper_settings(options.steppers, scene.scene);
   if (options.n_repeats) plan["repeats"] = *options.n_repeats;
   if (options.reference) plan["reference"] = text_value(*options.reference);
+  if (options.reference_level) plan["reference_level"] = *options.reference_level;
   return plan;
 }
 
@@ -146,6 +150,8 @@ void SweepInput::throw_with_source(const InputError& error) const {
         throw InputError(option, error.what());
     if (where == "/grid" || where == "/settings") throw InputError("--set", error.what());
     if (where == "/reference") throw InputError("--reference", error.what());
+    if (where == "/reference_level") throw InputError("--reference-level", error.what());
+    if (where.rfind("--", 0) == 0) throw error;  // an option of its own
     scene->throw_with_source(InputError(in_its_file, error.what()));
   }
   const bool in_scene_file = in_scene && !scene_file.empty();

@@ -49,7 +49,7 @@ tidy() {
 tested_modules() { (cd "$root/native-tests" && printf '%s\n' */*_test.cpp) | cut -d / -f 1 | sort -u; }
 
 # run_native_tests "MODULE…" PRESET [SELECTION]: their tests, or those that Catch2's SELECTION names; as many programs
-# at a time as there are cores, the largest first.
+# at a time as there are cores, the largest first. The module "long" has those marked so of all.
 run_native_tests() {
   local modules=$1 preset=$2 total module
   shift 2
@@ -69,10 +69,10 @@ run_native_tests() {
 test_native() {
   local modules
   modules=$(tested_modules | tr '\n' ' ')
-  step release-build "Build, Release" build_preset release &&
-    suite read_catch2 release-tests "Test, Release" run_native_tests "$modules" release
+  # Long motions walk the same code as short ones, twenty times slower with sanitizers.
+  step release-build "Build, Release" build_preset release pleat long_tests &&
+    suite read_catch2 release-tests "Test long motions, Release" run_native_tests long release '[long]'
   step dev-build "Build with sanitizers" build_preset dev pleat_tests &&
-    # Long motions walk the same code as short ones, twenty times slower here.
     suite read_catch2 dev-tests "Test with sanitizers" run_native_tests "$modules" dev '~[long]'
   step tidy-configure "Configure for clang-tidy" configure_tidy &&
     check tidy "Tidy what changed" tidy changed_files

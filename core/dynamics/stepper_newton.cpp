@@ -41,9 +41,6 @@ double diagonal_norm(const SparseMatrix& lower) {
 
 StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep), matrix_(model) {
-  if (options.solver == SolverKind::cg)
-    throw InputError("/method/solver",
-                     "expected cholmod or eigen for newton, which is exact, got cg");
   if (is_at_rest() && model.contact)
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint beside solids, got equilibrium");

@@ -12,13 +12,6 @@ namespace {
 
 constexpr int kNotPinned = -1;
 
-const MethodOptions& checked(const MethodOptions& options) {
-  if (options.solver == SolverKind::cg)
-    throw InputError("/method/solver",
-                     "expected cholmod or eigen for projective, which keeps a factor, got cg");
-  return options;
-}
-
 bool damps_along_spring(const ClothModel& model) {
   return model.damping_direction == DampingDirection::along_spring;
 }
@@ -27,7 +20,7 @@ bool damps_along_spring(const ClothModel& model) {
 
 StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
-      solver_(make_solver(checked(options))),
+      solver_(make_solver(options)),
       targets_(model.springs.size()),
       forces_(3, model.n_vertices()),
       predicted_(Positions::Zero(3, model.n_vertices())),

@@ -217,7 +217,11 @@ std::string stepper_help(StepperTable table) {
 }
 
 std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options) {
+  PLEAT_CHECK(options.stepper != nullptr, "a method names its stepper");
   const StepperType& type = *options.stepper;
+  if (type.needs_factor && options.solver == SolverKind::cg)
+    throw InputError("/method/solver", std::string("expected cholmod or eigen for ") + type.name +
+                                           ", which needs a factor, got cg");
   if (type.needs_springs && !model.is_plain_spring_lattice())
     throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
                                    type.name + ", which works on nothing else");

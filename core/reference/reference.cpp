@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "core/base/check.h"
-#include "core/base/core_version.h"
 #include "core/files/json_reader.h"
 #include "core/scene/scene_file.h"
 
@@ -35,6 +34,7 @@ Json header_json(const Reference& reference, Precision precision) {
                            {"uncertainty_m", number_or_null(sample.uncertainty)}});
   Json json = json_label(reference.label);
   json["content"] = reference.content;
+  json["physics"] = reference.physics;
   json["precision"] = word_for(kPrecisions, precision);
   json["samples"] = samples;
   return json;
@@ -63,10 +63,12 @@ std::size_t size_of(Precision precision) {
 Reference read_header(const JsonReader& header, std::size_t n_bytes, Precision precision) {
   constexpr std::int64_t kMostVertices = 100'000'000;
   auto n_left = static_cast<std::int64_t>(n_bytes / (3 * size_of(precision)));  // vertices
-  header.allow_keys(
-      {"id", "description", "converged", "uncertainty_m", "content", "precision", "samples"});
+  constexpr std::int64_t kMostVersions = 1'000'000;
+  header.allow_keys({"id", "description", "converged", "uncertainty_m", "content", "physics",
+                     "precision", "samples"});
   Reference reference;
   reference.content = header.at("content").text();
+  reference.physics = static_cast<int>(header.at("physics").integer(1, kMostVersions));
   reference.label = read_label(header);
   for (const JsonReader& entry : header.at("samples").elements()) {
     Sample sample{entry.at("time_s").number(kPositive), {}, {}};
@@ -113,7 +115,7 @@ std::string step_phrase(double step) {
 
 std::string reference_id(std::string_view prefix, const Scene& scene,
                          std::span<const double> times) {
-  std::string content = core_version();
+  std::string content = "physics " + std::to_string(kPhysicsVersion);
   content.append("\n").append(write_scene(moving_part(scene)));
   for (const double time : times) content.append("\n").append(Json(time).dump());
   return std::string(prefix) + "-" + content_hash(content);

@@ -15,8 +15,12 @@ class ReferenceTrack {
   /// Throws InputError without samples.
   explicit ReferenceTrack(Reference reference);
 
-  /// True for a scene of the same content, whatever its level and method.
-  bool is_of(const Scene& scene) const { return reference_.content == content_id(scene); }
+  /// True for a scene of the same content, whatever its level and method, unless the reference was
+  /// made by other physics.
+  bool is_of(const Scene& scene) const {
+    return !is_stale() && reference_.content == content_id(scene);
+  }
+  bool is_stale() const { return reference_.physics != kPhysicsVersion; }
   const ReferenceLabel& label() const { return reference_.label; }
   double end() const { return reference_.samples.back().time; }  ///< [s]
 

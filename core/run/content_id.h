@@ -15,7 +15,7 @@ Scene moving_part(Scene scene);
 
 /// Names what a reference is of: cloth, fabric, model, pins and world, whatever the level, the
 /// method and how long it runs. The core's version is no part of it, so that references can be
-/// shipped; a test makes the begin of each anew.
+/// shipped (kPhysicsVersion).
 std::string content_id(const Scene& scene);
 
 }  // namespace pleat

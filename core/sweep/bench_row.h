@@ -38,11 +38,16 @@ struct BenchRow {
 
   double position_error = kUnknown;          ///< RMS over the cloth and the sample times [m]
   double position_error_percent = kUnknown;  ///< of the rest diagonal
-  double surface_error = kUnknown;           ///< see RunErrors, as are the next three [m]
-  double surface_error_95 = kUnknown;        ///< [m]
-  double bend_error = kUnknown;              ///< of the distribution of curvature [1/m]
-  double bend_error_of_regions = kUnknown;   ///< [1/m]
-  double rms_stretch = kUnknown;             ///< over structural springs and sample times
+  /// Position error against the converged motion of the row's own mesh: what its method does
+  /// wrong [m].
+  double method_error = kUnknown;
+  /// How far that motion is from the reference: what the mesh does wrong [m].
+  double mesh_error = kUnknown;
+  double surface_error = kUnknown;          ///< see RunErrors, as are the next three [m]
+  double surface_error_95 = kUnknown;       ///< [m]
+  double bend_error = kUnknown;             ///< of the distribution of curvature [1/m]
+  double bend_error_of_regions = kUnknown;  ///< [1/m]
+  double rms_stretch = kUnknown;            ///< over structural springs and sample times
   double largest_stretch = kUnknown;
   double rms_stretch_error = kUnknown;  ///< minus the reference's
   double largest_stretch_error = kUnknown;

@@ -26,7 +26,7 @@ constexpr double kUncertaintyShare = 4;  // an error is known when it is so many
 std::string unconverged_sentence(double distance, double uncertainty) {
   char sentence[160];
   std::snprintf(sentence, sizeof sentence,
-                "no position error: %.3g mm from the reference, which itself changes by %.3g mm "
+                "no error: %.3g mm from the reference, which itself changes by %.3g mm "
                 "when its step or mesh is halved",
                 1e3 * distance, 1e3 * uncertainty);
   return sentence;
@@ -44,8 +44,22 @@ Stretch overall_stretch(const std::vector<Sample>& samples) {
   return overall;
 }
 
+/// True where the reference is known so much better than the error that it can tell it.
+bool is_known(double error, double uncertainty) {
+  return !(error < kUncertaintyShare * uncertainty);
+}
+
+/// RMS distance of two series of samples of the scene at any two levels [m]; NaN where they are
+/// not of the same times or closer than `uncertainty` can tell.
+double known_distance(const Scene& scene, const std::vector<Sample>& samples,
+                      const std::vector<Sample>& reference, double uncertainty) {
+  if (samples.empty() || samples.size() != reference.size()) return BenchRow::kUnknown;
+  const double distance = root_mean_square(sample_distances(scene, samples, reference));
+  return is_known(distance, uncertainty) ? distance : BenchRow::kUnknown;
+}
+
 /// Errors of a run that reached its last sample against a reference that did too. Where the
-/// reference itself is not known four times as well, there is no position error.
+/// reference itself is not known four times as well as the position, there is no error at all.
 void compare(const SampledRun& run, const Scene& reference_scene, const Reference& reference,
              BenchRow& row) {
   const Stretch own = overall_stretch(run.samples());
@@ -57,15 +71,8 @@ void compare(const SampledRun& run, const Scene& reference_scene, const Referenc
                                        ? RunComparison(scene, reference_scene)
                                        : RunComparison(scene, reference_scene.level);
   const RunErrors errors = comparison.errors(run.samples(), reference.samples);
-  row.surface_error = errors.surface_rms;
-  row.surface_error_95 = errors.surface_95;
-  row.bend_error = errors.bend_distribution;
-  row.bend_error_of_regions = errors.bend_regions;
-  const Stretch theirs = overall_stretch(reference.samples);
-  row.rms_stretch_error = own.rms - theirs.rms;
-  row.largest_stretch_error = own.largest - theirs.largest;
   const double uncertainty = reference.label.uncertainty;
-  if (errors.position < kUncertaintyShare * uncertainty) {
+  if (!is_known(errors.position, uncertainty)) {
     row.reference.converged = false;
     if (row.message.empty()) row.message = unconverged_sentence(errors.position, uncertainty);
     return;
@@ -73,6 +80,13 @@ void compare(const SampledRun& run, const Scene& reference_scene, const Referenc
   row.position_error = errors.position;
   const double diagonal = scene.cloth->rest_diagonal();
   if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
+  row.surface_error = errors.surface_rms;
+  row.surface_error_95 = errors.surface_95;
+  row.bend_error = errors.bend_distribution;
+  row.bend_error_of_regions = errors.bend_regions;
+  const Stretch theirs = overall_stretch(reference.samples);
+  row.rms_stretch_error = own.rms - theirs.rms;
+  row.largest_stretch_error = own.largest - theirs.largest;
 }
 
 /// A row whose run reached its end and took measurable time.
@@ -134,33 +148,38 @@ void Sweep::skip_left_out() {
 
 /// The first reference that a setting without a row needs.
 std::optional<std::size_t> Sweep::missing_reference() const {
-  for (std::size_t s = rows_.size(); s < n_settings(); ++s)
-    if (const std::size_t recipe = references_.of_setting[s]; !made_[recipe]) return recipe;
+  for (std::size_t s = rows_.size(); s < n_settings(); ++s) {
+    const auto& [whole, own] = references_.of_setting[s];
+    for (const std::optional<std::size_t> needed :
+         {references_.recipes[whole].coarser, std::optional(whole), own})
+      if (needed && !made_[*needed]) return needed;
+  }
   return std::nullopt;
 }
 
-void Sweep::make_reference(std::size_t recipe, double budget) {
-  const std::string& id = references_.recipes[recipe].id;
+void Sweep::make_reference(std::size_t index, double budget) {
+  const ReferenceRecipe& recipe = references_.recipes[index];
   if (maker_ == nullptr) {
-    made_[recipe] = store_.find(id);
-    if (made_[recipe]) return;
+    made_[index] = store_.find(recipe.id);
+    if (made_[index]) return;
   }
   try {
-    if (maker_ == nullptr) maker_ = make_reference_maker(references_.recipes[recipe], times_);
+    const Reference* coarser = recipe.coarser ? &*made_[*recipe.coarser] : nullptr;
+    if (maker_ == nullptr) maker_ = make_reference_maker(recipe, times_, coarser);
     maker_->advance(budget);
   } catch (const InputError& error) {
     throw InputError("/scene" + error.where(), error.what());
   }
   if (!maker_->done()) return;
-  made_[recipe] = maker_->reference();
-  PLEAT_CHECK(made_[recipe]->label.id == id, "a reference has the id of its recipe");
-  const bool is_whole = made_[recipe]->samples.size() == times_.size();
-  if (is_whole) store_.keep(*made_[recipe]);
+  made_[index] = maker_->reference();
+  PLEAT_CHECK(made_[index]->label.id == recipe.id, "a reference has the id of its recipe");
+  const bool is_whole = made_[index]->samples.size() == times_.size();
+  if (is_whole) store_.keep(*made_[index]);
   maker_.reset();
 }
 
 BenchRow Sweep::new_row(const Scene& scene) const {
-  BenchRow row(made_[references_.of_setting[setting()]]->label);
+  BenchRow row(made_[references_.of_setting[setting()].whole]->label);
   row.scene = scene.name;
   row.setting = plan_.settings[setting()].changes;
   row.fabric = json_fabric(scene);
@@ -190,10 +209,25 @@ BenchRow Sweep::measured_row() const {
     row.ms_per_frame = ms_per_frame(run_->timed_seconds(), run_->timed_duration());
     row.parts_ms = run_->parts().mean_ms(run_->timed_duration() / kFrame);
   }
-  const std::size_t recipe = references_.of_setting[setting()];
-  if (!run_->failed()) compare(*run_, references_.recipes[recipe].scene, *made_[recipe], row);
+  if (!run_->failed()) put_errors(row);
   row.process_peak_memory = process_peak_memory();
   return row;
+}
+
+/// The errors of the run at hand, which reached its end.
+void Sweep::put_errors(BenchRow& row) const {
+  const auto& [whole, own] = references_.of_setting[setting()];
+  const Reference& reference = *made_[whole];
+  compare(*run_, references_.recipes[whole].scene, reference, row);
+  if (references_.recipes[whole].kind == ReferenceKind::same_mesh)
+    row.method_error = row.position_error;
+  if (!own) return;
+  const Scene& scene = run_->simulation().scene();
+  const Reference& same_mesh = *made_[*own];
+  row.method_error =
+      known_distance(scene, run_->samples(), same_mesh.samples, same_mesh.label.uncertainty);
+  row.mesh_error =
+      known_distance(scene, same_mesh.samples, reference.samples, reference.label.uncertainty);
 }
 
 void Sweep::keep_row(BenchRow row) {
@@ -282,7 +316,8 @@ bool Sweep::take_line(std::string_view text) {
       return true;
     }
     BenchRow row = read_bench_row(line.at("row"), plan_.steppers);
-    if (row.reference.id != references_.recipes[references_.of_setting[setting()]].id) return false;
+    if (row.reference.id != references_.recipes[references_.of_setting[setting()].whole].id)
+      return false;
     keep_row(std::move(row));
     return true;
   } catch (const InputError&) {

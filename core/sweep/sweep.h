@@ -65,11 +65,12 @@ class Sweep {
   bool run_is_left_out() const;
 
   std::optional<std::size_t> missing_reference() const;
-  void make_reference(std::size_t recipe, double budget);
+  void make_reference(std::size_t index, double budget);
   void work_on_run(double budget);
   std::optional<BenchRow> begin_run();
   BenchRow new_row(const Scene& scene) const;  // for the setting at hand
   BenchRow measured_row() const;               // from the run at hand
+  void put_errors(BenchRow& row) const;
   void keep_row(BenchRow row);
   void keep_time(double ms_per_frame);
   void record_row(BenchRow row);

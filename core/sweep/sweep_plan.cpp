@@ -15,11 +15,10 @@ namespace {
 
 constexpr int kMaxRepeats = 1000;
 constexpr const char* kDuration = "/duration_s";  // in the scene as in the plan
-constexpr std::array<Word<ReferenceKind>, 5> kReferenceWords = {
-    {{"finest", ReferenceKind::finest},
-     {"rigid_chain", ReferenceKind::rigid_chain},
-     {"newton", ReferenceKind::newton},
+constexpr std::array<Word<ReferenceKind>, 4> kReferenceWords = {
+    {{"converged", ReferenceKind::converged},
      {"same_mesh", ReferenceKind::same_mesh},
+     {"rigid_chain", ReferenceKind::rigid_chain},
      {"closed_form", ReferenceKind::closed_form}}};
 
 /// A value for the scene and the place in the plan that it stands at.
@@ -141,6 +140,7 @@ SweepSetting make_setting(const SweepPlan& plan, const PlannedChanges& planned) 
     const Json json = changed_scene(plan.scene, setting.changes, plan.steppers);
     const Scene scene = plan.read(JsonReader(json));
     setting.level = scene.level;
+    setting.is_planned = scene.plan.has_value();
     setting.method = scene.method;
     setting.family = family_of(json);
     setting.n_vertices = static_cast<double>(scene.cloth->n_vertices(scene.level));
@@ -165,6 +165,31 @@ void read_plan_scene(const JsonReader& reader, SweepPlan& plan) {
   }
 }
 
+/// The step and the mesh of a reference that is run.
+void read_reference_run(const JsonReader& reader, SweepPlan& plan) {
+  const bool is_run =
+      plan.reference == ReferenceKind::converged || plan.reference == ReferenceKind::same_mesh;
+  if (const auto step = reader.find("reference_step_s")) {
+    plan.reference_step = step->number(kPositive);
+    if (!is_run) step->fail("no such key, as only converged and same_mesh take it");
+    if (plan.reference_step > sweep_sample_times(plan.duration).front())
+      step->fail("at most the " + Json(sweep_sample_times(plan.duration).front()).dump() +
+                 " s between two samples");
+  }
+  if (const auto level = reader.find("reference_level")) {
+    plan.reference_level = static_cast<int>(level->integer(0, kMaxLevel));
+    if (plan.reference != ReferenceKind::converged)
+      level->fail("no such key, as only converged takes it");
+  }
+}
+
+void check_reference_level(const JsonReader& reader, const SweepPlan& plan) {
+  for (const SweepSetting& setting : plan.settings)
+    if (plan.reference_level && *plan.reference_level < setting.level)
+      reader.at("reference_level")
+          .fail("at least the finest level compared, " + std::to_string(setting.level));
+}
+
 }  // namespace
 
 Scene SweepPlan::scene_of(std::size_t setting) const {
@@ -174,8 +199,8 @@ Scene SweepPlan::scene_of(std::size_t setting) const {
 
 SweepPlan read_sweep_plan(const JsonReader& reader, const SceneReader& read,
                           StepperTable steppers) {
-  reader.allow_keys(
-      {"scene", "grid", "settings", "duration_s", "repeats", "reference", "reference_step_s"});
+  reader.allow_keys({"scene", "grid", "settings", "duration_s", "repeats", "reference",
+                     "reference_step_s", "reference_level"});
   SweepPlan plan;
   plan.scene = reader.at("scene").json();
   plan.read = read;
@@ -185,17 +210,14 @@ SweepPlan read_sweep_plan(const JsonReader& reader, const SceneReader& read,
     plan.n_repeats = static_cast<int>(repeats->integer(1, kMaxRepeats));
   if (const auto reference = reader.find("reference"))
     plan.reference = reference->word(kReferenceWords);
-  if (const auto step = reader.find("reference_step_s")) {
-    plan.reference_step = step->number(kPositive);
-    if (plan.reference != ReferenceKind::newton && plan.reference != ReferenceKind::same_mesh)
-      step->fail("no such key, as only newton and same_mesh take it");
-  }
+  read_reference_run(reader, plan);
   std::vector<PlannedChanges> grid(1);
   std::vector<PlannedChanges> settings(1);
   if (const auto at = reader.find("grid")) grid = read_grid(*at);
   if (const auto at = reader.find("settings")) settings = read_settings(*at);
   for (const PlannedChanges& changes : combined(grid, settings))
     plan.settings.push_back(make_setting(plan, changes));
+  check_reference_level(reader, plan);
   return plan;
 }
 
@@ -208,6 +230,7 @@ Json json_sweep_plan(const SweepPlan& plan) {
                {"repeats", plan.n_repeats},
                {"reference", word_for(kReferenceWords, plan.reference)}};
   if (plan.reference_step > 0) json["reference_step_s"] = plan.reference_step;
+  if (plan.reference_level) json["reference_level"] = *plan.reference_level;
   return json;
 }
 

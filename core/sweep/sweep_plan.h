@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,11 @@ namespace pleat {
 
 /// What the settings of a sweep are compared with (sweep_reference.h makes it).
 enum class ReferenceKind {
-  finest,  ///< the finest level of the settings that differ in level and method alone, `implicit`
-           ///< with a direct solver at a quarter of their smallest step
-  rigid_chain,  ///< chain_reference at that level
-  newton,       ///< the same level, `newton` with the midpoint rule, its step and mesh checked
-  same_mesh,    ///< the setting's own level with `newton`: what its steps alone do wrong
+  /// `newton` with the midpoint rule, its step checked. Where settings differ in level, so that the
+  /// mesh is part of their error, on a mesh finer than any of them, the mesh checked too.
+  converged,
+  same_mesh,    ///< the same on the setting's own mesh: what its steps alone do wrong
+  rigid_chain,  ///< chain_reference at the finest level
   closed_form,  ///< closed_form_reference at the setting's own level
 };
 
@@ -25,6 +26,7 @@ enum class ReferenceKind {
 struct SweepSetting {
   Json changes;  ///< in the plan's scene: {pointer: value}
   int level;
+  bool is_planned;  ///< on the mesh of a plan, of level 0
   MethodOptions method;
   std::string family;  ///< the same for settings that differ in level and method alone
   double n_vertices;   ///< for what it costs, roughly
@@ -44,18 +46,21 @@ struct SweepPlan {
   std::string name;                    ///< the scene's
   double duration;                     ///< [s], positive
   int n_repeats = 5;                   ///< timed runs of each setting, at least 1
-  ReferenceKind reference = ReferenceKind::finest;
+  ReferenceKind reference = ReferenceKind::converged;
   /// Step of the reference [s]; 0: a quarter of the smallest substep compared, at most 1/960 s.
   double reference_step = 0;
+  /// Level of its mesh, at least the finest compared; without one that level, or the next finer
+  /// where settings differ in level.
+  std::optional<int> reference_level;
 
   /// The scene with a setting's changes.
   Scene scene_of(std::size_t setting) const;
 };
 
 /// Reads {"scene": as in its file, "grid": {pointer: [values], ...}, "settings": [{pointer: value,
-/// ...}, ...], "duration_s", "repeats", "reference": "finest"|"rigid_chain"|
-/// "newton"|"same_mesh"|"closed_form", "reference_step_s"}. All but the scene may
-/// be missing; without grid and settings it is computed as it is.
+/// ...}, ...], "duration_s", "repeats", "reference": "converged"|"same_mesh"|"rigid_chain"|
+/// "closed_form", "reference_step_s", "reference_level"}. All but the scene may be missing; without
+/// grid and settings it is computed as it is.
 ///
 /// A grid is the product of its lists, the first pointer's values changing last; with settings,
 /// each of them is taken at each point of the grid, before the next point. Pointers lead into the

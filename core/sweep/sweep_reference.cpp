@@ -1,80 +1,72 @@
 #include "core/sweep/sweep_reference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <utility>
 
+#include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
+#include "core/scene/cloth_section.h"
 #include "core/scene/scene_file.h"
 
 namespace pleat {
 namespace {
 
-/// The settings that share a reference, as far as it depends on them.
-struct Group {
-  std::size_t first;                                                  // setting
-  int level = 0;                                                      // the finest
+/// The settings of a family, which differ in level and method alone.
+struct Family {
+  explicit Family(std::size_t index) : first(index) {}
+
+  std::size_t first;       // setting; uniform where any of them is
+  bool is_planned = true;  // all meshes are plans
+  std::set<int> levels;    // of uniform meshes
   double smallest_step = std::numeric_limits<double>::infinity();     // [s]
   double smallest_substep = std::numeric_limits<double>::infinity();  // [s], see reference_step
 
-  void add(const SweepSetting& setting) {
+  void add(std::size_t index, const SweepSetting& setting) {
     const MethodOptions& method = setting.method;
-    level = std::max(level, setting.level);
+    if (!setting.is_planned) levels.insert(setting.level);
+    if (is_planned && !setting.is_planned) {
+      is_planned = false;
+      first = index;
+    }
     smallest_step = std::min(smallest_step, method.step);
     if (method.stepper->solves_whole_substeps)
       smallest_substep = std::min(smallest_substep, method.step / method.substeps);
   }
+  int finest() const { return levels.empty() ? 0 : *levels.rbegin(); }
 };
 
 /// A quarter of the smallest step: of the substeps of methods that solve for a whole one at once
 /// (implicit, newton, projective), and of the steps where there is none of them.
-double reference_step(const Group& group) {
+double reference_step(const SweepPlan& plan, const Family& family) {
   constexpr double kShareOfSmallest = 0.25;
-  // With a longer step `finest`, of first order, would be further off than small substeps that it
-  // judges.
   constexpr double kLargestStep = 1.0 / 960;  // [s]
+  if (plan.reference_step > 0) return plan.reference_step;
   const double smallest =
-      std::isinf(group.smallest_substep) ? group.smallest_step : group.smallest_substep;
+      std::isinf(family.smallest_substep) ? family.smallest_step : family.smallest_substep;
   return std::min(kLargestStep, kShareOfSmallest * smallest);
-}
-
-MethodOptions reference_method(const SweepPlan& plan, const Group& group) {
-  MethodOptions method;
-  switch (plan.reference) {
-    case ReferenceKind::finest:
-      method.stepper = &steppers::implicit_euler;
-      break;
-    case ReferenceKind::newton:
-    case ReferenceKind::same_mesh:
-      return exact_method(plan.reference_step > 0 ? plan.reference_step : reference_step(group));
-    case ReferenceKind::rigid_chain:
-    case ReferenceKind::closed_form:
-      return method;  // they do not depend on it
-  }
-  method.step = reference_step(group);
-  method.solver = best_direct_solver();
-  return method;
 }
 
 }  // namespace
 
 const char* id_prefix(ReferenceKind kind) {
   switch (kind) {
-    case ReferenceKind::finest:
-      return "finest";
+    case ReferenceKind::converged:
+      return "converged";
     case ReferenceKind::rigid_chain:
       return "chain";
-    case ReferenceKind::newton:
-      return "newton";
     case ReferenceKind::same_mesh:
       return "same-mesh";
     case ReferenceKind::closed_form:
@@ -95,22 +87,6 @@ MethodOptions exact_method(double step) {
 
 namespace {
 
-ReferenceRecipe recipe_for(const SweepPlan& plan, const Group& group,
-                           const std::vector<double>& times) {
-  ReferenceRecipe recipe{"", plan.reference, plan.scene_of(group.first)};
-  recipe.scene.level = group.level;
-  recipe.scene.method = reference_method(plan, group);
-  check_duration(plan.duration, recipe.scene.method.step);
-  recipe.id = reference_id(id_prefix(plan.reference), recipe.scene, times);
-  return recipe;
-}
-
-/// Settings of the same key are compared with the same reference.
-std::string sharing_key(ReferenceKind kind, const SweepSetting& setting) {
-  const bool is_of_level = kind == ReferenceKind::same_mesh || kind == ReferenceKind::closed_form;
-  return is_of_level ? setting.family + "/" + std::to_string(setting.level) : setting.family;
-}
-
 std::string run_phrase(const Scene& scene) {
   std::string phrase = std::string(scene.method.stepper->name) + " with " +
                        name(scene.method.solver) + ", level " + std::to_string(scene.level) +
@@ -118,44 +94,26 @@ std::string run_phrase(const Scene& scene) {
   return phrase;
 }
 
-/// A run of the recipe's scene.
-class RunMaker : public ReferenceMaker {
- public:
-  RunMaker(const ReferenceRecipe& recipe, const std::vector<double>& times)
-      : id_(recipe.id), run_(recipe.scene, times, SampledRun::Parts::untimed) {}
+/// True where the reference changes by less than this share of the cloth's size [1].
+bool is_converged(const Scene& scene, double uncertainty) {
+  constexpr double kShare = 0.01;
+  return uncertainty <= kShare * scene.cloth->rest_diagonal();
+}
 
-  void advance(double budget) override { run_.advance(budget); }
-  bool done() const override { return run_.done(); }
-  double progress() const override { return run_.progress(); }
-
-  Reference reference() const override {
-    Reference reference{{id_, run_phrase(run_.simulation().scene())}, run_.samples()};
-    if (run_.failed())
-      reference.label.description += ", which ended early: " + run_.report().message;
-    return reference;
-  }
-
- private:
-  std::string id_;
-  SampledRun run_;
-};
-
-/// `newton` with the recipe's step and, to see what is still missing, with twice that step and, as
-/// far as the mesh is to count, on the next coarser mesh.
+/// `newton` with twice the recipe's step, to see what is still missing, and then with the step
+/// itself. What the mesh leaves open is seen from the run on the coarser one.
 class NewtonMaker : public ReferenceMaker {
  public:
-  NewtonMaker(const ReferenceRecipe& recipe, std::vector<double> times)
-      : id_(recipe.id),
-        times_(std::move(times)),
-        mesh_counts_(recipe.kind == ReferenceKind::newton),
-        checks_mesh_(mesh_counts_ && recipe.scene.level > 0) {
-    scenes_.push_back(recipe.scene);
-    scenes_.back().method.step *= 2;
-    if (checks_mesh_) {
-      scenes_.push_back(recipe.scene);
-      --scenes_.back().level;
-    }
-    scenes_.push_back(recipe.scene);
+  NewtonMaker(const ReferenceRecipe& recipe, std::vector<double> times, const Reference* coarser)
+      : id_(recipe.id), times_(std::move(times)), scenes_{recipe.scene, recipe.scene} {
+    scenes_.front().method.step *= 2;
+    PLEAT_CHECK(recipe.coarser.has_value() == (coarser != nullptr),
+                "the coarser reference is made");
+    if (coarser == nullptr) return;
+    if (coarser->samples.size() == times_.size())
+      coarser_ = coarser->samples;
+    else
+      failure_ = coarser->label.description;
   }
 
   void advance(double budget) override {
@@ -164,7 +122,9 @@ class NewtonMaker : public ReferenceMaker {
           std::make_unique<SampledRun>(scenes_[runs_.size()], times_, SampledRun::Parts::untimed);
     run_->advance(budget);
     if (!run_->done()) return;
-    if (!run_->report().ok()) failure_ = run_->report().message;  // wrong, if only once
+    if (!run_->report().ok())  // wrong, if only once
+      failure_ = run_phrase(scenes_[runs_.size()]) +
+                 ", which could not be solved: " + run_->report().message;
     runs_.push_back(run_->samples());
     run_.reset();
   }
@@ -173,45 +133,42 @@ class NewtonMaker : public ReferenceMaker {
 
   double progress() const override {
     const double at_hand = run_ != nullptr ? run_->progress() : 0;
-    return done() ? 1
-                  : (static_cast<double>(runs_.size()) + at_hand) /
-                        static_cast<double>(scenes_.size());
+    const double n_half_steps = scenes_.size() + 1;  // the first run has half of the steps
+    const double passed = runs_.empty() ? at_hand : 1 + 2 * at_hand;
+    return done() ? 1 : passed / n_half_steps;
   }
 
   Reference reference() const override {
+    if (!failure_.empty()) return {{id_, failure_}, {}};
     const Scene& scene = scenes_.back();
     Reference reference{{id_, run_phrase(scene) + ", midpoint rule"}, runs_.back()};
-    if (!failure_.empty()) {
-      reference.samples.clear();
-      reference.label.description += ", which could not be solved: " + failure_;
-      return reference;
-    }
     reference.content = content_id(scene);
-    // On the coarsest mesh there is no coarser one to see what a mesh leaves open.
-    reference.label.converged = checks_mesh_ || !mesh_counts_;
-    if (!reference.label.converged) reference.label.description += "; its mesh is not checked";
     reference.label.uncertainty = 0;
     for (Sample& sample : reference.samples) sample.uncertainty = 0;
-    for (std::size_t r = 0; r + 1 < runs_.size(); ++r) {
-      const std::vector<double> changes = sample_distances(scene, runs_[r], runs_.back());
-      const double change = root_mean_square(changes);
-      reference.label.uncertainty = std::max(reference.label.uncertainty, change);
-      for (std::size_t s = 0; s < changes.size(); ++s)
-        reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
-      char phrase[80];
-      std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm",
-                    r == 0 ? "step" : "mesh", 1e3 * change);
-      reference.label.description += phrase;
-    }
+    doubt(reference, "step", runs_.front());
+    if (coarser_) doubt(reference, "mesh", *coarser_);
+    reference.label.converged = is_converged(scene, reference.label.uncertainty);
     return reference;
   }
 
  private:
+  /// What halving one thing changed in it.
+  void doubt(Reference& reference, const char* halved, std::span<const Sample> before) const {
+    const std::vector<double> changes = sample_distances(scenes_.back(), before, reference.samples);
+    const double change = root_mean_square(changes);
+    reference.label.uncertainty = std::max(reference.label.uncertainty, change);
+    for (std::size_t s = 0; s < changes.size(); ++s)
+      reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
+    char phrase[80];
+    std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm", halved,
+                  1e3 * change);
+    reference.label.description += phrase;
+  }
+
   std::string id_;
   std::vector<double> times_;
-  bool mesh_counts_;
-  bool checks_mesh_;
-  std::vector<Scene> scenes_;  // to run, the reference itself last
+  std::array<Scene, 2> scenes_;  // to run, the reference itself last
+  std::optional<std::vector<Sample>> coarser_;
   std::vector<std::vector<Sample>> runs_;
   std::unique_ptr<SampledRun> run_;  // at hand
   std::string failure_;
@@ -232,39 +189,92 @@ class WholeMaker : public ReferenceMaker {
   std::optional<Reference> reference_;
 };
 
+/// Collects recipes, each once.
+class Recipes {
+ public:
+  Recipes(const SweepPlan& plan, std::map<std::string, Family> families)
+      : plan_(plan), families_(std::move(families)), times_(sweep_sample_times(plan.duration)) {}
+
+  SettingReferences of(const SweepSetting& setting) {
+    const Family& family = families_.at(setting.family);
+    switch (plan_.reference) {
+      case ReferenceKind::converged:
+        return converged(family, setting);
+      case ReferenceKind::same_mesh:
+      case ReferenceKind::closed_form:
+        return {add(plan_.reference, family, setting.level), {}};
+      case ReferenceKind::rigid_chain:
+        return {add(plan_.reference, family, family.finest()), {}};
+    }
+    return {};
+  }
+
+  std::vector<ReferenceRecipe> take() { return std::move(recipes_); }
+
+ private:
+  SettingReferences converged(const Family& family, const SweepSetting& setting) {
+    const int finest = family.finest();
+    const bool mesh_counts =
+        family.levels.size() > 1 || plan_.reference_level.value_or(finest) > finest;
+    if (!mesh_counts) return {add(ReferenceKind::same_mesh, family, finest), {}};
+    const int level = plan_.reference_level.value_or(finer_than(family, finest));
+    const std::size_t coarser = add(ReferenceKind::same_mesh, family, level - 1);
+    SettingReferences references{add(ReferenceKind::converged, family, level, coarser), {}};
+    if (!setting.is_planned) references.own = add(ReferenceKind::same_mesh, family, setting.level);
+    return references;
+  }
+
+  /// The next level, or the same where cloth of the next has too many vertices.
+  int finer_than(const Family& family, int level) const {
+    try {
+      check_level(plan_.scene_of(family.first), level + 1, "/refinement/level");
+      return level + 1;
+    } catch (const InputError&) {
+      return level;
+    }
+  }
+
+  std::size_t add(ReferenceKind kind, const Family& family, int level,
+                  std::optional<std::size_t> coarser = {}) {
+    ReferenceRecipe recipe{"", kind, plan_.scene_of(family.first), coarser};
+    recipe.scene.level = level;
+    const bool is_run = kind == ReferenceKind::converged || kind == ReferenceKind::same_mesh;
+    recipe.scene.method = is_run ? exact_method(reference_step(plan_, family)) : MethodOptions();
+    check_duration(plan_.duration, recipe.scene.method.step);
+    recipe.id = reference_id(id_prefix(kind), recipe.scene, times_);
+    const auto [place, is_new] = of_id_.try_emplace(recipe.id, recipes_.size());
+    if (is_new) recipes_.push_back(std::move(recipe));
+    return place->second;
+  }
+
+  const SweepPlan& plan_;
+  std::map<std::string, Family> families_;
+  std::vector<double> times_;
+  std::vector<ReferenceRecipe> recipes_;
+  std::map<std::string, std::size_t> of_id_;  // two families may be the same scene
+};
+
 }  // namespace
 
 SweepReferences sweep_references(const SweepPlan& plan) {
-  std::map<std::string, Group> groups;
+  std::map<std::string, Family> families;
   for (std::size_t s = 0; s < plan.settings.size(); ++s)
-    groups.try_emplace(sharing_key(plan.reference, plan.settings[s]), Group{s})
-        .first->second.add(plan.settings[s]);
-
-  const std::vector<double> times = sweep_sample_times(plan.duration);
+    families.try_emplace(plan.settings[s].family, Family(s)).first->second.add(s, plan.settings[s]);
+  Recipes recipes(plan, std::move(families));
   SweepReferences references;
-  std::map<std::string, std::size_t> of_key;
-  std::map<std::string, std::size_t> of_id;  // two keys may stand for the same scene
-  for (const SweepSetting& setting : plan.settings) {
-    const std::string key = sharing_key(plan.reference, setting);
-    if (of_key.count(key) == 0) {
-      ReferenceRecipe recipe = recipe_for(plan, groups.at(key), times);
-      const auto [place, is_new] = of_id.try_emplace(recipe.id, references.recipes.size());
-      if (is_new) references.recipes.push_back(std::move(recipe));
-      of_key[key] = place->second;
-    }
-    references.of_setting.push_back(of_key.at(key));
-  }
+  for (const SweepSetting& setting : plan.settings)
+    references.of_setting.push_back(recipes.of(setting));
+  references.recipes = recipes.take();
   return references;
 }
 
 std::unique_ptr<ReferenceMaker> make_reference_maker(const ReferenceRecipe& recipe,
-                                                     const std::vector<double>& times) {
+                                                     const std::vector<double>& times,
+                                                     const Reference* coarser) {
   switch (recipe.kind) {
-    case ReferenceKind::finest:
-      return std::make_unique<RunMaker>(recipe, times);
-    case ReferenceKind::newton:
+    case ReferenceKind::converged:
     case ReferenceKind::same_mesh:
-      return std::make_unique<NewtonMaker>(recipe, times);
+      return std::make_unique<NewtonMaker>(recipe, times, coarser);
     case ReferenceKind::rigid_chain:
       return std::make_unique<WholeMaker>(
           [scene = recipe.scene, times] { return chain_reference(scene, times); });

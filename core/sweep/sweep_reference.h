@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,20 @@ struct ReferenceRecipe {
   std::string id;  ///< of the reference
   ReferenceKind kind;
   Scene scene;  ///< whose run it is; the rigid chain stands for its cloth
+  /// Index of the recipe of the same run on the next coarser mesh, where the mesh is to be checked.
+  std::optional<std::size_t> coarser;
+};
+
+/// What a setting is compared with, as indices into the recipes.
+struct SettingReferences {
+  std::size_t whole;               ///< what is taken for right
+  std::optional<std::size_t> own;  ///< the same on the setting's own mesh, where that is another
 };
 
 /// What the settings of a plan are compared with.
 struct SweepReferences {
-  std::vector<ReferenceRecipe> recipes;  ///< each once
-  std::vector<std::size_t> of_setting;   ///< index into the recipes
+  std::vector<ReferenceRecipe> recipes;  ///< each once, a coarser one before its finer one
+  std::vector<SettingReferences> of_setting;
 };
 
 /// Throws InputError at /duration_s when a reference has more than kMaxSteps steps.
@@ -45,9 +54,11 @@ class ReferenceMaker {
   virtual Reference reference() const = 0;
 };
 
-/// times  [s], positive, ascending.
+/// times    [s], positive, ascending.
+/// coarser  the reference of recipe.coarser at the same times, where it has one; else null
 /// Throws InputError for a scene that the kind of reference is not for.
 std::unique_ptr<ReferenceMaker> make_reference_maker(const ReferenceRecipe& recipe,
-                                                     const std::vector<double>& times);
+                                                     const std::vector<double>& times,
+                                                     const Reference* coarser = nullptr);
 
 }  // namespace pleat

@@ -4,10 +4,10 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { runParts, tell } from './bench-parts.mjs';
-import { goal, markdown, median, short } from './bench-rows.mjs';
-import { ask, root } from './command.mjs';
-import { deformWasm } from './contestants.mjs';
+import { runParts, tell } from './parts/bench-parts.mjs';
+import { goal, markdown, median, short } from './parts/bench-rows.mjs';
+import { ask, root } from './parts/command.mjs';
+import { deformWasm } from './parts/contestants.mjs';
 
 const kMoves = 20; // of a hand, from rest to the scene's targets
 const kLargest = ['ball', 'diagonal_stretch', 'wrinkles']; // 51 x 51 vertices each

@@ -4,12 +4,12 @@
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { commit, described, runParts, tell } from './bench-parts.mjs';
-import { goal, measure, rowsOf, short } from './bench-rows.mjs';
-import { cantilever } from './cantilever.mjs';
-import { ask, nativeRun, reference, root } from './command.mjs';
-import { contestant as contestantOf } from './contestants.mjs';
-import { killedSweep } from './killed-sweep.mjs';
+import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
+import { goal, measure, rowsOf, short } from './parts/bench-rows.mjs';
+import { cantilever } from './parts/cantilever.mjs';
+import { ask, nativeRun, reference, root } from './parts/command.mjs';
+import { contestant as contestantOf } from './parts/contestants.mjs';
+import { killedSweep } from './parts/killed-sweep.mjs';
 
 const kFrame = 1 / 60; // [s]
 const kModels = ['springs', 'membrane']; // each with the bending that goes with it

@@ -6,11 +6,11 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { wholeNumber } from './bench-options.mjs';
-import { commit, runParts, tell } from './bench-parts.mjs';
-import { markdown, short } from './bench-rows.mjs';
-import { root } from './command.mjs';
-import { savingsFigure } from './refinement-figure.mjs';
+import { wholeNumber } from './parts/bench-options.mjs';
+import { commit, runParts, tell } from './parts/bench-parts.mjs';
+import { markdown, short } from './parts/bench-rows.mjs';
+import { root } from './parts/command.mjs';
+import { savingsFigure } from './parts/refinement-figure.mjs';
 import {
   buildRow,
   buildTable,
@@ -23,9 +23,9 @@ import {
   runTable,
   shownLines,
   wasmGoals,
-} from './refinement-goals.mjs';
-import { answer, garmentScene, uniformOfAbout } from './refinement-runs.mjs';
-import { bothBuilds, differences, kEarly, kTight } from './refinement-wasm.mjs';
+} from './parts/refinement-goals.mjs';
+import { answer, garmentScene, uniformOfAbout } from './parts/refinement-runs.mjs';
+import { bothBuilds, differences, kEarly, kTight } from './parts/refinement-wasm.mjs';
 
 const kFineLevel = 2;
 const kDuration = 10; // [s], of which the second half is timed and compared

@@ -13,9 +13,9 @@ import {
 import { cpus, tmpdir } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { setTimeout as sleep } from 'node:timers/promises';
-import { oneOf, readOptions, rowsFile, runBench } from './bench-options.mjs';
-import { goal, markdown, short } from './bench-rows.mjs';
-import { root } from './command.mjs';
+import { oneOf, readOptions, rowsFile, runBench } from './parts/bench-options.mjs';
+import { goal, markdown, short } from './parts/bench-rows.mjs';
+import { root } from './parts/command.mjs';
 
 const kPort = 4873;
 const kAddress = `http://127.0.0.1:${kPort}/`;

@@ -2,10 +2,10 @@
 // Speed and error of every stepper against each other, the same core as WebAssembly, and a plain
 // JavaScript loop. Bounds in milliseconds hold where that loop (sheet 65x65, 100 substeps, row
 // order) takes 20 ms, and are scaled by what it takes here.
-import { commit, runParts, tell } from './bench-parts.mjs';
-import { goal, measure } from './bench-rows.mjs';
-import { nativeRun, reference } from './command.mjs';
-import { contestant as contestantOf, yardstickTurns } from './contestants.mjs';
+import { commit, runParts, tell } from './parts/bench-parts.mjs';
+import { goal, measure } from './parts/bench-rows.mjs';
+import { nativeRun, reference } from './parts/command.mjs';
+import { contestant as contestantOf, yardstickTurns } from './parts/contestants.mjs';
 
 const kFrames = 60; // one second, the stretch of motion that positions are compared over
 const kStep = 1 / 60; // [s]

@@ -12,10 +12,10 @@ import {
   rowsFile,
   runBench,
   wholeNumber,
-} from './bench-options.mjs';
-import { markdown, short } from './bench-rows.mjs';
-import { askRows, cacheFolder, root } from './command.mjs';
-import { fabricsText, wasmModule } from './contestants.mjs';
+} from './parts/bench-options.mjs';
+import { markdown, short } from './parts/bench-rows.mjs';
+import { askRows, cacheFolder, root } from './parts/command.mjs';
+import { fabricsText, wasmModule } from './parts/contestants.mjs';
 
 const kSliceMs = 200; // between reports of progress
 const kDuration = 1; // [s]
@@ -23,7 +23,7 @@ const kUsage = `./pleat bench sweep [SCENE.json]   one sweep natively and as Web
   SCENE.json        default: assets/scenes/swinging_sheet.json
   --levels 0,1,2    refinement levels (default 0,1,2)
   --repeat N        timed runs of each setting (default 5)
-  --reference KIND  rigid_chain (default; bending is then left out) or finest
+  --reference KIND  rigid_chain (default; bending is then left out) or converged
   --json FILE       write the rows as JSON lines
 Exit status: 0 done, 2 bad input.`;
 
@@ -122,7 +122,7 @@ await runBench('sweep', async (words) => {
     1,
   );
   if (options === null) return;
-  const reference = oneOf('--reference', options.reference, ['rigid_chain', 'finest']);
+  const reference = oneOf('--reference', options.reference, ['rigid_chain', 'converged']);
   const repeat = wholeNumber('--repeat', options.repeat, 1);
   for (const level of options.levels.split(',')) wholeNumber('--levels', level, 0);
   const file = rowsFile(options.json);

@@ -95,7 +95,7 @@ struct SweepOfThirty {
     return pleat_command(scene.folder,
                          {"sweep", scene.file, "--steppers", "implicit", "--levels", "0,1,2",
                           "--set", "/fabric/name=silk,wool,linen,canvas,poplin", "--duration",
-                          "0.1", "--repeat", "2", "--out", out},
+                          "0.1", "--repeat", "2", "--reference", "same_mesh", "--out", out},
                          before, after);
   }
 };
@@ -205,9 +205,9 @@ TEST_CASE("command: options change the scene", "[cli]") {
 TEST_CASE("command: sweep prints rows that all name their reference", "[cli]") {
   const SmallScene scene;
   const std::string out = (scene.folder / "a/sweep").string();
-  const Ending ending =
-      scene.run({"sweep", "--json", "--levels", "0,1", "--steppers", "implicit,projective",
-                 "--repeat", "1", "--out", out, "--cache", (scene.folder / "cache").string()});
+  const Ending ending = scene.run(
+      {"sweep", "--json", "--levels", "0,1", "--steppers", "implicit,projective", "--repeat", "1",
+       "--reference", "same_mesh", "--out", out, "--cache", (scene.folder / "cache").string()});
   CHECK(ending.error.empty());
   REQUIRE(ending.status == 0);
   CHECK(text_of(out + "/rows.jsonl") == ending.out);
@@ -217,12 +217,29 @@ TEST_CASE("command: sweep prints rows that all name their reference", "[cli]") {
     CHECK(row.position_error > 0);
     CHECK(row.target == "native");
   }
-  CHECK(std::distance(fs::directory_iterator(scene.folder / "cache"), {}) == 1);
+  CHECK(std::distance(fs::directory_iterator(scene.folder / "cache"), {}) == 2);
   CHECK_FALSE(fs::exists(out + "/references"));
   CHECK(text_of(out + "/front.svg").rfind("<svg ", 0) == 0);
   const Ending table = scene.run({"sweep", "--steppers", "implicit", "--repeat", "1"});
   CHECK(table.out.find("| front |") != std::string::npos);
-  CHECK(table.out.find("not converged") != std::string::npos);
+  CHECK(table.out.find("halving its step changed it by") != std::string::npos);
+}
+
+TEST_CASE("command: a sweep none of whose errors is known says so, and exit status 1", "[cli]") {
+  const SmallScene scene;
+  // A reference whose step is coarser than what it judges.
+  const Json method = {{"stepper", "newton"}, {"rule", "midpoint"}, {"step_s", 0.001}};
+  const Json plan = {{"scene", fs::path(scene.file).filename().string()},
+                     {"settings", Json::array({{{"/method", method}}})},
+                     {"repeats", 1},
+                     {"reference", "same_mesh"},
+                     {"reference_step_s", 0.01}};
+  write(scene.folder / "plan.json", plan.dump());
+  const Ending ending =
+      pleat_command(scene.folder, {"sweep", (scene.folder / "plan.json").string()});
+  CAPTURE(ending.out);
+  CHECK(ending.status == 1);
+  CHECK(ending.error.find("not known well enough") != std::string::npos);
 }
 
 TEST_CASE("command: --set sweeps any value of the scene, alone or with steppers", "[cli]") {
@@ -323,7 +340,8 @@ TEST_CASE("command: a sweep killed anywhere goes on and loses no row", "[cli]") 
   if (way == "first round") CHECK(n_lines(kept) < 30);
   if (way == "timed round") CHECK((n_lines(kept) > 30 && n_lines(kept) < 90));
   const auto references = dates_in(sweep.out + "/references");
-  CHECK(references.size() == 5);
+  CHECK(references.size() <= 15);  // of five fabrics at three levels
+  CHECK(references.size() >= 5);
 
   const Ending ending = sweep.run();
   CAPTURE(ending.error);
@@ -337,7 +355,8 @@ TEST_CASE("command: a sweep killed anywhere goes on and loses no row", "[cli]") 
     CHECK(settings.insert(row.setting.dump()).second);
   }
   CHECK(settings.size() == 30);
-  CHECK(dates_in(sweep.out + "/references") == references);
+  for (const auto& [file, date] : dates_in(sweep.out + "/references"))
+    CHECK((references.count(file) == 0 || references.at(file) == date));
   REQUIRE(sweep.run().status == 0);  // nothing is left to do
   CHECK(text_of(sweep.journal) == after);
 }
@@ -814,7 +833,7 @@ TEST_CASE("command: a sweep without a reference says so, and exit status 1", "[c
   CAPTURE(ending.out);
   CHECK(ending.status == 1);
   CHECK(ending.out.find("| ok |") != std::string::npos);
-  CHECK(ending.error.find("ended early") != std::string::npos);
+  CHECK(ending.error.find("could not be solved") != std::string::npos);
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which needs terabytes of address space itself
@@ -1015,7 +1034,7 @@ TEST_CASE("command: a reference is kept with how well it is known", "[cli]") {
   CHECK(reference.samples[4].uncertainty > 0);
   CHECK(reference.label.id.rfind("same-mesh-", 0) == 0);
   const Ending other =
-      scene.run({"reference", "--step", "0.004", "--kind", "newton", "--level", "1"});
+      scene.run({"reference", "--step", "0.004", "--kind", "converged", "--level", "1"});
   CHECK(other.status == 0);
   CHECK(other.out.find("halving its mesh changed it by") != std::string::npos);
 }

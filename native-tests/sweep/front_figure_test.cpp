@@ -12,7 +12,7 @@ using namespace pleat;
 namespace {
 
 BenchRow point(const StepperType* stepper, double ms, double error) {
-  BenchRow row({"finest-00ff", "implicit with eigen, level 2", false});
+  BenchRow row({"converged-00ff", "implicit with eigen, level 2", false});
   row.scene = "swinging sheet";
   row.method.stepper = stepper;
   row.ms_per_frame = ms;
@@ -95,7 +95,7 @@ TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]"
         std::string::npos);
   CHECK(count_of(svg, "no time was measured") == 1);
   CHECK(count_of(svg, "no error was measured") == 1);
-  CHECK(svg.find("Reference, not converged: implicit with eigen, level 2 (finest-00ff)<") !=
+  CHECK(svg.find("Reference, not converged: implicit with eigen, level 2 (converged-00ff)<") !=
         std::string::npos);
   CHECK(svg.find("<script") == std::string::npos);
   CHECK(svg == front_figure(rows));

@@ -175,7 +175,7 @@ TEST_CASE("sweep: a journal cut anywhere gives every row once, to the bit", "[sw
   CountingStore store;
   const Json plan = plan_of_thirty();
   const std::string journal = journal_of(plan, store);
-  CHECK(store.n_kept == 3);
+  CHECK(store.n_kept == 9);  // for each fabric one of each level, and a finer one
   REQUIRE(std::count(journal.begin(), journal.end(), '\n') == 90);
   Sweep whole(plan_of(plan), store, "test");
   CHECK(whole.resume(journal) == journal.size());
@@ -192,7 +192,7 @@ TEST_CASE("sweep: a journal cut anywhere gives every row once, to the bit", "[sw
     std::string both = cut.substr(0, n_taken);
     sweep.on_run([&](const std::string& line) { both += line; });
     while (!sweep.done()) sweep.advance(0);
-    CHECK(store.n_kept == 3);                                 // no reference again
+    CHECK(store.n_kept == 9);                                 // no reference again
     CHECK(std::count(both.begin(), both.end(), '\n') == 90);  // no run lost, none again
     CHECK(same_but_times(sweep.rows(), whole.rows()));
     for (const BenchRow& row : sweep.rows()) CHECK(row.n_runs == 2);
@@ -265,11 +265,11 @@ TEST_CASE("sweep: its identity is that of its plan, scene, fabric, core and comm
   CHECK(sweep_identity(read_sweep_plan(JsonReader(plan), softer), "test") != identity);
 }
 
-// The finest setting run as a setting is the reference itself.
-TEST_CASE("sweep: the reference is not wrong against itself", "[sweep]") {
+TEST_CASE("sweep: the reference is newton's run on a mesh finer than any setting's", "[sweep]") {
   const SweepPlan plan = plan_of(small_plan());
-  const Scene finest = sweep_references(plan).recipes.at(0).scene;
-  CHECK(finest.level == 1);
+  const SweepReferences references = sweep_references(plan);
+  const Scene finest = references.recipes.at(references.of_setting[0].whole).scene;
+  CHECK(finest.level == 2);
   CHECK(finest.method.step == Approx(1.0 / 960));
   MemoryReferenceStore store;
   Sweep sweep(plan, store, "test");
@@ -283,7 +283,9 @@ TEST_CASE("sweep: the reference is not wrong against itself", "[sweep]") {
 }
 
 TEST_CASE("sweep: a smaller step and a finer mesh come nearer to the reference", "[sweep]") {
-  const std::vector<BenchRow> rows = rows_of(small_plan(), kLongSlice);
+  Json plan = small_plan();
+  plan["reference_level"] = 3;
+  const std::vector<BenchRow> rows = rows_of(plan, kLongSlice);
   CHECK(rows[1].position_error < rows[0].position_error);
   CHECK(rows[3].position_error < rows[2].position_error);
   // These steps are small enough to leave the mesh's error.
@@ -294,8 +296,16 @@ TEST_CASE("sweep: settings that differ in level and method alone share a referen
   Json plan = small_plan();
   plan["grid"]["/fabric/name"] = {"silk", "wool"};
   const SweepReferences references = sweep_references(plan_of(plan));
-  CHECK(references.recipes.size() == 2);
-  CHECK(references.of_setting == std::vector<std::size_t>{0, 1, 0, 1, 0, 1, 0, 1});
+  CHECK(references.recipes.size() == 2 * 3);
+  for (std::size_t s = 0; s < 8; ++s) {
+    CAPTURE(s);
+    const auto& [whole, own] = references.of_setting[s];
+    CHECK(whole == references.of_setting[s % 2].whole);
+    CHECK(references.recipes[whole].scene.level == 2);
+    REQUIRE(own);
+    CHECK(references.recipes[*own].scene.level == plan_of(plan).settings[s].level);
+    CHECK(references.recipes[*own].scene.fabric.name == (s % 2 == 0 ? "silk" : "wool"));
+  }
   // A caption moves no vertex.
   plan["grid"] = {{"/caption", {"one", "two"}}};
   CHECK(sweep_references(plan_of(plan)).recipes.size() == 1);
@@ -304,10 +314,13 @@ TEST_CASE("sweep: settings that differ in level and method alone share a referen
 TEST_CASE("sweep: a kept reference is not computed again", "[sweep]") {
   MemoryReferenceStore store;
   const SweepPlan plan = plan_of(small_plan());
-  Reference marked{{sweep_references(plan).recipes.at(0).id, "kept", true}, {}};
-  for (const double time : sweep_sample_times(plan.duration))
-    marked.samples.push_back({time, Positions::Zero(3, 25), {}});
-  store.keep(marked);
+  for (const ReferenceRecipe& recipe : sweep_references(plan).recipes) {
+    Reference marked{{recipe.id, "kept", true}, {}};
+    const int n_vertices = recipe.scene.cloth->n_vertices(recipe.scene.level);
+    for (const double time : sweep_sample_times(plan.duration))
+      marked.samples.push_back({time, Positions::Zero(3, n_vertices), {}});
+    store.keep(marked);
+  }
   Sweep sweep(plan, store, "test");
   while (sweep.rows().empty()) sweep.advance(0);
   CHECK(sweep.rows()[0].reference.description == "kept");
@@ -483,7 +496,7 @@ TEST_CASE("sweep: on the same mesh only the steps are wrong", "[sweep]") {
 
 TEST_CASE("sweep: newton's reference knows what its mesh leaves open", "[sweep]") {
   const std::vector<BenchRow> same = rows_of(implicit_against_newton("same_mesh"), kLongSlice);
-  const std::vector<BenchRow> rows = rows_of(implicit_against_newton("newton"), kLongSlice);
+  const std::vector<BenchRow> rows = rows_of(implicit_against_newton("converged"), kLongSlice);
   CHECK(rows[0].reference.id == rows[3].reference.id);
   CHECK(rows[0].reference.uncertainty > 3 * same[2].reference.uncertainty);
   CHECK(rows[0].reference.description.find("halving its mesh") != std::string::npos);
@@ -498,11 +511,11 @@ TEST_CASE("sweep: an error that the reference cannot tell is not shown, and said
     CHECK(std::isnan(row.position_error));
     CHECK(std::isnan(row.position_error_percent));
     CHECK_FALSE(row.reference.converged);
-    CHECK(row.message.find("no position error") != std::string::npos);
+    CHECK(row.message.find("no error:") != std::string::npos);
     CHECK(row.finished());
   }
   CHECK(front_of(rows).empty());
-  CHECK(markdown_table(rows).find("no position error") != std::string::npos);
+  CHECK(markdown_table(rows).find("no error:") != std::string::npos);
 }
 
 TEST_CASE("sweep: a shape at rest is compared with its closed form", "[sweep]") {

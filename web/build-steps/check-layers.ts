@@ -99,7 +99,9 @@ function reservedSentence(
   { to, isPackage }: Import,
 ): string | null {
   const rule = only.find(({ what }) =>
-    what.endsWith('/') ? !isPackage && to.startsWith(what) : to === what,
+    what.endsWith('/')
+      ? !isPackage && to.startsWith(what)
+      : to === what || to.startsWith(`${what}/`),
   );
   if (!rule) return null;
   const names = from?.owner === 'shared' ? [`shared/${from.room}`] : [from?.room ?? ''];

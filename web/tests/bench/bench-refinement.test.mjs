@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { savingsFigure, ticks } from '../../../native-tests/bench/refinement-figure.mjs';
+import { savingsFigure, ticks } from '../../../native-tests/bench/parts/refinement-figure.mjs';
 import {
   buildRow,
   buildTable,
@@ -10,7 +10,7 @@ import {
   runRow,
   runTable,
   wasmGoals,
-} from '../../../native-tests/bench/refinement-goals.mjs';
+} from '../../../native-tests/bench/parts/refinement-goals.mjs';
 
 const run = {
   scene: 'skirt',

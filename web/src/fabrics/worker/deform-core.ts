@@ -110,7 +110,7 @@ export class DeformCore {
     return pane.isBusy;
   }
 
-  /** The same. */
+  /** True while the same way goes on. */
   private settle(run: DeformationHandle, index: number, pane: Pane): boolean {
     if (pane.stage === 'to_settle') run.beginSettling(index, pane.triesRest && !pane.isFresh);
     const way = run.settle(index);
@@ -226,7 +226,7 @@ export class DeformCore {
 
   private handle(message: ToDeform): void {
     if (message.type === 'open') return this.open(message);
-    if (!this.deformation) throw new Error(`${message.type} before this.open`);
+    if (!this.deformation) throw new Error(`${message.type} before open`);
     switch (message.type) {
       case 'show':
         return this.show(this.deformation, message);

@@ -148,7 +148,7 @@ export class MotionCore {
   private handle(message: ToMotion): void {
     if (message.type === 'open') return this.open(message.fabricsText);
     if (!this.simulation || this.fabricsText === null)
-      throw new Error(`${message.type} before this.open`);
+      throw new Error(`${message.type} before open`);
     switch (message.type) {
       case 'readObj':
         return this.readObj(this.fabricsText, message);

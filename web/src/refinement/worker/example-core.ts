@@ -114,7 +114,7 @@ export class ExampleCore {
   }
 
   private handle(message: Exclude<ToExample, { type: 'open' }>): void {
-    if (!this.study) throw new Error(`${message.type} before this.open`);
+    if (!this.study) throw new Error(`${message.type} before open`);
     switch (message.type) {
       case 'begin':
         return this.begin(message);

@@ -146,7 +146,7 @@ export class GarmentCore {
 
   private async handle(message: ToGarment): Promise<void> {
     if (message.type === 'load') return this.load(message);
-    if (!this.run || !this.summary) throw new Error(`${message.type} before this.load`);
+    if (!this.run || !this.summary) throw new Error(`${message.type} before load`);
     switch (message.type) {
       case 'advance':
         return this.advance(this.run, message);
