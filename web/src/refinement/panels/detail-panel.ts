@@ -51,7 +51,7 @@ export function createDetailPanel(
   const source = element('p', { class: 'note' });
   const work = element('div');
   const closeWork = createWork(work, store, {
-    isOwn: ({ share }) => share === null,
+    isOwn: ({ share, canCancel }) => share === null && canCancel,
     cancel: actions.cancel,
   });
   const sayDemand = () => setText(demandValue, `τ = ${demand.valueAsNumber}`);

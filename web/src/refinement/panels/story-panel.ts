@@ -3,9 +3,9 @@ import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { faceAt, faceStory, planStory } from '../state/plan-file';
-import { PANES, type PaneId, type RefinementState } from '../state/refinement-state';
+import { PANE_TITLES, PANES, type PaneId, type RefinementState } from '../state/refinement-state';
 import type { GarmentMesh } from '../worker/garment-protocol';
-import { fromTo, PANE_TITLES, storySentences } from './garment-words';
+import { buysSentence, fromTo, storySentences } from './garment-words';
 import { PATTERN_COLOURS } from './paints';
 
 function heading(...words: string[]): HTMLElement {
@@ -120,6 +120,7 @@ export function createStoryPanel(
   const sentences = element('p');
   const patterns = element('div');
   const face = element('p', { class: 'face-story', 'aria-live': 'polite' });
+  const buys = element('p');
   const numbers = element('div');
   const meaning = element(
     'p',
@@ -129,18 +130,19 @@ export function createStoryPanel(
   parent.append(
     element(
       'section',
+      { 'aria-label': 'Numbers' },
+      element('h2', {}, 'What it buys'),
+      buys,
+      numbers,
+      meaning,
+    ),
+    element(
+      'section',
       { 'aria-label': 'The plan' },
       element('h2', {}, 'The plan’s story'),
       sentences,
       patterns,
       face,
-    ),
-    element(
-      'section',
-      { 'aria-label': 'Numbers' },
-      element('h2', {}, 'What it buys'),
-      numbers,
-      meaning,
     ),
   );
   const closePlan = watch(store, ['plan', 'face', 'phase'], (state) => {
@@ -148,9 +150,10 @@ export function createStoryPanel(
     patterns.replaceChildren(patternTable(state));
     setText(face, faceText(state, plannedMesh()));
   });
-  const closeNumbers = watch(store, ['panes'], (state) =>
-    numbers.replaceChildren(numberTable(state)),
-  );
+  const closeNumbers = watch(store, ['panes'], (state) => {
+    setText(buys, buysSentence(state));
+    numbers.replaceChildren(numberTable(state));
+  });
   return () => {
     closePlan();
     closeNumbers();
