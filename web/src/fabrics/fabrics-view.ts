@@ -197,6 +197,7 @@ function createPanels(
     compare: (comparison) => deformer.compare(comparison),
     choose: (pane) => picture.choose(pane),
     showAll: (all) => deformer.setGallery(all),
+    setOrder: (order) => deformer.setOrder(order),
   });
   createFabricCard(panel, store, { setWeightsFrom: (weightsFrom) => store.set({ weightsFrom }) });
   createTermReading(panel, store);

@@ -9,6 +9,7 @@ import {
   createVisitor,
   drop,
   expectMotionWorks,
+  expectUncovered,
   PHONE,
   picture,
   placeOn,
@@ -39,7 +40,7 @@ async function dragVertex(page, vertex, dx, dy, during = () => undefined) {
 const holdsOf = ({ pins, handles }) => [...pins, ...handles].map(({ name }) => name);
 
 export async function checkFabrics(harness) {
-  const { check, countColours } = harness;
+  const { open, check, countColours } = harness;
   const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
     harness,
     isFound,
@@ -224,6 +225,48 @@ export async function checkFabrics(harness) {
       await isFound(page);
       expectThat((await stateOf(page)).panes[0].fabric.name === 'velvet', 'another fabric');
     }),
+  );
+
+  await check('fabrics: the stiffest is found by one choice, in the list and in the gallery', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      const list = page.getByRole('grid', { name: 'Fabrics' });
+      const note = page.getByRole('region', { name: 'Choice of fabrics' });
+      expectThat(
+        /do not say which of two/.test(await note.textContent()),
+        'weights are unexplained',
+      );
+      await choice(page, 'Order').selectOption('Stiffest to bend first');
+      const first = await list.getByRole('row').first().textContent();
+      expectThat(/^wool.*45 µN·m/.test(first), `the first is ${first}`);
+      await button(page, 'All fifteen at once').click();
+      await until(page, (state) => state.panes.length === 15);
+      await isFound(page);
+      const badge = await page.locator('.pane-badge').first().textContent();
+      expectThat(/^wool.*45 µN·m/.test(badge), `the first badge says ${badge}`);
+      await page.reload();
+      await isFound(page);
+      expectThat(
+        (await stateOf(page)).panes[0].fabric.name === 'wool',
+        'a reload forgets the order',
+      );
+    }),
+  );
+
+  await check(
+    'fabrics: without WebGL the sentence is seen, and nothing asks to be pulled',
+    async () => {
+      const { page, close } = await open('#view=fabrics&scene=terms', {
+        prepare: (fresh) =>
+          fresh.addInitScript(() => {
+            HTMLCanvasElement.prototype.getContext = () => null;
+          }),
+      });
+      await isFound(page);
+      await expectUncovered(page.locator('#fabrics .plain'));
+      const words = page.getByText('Pull me').filter({ visible: true });
+      expectThat((await words.count()) === 0, 'something asks to be pulled');
+      await close();
+    },
   );
 
   await check('fabrics: forms and terms change the shape; the last term stays on', () =>

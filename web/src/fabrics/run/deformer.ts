@@ -15,7 +15,8 @@ import { answerOf } from '../../shared/workers/asked';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
 import { EXPERIMENTS, type Experiment, OWN, ownExperiment } from '../state/experiments';
-import type { Comparison } from '../state/fabric-choice';
+import { type Comparison, titleOf } from '../state/fabric-choice';
+import type { FabricOrder } from '../state/fabric-order';
 import { linkedHolds } from '../state/fabrics-link';
 import {
   countedWeights,
@@ -57,11 +58,12 @@ interface Opening {
 
 type Shown = Pick<
   FabricsState,
-  'compared' | 'gallery' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
+  'compared' | 'gallery' | 'order' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
 >;
 
-function shownOf({ compared, gallery, chosen, terms, form, weightsFrom }: FabricsState): Shown {
-  return { compared, gallery, chosen, terms, form, weightsFrom };
+function shownOf(state: FabricsState): Shown {
+  const { compared, gallery, order, chosen, terms, form, weightsFrom } = state;
+  return { compared, gallery, order, chosen, terms, form, weightsFrom };
 }
 
 const ALL_TERMS = { recovery: true, stretch: true, bending: true };
@@ -171,6 +173,18 @@ export class Deformer {
 
   setGallery(isShown: boolean): void {
     this.store.set({ gallery: isShown, chosen: 0 });
+    this.showPanes();
+  }
+
+  /** All fabrics in another order; the chosen one stays chosen. */
+  setOrder(order: FabricOrder): void {
+    const { panes, chosen, gallery } = this.store.get();
+    this.store.set({ order });
+    if (!gallery) return;
+    const title = (pane: PaneState | undefined) => pane && titleOf(pane.fabric);
+    const wanted = title(panes[chosen]);
+    const at = panesFor(this.store.get()).findIndex((pane) => title(pane) === wanted);
+    this.store.set({ chosen: Math.max(0, at) });
     this.showPanes();
   }
 

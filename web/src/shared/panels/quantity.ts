@@ -7,10 +7,14 @@ function superscript(exponent: number): string {
   return (exponent < 0 ? '⁻' : '') + digits.join('');
 }
 
-/** Null is a dash. 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷". */
+/** Sizes below this say no more than that there is next to nothing. */
+const NEXT_TO_NOTHING = 1e-9;
+
+/** Null is a dash. 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷", 8e-66 → "< 10⁻⁹". */
 export function digits(value: number | null, significant = 3): string {
   if (value === null || !Number.isFinite(value)) return '–';
   if (value === 0) return '0';
+  if (Math.abs(value) < NEXT_TO_NOTHING) return '< 10⁻⁹';
   const rounded = Number(value.toPrecision(significant));
   const exponent = Math.floor(Math.log10(Math.abs(rounded)));
   if (exponent < -3 || exponent > 5) {
