@@ -48,6 +48,7 @@ export function createCanvas(
     renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXEL_RATIO));
     renderer.setSize(width, height, false);
     events.resized(width, height);
+    events.draw(renderer); // a canvas of another size is empty until then
   }
 
   function applyTheme(): void {
