@@ -192,6 +192,8 @@ function createPanels(
   createExperimentPanel(panel, store, {
     openExperiment: (id) => deformer.openExperiment(id),
     openObj: (file) => void deformer.openObj(file),
+    setUnit: (unit) => deformer.setUnit(unit),
+    cancel: () => deformer.cancel(),
   });
   createFabricGallery(panel, store, {
     compare: (comparison) => deformer.compare(comparison),
@@ -290,7 +292,9 @@ export function createFabricsView(
     link,
     open(newHash) {
       const read = decodeFabricsLink(newHash);
-      store.set({ ...initialFabricsState(read.link, read.problems), objName: store.get().objName });
+      const { objName, objUnit, objOdd } = store.get();
+      const own = { objName, objUnit, objOdd };
+      store.set({ ...initialFabricsState(read.link, read.problems), ...own });
       deformer.openExperiment(read.link.experiment, read.link);
     },
     setShown(value) {

@@ -108,7 +108,7 @@ function createPanels(
   createAnnouncer(place('messages'), store, motionSentence);
   createNumbersStrip(place('strip'), store);
   createRunTools(place('toolbar'), store, actions, TOOL_WORDS, (phase) => phase !== 'broken');
-  createScenePanel(place('panel'), store, run);
+  createScenePanel(place('panel'), store, run.obj);
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store);
   createDrawingPanel(place('panel'), store);
@@ -142,7 +142,7 @@ export function createMotionView(place: Place, hash: string): MotionView {
   createPanels(place, store, run, () => stage?.homeView());
   createDropTarget(document.body, {
     openObj(file) {
-      if (isShown) void run.openObj(file);
+      if (isShown) void run.obj.open(file);
     },
   });
   if (stage) drawFrom(store, stage);

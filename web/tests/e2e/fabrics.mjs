@@ -363,6 +363,46 @@ export async function checkFabrics(harness) {
       }),
   );
 
+  await check(
+    'fabrics: a file in millimetres is noticed, and taken in millimetres when told to',
+    () =>
+      visit('#view=fabrics&scene=terms', async (page) => {
+        await drop(page, 'banner.obj', squareObj(950, 12));
+        await until(page, (state) => state.cloth.name === 'banner.obj' && state.phase === 'ready');
+        const panel = page.getByRole('region', { name: 'Experiment' });
+        const said = await panel.textContent();
+        expectThat(/It is 950 m across.*probably the millimetre/.test(said), `it says: ${said}`);
+        await choice(page, 'Unit of the file').selectOption('millimetres');
+        await until(page, (state) => state.objUnit === 'mm' && state.phase === 'ready');
+        await isFound(page);
+        const { cloth } = await stateOf(page);
+        const highest = Math.max(...cloth.rest_m);
+        expectThat(Math.abs(highest - 1.9) < 1e-9, `the highest place is ${highest} m`);
+        expectThat(!/odd for cloth/.test(await panel.textContent()), 'it is still odd');
+      }),
+  );
+
+  await check(
+    'fabrics: a large file shows that it is read, and is given up; a huge one is refused',
+    () =>
+      visit('#view=fabrics&scene=ball&fabrics=wool', async (page) => {
+        const before = await positionsOf(page);
+        await drop(page, 'large.obj', squareObj(1, 300));
+        await page.getByRole('progressbar', { name: 'Reading the file' }).waitFor();
+        await button(page, 'Cancel').click();
+        await until(page, (state) => state.reading === null);
+        await isFound(page);
+        const { experiment, panes, objName } = await stateOf(page);
+        expectThat(experiment === 'ball' && objName === null, `it shows ${experiment}`);
+        expectThat(panes[0].fabric.name === 'wool', 'in another fabric');
+        const off = largestMove(before, await positionsOf(page));
+        expectThat(off < 1e-3, `it is ${off} m off`);
+        await drop(page, 'huge.obj', 'v 0 0 0\n'.repeat(200001));
+        const sentence = await alertText(page);
+        expectThat(/huge\.obj has 200.001 vertices/.test(sentence), `it says: ${sentence}`);
+      }),
+  );
+
   await check('fabrics: a fabric and a shape go over to motion, which starts from it', () =>
     visit('#view=fabrics&scene=half_skirt&fabrics=velvet', async (page) => {
       const shape = await positionsOf(page);

@@ -263,6 +263,32 @@ for (const size of [0.01, 100]) {
   );
 }
 
+await check('a mesh in millimetres is noticed, and its unit can be chosen', () =>
+  visit('#scene=obj', async (page) => {
+    await drop(page, 'banner.obj', squareObj(950));
+    await until(page, (state) => state.mesh.name === 'banner.obj' && state.phase === 'ready');
+    const note = await page.locator('.mesh').textContent();
+    expectThat(/It is 950 m across.*probably the millimetre/.test(note), `it says: ${note}`);
+    await choice(page, 'Unit of the file').selectOption('millimetres');
+    await until(page, (state) => state.mesh.unit === 'mm' && state.phase === 'ready');
+    const highest = Math.max(...(await positionsOf(page)));
+    expectThat(Math.abs(highest - 1.9) < 1e-5, `the highest place is ${highest} m`);
+  }),
+);
+
+await check('a large OBJ file shows that it is read, is given up, and the cloth goes on', () =>
+  visit('#scene=curtain&level=1', async (page) => {
+    await drop(page, 'large.obj', squareObj(1, 300));
+    await page.getByRole('progressbar', { name: 'Reading the file' }).waitFor();
+    await button(page, 'Step').click();
+    await until(page, (state) => state.numbers.step === 1);
+    await button(page, 'Cancel').click();
+    const { reading, setting, problem } = await stateOf(page);
+    expectThat(reading === null && setting.preset === 'curtain', 'it goes on');
+    expectThat(problem === null, `it says: ${problem?.sentence}`);
+  }),
+);
+
 await check('a bad OBJ file is a sentence with its line, and the cloth goes on', () =>
   visit('#scene=tablecloth&level=1', async (page) => {
     await button(page, 'Play').click();

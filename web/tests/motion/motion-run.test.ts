@@ -1,12 +1,14 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import type { PleatModule } from '../../src/motion/bindings/pleat-module';
-import type { StartMotion } from '../../src/motion/run/motion-client';
+import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
 import { MotionRun } from '../../src/motion/run/motion-run';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel } from '../../src/motion/state/setting';
 import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { readObj } from '../../src/motion/worker/obj-core';
+import type { FromObj, ToObj } from '../../src/motion/worker/obj-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
@@ -34,6 +36,16 @@ const start: StartMotion = (listener) =>
     listener,
   );
 
+let isReadingStuck = false; // a file that takes for ever
+const startObj: StartObj = (listener) =>
+  createAsked(
+    workerPort<ToObj, FromObj>((post) => ({
+      receive: (message) =>
+        isReadingStuck ? new Promise(() => undefined) : post(readObj(module, message), []),
+    })),
+    listener,
+  );
+
 /** A run at a link, with the frame that is shown. */
 function open(hash: string) {
   const { link, problems } = decodeMotionLink(hash);
@@ -49,6 +61,7 @@ function open(hash: string) {
       },
     },
     start,
+    startObj,
   );
   return { store, run, shown: () => shown };
 }
@@ -175,7 +188,7 @@ describe('motion run of a mesh', () => {
   it('puts the visitor’s file in its place, from any scene, and keeps it', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    await page.run.openObj(file('hat.OBJ', triangle(2)));
+    await page.run.obj.open(file('hat.OBJ', triangle(2)));
     await vi.waitUntil(() => page.store.get().mesh !== null && phaseOf(page) === 'ready');
     expect(page.store.get()).toMatchObject({
       mesh: { name: 'hat.OBJ', isOwn: true, high: [1, 2, 1] },
@@ -195,14 +208,44 @@ describe('motion run of a mesh', () => {
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     const sentence = () => page.store.get().problem?.sentence ?? '';
     const { setting } = page.store.get();
-    await page.run.openObj(file('hat.obj', 'v 0 0 0\nwobble\n'));
+    await page.run.obj.open(file('hat.obj', 'v 0 0 0\nwobble\n'));
     await vi.waitUntil(() => sentence() !== '');
     expect(sentence()).toContain('hat.obj: line 2: expected');
-    await page.run.openObj(file('hat.stl', 'solid'));
+    await page.run.obj.open(file('hat.stl', 'solid'));
     expect(sentence()).toContain('hat.stl is no OBJ file');
     expect(page.store.get()).toMatchObject({ setting, mesh: null, phase: 'ready' });
     page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+  });
+
+  it('shows that a file is being read, and gives it up when told to', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    isReadingStuck = true;
+    const opened = page.run.obj.open(file('hat.obj', triangle(1)));
+    await vi.waitUntil(() => page.store.get().reading === 'hat.obj');
+    page.run.step(); // meanwhile the cloth goes on
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    page.run.obj.cancel();
+    await opened;
+    isReadingStuck = false;
+    expect(page.store.get()).toMatchObject({ reading: null, mesh: null, problem: null });
+    await page.run.obj.open(file('hat.obj', triangle(1)));
+    expect(page.store.get()).toMatchObject({ reading: null, mesh: { name: 'hat.obj' } });
+  });
+
+  it('takes a file in another unit, and says which one is likely', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await page.run.obj.open(file('hat.obj', triangle(950)));
+    expect(page.store.get().mesh).toMatchObject({ high: [1, 950, 1], unit: 'm' });
+    expect(page.store.get().mesh?.odd).toContain('probably the millimetre');
+    await page.run.obj.setUnit('mm');
+    expect(page.store.get().mesh).toMatchObject({
+      high: [0.001, 0.95, 0.001],
+      unit: 'mm',
+      odd: null,
+    });
   });
 
   it('says that the example cannot be had, and takes a file all the same', async () => {
@@ -210,7 +253,7 @@ describe('motion run of a mesh', () => {
     const page = open('#scene=obj');
     await vi.waitUntil(() => phaseOf(page) === 'refused');
     expect(page.store.get().problem?.sentence).toContain('could not be fetched');
-    await page.run.openObj(file('hat.obj', triangle(1)));
+    await page.run.obj.open(file('hat.obj', triangle(1)));
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
   });
@@ -223,7 +266,7 @@ describe('motion run of a mesh', () => {
     fetched.mockReturnValue(late);
     const page = open('#scene=obj');
     await vi.waitUntil(() => fetched.mock.calls.length > 0);
-    await page.run.openObj(file('hat.obj', triangle(1)));
+    await page.run.obj.open(file('hat.obj', triangle(1)));
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     bring(new Response(triangle(2)));
     page.run.step();

@@ -287,7 +287,7 @@ const ORIGIN: Triple = [0, 0, 0];
 /** Knows positions, names of groups, and whether there are texture coordinates. */
 function fakeObj(text: string, meshText: string): string {
   const lines = text.split('\n');
-  const bad = lines.findIndex((line) => !/^(v|vt|f|g) |^$/.test(line));
+  const bad = lines.findIndex((line) => !/^(v|vt|g) |^f( \S+){3,}$|^$/.test(line));
   const { obj, warp_direction } = JSON.parse(meshText) as { obj: string; warp_direction: Triple };
   if (bad >= 0) return refuse(`${obj}: line ${bad + 1}`, 'expected a statement of OBJ');
   const positions = lines

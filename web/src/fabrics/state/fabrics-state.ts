@@ -2,6 +2,7 @@
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { Triple as Place } from '../../shared/bindings/geometry';
 import { type FabricRecord, fabricNamed } from '../../shared/fabric/fabric-data';
+import type { ObjUnit } from '../../shared/state/obj-file';
 import type { ClothAnswer } from '../bindings/deform-module';
 import {
   type DeformState,
@@ -31,6 +32,11 @@ export interface FabricsState extends DeformState {
   cloth: ClothAnswer | null;
   /** The visitor's mesh, once there is one. */
   objName: string | null;
+  objUnit: ObjUnit;
+  /** What is odd about its size, in words. */
+  objOdd: string | null;
+  /** Name of the visitor's file that is being read. */
+  reading: string | null;
   tool: Tool;
   /** Name of the hold that keys move. */
   chosenHold: string | null;
@@ -129,6 +135,9 @@ export function initialFabricsState(link: FabricsLink, problems: string[]): Fabr
     ownHolds: [],
     cloth: null,
     objName: null,
+    objUnit: 'm',
+    objOdd: null,
+    reading: null,
     tool: 'pull',
     chosenHold: null,
     isDragging: false,

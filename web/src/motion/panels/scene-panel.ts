@@ -3,12 +3,12 @@ import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
 import { PRESET_IDS, PRESETS, presetSetting } from '../state/setting';
-import { createObjPanel } from './obj-panel';
+import { createObjPanel, type ObjActions } from './obj-panel';
 
 export function createScenePanel(
   parent: HTMLElement,
   store: Store<MotionState>,
-  actions: { openObj(file: File): void },
+  actions: ObjActions,
 ): () => void {
   const presets = choice(
     PRESET_IDS.map((value) => ({ value, title: PRESETS[value].title })),

@@ -13,7 +13,13 @@ import type {
   RunReport,
   ToMotion,
 } from '../worker/motion-protocol';
-import { type MotionClient, type StartMotion, startMotionWorker } from './motion-client';
+import {
+  type MotionClient,
+  type StartMotion,
+  type StartObj,
+  startMotionWorker,
+  startObjWorker,
+} from './motion-client';
 import { ObjSource } from './obj-source';
 import { referenceUrl } from './references';
 import { RunClock } from './run-clock';
@@ -40,7 +46,7 @@ type Reload = Extract<ToMotion, { type: 'load' | 'reset' }>;
 /** Opens the worker, loads the state's setting, and follows the store from then on. */
 export class MotionRun {
   private readonly client: MotionClient;
-  private readonly obj: ObjSource;
+  readonly obj: ObjSource;
   private readonly clock = new RunClock();
   private readonly frames = new RunFrames();
   private readonly timer = createStepTimer();
@@ -56,12 +62,13 @@ export class MotionRun {
     private readonly store: Store<MotionState>,
     private readonly view: MotionRunView,
     start: StartMotion = startMotionWorker,
+    startObj: StartObj = startObjWorker,
   ) {
     this.client = start({
       news: (message) => this.hear(message),
       broken: (reason) => this.breakDown(reason),
     });
-    this.obj = new ObjSource(store, this.client, () => void this.load());
+    this.obj = new ObjSource(store, startObj, () => void this.load());
     store.subscribe((state, previous) => {
       if (state.setting !== previous.setting && state.phase !== 'broken') void this.load();
       if (state.playing && !previous.playing) this.startClock();
@@ -107,11 +114,6 @@ export class MotionRun {
   releaseGrab(): void {
     this.client.tell({ type: 'releaseGrab' });
     this.store.set({ held: false });
-  }
-
-  /** Shows the visitor's mesh, or says what is wrong with the file while the cloth goes on. */
-  openObj(file: File): Promise<void> {
-    return this.obj.open(file);
   }
 
   private async open(): Promise<void> {

@@ -34,6 +34,8 @@ export interface MotionState extends MotionLink {
   invited: boolean;
   /** What "Your OBJ" shows: the visitor's mesh or the example, null until one is there. */
   mesh: ObjMesh | null;
+  /** Name of the visitor's file that is being read. */
+  reading: string | null;
   summary: SceneSummary | null;
   numbers: RunNumbers | null;
   timing: StepTiming | null;
@@ -59,6 +61,7 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     held: false,
     invited: true,
     mesh: null,
+    reading: null,
     summary: null,
     numbers: null,
     timing: null,
