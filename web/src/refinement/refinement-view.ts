@@ -20,6 +20,7 @@ import { createGarmentLegend } from './panels/garment-legend';
 import { createGarmentPanel } from './panels/garment-panel';
 import { garmentSentence } from './panels/garment-sentence';
 import { createGarmentToolbar } from './panels/garment-toolbar';
+import { createNumbersPanel } from './panels/numbers-panel';
 import { paintOf, upperEnd } from './panels/paints';
 import { objText, save } from './panels/saving';
 import { createStoryPanel } from './panels/story-panel';
@@ -192,6 +193,7 @@ function createPanels(
     saveObj: () => picture.saveObj(),
   });
   createGarmentPanel(panel, store);
+  createNumbersPanel(panel, store);
   createFitPanel(panel, store, run);
   createDetailPanel(panel, store, run);
   createStoryPanel(panel, store, () => picture.meshes.planned ?? null);

@@ -102,7 +102,7 @@ export function buysSentence({ panes }: Pick<RefinementState, 'panes'>): string 
   ];
   if (coarse.errorM !== null && planned.errorM !== null)
     sentences.push(
-      `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the planned one. Folds fall as they may: a second run of the fine mesh, in air heavier by a millionth, comes apart from the first about as far.`,
+      `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the planned one. Not all of that is the mesh’s: folds fall as they may, and the surfaces of two fine runs, one in air heavier by a millionth, are at least two thirds as far apart.`,
     );
   return sentences.join(' ');
 }
