@@ -43,7 +43,7 @@ function shownOf(fabric: FabricRecord): Shown {
 /** How stiff it is beside the others, which its weights do not say. */
 export function stiffnessSentence(fabric: FabricRecord): string {
   const key = 'bend_warp_n_m';
-  return `Measured in forces, its bending rigidity is ${quantityText(fabric, key)} (${fabric[key].confidence}): number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest.`;
+  return `In forces, its bending rigidity is ${quantityText(fabric, key)} (${fabric[key].confidence}): number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest.`;
 }
 
 function headings(...titles: string[]): HTMLElement {
