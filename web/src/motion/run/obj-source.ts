@@ -3,15 +3,15 @@ import exampleUrl from '../../../../assets/meshes/skirt.obj?url';
 import { sentenceOf } from '../../shared/bindings/answers';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { MotionState } from '../state/motion-state';
+import { AT_START, type MotionState } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting } from '../state/setting';
-import type { MotionClient } from './motion-client';
+import type { RunWorker } from './run-worker';
 
 export class ObjSource {
   constructor(
     private readonly store: Store<MotionState>,
-    private readonly client: MotionClient,
+    private readonly worker: Pick<RunWorker, 'ask'>,
     private readonly onExample: () => void,
   ) {}
 
@@ -41,7 +41,7 @@ export class ObjSource {
   }
 
   private async read(name: string, objText: string, isOwn: boolean): Promise<void> {
-    const question = this.client.ask({ type: 'readObj', name, objText, isOwn });
+    const question = this.worker.ask({ type: 'readObj', name, objText, isOwn });
     const answer = await answerOf(question, (failure) => this.refuse(sentenceOf(failure)));
     if (answer?.type === 'objRead') this.take(answer.mesh);
     if (answer?.type === 'objRefused') this.refuse(sentenceOf(answer.failure));
@@ -51,8 +51,11 @@ export class ObjSource {
     const { setting, mesh: present } = this.store.get();
     if (mesh.isOwn) {
       const start = setting.preset === 'obj' ? setting : presetSetting('obj');
-      const patch = { startS: 0, playing: false, invited: true };
-      return this.store.set({ mesh, setting: { ...start, level: 0, hold: 'highest' }, ...patch });
+      return this.store.set({
+        ...AT_START,
+        mesh,
+        setting: { ...start, level: 0, hold: 'highest' },
+      });
     }
     if (present) return; // the visitor was quicker
     this.store.set({ mesh });

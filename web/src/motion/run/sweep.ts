@@ -3,14 +3,14 @@
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
-import { sweepPlan } from '../state/sweep-plan';
+import { type SweepWish, sweepPlan } from '../state/sweep-plan';
 import { type SweepState, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
 import { type SweepClient, startSweepWorker } from './motion-client';
 
 export interface Sweep {
-  /** Measures levels 0 to `finest` of the shown preset. */
-  start(finest: number): void;
+  /** Measures the shown scene. */
+  start(wish: SweepWish): void;
   /** Ends at once; the rows so far stay. */
   cancel(): void;
 }
@@ -36,14 +36,15 @@ export function createSweep(store: Store<MotionState>): Sweep {
   }
 
   store.subscribe((state, previous) => {
-    const isDisturbed = state.playing && state.sweep.phase === 'running' && !state.sweep.disturbed;
-    if (isDisturbed && (!previous.playing || previous.sweep.phase !== 'running')) {
-      patch({ disturbed: true });
-    }
+    const isMoving = state.playing || state.ahead !== null;
+    const { phase, disturbed } = state.sweep;
+    const wasSo =
+      (previous.playing || previous.ahead !== null) && previous.sweep.phase === 'running';
+    if (isMoving && phase === 'running' && !disturbed && !wasSo) patch({ disturbed: true });
   });
 
   return {
-    start(finest) {
+    start(wish) {
       worker?.terminate();
       const { setting, mesh } = store.get();
       store.set({
@@ -53,6 +54,7 @@ export function createSweep(store: Store<MotionState>): Sweep {
           phase: 'running',
           progress: 0,
           message: 'Computing the reference',
+          beganMs: performance.now(),
           rows: [],
           front: [],
           scene: sweptScene(setting, mesh),
@@ -60,7 +62,7 @@ export function createSweep(store: Store<MotionState>): Sweep {
         },
       });
       worker = startSweepWorker({ news, broken: (reason) => end('failed', reason) });
-      const planText = JSON.stringify(sweepPlan(setting, finest, mesh));
+      const planText = JSON.stringify(sweepPlan(setting, wish, mesh));
       worker.tell({ type: 'sweep', fabricsText, planText });
     },
     cancel() {

@@ -9,6 +9,8 @@ export interface SweepState {
   /** 0 to 1. */
   progress: number;
   message: string;
+  /** When it was started, on the page's clock [ms]. */
+  beganMs: number;
   rows: BenchRow[];
   /** Indices into `rows`. */
   front: number[];
@@ -22,6 +24,7 @@ export const NO_SWEEP: SweepState = {
   phase: 'none',
   progress: 0,
   message: '',
+  beganMs: 0,
   rows: [],
   front: [],
   scene: null,

@@ -5,6 +5,8 @@ export interface Invitation {
   /** Pixels from the stage's upper left corner. */
   place(x: number, y: number): void;
   setShown(isShown: boolean): void;
+  /** For a stage without a picture. */
+  remove(): void;
 }
 
 export function createInvitation(parent: HTMLElement): Invitation {
@@ -28,5 +30,6 @@ export function createInvitation(parent: HTMLElement): Invitation {
     setShown(isShown) {
       ring.hidden = !isShown;
     },
+    remove: () => ring.remove(),
   };
 }
