@@ -13,6 +13,9 @@ import { alertText, button, canvasOf, choice, createTouch, PHONE, picture } from
 /** Presses that have to take the cloth. */
 const N_PRESSES = 20;
 
+/** So much of the cloth is seen on the first screen at least. */
+const LEAST_STAGE_PX = 150;
+
 /** Places all over a disc, as a sunflower has its seeds. */
 function seedsOf({ x, y, radius }) {
   const turn = Math.PI * (3 - Math.sqrt(5));
@@ -142,7 +145,7 @@ async function checkLinks({ check, open }, visit) {
       await backToStart(page);
       await picture(page);
       const before = await place();
-      const copy = await open(hash.replace(/steps=\d+/, 'steps=0'));
+      const copy = await open(hash.replace(/&steps=\d+/, '&steps=0'));
       await isReady(copy.page);
       await picture(copy.page);
       const after = await copy.page.evaluate(() => window.pleat.project(0));
@@ -260,12 +263,17 @@ async function checkFirstVisit({ check, open }, visit) {
       visit(
         '',
         async (page) => {
-          for (const part of [page.locator('.caption'), canvasOf(page), button(page, 'Play')]) {
+          const ends = async (part) => {
             const { y, height } = await part.boundingBox();
-            const end = part === canvasOf(page) ? y + 100 : y + height;
-            const isSeen = y >= 0 && end <= size.height + 250 * (height > 150);
-            expectThat(isSeen, `${await part.evaluate((one) => one.outerHTML.slice(0, 40))}: ${y}`);
+            return [y, y + height];
+          };
+          for (const part of [page.locator('.caption'), button(page, 'Play')]) {
+            const [top, bottom] = await ends(part);
+            expectThat(top >= 0 && bottom <= size.height, `from ${top} to ${bottom} px`);
           }
+          const [top] = await ends(canvasOf(page));
+          const [play] = await ends(button(page, 'Play'));
+          expectThat(play - top > LEAST_STAGE_PX, `${play - top} px of the cloth`);
         },
         size,
       ),

@@ -76,8 +76,7 @@ await check('a drag pulls the cloth, starts it, and lets go', () =>
     const vertex = await page.evaluate(() => window.pleat.inviting());
     const at = await placeOn(page, vertex);
     const before = await positionsOf(page);
-    // A little inside the corner, so that the ray meets the cloth.
-    const [x, y] = [at.x - 6, at.y - 8];
+    const { x, y } = at;
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 60, y - 40, { steps: 4 });
@@ -96,8 +95,7 @@ await check('a finger pulls the cloth, and its loss lets go', () =>
     '#scene=curtain&level=1',
     async (page) => {
       const at = await placeOn(page, await page.evaluate(() => window.pleat.inviting()));
-      // A little inside the corner.
-      const by = (dx, dy) => ({ x: at.x - 5 + dx, y: at.y - 7 + dy });
+      const by = (dx, dy) => ({ x: at.x + dx, y: at.y + dy });
       const touch = await createTouch(page);
       await touch('touchStart', by(0, 0));
       await touch('touchMove', by(-20, -30));
@@ -113,10 +111,8 @@ await check('a finger pulls the cloth, and its loss lets go', () =>
 await check('a hand stops at the floor, in a scene that has none for the cloth', () =>
   visit('#scene=swinging-sheet&level=0', async (page) => {
     const vertex = await page.evaluate(() => window.pleat.inviting());
-    const at = await placeOn(page, vertex);
+    const { x, y } = await placeOn(page, vertex);
     const box = await canvasOf(page).boundingBox();
-    // A little inside the sheet, so that the ray meets it.
-    const [x, y] = [at.x - 2, at.y - 4];
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x, box.y + box.height + 200, { steps: 4 });

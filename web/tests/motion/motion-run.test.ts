@@ -288,6 +288,19 @@ describe('motion run whose worker does not go on', () => {
     await stepTo(page, 1);
   });
 
+  it('does not let another setting wait for ever, nor at all once Stop is pressed', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    hangsAt = ({ type }) => type === 'step';
+    page.run.step();
+    page.store.set({ setting: { ...page.store.get().setting, level: 1 } });
+    await vi.waitUntil(() => page.store.get().busy?.type === 'step', 3000);
+    page.run.stopWork();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({ setting: { level: 1 }, numbers: { step: 0 } });
+  });
+
   it('is reset without waiting for a step that does not end', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');

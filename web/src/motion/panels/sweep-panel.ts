@@ -1,6 +1,5 @@
 // Starts and cancels the sweep, and tells how far it is.
 import { choice, element, field, setText } from '../../shared/panels/element';
-import { shortTime } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import type { Model } from '../../shared/steppers/steppers';
 import type { Sweep } from '../run/sweep';
@@ -34,11 +33,10 @@ function slowPicker(onChange: (withSlow: boolean) => void) {
   };
 }
 
-/** How long the rest will take, by what is done; nothing before a tenth is. */
-function timeLeft({ phase, progress, beganMs }: SweepState): string {
-  if (phase !== 'running' || progress < 0.1) return '';
-  const elapsedMs = performance.now() - beganMs;
-  return ` About ${shortTime((elapsedMs * (1 - progress)) / progress)} left.`;
+/** How long the rest will take, as far as that is known. */
+function timeLeft({ phase, progress, estimatedS }: SweepState): string {
+  if (phase !== 'running' || estimatedS === null) return '';
+  return `, about ${Math.ceil(estimatedS * (1 - progress))} s left`;
 }
 
 /** How the last sweep went, or how far this one is. */

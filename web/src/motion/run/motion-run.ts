@@ -34,8 +34,10 @@ const SHOWN_WORK_MS = 500;
 /** How often a run that is to rest is looked at [ms]. */
 const REST_POLL_MS = 20;
 
-/** A reset or another setting waits this long for a step; then the worker is ended [ms]. */
+/** A reset or another scene waits this long for a step; then the worker is ended [ms]. */
 const PATIENCE_MS = 1000;
+/** And a change that takes the motion over, which it loses then [ms]. */
+const MOVING_PATIENCE_MS = 5000;
 
 export interface MotionRunView {
   /** A new mesh; its first frame follows at once. */
@@ -61,6 +63,7 @@ export class MotionRun {
   private isAhead = false; // running to the start, nothing is shown
   private isRecovering = false; // started again after an end, and no step since
   private startsAnew = false; // the next load keeps no motion
+  private keepsMotion = false; // the load that is waited for does
   private loaded: Content | null = null; // by the worker
   private seen: Content | null = null; // in the picture
   private proven: Content | null = null; // the last one whose steps came without a wait
@@ -110,6 +113,7 @@ export class MotionRun {
     if (phase === 'broken') return;
     this.isAhead = false;
     this.startsAnew = true;
+    this.keepsMotion = false;
     this.store.set({ playing: false, held: false, phase: 'loading', startSteps: 0, ahead: null });
     if (this.loaded?.setting !== setting) return void this.load();
     this.request += 1;
@@ -145,6 +149,7 @@ export class MotionRun {
       this.endAhead();
       return this.store.set({ problem: { source: 'link', sentence } });
     }
+    if (busy.type === 'step' && this.isWaiting) return this.loadAtOnce(1000 * busy.seconds);
     if (busy.type === 'step') this.noteLeastCost(1000 * busy.seconds);
     const again = this.lastGood();
     const stopped = `${workWords(busy.type, setting)} was stopped after ${busy.seconds} s.`;
@@ -224,15 +229,19 @@ export class MotionRun {
 
   private watchWork(work: Work | null): void {
     const isLong = work !== null && work.forMs > SHOWN_WORK_MS;
-    const isInTheWay = work?.type === 'step' && this.isWaiting && work.forMs > PATIENCE_MS;
-    if (isInTheWay) {
-      this.noteLeastCost(work.forMs);
-      this.replaceWorker();
-      return void this.load();
-    }
+    const patienceMs = this.keepsMotion ? MOVING_PATIENCE_MS : PATIENCE_MS;
+    if (work?.type === 'step' && this.isWaiting && work.forMs > patienceMs)
+      return this.loadAtOnce(work.forMs);
     const busy = isLong ? { type: work.type, seconds: Math.floor(work.forMs / 1000) } : null;
     const { busy: shown } = this.store.get();
     if (busy?.type !== shown?.type || busy?.seconds !== shown?.seconds) this.store.set({ busy });
+  }
+
+  /** What is wanted does not wait for a step that has taken so long by now. */
+  private loadAtOnce(forMs: number): void {
+    this.noteLeastCost(forMs);
+    this.replaceWorker();
+    void this.load();
   }
 
   /** A step of the loaded setting takes longer than that. */
@@ -283,6 +292,7 @@ export class MotionRun {
     const content: Content = { setting, mesh };
     const isMoving = phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
     const keepMotion = isMoving && !this.startsAnew && canKeepMotion(this.loaded, content);
+    this.keepsMotion = keepMotion;
     this.startsAnew = false;
     this.isAhead = false;
     this.isWaiting = true;

@@ -8,6 +8,9 @@ import { type SweepState, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
 import { type SweepClient, startSweepWorker } from './motion-client';
 
+/** Less than this of a sweep tells nothing of the rest. */
+const LEAST_PROGRESS = 0.02;
+
 export interface Sweep {
   /** Measures the shown scene. */
   start(wish: SweepWish): void;
@@ -30,8 +33,11 @@ export function createSweep(store: Store<MotionState>): Sweep {
 
   function news(message: FromSweep): void {
     if (message.type === 'refused') return end('failed', message.failure.what);
-    const { rows, front, progress, done, message: text } = message.report;
-    patch({ rows, front, progress, message: text });
+    const { rows, front, progress, done, message: text, estimated_s: toldS } = message.report;
+    const { beganMs } = store.get().sweep;
+    const soFarS = (performance.now() - beganMs) / 1000;
+    const estimatedS = toldS ?? (progress < LEAST_PROGRESS ? null : soFarS / progress);
+    patch({ rows, front, progress, message: text, estimatedS });
     if (done) end('done', text);
   }
 
@@ -55,6 +61,7 @@ export function createSweep(store: Store<MotionState>): Sweep {
           progress: 0,
           message: 'Computing the reference',
           beganMs: performance.now(),
+          estimatedS: null,
           rows: [],
           front: [],
           scene: sweptScene(setting, mesh),

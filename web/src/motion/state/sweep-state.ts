@@ -11,6 +11,8 @@ export interface SweepState {
   message: string;
   /** When it was started, on the page's clock [ms]. */
   beganMs: number;
+  /** What the whole of it is expected to take [s]; null while nobody knows. */
+  estimatedS: number | null;
   rows: BenchRow[];
   /** Indices into `rows`. */
   front: number[];
@@ -25,6 +27,7 @@ export const NO_SWEEP: SweepState = {
   progress: 0,
   message: '',
   beganMs: 0,
+  estimatedS: null,
   rows: [],
   front: [],
   scene: null,

@@ -18,9 +18,11 @@ export function createInvitation(parent: HTMLElement): Invitation {
     word,
   );
   ring.hidden = true;
+  ring.style.visibility = 'hidden'; // until it has a place
   parent.append(ring);
   return {
     place(x, y) {
+      ring.style.visibility = '';
       ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       // The word stays inside the stage when the cloth is at its rim.
       const half = word.offsetWidth / 2 + 4;
