@@ -94,5 +94,9 @@ describe('error words', () => {
     const words = errorWords({ ...asked, numbers: running, setting: own, sweep });
     expect(words.value).toBe('20 mm');
     expect(words.sentence).toContain('no converged reference');
+    const unasked = { reference: 'unasked', compare: false } as const;
+    expect(
+      errorWords({ ...asked, ...unasked, numbers: running, setting: own, sweep }),
+    ).toMatchObject({ value: '20 mm', action: 'Compare' });
   });
 });

@@ -28,7 +28,7 @@ describe('the cost of a step', () => {
   });
 
   it('is short to read', () => {
-    expect([0.75, 13, 250, 36000, 240000].map(shortTime)).toEqual([
+    expect([0.75, 13, 250, 36000, 240000].map((ms) => shortTime(ms))).toEqual([
       '0.75 ms',
       '13 ms',
       '0.3 s',

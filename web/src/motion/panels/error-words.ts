@@ -83,11 +83,23 @@ function beforeReference(state: ErrorState): ErrorWords | null {
   return { value: '–', detail: 'compare to see', sentence, action: 'Compare' };
 }
 
+/** What the last sweep found for the very same setting; null when it did not. */
+function fromSweep(state: ErrorState): ErrorWords | null {
+  const row = rowOfSetting(state);
+  if (!row || row.position_error_m === null) return null;
+  const value = smallLength(row.position_error_m);
+  const { converged } = row.reference;
+  const than = converged ? 'a converged reference' : 'a fine run that is no converged reference';
+  const detail = converged ? 'in the sweep' : 'by a rough reference';
+  return { value, detail, sentence: `In the sweep it was ${value} from ${than}.` };
+}
+
 export function errorWords(state: ErrorState): ErrorWords {
   const { numbers, setting } = state;
   if (!numbers) return { value: '–', detail: '', sentence: '' };
+  const inSweep = fromSweep(state);
   const before = beforeReference(state);
-  if (before) return before;
+  if (before) return { ...before, ...(wantsReference(state) ? null : inSweep) };
   if (numbers.reference && numbers.step === 0) {
     const sentence = 'This scene has a reference: play to see how far from it the cloth gets.';
     return { value: '–', detail: 'play to see', sentence };
@@ -95,14 +107,5 @@ export function errorWords(state: ErrorState): ErrorWords {
   const isOwnMesh = setting.level === presetSetting(setting.preset).level;
   if (numbers.reference) return fromReference(numbers.reference, isOwnMesh);
   const sentence = fromItself(numbers, stepperRow(setting.stepper).solves);
-  const row = rowOfSetting(state);
-  if (!row) return { value: 'unknown', detail: 'run a sweep', sentence };
-  const { converged } = row.reference;
-  return {
-    value: smallLength(row.position_error_m),
-    detail: converged ? 'in the sweep' : 'by a rough reference',
-    sentence: `In the sweep it was ${smallLength(row.position_error_m)} from ${
-      converged ? 'a converged reference' : 'a fine run that is no converged reference'
-    }.`,
-  };
+  return inSweep ?? { value: 'unknown', detail: 'run a sweep', sentence };
 }

@@ -2,11 +2,16 @@
 
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
+import type { BenchRow } from '../bindings/sweep-module';
 import type { MotionState } from '../state/motion-state';
-import { type SweepWish, sweepPlan } from '../state/sweep-plan';
+import { type StepCosts, withCost } from '../state/step-cost';
+import { hasFinished, type SweepWish, settingOfRow, sweepPlan } from '../state/sweep-plan';
 import { type SweepState, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
 import { type SweepClient, startSweepWorker } from './motion-client';
+
+/** Rows tell the time of a sixtieth of a second. */
+const FRAMES_PER_S = 60;
 
 /** Less than this of a sweep tells nothing of the rest. */
 const LEAST_PROGRESS = 0.02;
@@ -38,7 +43,22 @@ export function createSweep(store: Store<MotionState>): Sweep {
     const soFarS = (performance.now() - beganMs) / 1000;
     const estimatedS = toldS ?? (progress < LEAST_PROGRESS ? null : soFarS / progress);
     patch({ rows, front, progress, message: text, estimatedS });
-    if (done) end('done', text);
+    if (!done) return;
+    keepCosts(rows);
+    end('done', text);
+  }
+
+  /** What was measured here is what a step costs. */
+  function keepCosts(rows: readonly BenchRow[]): void {
+    const { sweep, setting, costs } = store.get();
+    if (!sweep.scene || sweep.disturbed) return;
+    const { mesh: _mesh, ...swept } = sweep.scene;
+    const add = (known: StepCosts, row: BenchRow) => {
+      const measured = settingOfRow(row, { ...setting, ...swept });
+      const ms = row.ms_per_frame === null ? 0 : row.ms_per_frame * measured.stepS * FRAMES_PER_S;
+      return hasFinished(row) && ms > 0 ? withCost(known, measured, ms) : known;
+    };
+    store.set({ costs: rows.reduce(add, costs) });
   }
 
   store.subscribe((state, previous) => {
