@@ -132,7 +132,10 @@ class Picture {
       releaseGrab: () => deformer.releaseGrab(),
       key: (name) => this.key(name),
       drawn: ({ x, y }) => this.invitation.place(x, y),
-      contextLost: () => store.set({ problem: inputFailure(PICTURE_LOST) }),
+      pictureLost(isLost) {
+        if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
+        else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
+      },
     };
   }
 

@@ -79,7 +79,10 @@ class Picture {
           if (PANES[pane] === 'planned') store.set({ face });
         },
         key,
-        contextLost: () => store.set({ problem: inputFailure(PICTURE_LOST) }),
+        pictureLost(isLost) {
+          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
+          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
+        },
       });
     } catch {
       replaceCanvas(canvas, 'The numbers');

@@ -13,7 +13,7 @@ import {
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { MotionState } from '../state/motion-state';
+import { AT_START, type MotionState } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting } from '../state/setting';
 import type { ObjClient, StartObj } from './motion-client';
@@ -89,8 +89,11 @@ export class ObjSource {
     const { setting, mesh: present } = this.store.get();
     if (mesh.isOwn) {
       const start = setting.preset === 'obj' ? setting : presetSetting('obj');
-      const patch = { startS: 0, playing: false, invited: true };
-      return this.store.set({ mesh, setting: { ...start, level: 0, hold: 'highest' }, ...patch });
+      return this.store.set({
+        ...AT_START,
+        mesh,
+        setting: { ...start, level: 0, hold: 'highest' },
+      });
     }
     if (present) return; // the visitor was quicker
     this.store.set({ mesh });

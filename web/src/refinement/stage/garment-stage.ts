@@ -15,7 +15,7 @@ export interface GarmentStageEvents {
   press(pane: number, face: number | null): void;
   /** Keys that are not the camera's. True when used. */
   key(name: string): boolean;
-  contextLost(): void;
+  pictureLost(isLost: boolean): void;
 }
 
 export interface GarmentStage {
@@ -120,7 +120,7 @@ class Stage {
       drawn: () => this.drawn(),
       themed: (colour) => this.setTheme(colour),
       key: events.key,
-      contextLost: events.contextLost,
+      pictureLost: events.pictureLost,
     });
     const { grid, camera } = this.stage;
     this.setPanes(this.clothes.map((_, pane) => pane));

@@ -44,6 +44,13 @@ export function milliseconds(ms: number | null): string {
   return `${digits(ms, 2)} ms`;
 }
 
+/** A time of any size, where there is little room: "13 ms", "0.2 s", "40 s", "5 min". */
+export function shortTime(ms: number, significant = 2): string {
+  if (ms < 100) return `${digits(ms, significant)} ms`;
+  if (ms < 100000) return `${digits(ms / 1000, ms < 1000 ? 1 : significant)} s`;
+  return `${digits(ms / 60000, significant)} min`;
+}
+
 /** A step as the fraction of a second it is. */
 export function stepTitle(stepS: number): string {
   return `1/${Math.round(1 / stepS)} s`;

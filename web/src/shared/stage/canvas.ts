@@ -9,7 +9,8 @@ export interface CanvasEvents {
   themed(colour: (name: string) => string): void;
   /** True when the key was used. `name` has letters in lower case. */
   key(name: string): boolean;
-  contextLost(): void;
+  /** The browser took the graphics away, or gave them back. */
+  pictureLost(isLost: boolean): void;
 }
 
 export interface Canvas {
@@ -59,9 +60,12 @@ export function createCanvas(
 
   canvas.addEventListener('webglcontextlost', (event) => {
     event.preventDefault();
-    events.contextLost();
+    events.pictureLost(true);
   });
-  canvas.addEventListener('webglcontextrestored', redraw);
+  canvas.addEventListener('webglcontextrestored', () => {
+    events.pictureLost(false);
+    redraw();
+  });
   canvas.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
