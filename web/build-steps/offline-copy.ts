@@ -5,6 +5,9 @@ import type { Plugin } from 'vite';
 
 const SOURCE = new URL('./offline-worker.js', import.meta.url);
 
+/** References and records are large: each is kept once a visitor has fetched it. */
+const ON_DEMAND = /\.(reference|recording)$/;
+
 export function offlineCopy(): Plugin {
   return {
     name: 'offline-copy',
@@ -12,17 +15,16 @@ export function offlineCopy(): Plugin {
     generateBundle: {
       order: 'post',
       handler(_options, bundle) {
-        // References and records are large, and the page goes without them.
-        const files = Object.keys(bundle)
-          .filter((name) => !/\.(reference|recording)$/.test(name))
-          .sort();
+        const names = Object.keys(bundle).sort();
+        const files = names.filter((name) => !ON_DEMAND.test(name));
+        const onDemand = names.filter((name) => ON_DEMAND.test(name));
         const hash = createHash('sha256');
         for (const name of files) {
           const output = bundle[name];
           if (output) hash.update(output.type === 'chunk' ? output.code : output.source);
         }
         const version = hash.digest('hex').slice(0, 12);
-        const list = JSON.stringify({ version, files: ['./', ...files] });
+        const list = JSON.stringify({ version, files: ['./', ...files], onDemand });
         const source = `const COPY = ${list};\n${readFileSync(SOURCE, 'utf8')}`;
         this.emitFile({ type: 'asset', fileName: 'offline.js', source });
       },

@@ -1,4 +1,5 @@
 // Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
+import { keepOfflineCopy } from './shared/page/offline';
 import type { View } from './shared/page/view';
 import './shared/page/design.css';
 import type { FabricsActions } from './fabrics/fabrics-view';
@@ -96,7 +97,4 @@ window.addEventListener('hashchange', () => {
 });
 void show(viewIn(window.location.hash), window.location.hash);
 
-if (import.meta.env.PROD && 'serviceWorker' in navigator) {
-  // A page opened from an insecure address has none: it works, but only while it is served.
-  navigator.serviceWorker.register('./offline.js').catch(() => undefined);
-}
+keepOfflineCopy();

@@ -132,7 +132,10 @@ class Picture {
       releaseGrab: () => deformer.releaseGrab(),
       key: (name) => this.key(name),
       drawn: ({ x, y }) => this.invitation.place(x, y),
-      contextLost: () => store.set({ problem: inputFailure(PICTURE_LOST) }),
+      pictureLost(isLost) {
+        if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
+        else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
+      },
     };
   }
 
@@ -192,11 +195,14 @@ function createPanels(
   createExperimentPanel(panel, store, {
     openExperiment: (id) => deformer.openExperiment(id),
     openObj: (file) => void deformer.openObj(file),
+    setUnit: (unit) => deformer.setUnit(unit),
+    cancel: () => deformer.cancel(),
   });
   createFabricGallery(panel, store, {
     compare: (comparison) => deformer.compare(comparison),
     choose: (pane) => picture.choose(pane),
     showAll: (all) => deformer.setGallery(all),
+    setOrder: (order) => deformer.setOrder(order),
   });
   createFabricCard(panel, store, { setWeightsFrom: (weightsFrom) => store.set({ weightsFrom }) });
   createTermReading(panel, store);
@@ -289,7 +295,9 @@ export function createFabricsView(
     link,
     open(newHash) {
       const read = decodeFabricsLink(newHash);
-      store.set({ ...initialFabricsState(read.link, read.problems), objName: store.get().objName });
+      const { objName, objUnit, objOdd } = store.get();
+      const own = { objName, objUnit, objOdd };
+      store.set({ ...initialFabricsState(read.link, read.problems), ...own });
       deformer.openExperiment(read.link.experiment, read.link);
     },
     setShown(value) {

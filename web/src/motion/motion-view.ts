@@ -8,10 +8,13 @@ import { createInvitation } from '../shared/panels/invitation';
 import { createKeysPanel } from '../shared/panels/keys-panel';
 import { createRunTools } from '../shared/panels/run-tools';
 import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
+import { createCaption } from './panels/caption';
 import { createDrawingPanel } from './panels/drawing-panel';
 import { createFabricPanel } from './panels/fabric-panel';
 import { createHeatLegend } from './panels/heat-legend';
+import { createLinkTool } from './panels/link-tool';
 import { createMethodPanel } from './panels/method-panel';
 import { motionSentence } from './panels/motion-sentence';
 import { createNumbersStrip } from './panels/numbers-strip';
@@ -19,11 +22,12 @@ import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
 import { createSpeedErrorView } from './panels/speed-error-view';
 import { createSweepPanel } from './panels/sweep-panel';
+import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
 import { createSweep } from './run/sweep';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
-import { decodeMotionLink, encodeMotionLink } from './state/motion-link';
-import { initialMotionState, type MotionState, shownHeat } from './state/motion-state';
+import { decodeMotionLink, encodeMotionLink, linkTo } from './state/motion-link';
+import { AT_START, initialMotionState, type MotionState, shownHeat } from './state/motion-state';
 import { deformedMesh, holdFor } from './state/obj-mesh';
 import { presetSetting } from './state/setting';
 
@@ -54,8 +58,8 @@ function createPicture(
     'Cloth in three dimensions. Space plays, G takes the cloth, arrows turn the view.',
   );
   const invitation = createInvitation(box);
-  watch(store, ['invited', 'phase', 'ahead'], ({ invited, phase, ahead }) =>
-    invitation.setShown(invited && phase === 'ready' && ahead === null),
+  watch(store, ['invited', 'phase', 'ahead', 'busy'], ({ invited, phase, ahead, busy }) =>
+    invitation.setShown(invited && phase === 'ready' && ahead === null && busy === null),
   );
   createHeatLegend(box, store);
   const keys: Record<string, () => void> = {
@@ -75,16 +79,21 @@ function createPicture(
         keys[name]?.();
         return name in keys;
       },
-      drawn(scale, at) {
-        const { heatScale } = store.get();
-        if (JSON.stringify(scale) !== JSON.stringify(heatScale)) store.set({ heatScale: scale });
-        invitation.place(at.x, at.y);
+      drawn({ heatScale, camera, invitation: { x, y } }) {
+        const { heatScale: scale, camera: pose } = store.get();
+        if (JSON.stringify(scale) !== JSON.stringify(heatScale)) store.set({ heatScale });
+        if (JSON.stringify(pose) !== JSON.stringify(camera)) store.set({ camera });
+        invitation.place(x, y);
       },
-      contextLost() {
-        store.set({ playing: false, problem: { source: 'run', sentence: PICTURE_LOST } });
+      pictureLost(isLost) {
+        const { problem } = store.get();
+        if (isLost)
+          store.set({ playing: false, problem: { source: 'picture', sentence: PICTURE_LOST } });
+        else if (problem?.source === 'picture') store.set({ problem: null });
       },
     });
   } catch {
+    invitation.remove();
     const sentence = replaceCanvas(canvas, 'The numbers and the sweep');
     store.set({ problem: { source: 'browser', sentence } });
     return null;
@@ -95,7 +104,7 @@ function createPanels(
   place: Place,
   store: Store<MotionState>,
   run: MotionRun,
-  homeView: () => void,
+  { homeView, link }: { homeView(): void; link(): string },
 ): void {
   const actions = {
     play: () => run.play(),
@@ -105,16 +114,19 @@ function createPanels(
     homeView,
   };
   createProblemBanner(place('messages'), store, actions);
+  createCaption(place('messages'), store);
   createAnnouncer(place('messages'), store, motionSentence);
-  createNumbersStrip(place('strip'), store);
+  createWorkBar(place('stage'), store, run);
+  createNumbersStrip(place('strip'), store, run);
   createRunTools(place('toolbar'), store, actions, TOOL_WORDS, (phase) => phase !== 'broken');
-  createScenePanel(place('panel'), store, run);
+  createLinkTool(place('toolbar'), store, { rest: () => run.rest(), link });
+  createScenePanel(place('panel'), store, run.obj);
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store);
   createDrawingPanel(place('panel'), store);
   createSweepPanel(place('panel'), store, createSweep(store));
   createKeysPanel(place('panel'));
-  createSpeedErrorView(place('tray'), store);
+  createSpeedErrorView(place('tray'), store, run);
 }
 
 /** Has the picture follow what the state says of it. */
@@ -125,6 +137,7 @@ function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
     stage.setHeat(shownHeat(state), state.heatRange),
   );
   watch(store, ['edges'], ({ edges }) => stage.setEdges(edges));
+  watch(store, ['camera'], ({ camera }) => stage.setCamera(camera));
 }
 
 /** `place` finds the parts of the document by their ids. */
@@ -139,25 +152,24 @@ export function createMotionView(place: Place, hash: string): MotionView {
     showFrame: (...frame) => stage?.showFrame(...frame),
   });
   running = run;
-  createPanels(place, store, run, () => stage?.homeView());
+  const link = () => `#${encodeMotionLink(linkTo(store.get()))}`;
+  createPanels(place, store, run, { homeView: () => stage?.homeView(), link });
   createDropTarget(document.body, {
     openObj(file) {
-      if (isShown) void run.openObj(file);
+      if (isShown) void run.obj.open(file);
     },
   });
   if (stage) drawFrom(store, stage);
 
-  const link = () => `#${encodeMotionLink(store.get())}`;
-  const writeLink = () => {
-    if (isShown && link() !== window.location.hash) window.history.replaceState(null, '', link());
-  };
-  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'startS'], writeLink);
+  const writeLink = createLinkWriter(store, link, () => isShown);
+  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'compare'], () => writeLink());
 
   return {
     link,
     open(newHash) {
       const read = decodeMotionLink(newHash);
-      store.set({ ...read.link, problem: initialMotionState(read.link, read.problems).problem });
+      const { problem } = initialMotionState(read.link, read.problems);
+      run.showAnew({ ...read.link, problem });
     },
     setShown(value) {
       isShown = value;
@@ -170,7 +182,7 @@ export function createMotionView(place: Place, hash: string): MotionView {
     start({ section, positions }, fabric) {
       const mesh = deformedMesh(section, positions);
       const setting = { ...presetSetting('obj'), fabric, hold: holdFor(mesh, 'group:held') };
-      store.set({ mesh, setting, startS: 0, playing: false, invited: true });
+      store.set({ ...AT_START, mesh, setting });
     },
     probe: {
       state: () => store.get(),

@@ -20,9 +20,11 @@ import { createGarmentLegend } from './panels/garment-legend';
 import { createGarmentPanel } from './panels/garment-panel';
 import { garmentSentence } from './panels/garment-sentence';
 import { createGarmentToolbar } from './panels/garment-toolbar';
+import { createNumbersPanel } from './panels/numbers-panel';
 import { paintOf, upperEnd } from './panels/paints';
 import { objText, save } from './panels/saving';
 import { createStoryPanel } from './panels/story-panel';
+import { createWork } from './panels/work';
 import type { ShownFrame } from './run/pane-set';
 import { Trio } from './run/trio';
 import { createGarmentStage, type GarmentStage } from './stage/garment-stage';
@@ -32,6 +34,7 @@ import {
   PANES,
   type PaneId,
   type RefinementState,
+  shownPanes,
 } from './state/refinement-state';
 import type { GarmentMesh } from './worker/garment-protocol';
 
@@ -45,6 +48,9 @@ const KEYS: readonly [string, string][] = [
   ['Home', 'first view'],
 ];
 
+/** In a narrower pane a person is too small to compare folds [CSS pixels]. */
+const LEAST_PANE_WIDTH = 180;
+
 /** The picture of the three panes, all of one store. */
 class Picture {
   stage: GarmentStage | null = null;
@@ -55,6 +61,7 @@ class Picture {
   showMesh(id: PaneId, mesh: GarmentMesh): void {
     this.meshes[id] = mesh;
     this.stage?.setMesh(PANES.indexOf(id), mesh);
+    this.repaint(this.store.get(), id);
   }
 
   showFrames(frames: ShownFrame[], solids: SolidsAnswer | null): void {
@@ -72,7 +79,10 @@ class Picture {
           if (PANES[pane] === 'planned') store.set({ face });
         },
         key,
-        contextLost: () => store.set({ problem: inputFailure(PICTURE_LOST) }),
+        pictureLost(isLost) {
+          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
+          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
+        },
       });
     } catch {
       replaceCanvas(canvas, 'The numbers');
@@ -82,11 +92,15 @@ class Picture {
   /** Follows the store from now on. */
   follow(): void {
     const { store } = this;
-    watch(store, ['colour', 'ranges', 'plan', 'phase'], (state) => this.repaint(state));
-    watch(store, ['panes'], ({ panes }) => {
-      PANES.forEach((id, pane) => {
-        this.stage?.setShown(pane, panes[id].source !== 'resting');
-      });
+    watch(store, ['colour', 'ranges', 'plan', 'phase'], (state) => {
+      for (const id of PANES) this.repaint(state, id);
+    });
+    let shown = '';
+    watch(store, ['panes', 'computeFine', 'isNarrow', 'beside'], (state) => {
+      const ids = shownPanes(state);
+      if (ids.join() === shown) return;
+      shown = ids.join();
+      this.stage?.setPanes(ids.map((id) => PANES.indexOf(id)));
     });
     watch(store, ['edges'], ({ edges }) => this.stage?.setEdges(edges));
     watch(store, ['hanging'], ({ hanging }) => this.stage?.setHanging(hanging));
@@ -107,11 +121,10 @@ class Picture {
     save('pleat-garment.obj', new Blob([text], { type: 'model/obj' }));
   }
 
-  private repaint(state: RefinementState): void {
-    PANES.forEach((id, pane) => {
-      const mesh = this.meshes[id];
-      if (mesh) this.stage?.setPaint(pane, paintOf(state, mesh, state.plan, id === 'fine'));
-    });
+  private repaint(state: RefinementState, id: PaneId): void {
+    const mesh = this.meshes[id];
+    const paint = mesh && paintOf(state, mesh, state.plan, id === 'fine');
+    if (paint) this.stage?.setPaint(PANES.indexOf(id), paint);
   }
 
   /** The scale of a quantity reaches as far as any pane's values did, and does not shrink. */
@@ -137,26 +150,40 @@ function runActions(trio: Trio) {
 /** The boxes of the view, and its canvas. */
 function createBoxes(root: HTMLElement) {
   const messages = element('div');
-  const stageBox = element('section', { class: 'stage', 'aria-label': 'Garment on three meshes' });
+  const badgeBox = element('div');
+  const pictureBox = element('div', { class: 'garment-picture' });
+  const stageBox = element(
+    'section',
+    { class: 'stage garment-stage', 'aria-label': 'Garment on three meshes' },
+    badgeBox,
+    pictureBox,
+  );
   const legendBox = element('div');
   const toolBox = element('section', { class: 'toolbar', 'aria-label': 'Run' });
   const panel = element('aside', { class: 'panel', 'aria-label': 'Refinement' });
   const canvas = createStageCanvas(
-    stageBox,
+    pictureBox,
     'A walking figure in a garment, three times. Space plays, arrows turn the view, a press on a face tells why it is so fine.',
   );
   const left = element('div', { class: 'left' }, messages, stageBox, legendBox, toolBox);
   root.replaceChildren(left, panel);
-  return { messages, stageBox, legendBox, toolBox, panel, canvas };
+  return { messages, badgeBox, pictureBox, legendBox, toolBox, panel, canvas };
 }
 
 function createPanels(
-  { messages, stageBox, legendBox, toolBox, panel }: ReturnType<typeof createBoxes>,
+  { messages, badgeBox, pictureBox, legendBox, toolBox, panel }: ReturnType<typeof createBoxes>,
   store: Store<RefinementState>,
   run: ReturnType<typeof runActions>,
   picture: Picture,
 ): void {
-  createGarmentBadges(stageBox, store);
+  createGarmentBadges(badgeBox, store);
+  const stageWork = element('div', { class: 'stage-work' });
+  pictureBox.append(stageWork);
+  createWork(stageWork, store, { ...run, isOwn: ({ canCancel }) => !canCancel });
+  new ResizeObserver(() => {
+    const { clientWidth: width } = pictureBox;
+    if (width > 0) store.set({ isNarrow: width < PANES.length * LEAST_PANE_WIDTH });
+  }).observe(pictureBox);
   createGarmentLegend(legendBox, store);
   picture.follow();
   const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
@@ -169,6 +196,7 @@ function createPanels(
     saveObj: () => picture.saveObj(),
   });
   createGarmentPanel(panel, store);
+  createNumbersPanel(panel, store);
   createFitPanel(panel, store, run);
   createDetailPanel(panel, store, run);
   createStoryPanel(panel, store, () => picture.meshes.planned ?? null);
@@ -186,7 +214,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     showFrames: (frames, solids) => picture.showFrames(frames, solids),
   });
   const run = runActions(trio);
-  picture.open(boxes.stageBox, boxes.canvas, (name) => {
+  picture.open(boxes.pictureBox, boxes.canvas, (name) => {
     const { playing, edges, hanging } = store.get();
     const actions: Record<string, () => void> = {
       ' ': playing ? run.pause : run.play,

@@ -9,6 +9,7 @@ import {
   createVisitor,
   drop,
   expectMotionWorks,
+  expectUncovered,
   PHONE,
   picture,
   placeOn,
@@ -39,7 +40,7 @@ async function dragVertex(page, vertex, dx, dy, during = () => undefined) {
 const holdsOf = ({ pins, handles }) => [...pins, ...handles].map(({ name }) => name);
 
 export async function checkFabrics(harness) {
-  const { check, countColours } = harness;
+  const { open, check, countColours } = harness;
   const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
     harness,
     isFound,
@@ -226,6 +227,48 @@ export async function checkFabrics(harness) {
     }),
   );
 
+  await check('fabrics: the stiffest is found by one choice, in the list and in the gallery', () =>
+    visit('#view=fabrics&scene=terms', async (page) => {
+      const list = page.getByRole('grid', { name: 'Fabrics' });
+      const note = page.getByRole('region', { name: 'Choice of fabrics' });
+      expectThat(
+        /do not say which of two/.test(await note.textContent()),
+        'weights are unexplained',
+      );
+      await choice(page, 'Order').selectOption('Stiffest to bend first');
+      const first = await list.getByRole('row').first().textContent();
+      expectThat(/^wool.*45 µN·m/.test(first), `the first is ${first}`);
+      await button(page, 'All fifteen at once').click();
+      await until(page, (state) => state.panes.length === 15);
+      await isFound(page);
+      const badge = await page.locator('.pane-badge').first().textContent();
+      expectThat(/^wool.*45 µN·m/.test(badge), `the first badge says ${badge}`);
+      await page.reload();
+      await isFound(page);
+      expectThat(
+        (await stateOf(page)).panes[0].fabric.name === 'wool',
+        'a reload forgets the order',
+      );
+    }),
+  );
+
+  await check(
+    'fabrics: without WebGL the sentence is seen, and nothing asks to be pulled',
+    async () => {
+      const { page, close } = await open('#view=fabrics&scene=terms', {
+        prepare: (fresh) =>
+          fresh.addInitScript(() => {
+            HTMLCanvasElement.prototype.getContext = () => null;
+          }),
+      });
+      await isFound(page);
+      await expectUncovered(page.locator('#fabrics .plain'));
+      const words = page.getByText('Pull me').filter({ visible: true });
+      expectThat((await words.count()) === 0, 'something asks to be pulled');
+      await close();
+    },
+  );
+
   await check('fabrics: forms and terms change the shape; the last term stays on', () =>
     visit('#view=fabrics&scene=terms', async (page) => {
       let before = await positionsOf(page);
@@ -317,6 +360,46 @@ export async function checkFabrics(harness) {
           page,
           (state) => state.experiment === 'own' && state.cloth.name === 'banner.obj',
         );
+      }),
+  );
+
+  await check(
+    'fabrics: a file in millimetres is noticed, and taken in millimetres when told to',
+    () =>
+      visit('#view=fabrics&scene=terms', async (page) => {
+        await drop(page, 'banner.obj', squareObj(950, 12));
+        await until(page, (state) => state.cloth.name === 'banner.obj' && state.phase === 'ready');
+        const panel = page.getByRole('region', { name: 'Experiment' });
+        const said = await panel.textContent();
+        expectThat(/It is 950 m across.*probably the millimetre/.test(said), `it says: ${said}`);
+        await choice(page, 'Unit of the file').selectOption('millimetres');
+        await until(page, (state) => state.objUnit === 'mm' && state.phase === 'ready');
+        await isFound(page);
+        const { cloth } = await stateOf(page);
+        const highest = Math.max(...cloth.rest_m);
+        expectThat(Math.abs(highest - 1.9) < 1e-9, `the highest place is ${highest} m`);
+        expectThat(!/odd for cloth/.test(await panel.textContent()), 'it is still odd');
+      }),
+  );
+
+  await check(
+    'fabrics: a large file shows that it is read, and is given up; a huge one is refused',
+    () =>
+      visit('#view=fabrics&scene=ball&fabrics=wool', async (page) => {
+        const before = await positionsOf(page);
+        await drop(page, 'large.obj', squareObj(1, 300));
+        await page.getByRole('progressbar', { name: 'Reading the file' }).waitFor();
+        await button(page, 'Cancel').click();
+        await until(page, (state) => state.reading === null);
+        await isFound(page);
+        const { experiment, panes, objName } = await stateOf(page);
+        expectThat(experiment === 'ball' && objName === null, `it shows ${experiment}`);
+        expectThat(panes[0].fabric.name === 'wool', 'in another fabric');
+        const off = largestMove(before, await positionsOf(page));
+        expectThat(off < 1e-3, `it is ${off} m off`);
+        await drop(page, 'huge.obj', 'v 0 0 0\n'.repeat(200001));
+        const sentence = await alertText(page);
+        expectThat(/huge\.obj has 200.001 vertices/.test(sentence), `it says: ${sentence}`);
       }),
   );
 

@@ -1,6 +1,17 @@
 // Checks of the view of refinement in a real browser.
 import { eventually, expectThat, largestMove, positionsOf, stateOf, until } from './harness.mjs';
-import { button, canvasOf, choice, createVisitor, expectMotionWorks, picture } from './visitor.mjs';
+import {
+  alertText,
+  button,
+  canvasOf,
+  choice,
+  createVisitor,
+  expectInWindow,
+  expectMotionWorks,
+  expectUncovered,
+  PHONE,
+  picture,
+} from './visitor.mjs';
 
 /** Three meshes, with software rendering on a busy machine [ms]. */
 const LOAD_MS = 120000;
@@ -16,8 +27,14 @@ async function press(page, label, key, times) {
   for (let count = 0; count < times; ++count) await page.keyboard.press(key);
 }
 
+/** Widths of the badges' places, left to right [CSS pixels]. */
+const paneWidths = (page) =>
+  page
+    .locator('#refinement .pane')
+    .evaluateAll((panes) => panes.map((pane) => pane.offsetWidth).filter((width) => width > 0));
+
 export async function checkRefinement(harness) {
-  const { check, countColours } = harness;
+  const { open, check, countColours } = harness;
   const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
     harness,
     isReady,
@@ -33,7 +50,11 @@ export async function checkRefinement(harness) {
       expectThat((await countColours(await picture(page))) > 300, 'the picture is blank');
       const text = await page.locator('#refinement').textContent();
       expectThat(text.includes(`${counts[2]}`) && /faces were split/.test(text), 'no story');
-      expectThat(/\d mm off fine/.test(text), 'no error in a badge');
+      const badges = page.locator('.garment-panes');
+      await eventually(
+        async () => /\d mm off fine/.test(await badges.textContent()),
+        'an error in a badge',
+      );
       const before = await positionsOf(page);
       await page.waitForTimeout(300);
       expectThat(largestMove(before, await positionsOf(page)) === 0, 'the cloth moves unasked');
@@ -177,6 +198,124 @@ export async function checkRefinement(harness) {
       await until(page, (state) => state.timeS === 0);
     }),
   );
+
+  await check('refinement: what was fetched is kept for a visit without a network', () =>
+    visit(
+      '#view=refinement',
+      async (page) => {
+        const areKept = (n) =>
+          eventually(async () => {
+            const kept = await page.evaluate(async () => {
+              const cache = await caches.open('pleat-on-demand');
+              return (await cache.keys()).length;
+            });
+            return kept === n;
+          }, `${n} records are kept`);
+        // A slow worker: the records of the first visit came before it was there.
+        await page.evaluate(() => window.letRegister());
+        await areKept(3);
+        await page.context().setOffline(true);
+        await page.reload();
+        const { panes, problem } = await isReady(page);
+        const sources = Object.values(panes).map(({ source }) => source);
+        const areRecorded = sources.every((source) => source === 'recorded');
+        expectThat(areRecorded, `the frames are ${sources}`);
+        expectThat(problem === null, `it says: ${problem?.what}`);
+        // From the second visit on the worker sees what is fetched.
+        await page.context().setOffline(false);
+        await choice(page, 'Garment').selectOption('Trousers');
+        await areKept(6);
+      },
+      {
+        prepare: (fresh) =>
+          fresh.addInitScript(() => {
+            const { register } = ServiceWorkerContainer.prototype;
+            const allowed = new Promise((resolve) => {
+              window.letRegister = resolve;
+            });
+            ServiceWorkerContainer.prototype.register = async function late(...details) {
+              await allowed;
+              return register.apply(this, details);
+            };
+          }),
+      },
+    ),
+  );
+
+  await check('refinement: records that cannot be had are computed, and that is said', async () => {
+    const { page, close } = await open('#view=refinement&fine=off', {
+      prepare: (fresh) => fresh.context().route('**/*.recording', (route) => route.abort()),
+    });
+    await isReady(page);
+    const sentence = await alertText(page);
+    expectThat(
+      /coarse, multi-resolution and fine could not be fetched: no answer\. They are computed/.test(
+        sentence,
+      ),
+      `it says: ${sentence}`,
+    );
+    const widths = await paneWidths(page);
+    expectThat(widths.length === 2, `${widths.length} panes while the fine mesh rests`);
+    await close();
+  });
+
+  await check(
+    'refinement: without WebGL the sentence is seen, and the numbers still come',
+    async () => {
+      const { page, close } = await open('#view=refinement', {
+        prepare: (fresh) =>
+          fresh.addInitScript(() => {
+            HTMLCanvasElement.prototype.getContext = () => null;
+          }),
+      });
+      await isReady(page);
+      await expectUncovered(page.locator('#refinement .plain'));
+      await close();
+    },
+  );
+
+  await check(
+    'refinement: on a phone two panes are wide enough, and the third is a press away',
+    () =>
+      visit(
+        '#view=refinement',
+        async (page) => {
+          const widths = await paneWidths(page);
+          expectThat(widths.length === 2 && widths.every((width) => width >= 180), `${widths} px`);
+          const still = await picture(page);
+          await page.getByRole('radio', { name: 'Coarse' }).check({ force: true });
+          await until(page, (state) => state.beside === 'coarse');
+          await page.waitForTimeout(300);
+          expectThat(!still.equals(await picture(page)), 'the picture is the same');
+        },
+        PHONE,
+      ),
+  );
+
+  for (const [width, height] of [
+    [720, 450],
+    [390, 844],
+    [1440, 900],
+  ]) {
+    await check(`refinement: Play is in sight and badges lie on no picture at ${width} px`, () =>
+      visit(
+        '#view=refinement',
+        async (page) => {
+          await expectInWindow(button(page, 'Play'));
+          const isOnPicture = await page.evaluate(() => {
+            const edge = (selector, end) =>
+              [...document.querySelectorAll(selector)].map(
+                (element) => element.getBoundingClientRect()[end],
+              );
+            const badges = edge('#refinement .garment-badge', 'bottom');
+            return Math.max(...badges) > edge('#refinement canvas', 'top')[0];
+          });
+          expectThat(!isOnPicture, 'a badge lies on the picture');
+        },
+        { width, height },
+      ),
+    );
+  }
 
   await checkAccess('#view=refinement&colour=pattern', '#refinement details');
 

@@ -26,6 +26,30 @@ export async function expectAccessible(page, details = null) {
   expectThat(findings.length === 0, findings.join('; '));
 }
 
+/** All of it lies in the window, as it is scrolled. */
+export async function expectInWindow(target) {
+  const seen = await target.evaluate((element) => {
+    const { top, bottom } = element.getBoundingClientRect();
+    return top >= 0 && bottom <= window.innerHeight;
+  });
+  expectThat(seen, 'it is out of the window');
+}
+
+/** Nothing lies on its corners or its middle. */
+export async function expectUncovered(target) {
+  const covering = await target.evaluate((element) => {
+    const { left, right, top, bottom } = element.getBoundingClientRect();
+    const points = [
+      [left + 1, top + 1],
+      [right - 2, bottom - 2],
+      [(left + right) / 2, (top + bottom) / 2],
+    ];
+    const seen = points.map(([x, y]) => document.elementFromPoint(x, y));
+    return seen.find((one) => !element.contains(one))?.className ?? null;
+  });
+  expectThat(covering === null, `it is covered by ${covering}`);
+}
+
 /**
  * Visits to one view, which is there once `isReady` of its page, and the checks that every view is
  * put to. `prefix` begins their names.

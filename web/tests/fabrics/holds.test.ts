@@ -80,7 +80,7 @@ function stateAt(hash: string) {
 describe('fabrics-link', () => {
   it('reads its own text back', () => {
     const hash =
-      '#view=fabrics&scene=ball&fabrics=silk+own:0.98,1.1,0.97&gallery=off&form=published&terms=recovery+bending&weights=published&chosen=1&edges=on&held=middle:0.1,0,-0.02;h3:0,1,0;p10:0,0,0.25&free=left-edge';
+      '#view=fabrics&scene=ball&fabrics=silk+own:0.98,1.1,0.97&gallery=off&order=weight&form=published&terms=recovery+bending&weights=published&chosen=1&edges=on&held=middle:0.1,0,-0.02;h3:0,1,0;p10:0,0,0.25&free=left-edge';
     const { state, problems } = stateAt(hash);
     expect(problems).toEqual([]);
     expect(state.pins.map(({ name }) => name)).toEqual(['pin 2', 'point 10']);

@@ -26,9 +26,16 @@ const running: RunNumbers = {
   reference: null,
 };
 
+const asked = {
+  reference: 'here',
+  compare: true,
+  heat: 'off',
+  sweep: NO_SWEEP,
+  mesh: null,
+} as const;
+
 function wordsOf(numbers: Partial<RunNumbers>, setting: Setting = own) {
-  const state = { numbers: { ...running, ...numbers }, setting, sweep: NO_SWEEP, mesh: null };
-  return errorWords(state);
+  return errorWords({ ...asked, numbers: { ...running, ...numbers }, setting });
 }
 
 const against = (patch: Partial<ReferenceNumbers>, setting?: Setting) =>
@@ -84,8 +91,12 @@ describe('error words', () => {
       status: 'ok',
     } as unknown as BenchRow;
     const sweep = { ...NO_SWEEP, rows: [row], scene: sweptScene(own, null) };
-    const words = errorWords({ numbers: running, setting: own, sweep, mesh: null });
+    const words = errorWords({ ...asked, numbers: running, setting: own, sweep });
     expect(words.value).toBe('20 mm');
     expect(words.sentence).toContain('no converged reference');
+    const unasked = { reference: 'unasked', compare: false } as const;
+    expect(
+      errorWords({ ...asked, ...unasked, numbers: running, setting: own, sweep }),
+    ).toMatchObject({ value: '20 mm', action: 'Compare' });
   });
 });

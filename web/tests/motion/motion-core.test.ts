@@ -17,10 +17,14 @@ import {
 import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
 import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { readObj } from '../../src/motion/worker/obj-core';
+import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
 import { runSweep } from '../../src/motion/worker/sweep-core';
 import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
+import type { Failure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { openObjFile } from '../../src/shared/state/obj-file';
 import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/steppers';
 import { boundMethods } from '../support/bound-methods';
 import { isBuilt, loadModule } from '../support/built-module';
@@ -58,6 +62,7 @@ function serve(module: AllModules) {
   };
 }
 
+const ALL_TO_1 = { finest: 1, withSlow: true };
 const setting: Setting = { ...presetSetting('curtain'), level: 1 };
 const sceneText = (patch: Partial<Setting> = {}) =>
   JSON.stringify(sceneOf({ ...setting, ...patch }));
@@ -68,6 +73,15 @@ function open(module: AllModules) {
   server.take('ready');
   server.send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 1 });
   return { ...server, loaded: server.take('loaded') };
+}
+
+/** What comes of reading a file. */
+async function read(module: AllModules, name: string, text: string) {
+  const file = await openObjFile(new File([text], name));
+  if (typeof file === 'string') throw new Error(file);
+  const { low, high } = file;
+  const known = { name, isOwn: true, unit: 'm', odd: null, low, high } as const;
+  return readObj(module, { type: 'readObj', fabricsText, objText: text, file: known });
 }
 
 /** Two triangles, upright or level, in a group. */
@@ -208,7 +222,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('measures a small sweep: every row with speed, error and reference', async () => {
     const { sweep, posted } = open(await load());
-    const { scene, settings } = sweepPlan(setting, 0);
+    const { scene, settings } = sweepPlan(setting, { finest: 0, withSlow: false });
     const plan = { scene, settings: settings.slice(0, 5), duration_s: 0.1, repeats: 1 };
     sweep(plan);
     const { report } = posted.at(-1) as Sent<'sweepReport'>;
@@ -245,9 +259,9 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   });
 
   it('reads an OBJ file into a mesh that moves', async () => {
-    const { send, take } = open(await load());
-    send({ type: 'readObj', name: 'two.obj', objText: objText(false), isOwn: true });
-    const { mesh } = take('objRead');
+    const module = await load();
+    const { send, take } = open(module);
+    const { mesh } = (await read(module, 'two.obj', objText(false))) as ObjReadMessage;
     expect(mesh).toMatchObject({
       ...{ name: 'two.obj', isOwn: true, threads: 'down', groups: ['hem'] },
       ...{ nVertices: 4, nTriangles: 2, low: [0, 0, 0], high: [1, 1, 0] },
@@ -268,29 +282,25 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   });
 
   it('takes threads from texture coordinates, else downward, or along x on a flat mesh', async () => {
-    const { send, take } = open(await load());
-    const threadsOf = (text: string) => {
-      send({ type: 'readObj', name: 'two.obj', objText: text, isOwn: false });
-      const { mesh } = take('objRead');
+    const module = await load();
+    const threadsOf = async (text: string) => {
+      const { mesh } = (await read(module, 'two.obj', text)) as ObjReadMessage;
       return { threads: mesh.threads, cloth: JSON.parse(mesh.clothText) };
     };
-    expect(threadsOf(objText(false)).threads).toBe('down');
-    const { threads, cloth } = threadsOf(objText(true));
+    expect((await threadsOf(objText(false))).threads).toBe('down');
+    const { threads, cloth } = await threadsOf(objText(true));
     expect(threads).toBe('along_x');
     if (_name === 'the stand-in') expect(cloth.mesh.warp_direction).toEqual([1, 0, 0]);
     else expect(cloth.mesh.warp_directions[1][0]).toBeCloseTo(1, 12);
-    expect(threadsOf(objText(true, true)).threads).toBe('texture');
+    expect((await threadsOf(objText(true, true))).threads).toBe('texture');
   });
 
-  it('names the line of a bad OBJ file and keeps the cloth it had', async () => {
-    const { send, take, loaded } = open(await load());
-    const bad = `${objText(false)}wobble 3\n`;
-    send({ type: 'readObj', name: 'bad.obj', objText: bad, isOwn: true });
-    const { failure } = take('objRefused');
+  it('names the line of a bad OBJ file', async () => {
+    const bad = `${objText(false)}f 1 2\n`;
+    const answer = await read(await load(), 'bad.obj', bad);
+    const { failure } = answer as { failure: Failure };
     expect(failure).toMatchObject({ kind: 'input', where: 'bad.obj: line 8' });
     expect(failure.what).toContain('expected');
-    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
-    expect(take('frame').hasEnded).toBe(false);
   });
 
   it('turns an exception into a refusal', async () => {
@@ -316,7 +326,7 @@ describe('motion-core', () => {
 
   it('runs a sweep to its end, with growing rows', () => {
     const { sweep, posted } = serve(createFakeModule().module);
-    sweep(sweepPlan(setting, 1));
+    sweep(sweepPlan(setting, ALL_TO_1));
     const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
     expect(reports.map((report) => report.rows.length)).toEqual(
       Array.from({ length: 16 }, (_, index) => index + 1),
@@ -326,18 +336,18 @@ describe('motion-core', () => {
 
   it('refuses a sweep with the reason of the module', () => {
     const { sweep, take } = serve(createFakeModule().module);
-    const { scene } = sweepPlan(setting, 0);
+    const { scene } = sweepPlan(setting, { finest: 0, withSlow: false });
     sweep({ scene, settings: [] });
     expect(take('refused').failure.where).toBe('/settings');
   });
 
-  it('deletes every object of the module', () => {
+  it('deletes every object of the module', async () => {
     const { module, alive } = createFakeModule();
     const { send, sweep, core } = serve(module);
     send({ type: 'open', fabricsText });
     send({ type: 'open', fabricsText });
-    sweep(sweepPlan(setting, 1));
-    send({ type: 'readObj', name: 'two.obj', objText: objText(false), isOwn: true });
+    sweep(sweepPlan(setting, ALL_TO_1));
+    await read(module, 'two.obj', objText(false));
     expect(alive()).toBe(1);
     core.close();
     expect(alive()).toBe(0);
@@ -360,7 +370,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
 
   it('sweeps with Eigen, in the reference and in projective, and its rows can be applied', () => {
     const { send, sweep, take, posted } = open(module);
-    sweep(sweepPlan(setting, 1));
+    sweep(sweepPlan(setting, ALL_TO_1));
     const { rows } = (posted.at(-1) as Sent<'sweepReport'>).report;
     expect(rows.every((row) => row.reference.description === 'implicit with eigen')).toBe(true);
     const projective = rows.filter((row) => row.method.stepper === 'projective');

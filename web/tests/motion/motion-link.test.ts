@@ -31,7 +31,9 @@ const link: MotionLink = {
   heat: 'signed',
   heatRange: 2,
   edges: true,
-  startS: 1.5,
+  compare: true,
+  startSteps: 180,
+  camera: { azimuth: 0.125, polar: 1.5, zoom: 0.75, shift: [0.1, -0.25, 0] },
 };
 
 describe('url-codec', () => {
@@ -97,8 +99,8 @@ describe('url-codec', () => {
     expect(problems).toEqual([]);
     expect(read.setting).toEqual(presetSetting('curtain'));
     expect(read.heat).toBe('off');
-    expect(read.startS).toBeGreaterThan(0);
-    expect(decodeMotionLink('#scene=curtain').link.startS).toBe(0);
+    expect(read.startSteps).toBe(90);
+    expect(decodeMotionLink('#scene=curtain').link.startSteps).toBe(0);
   });
 
   it('takes what a preset is made for when a part is missing', () => {

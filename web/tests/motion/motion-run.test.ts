@@ -1,29 +1,38 @@
-import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { PleatModule } from '../../src/motion/bindings/pleat-module';
-import type { StartMotion } from '../../src/motion/run/motion-client';
+import { errorWords } from '../../src/motion/panels/error-words';
+import { linkSentence } from '../../src/motion/panels/link-tool';
+import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
 import { MotionRun } from '../../src/motion/run/motion-run';
-import { decodeMotionLink } from '../../src/motion/state/motion-link';
+import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/state/motion-link';
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel } from '../../src/motion/state/setting';
+import { stepCostAt } from '../../src/motion/state/step-cost';
 import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
+import { readObj } from '../../src/motion/worker/obj-core';
+import type { FromObj, ToObj } from '../../src/motion/worker/obj-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
 import { isBuilt, loadModule } from '../support/built-module';
 import diverging from '../support/diverging.json';
 import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';
+import { stubLocks } from '../support/locks';
 import { workerPort } from '../support/worker-port';
 
 // The worker is a core in this thread, whose answers come later, as a worker's do.
 let module: PleatModule;
 let changeScene = (scene: Record<string, unknown>) => scene;
+/** Messages that the worker never comes to an end with. */
+let hangsAt: (message: ToMotion) => boolean = () => false;
 const start: StartMotion = (listener) =>
   createAsked(
     workerPort<ToMotion, FromMotion>((post) => {
       const core = new MotionCore(module, post);
       return {
         receive(message) {
+          if (hangsAt(message)) return new Promise(() => undefined);
           if (message.type !== 'load') return core.receive(message);
           const scene = changeScene(JSON.parse(message.sceneText));
           core.receive({ ...message, sceneText: JSON.stringify(scene) });
@@ -31,6 +40,16 @@ const start: StartMotion = (listener) =>
         close: () => core.close(),
       };
     }),
+    listener,
+  );
+
+let isReadingStuck = false; // a file that takes for ever
+const startObj: StartObj = (listener) =>
+  createAsked(
+    workerPort<ToObj, FromObj>((post) => ({
+      receive: (message) =>
+        isReadingStuck ? new Promise(() => undefined) : post(readObj(module, message), []),
+    })),
     listener,
   );
 
@@ -49,6 +68,7 @@ function open(hash: string) {
       },
     },
     start,
+    startObj,
   );
   return { store, run, shown: () => shown };
 }
@@ -58,6 +78,7 @@ const phaseOf = ({ store }: ReturnType<typeof open>) => store.get().phase;
 beforeEach(() => {
   vi.stubGlobal('requestAnimationFrame', (work: () => void) => setTimeout(work, 1));
   vi.stubGlobal('cancelAnimationFrame', clearTimeout);
+  hangsAt = () => false;
 });
 
 describe('motion run of a run that diverges', () => {
@@ -142,10 +163,166 @@ describe('motion run', () => {
     const { setting } = page.store.get();
     page.store.set({ setting: { ...setting, substeps: 1 } });
     await vi.waitUntil(() => phaseOf(page) === 'refused');
-    expect(page.store.get().problem?.sentence).toContain('expected at least 300 substeps');
+    expect(page.store.get().problem?.sentence).toContain('a step of it takes 300');
     page.store.set({ setting });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
+  });
+
+  it('shows the cloth of a setting that is refused at once, and offers what helps', async () => {
+    const page = open('#scene=curtain&level=1&stepper=explicit&substeps=1');
+    await vi.waitUntil(() => phaseOf(page) === 'refused' && page.shown().positions.length > 0);
+    expect(page.shown().positions).toHaveLength(3 * 25);
+    const remedy = page.store.get().problem?.remedy;
+    expect(remedy?.setting.substeps).toBe(0);
+    if (remedy) page.store.set({ setting: remedy.setting });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get().problem).toBeNull();
+  });
+
+  it('runs to the very step of a link, however long it takes, and tells what the frame shows', async () => {
+    const page = open('#scene=curtain&level=0&steps=400');
+    await vi.waitUntil(() => page.store.get().ahead !== null);
+    await vi.waitUntil(() => page.store.get().ahead === null && phaseOf(page) === 'ready');
+    expect(page.store.get().numbers?.step).toBe(400);
+    page.run.play();
+    await vi.waitUntil(() => (page.store.get().numbers?.step ?? 0) > 400);
+    await page.run.rest();
+    const { numbers } = page.store.get();
+    const again = open(`#${encodeMotionLink(linkTo(page.store.get()))}`);
+    await vi.waitUntil(() => again.store.get().numbers?.step === numbers?.step);
+    await vi.waitUntil(() => again.store.get().ahead === null);
+    expect(again.shown().positions).toEqual(page.shown().positions);
+  });
+
+  it('says where the way to the start was stopped', async () => {
+    const page = open('#scene=curtain&level=0&steps=3600');
+    await vi.waitUntil(() => (page.store.get().numbers?.step ?? 0) > 0);
+    page.run.stopWork();
+    const { problem, numbers, ahead } = page.store.get();
+    expect(ahead).toBeNull();
+    expect(problem?.sentence).toBe(
+      `Stopped at ${numbers?.time_s.toFixed(2)} s, on the way to 60.00 s.`,
+    );
+  });
+
+  it('starts anew for another link, whatever moved before', async () => {
+    const page = open('#scene=curtain&level=0&steps=9');
+    await vi.waitUntil(() => page.store.get().numbers?.step === 9);
+    const { link } = decodeMotionLink('#scene=curtain&level=1&steps=4');
+    page.run.showAnew(link);
+    await vi.waitUntil(() => page.store.get().numbers?.step === 4);
+    expect(page.store.get().setting.level).toBe(1);
+  });
+
+  it('knows what a link to the shown cloth leaves out', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.grab(3);
+    page.run.releaseGrab();
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    expect(linkSentence(page.store.get())).toMatch(/runs to 0\.02 s.*The pull is not kept/);
+    page.run.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    expect(linkSentence(page.store.get())).toBe('Link copied. It runs to 0.02 s and rests there.');
+    page.store.set({ setting: { ...page.store.get().setting, level: 1 } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(linkSentence(page.store.get())).toContain('The change on the way is not kept');
+  });
+});
+
+describe('motion run whose worker does not go on', () => {
+  beforeEach(() => {
+    module = createFakeModule().module;
+    changeScene = (scene) => scene;
+  });
+  afterEach(() => vi.unstubAllGlobals());
+
+  const stepTo = async (page: ReturnType<typeof open>, step: number) => {
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === step);
+  };
+
+  it('notices that it ended, says so in true words, and starts it again', async () => {
+    const locks = stubLocks();
+    const page = open('#scene=curtain&level=1');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    const { setting } = page.store.get();
+    locks.endAll();
+    expect(page.store.get().problem?.sentence).toMatch(
+      /ended by itself after step 1 .*started again/,
+    );
+    expect(page.store.get().problem?.sentence).not.toContain('browser, with SIMD');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({ setting, numbers: { step: 0 } });
+    expect(page.store.get().problem?.source).toBe('worker');
+    await stepTo(page, 1);
+  });
+
+  it('does not start it again for ever', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    hangsAt = ({ type }) => {
+      if (type === 'load') throw new Error('out of memory');
+      return false;
+    };
+    page.store.set({ setting: { ...page.store.get().setting, level: 3 } });
+    await vi.waitUntil(() => phaseOf(page) === 'stopped');
+    expect(page.store.get().problem?.sentence).toMatch(/out of memory.* twice/);
+    hangsAt = () => false;
+    page.run.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+  });
+
+  it('shows a step that takes long, and Stop goes back to what ran before', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    page.store.set({ setting: { ...page.store.get().setting, level: 2 } });
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    hangsAt = ({ type }) => type === 'step';
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().busy?.type === 'step', 3000);
+    hangsAt = () => false;
+    page.run.stopWork();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const { setting, problem, costs, busy } = page.store.get();
+    expect(setting.level).toBe(0);
+    expect(busy).toBeNull();
+    expect(problem?.sentence).toMatch(
+      /One step at level 2 was stopped .*back at its start, at level 0/,
+    );
+    expect(stepCostAt(costs, setting, 2)).toMatchObject({ isLeast: true });
+    await stepTo(page, 1);
+  });
+
+  it('does not let another setting wait for ever, nor at all once Stop is pressed', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    hangsAt = ({ type }) => type === 'step';
+    page.run.step();
+    page.store.set({ setting: { ...page.store.get().setting, level: 1 } });
+    await vi.waitUntil(() => page.store.get().busy?.type === 'step', 3000);
+    page.run.stopWork();
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    expect(page.store.get()).toMatchObject({ setting: { level: 1 }, numbers: { step: 0 } });
+  });
+
+  it('is reset without waiting for a step that does not end', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(page, 1);
+    hangsAt = ({ type }) => type === 'step';
+    page.run.step();
+    page.run.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready', 5000);
+    expect(page.store.get()).toMatchObject({ numbers: { step: 0 }, setting: { level: 0 } });
   });
 });
 
@@ -175,7 +352,7 @@ describe('motion run of a mesh', () => {
   it('puts the visitor’s file in its place, from any scene, and keeps it', async () => {
     const page = open('#scene=curtain&level=0');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
-    await page.run.openObj(file('hat.OBJ', triangle(2)));
+    await page.run.obj.open(file('hat.OBJ', triangle(2)));
     await vi.waitUntil(() => page.store.get().mesh !== null && phaseOf(page) === 'ready');
     expect(page.store.get()).toMatchObject({
       mesh: { name: 'hat.OBJ', isOwn: true, high: [1, 2, 1] },
@@ -195,14 +372,44 @@ describe('motion run of a mesh', () => {
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     const sentence = () => page.store.get().problem?.sentence ?? '';
     const { setting } = page.store.get();
-    await page.run.openObj(file('hat.obj', 'v 0 0 0\nwobble\n'));
+    await page.run.obj.open(file('hat.obj', 'v 0 0 0\nwobble\n'));
     await vi.waitUntil(() => sentence() !== '');
     expect(sentence()).toContain('hat.obj: line 2: expected');
-    await page.run.openObj(file('hat.stl', 'solid'));
+    await page.run.obj.open(file('hat.stl', 'solid'));
     expect(sentence()).toContain('hat.stl is no OBJ file');
     expect(page.store.get()).toMatchObject({ setting, mesh: null, phase: 'ready' });
     page.run.step();
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+  });
+
+  it('shows that a file is being read, and gives it up when told to', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    isReadingStuck = true;
+    const opened = page.run.obj.open(file('hat.obj', triangle(1)));
+    await vi.waitUntil(() => page.store.get().reading === 'hat.obj');
+    page.run.step(); // meanwhile the cloth goes on
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    page.run.obj.cancel();
+    await opened;
+    isReadingStuck = false;
+    expect(page.store.get()).toMatchObject({ reading: null, mesh: null, problem: null });
+    await page.run.obj.open(file('hat.obj', triangle(1)));
+    expect(page.store.get()).toMatchObject({ reading: null, mesh: { name: 'hat.obj' } });
+  });
+
+  it('takes a file in another unit, and says which one is likely', async () => {
+    const page = open('#scene=curtain&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await page.run.obj.open(file('hat.obj', triangle(950)));
+    expect(page.store.get().mesh).toMatchObject({ high: [1, 950, 1], unit: 'm' });
+    expect(page.store.get().mesh?.odd).toContain('probably the millimetre');
+    await page.run.obj.setUnit('mm');
+    expect(page.store.get().mesh).toMatchObject({
+      high: [0.001, 0.95, 0.001],
+      unit: 'mm',
+      odd: null,
+    });
   });
 
   it('says that the example cannot be had, and takes a file all the same', async () => {
@@ -210,7 +417,7 @@ describe('motion run of a mesh', () => {
     const page = open('#scene=obj');
     await vi.waitUntil(() => phaseOf(page) === 'refused');
     expect(page.store.get().problem?.sentence).toContain('could not be fetched');
-    await page.run.openObj(file('hat.obj', triangle(1)));
+    await page.run.obj.open(file('hat.obj', triangle(1)));
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     expect(page.store.get().problem).toBeNull();
   });
@@ -223,7 +430,7 @@ describe('motion run of a mesh', () => {
     fetched.mockReturnValue(late);
     const page = open('#scene=obj');
     await vi.waitUntil(() => fetched.mock.calls.length > 0);
-    await page.run.openObj(file('hat.obj', triangle(1)));
+    await page.run.obj.open(file('hat.obj', triangle(1)));
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     bring(new Response(triangle(2)));
     page.run.step();
@@ -258,19 +465,30 @@ describe('motion run with a reference', () => {
 
   const referenceOf = ({ store }: ReturnType<typeof open>) => store.get().numbers?.reference;
 
+  it('fetches nothing until a comparison is asked for', async () => {
+    const page = open('#scene=swinging-sheet&level=0');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    expect(fetched).not.toHaveBeenCalled();
+    page.store.set({ compare: true });
+    await vi.waitUntil(() => referenceOf(page));
+    expect(page.store.get().reference).toBe('here');
+  });
+
   it('fetches it after the cloth is there, and compares', async () => {
     fetched.mockImplementation(() => {
       expect(page.store.get().phase).toBe('ready');
       return answer(reference)();
     });
-    const page = open('#scene=swinging-sheet&level=0');
+    const page = open('#scene=swinging-sheet&level=0&compare=on');
     await vi.waitUntil(() => referenceOf(page));
     expect(referenceOf(page)).toMatchObject({ distance_m: 0.012, end_s: 0.1 });
     expect(fetched).toHaveBeenCalledOnce();
   });
 
   it('fetches none for another fabric or model than it is of', async () => {
-    const page = open('#scene=swinging-sheet&level=0&fabric=silk');
+    const page = open('#scene=swinging-sheet&level=0&fabric=silk&compare=on');
     await vi.waitUntil(() => phaseOf(page) === 'ready');
     page.store.set({ setting: withModel(presetSetting('swinging-sheet'), 'membrane') });
     await vi.waitUntil(() => phaseOf(page) === 'ready');
@@ -279,9 +497,10 @@ describe('motion run with a reference', () => {
 
   it('goes without when it cannot be fetched, and tries again at the next load', async () => {
     fetched.mockRejectedValueOnce(new TypeError('offline'));
-    const page = open('#scene=swinging-sheet&level=0');
-    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const page = open('#scene=swinging-sheet&level=0&compare=on');
+    await vi.waitUntil(() => page.store.get().reference === 'failed');
     expect(page.store.get().problem).toBeNull();
+    expect(errorWords(page.store.get())).toMatchObject({ action: 'Try again' });
     page.store.set({ setting: { ...page.store.get().setting, level: 1 } });
     await vi.waitUntil(() => referenceOf(page));
   });

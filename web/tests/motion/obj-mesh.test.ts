@@ -11,6 +11,8 @@ import { presetSetting, sceneOf } from '../../src/motion/state/setting';
 const standing: ObjMesh = {
   name: 'shirt.obj',
   isOwn: true,
+  unit: 'm',
+  odd: null,
   clothText: '{"mesh":{"positions_m":[]}}',
   groups: ['waist'],
   nVertices: 4,

@@ -83,10 +83,17 @@ describe('model', () => {
 });
 
 describe('sweep-plan', () => {
-  const settingsOf = (level: number, finest: number) =>
-    sweepPlan(start, finest).settings.filter((one) => one['/refinement/level'] === level);
-  const steppersOf = (level: number) =>
-    new Set(settingsOf(level, 3).map((one) => one['/method'].stepper));
+  const settingsOf = (level: number, finest: number, withSlow = true) =>
+    sweepPlan(start, { finest, withSlow }).settings.filter(
+      (one) => one['/refinement/level'] === level,
+    );
+  const steppersOf = (level: number, withSlow = true) =>
+    new Set(settingsOf(level, 3, withSlow).map((one) => one['/method'].stepper));
+
+  it('leaves out what takes most of the time unless it is asked for', () => {
+    expect(steppersOf(0)).toContain('explicit');
+    expect(steppersOf(0, false)).toEqual(new Set(['implicit', 'projective', 'xpbd']));
+  });
 
   it('measures every level up to the finest, with every stepper that can keep up', () => {
     expect(settingsOf(3, 3).length).toBeGreaterThan(0);
@@ -99,7 +106,10 @@ describe('sweep-plan', () => {
   });
 
   it('measures a membrane with what can run it', () => {
-    const { scene, settings } = sweepPlan(withModel(start, 'membrane'), 1);
+    const { scene, settings } = sweepPlan(withModel(start, 'membrane'), {
+      finest: 1,
+      withSlow: false,
+    });
     expect(scene.model).toEqual({ elasticity: 'membrane' });
     expect(settings.map((one) => one['/method'].stepper)).toEqual([
       ...['implicit', 'implicit', 'newton', 'newton'],
@@ -113,7 +123,7 @@ describe('sweep-plan', () => {
   });
 
   it('finds the row of a setting that a row was applied from', () => {
-    const rows = sweepPlan(start, 2).settings.map((one) =>
+    const rows = sweepPlan(start, { finest: 2, withSlow: true }).settings.map((one) =>
       rowFor(one['/refinement/level'], { ...one['/method'] }),
     );
     const scene = sweptScene(start, null);

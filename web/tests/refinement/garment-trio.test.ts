@@ -79,6 +79,10 @@ function stand(link: Partial<RefinementLink> = {}, changes: Partial<TrioParts> =
 
 const isReady = ({ phase }: RefinementState) => phase === 'ready';
 
+/** The numbers, which follow the first picture, are there too. */
+const isMeasured = (state: RefinementState) =>
+  isReady(state) && Object.values(state.panes).every(({ faults }) => faults !== null);
+
 describe('planner', () => {
   it('makes of the example the very plan that comes with the page', async () => {
     const urls = exampleUrls('skirt');
@@ -236,14 +240,38 @@ describe('further examples', () => {
 
 describe('trio', () => {
   it(
+    'shows each record as soon as it is there, before the others are',
+    async () => {
+      let give: () => void = () => undefined;
+      const gate = new Promise<void>((resolve) => {
+        give = resolve;
+      });
+      const fetchBytes = async (url: string) => {
+        if (url.includes('fine.recording')) await gate;
+        return recordBytes(url);
+      };
+      const { store, settled, shown } = stand({}, { fetchBytes });
+      await settled(() => shown.coarse !== undefined && shown.planned !== undefined);
+      expect(store.get().phase).toBe('loading');
+      const early = shown.planned;
+      give();
+      await settled(isReady);
+      expect(shown.planned).toEqual(early);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     'starts still, in the middle of a walk, with errors of both coarser meshes',
     async () => {
       const { settled, meshes, shown } = stand();
-      const state = await settled(isReady);
+      const { panes } = await settled(isReady);
+      expect(Object.values(panes).map(({ source }) => source)).toEqual(Array(3).fill('recorded'));
+      expect(shown.fine?.length).toBe(3 * 10920);
+      const state = await settled(isMeasured);
       expect(state.problem).toBeNull();
       expect(state.timeS).toBeCloseTo(3, 9);
       const { coarse, planned, fine } = state.panes;
-      expect([coarse.source, planned.source, fine.source]).toEqual(Array(3).fill('recorded'));
       expect([coarse.nVertices, fine.nVertices]).toEqual([714, 10920]);
       expect(planned.nVertices).toBe(state.plan?.vertices);
       expect(meshes.planned?.hanging.length).toBeGreaterThan(100);
@@ -252,7 +280,6 @@ describe('trio', () => {
       // A slide along the surface adds no distance between surfaces.
       for (const { surfaceM, errorM } of [coarse, planned])
         expect(surfaceM ?? 1).toBeLessThan(errorM ?? 0);
-      expect(shown.fine?.length).toBe(3 * 10920);
       for (const { faults } of [coarse, planned, fine]) {
         expect(faults?.n_inside).toBe(0);
         expect(faults?.n_crossings).toBeGreaterThanOrEqual(0);
@@ -328,15 +355,19 @@ describe('trio', () => {
   );
 
   it(
-    'goes on without records that cannot be fetched',
+    'computes what cannot be fetched, and says so',
     async () => {
-      const fetchBytes = async () => {
-        throw new Error('offline');
+      const fetchBytes = async (url: string) => {
+        if (/(coarse|planned)\.recording/.test(url)) throw new Error('offline');
+        return recordBytes(url);
       };
-      const { settled } = stand({ computeFine: false }, { fetchBytes });
+      const { settled } = stand({}, { fetchBytes });
       const state = await settled(isReady);
-      expect(state.problem).toBeNull();
-      expect(state.panes.planned.source).toBe('computed');
+      expect(state.problem?.what).toBe(
+        'The recorded frames of coarse and multi-resolution could not be fetched: offline. They are computed here instead, from the beginning and slower than real time.',
+      );
+      expect(state.panes.planned.source).toBe('sampled');
+      expect(state.panes.fine.source).toBe('recorded');
     },
     PATIENCE_MS,
   );

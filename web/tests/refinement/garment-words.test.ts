@@ -3,6 +3,7 @@ import type { FitAnswer } from '../../src/refinement/bindings/refinement-module'
 import { garmentSentence } from '../../src/refinement/panels/garment-sentence';
 import {
   anewSentence,
+  buysSentence,
   costWords,
   errorWords,
   fitReading,
@@ -10,7 +11,7 @@ import {
   sourceSentence,
   storySentences,
 } from '../../src/refinement/panels/garment-words';
-import { upperEnd } from '../../src/refinement/panels/paints';
+import { NEUTRAL_COLOUR, paintOf, upperEnd } from '../../src/refinement/panels/paints';
 import { objText } from '../../src/refinement/panels/saving';
 import type { PlanStory } from '../../src/refinement/state/plan-file';
 import {
@@ -19,7 +20,11 @@ import {
   EMPTY_PANE,
   initialRefinementState,
   isExample,
+  PANES,
+  shownPanes,
 } from '../../src/refinement/state/refinement-state';
+import type { GarmentMesh } from '../../src/refinement/worker/garment-protocol';
+import { linearColour } from '../../src/shared/stage/colormap';
 
 const STORY: PlanStory = {
   examples: ['skirt_walk'],
@@ -37,7 +42,7 @@ const FIT: FitAnswer = {
   share: 0.01,
   worst_share: 0.03,
   n_in_a_row: 0,
-  n_frames: 20,
+  n_frames: 30,
   fires: false,
   first_fired: null,
 };
@@ -94,6 +99,11 @@ describe('garment-words', () => {
     expect(fitReading(FIT, STORY)).toMatchObject({ light: 'fits' });
     expect(fitReading({ ...FIT, share: 0.2, n_in_a_row: 3 }, STORY).detail).toContain('3 of 10');
     expect(fitReading({ ...FIT, fires: true, first_fired: 34 }, STORY).light).toBe('fires');
+    // A second of motion has to be seen before it is said to fit, not before it is said not to.
+    expect(fitReading({ ...FIT, n_frames: 29 }, STORY)).toMatchObject({ light: 'watching' });
+    expect(fitReading({ ...FIT, n_frames: 12, fires: true, first_fired: 11 }, STORY).light).toBe(
+      'fires',
+    );
     // Once it has fired the plan stays doubtful.
     expect(fitReading({ ...FIT, first_fired: 34 }, STORY).light).toBe('fires');
   });
@@ -108,6 +118,41 @@ describe('garment-words', () => {
     expect(sourceSentence(slow)).toContain('wait for the fine mesh');
     const rest = { ...slow, panes: { ...slow.panes, fine: EMPTY_PANE } };
     expect(sourceSentence(rest)).toContain('rests');
+  });
+
+  it('says what the levels cost, and compares no times of two machines', () => {
+    const coarse = { ...EMPTY_PANE, nVertices: 700, msPerFrame: 5, source: 'recorded' as const };
+    const fine = { ...coarse, nVertices: 10500, msPerFrame: 100 };
+    const panes = { coarse, planned: coarse, fine };
+    expect(buysSentence({ panes })).toContain('15 times the vertices and 20 times the time');
+    const here = { ...coarse, source: 'computed' as const };
+    expect(buysSentence({ panes: { ...panes, coarse: here } })).not.toContain('the time');
+    const off = { ...coarse, errorM: 0.06 };
+    expect(
+      buysSentence({ panes: { coarse: off, planned: { ...off, errorM: 0.045 }, fine } }),
+    ).toMatch(/60 mm off fine on the coarse mesh and 45 mm on the planned one/);
+    expect(buysSentence({ panes: STATE.panes })).toBe('');
+  });
+
+  it('gives the stage to what moves, and to two panes where it is narrow', () => {
+    const computed = { ...EMPTY_PANE, nVertices: 700, source: 'computed' as const };
+    const resting = { ...EMPTY_PANE, nVertices: 10500 };
+    const panes = { coarse: computed, planned: computed, fine: resting };
+    expect(shownPanes({ ...STATE, panes, computeFine: false })).toEqual(['coarse', 'planned']);
+    expect(shownPanes({ ...STATE, panes: { ...panes, fine: computed } })).toEqual(PANES);
+    expect(shownPanes({ ...STATE, isNarrow: true })).toEqual(['planned', 'fine']);
+    expect(shownPanes({ ...STATE, isNarrow: true, beside: 'coarse' })).toEqual(['coarse', 'fine']);
+  });
+
+  it('paints fine grey where the others show their distance to it', () => {
+    const mesh = { faces: new Int32Array(14) } as GarmentMesh;
+    const shown = { colour: 'distance' as const, ranges: STATE.ranges };
+    const grey = linearColour(NEUTRAL_COLOUR);
+    expect(paintOf(shown, mesh, null, true)).toEqual({
+      kind: 'faces',
+      colours: Float32Array.from([...grey, ...grey]),
+    });
+    expect(paintOf(shown, mesh, null, false).kind).toBe('vertices');
   });
 
   it('announces events, not numbers', () => {

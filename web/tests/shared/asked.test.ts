@@ -1,7 +1,8 @@
 // A question to a worker has one answer, whatever else the worker says meanwhile.
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { answerOf, BrokenWorker, createAsked, Refused } from '../../src/shared/workers/asked';
 import type { Core, Post } from '../../src/shared/workers/serve';
+import { stubLocks } from '../support/locks';
 import { workerPort } from '../support/worker-port';
 
 type Question =
@@ -89,5 +90,29 @@ describe('a worker that is asked', () => {
     await expect(open2).rejects.toThrow('out of memory');
     await expect(client.ask({ type: 'silent' })).rejects.toThrow(BrokenWorker);
     expect(broken).toEqual(['out of memory']);
+  });
+});
+
+describe('a worker that ends without a word', () => {
+  afterEach(() => vi.unstubAllGlobals());
+
+  it('is noticed, and its open questions are rejected', async () => {
+    const locks = stubLocks();
+    const { client, broken } = open();
+    await client.ask({ type: 'silent' });
+    const open1 = client.ask({ type: 'slow', value: 1 });
+    locks.endAll();
+    await expect(open1).rejects.toThrow('without a word');
+    expect(broken).toHaveLength(1);
+  });
+
+  it('is no news when the page itself ended it', async () => {
+    const locks = stubLocks();
+    const { client, broken } = open();
+    await client.ask({ type: 'silent' });
+    client.terminate();
+    locks.endAll();
+    await expect(client.ask({ type: 'silent' })).rejects.toThrow('it was ended');
+    expect(broken).toEqual([]);
   });
 });

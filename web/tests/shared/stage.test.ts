@@ -1,8 +1,10 @@
+import { Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { invitingVertex } from '../../src/motion/stage/inviting';
 import { fabrics } from '../../src/shared/fabric/fabric-data';
 import { lookOf } from '../../src/shared/fabric/fabric-look';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from '../../src/shared/stage/colormap';
-import { pick } from '../../src/shared/stage/pick';
+import { nearestSeen, pick } from '../../src/shared/stage/pick';
 
 /** Relative luminance of a table's entry. */
 function luminance(table: Float32Array, entry: number): number {
@@ -49,6 +51,42 @@ describe('fabric-look', () => {
   it('gives no two fabrics the same look', () => {
     const looks = fabrics.map((fabric) => JSON.stringify(lookOf(fabric.id)));
     expect(new Set(looks).size).toBe(fabrics.length);
+  });
+});
+
+describe('nearestSeen', () => {
+  // The eye at the origin looks along -z at a picture of 200 by 100 pixels: w is the depth.
+  const matrix = [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0];
+  const picture = { matrix, width: 200, height: 100 };
+  // At (100, 50), at (120, 50), and behind the eye.
+  const positions = Float32Array.from([0, 0, -1, 0.4, 0, -2, 0, 0, 1]);
+
+  it('is the vertex nearest to the point, within reach', () => {
+    expect(nearestSeen(positions, picture, { x: 103, y: 46 }, 24)).toBe(0);
+    expect(nearestSeen(positions, picture, { x: 113, y: 50 }, 24)).toBe(1);
+    expect(nearestSeen(positions, picture, { x: 120, y: 73 }, 24)).toBe(1);
+  });
+
+  it('is none beyond reach, and never one behind the eye', () => {
+    expect(nearestSeen(positions, picture, { x: 120, y: 75 }, 24)).toBeNull();
+    expect(nearestSeen(positions.subarray(6), picture, { x: 100, y: 50 }, 24)).toBeNull();
+  });
+});
+
+describe('invitingVertex', () => {
+  // A square of three by three vertices, upright; the eye looks from in front.
+  const places = [0, 1, 2].flatMap((row) => [0, 1, 2].flatMap((column) => [column, 2 - row, 0]));
+  const cell = (a: number) => [a, a + 3, a + 1, a + 1, a + 3, a + 4];
+  const triangles = Uint32Array.from([0, 1, 3, 4].flatMap(cell));
+  const towards = new Vector3(0, 0, 1);
+
+  it('has cloth all around it', () => {
+    expect(invitingVertex(Float32Array.from(places), triangles, towards)).toBe(4);
+  });
+
+  it('is on the border of a cloth that has nothing else', () => {
+    const corner = Float32Array.from([0, 1, 0, 0, 0, 0, 1, 1, 0]);
+    expect(invitingVertex(corner, Uint32Array.from([0, 1, 2]), towards)).toBe(1);
   });
 });
 

@@ -23,6 +23,8 @@ export interface ClothAnswer {
   pins: number[];
   handles: { name: string; vertices: number[]; places_m: number[] }[];
   fabric: string;
+  /** Which statements of the OBJ file were skipped, counted, in words; missing or empty when none was. */
+  skipped?: string;
 }
 
 /** How a pane's shape came about and what it costs. */

@@ -1,6 +1,9 @@
 // Which cloth is pulled, what to notice in it, and the visitor's mesh.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
+import { createObjUnit } from '../../shared/panels/obj-unit';
+import { createReading } from '../../shared/panels/reading';
+import { OBJ_UNITS, type ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import { EXPERIMENTS, OWN } from '../state/experiments';
 import type { FabricsState } from '../state/fabrics-state';
@@ -13,17 +16,28 @@ function captionOf({ experiment, cloth, objName }: FabricsState): string {
   return objName && cloth ? `${objName}: pull it anywhere, or pin it first.` : WAITING;
 }
 
-function meshWords({ cloth, experiment }: FabricsState): string {
+function meshWords({ cloth, experiment, objUnit, objOdd }: FabricsState): string {
   if (!cloth) return '';
-  const size = `${cloth.n_vertices} vertices, ${cloth.n_triangles} triangles.`;
-  const own = ' It stays on this machine, and no link carries it.';
-  return experiment === OWN ? `${size}${own}` : size;
+  const size = `${cloth.n_vertices} vertices, ${cloth.n_triangles} triangles`;
+  if (experiment !== OWN) return `${size}.`;
+  const unit = OBJ_UNITS.find(({ value }) => value === objUnit)?.title;
+  const parts = [`${size}, taken in ${unit}.`];
+  if (objOdd) parts.push(objOdd);
+  if (cloth.skipped) parts.push(`${cloth.skipped}.`);
+  parts.push('It stays on this machine, and no link carries it.');
+  return parts.join(' ');
 }
 
 export function createExperimentPanel(
   parent: HTMLElement,
   store: Store<FabricsState>,
-  actions: { openExperiment(id: string): void; openObj(file: File): void },
+  actions: {
+    openExperiment(id: string): void;
+    openObj(file: File): void;
+    setUnit(unit: ObjUnit): void;
+    /** Gives up the file that is being read. */
+    cancel(): void;
+  },
 ): () => void {
   const options = [
     ...EXPERIMENTS.map(({ id, title }) => ({ value: id, title })),
@@ -39,13 +53,20 @@ export function createExperimentPanel(
     caption,
     size,
   );
+  const unit = createObjUnit(actions.setUnit);
+  const reading = createReading(actions.cancel);
+  section.append(unit.box);
   const closePicker = createObjPicker(section, actions);
+  section.append(reading.box);
   parent.append(section);
-  const stop = watch(store, ['experiment', 'cloth', 'objName'], (state) => {
+  const stop = watch(store, ['experiment', 'cloth', 'objName', 'reading'], (state) => {
     chosen.select(state.experiment);
     chosen.limit((id) => (id === OWN && !state.objName ? 'choose a file below' : null));
     setText(caption, captionOf(state));
     setText(size, meshWords(state));
+    unit.box.hidden = state.experiment !== OWN;
+    unit.select(state.objUnit);
+    reading.show(state.reading);
   });
   return () => {
     stop();

@@ -1,14 +1,20 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
-import { type FabricRecord, fabricNamed, sources } from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed, fabrics, sources } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { element, setText } from '../../shared/panels/element';
-import { quantityMeanings, quantityRows, sourceList } from '../../shared/panels/fabric-quantities';
+import {
+  quantityMeanings,
+  quantityRows,
+  quantityText,
+  sourceList,
+} from '../../shared/panels/fabric-quantities';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type OwnFabric, TERMS, type Triple } from '../state/deform-state';
 import { titleOf } from '../state/fabric-choice';
 import { EXPECTATIONS } from '../state/fabric-expectations';
 import { geometryOf } from '../state/fabric-geometry';
+import { rankOf } from '../state/fabric-order';
 import { TERM_COSTS, TERM_MEASUREMENTS, TERM_TITLES } from './term-words';
 import { createWeightBar, termKey, weightWords } from './weight-bar';
 
@@ -32,6 +38,12 @@ interface Shown {
 function shownOf(fabric: FabricRecord): Shown {
   const { measures, normalised, recomputed, published } = geometryOf(fabric);
   return { weights: recomputed, measures, normalised, published };
+}
+
+/** How stiff it is beside the others, which its weights do not say. */
+export function stiffnessSentence(fabric: FabricRecord): string {
+  const key = 'bend_warp_n_m';
+  return `In forces, its bending rigidity is ${quantityText(fabric, key)} (${fabric[key].confidence}): number ${rankOf(fabric, key)} of ${fabrics.length} from the stiffest.`;
 }
 
 function headings(...titles: string[]): HTMLElement {
@@ -157,6 +169,7 @@ export function createFabricCard(
   const name = element('h2', {});
   const use = element('span', { class: 'note' });
   const expectation = element('p', { class: 'caption' });
+  const stiffness = element('p', { class: 'note' });
   const { bar, show } = createWeightBar();
   const printed = element('input', {
     type: 'checkbox',
@@ -175,6 +188,7 @@ export function createFabricCard(
       { 'aria-label': 'Fabric', class: 'fabric-card' },
       element('div', { class: 'fabric-title' }, swatch, name, use),
       expectation,
+      stiffness,
       bar,
       body,
       printedLine,
@@ -186,6 +200,7 @@ export function createFabricCard(
     swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
     setText(use, fabric.use_en);
     setText(expectation, EXPECTATIONS[fabric.name_en] ?? '');
+    setText(stiffness, stiffnessSentence(fabric));
     show(geometryOf(fabric)[from]);
     const shown = shownOf(fabric);
     const parts = [
@@ -226,6 +241,7 @@ export function createFabricCard(
     printed.checked = weightsFrom === 'published';
     printedLine.hidden = isOwn;
     swatch.hidden = isOwn;
+    stiffness.hidden = isOwn;
     if (fabric.kind === 'named') showNamed(fabricNamed(fabric.name), weightsFrom);
     else if (ownFabric) showOwn(ownFabric, fabric.measures);
     else body.replaceChildren();

@@ -1,12 +1,20 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
-import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
+import {
+  confidenceMeaning,
+  type FabricRecord,
+  fabricNamed,
+  fabrics,
+} from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { element, setText } from '../../shared/panels/element';
+import { choice as choiceOf, element, field, setText } from '../../shared/panels/element';
+import { quantityText } from '../../shared/panels/fabric-quantities';
 import { type Store, watch } from '../../shared/state/store';
-import type { DeformState, FabricChoice } from '../state/deform-state';
+import { type DeformState, type FabricChoice, TERMS } from '../state/deform-state';
 import { type Comparison, isSame, titleOf, withShown, withToggled } from '../state/fabric-choice';
 import { geometryOf } from '../state/fabric-geometry';
-import { createWeightBar, weightWords } from './weight-bar';
+import { type FabricOrder, orderedFabrics, quantityOf } from '../state/fabric-order';
+import { TERM_TITLES } from './term-words';
+import { createWeightBar, termKey, weightWords } from './weight-bar';
 
 export interface GalleryActions {
   /** These fabrics side by side. */
@@ -15,6 +23,37 @@ export interface GalleryActions {
   choose(pane: number): void;
   /** All fifteen at once, or those compared before. */
   showAll(all: boolean): void;
+  setOrder(order: FabricOrder): void;
+}
+
+const ORDER_TITLES: readonly { value: FabricOrder; title: string }[] = [
+  { value: 'source', title: 'As in the source, with weights' },
+  { value: 'bending', title: 'Stiffest to bend first' },
+  { value: 'weight', title: 'Heaviest first' },
+  { value: 'stretch', title: 'Hardest to stretch first' },
+];
+
+const WEIGHTS_NOTE =
+  'The bars are weights measured in 2015: what gives way first inside one fabric. They do not say which of two fabrics is stiffer. Choose another order for that.';
+
+const MEANINGS: Record<Exclude<FabricOrder, 'source'>, string> = {
+  bending: 'Bending rigidity along the warp, for a metre of width.',
+  weight: 'Mass of one square metre.',
+  stretch: 'Force along the warp that would double the length, for a metre of width.',
+};
+
+/** What the numbers or bars of the list are. */
+export function orderNote(order: FabricOrder): string {
+  if (order === 'source') return WEIGHTS_NOTE;
+  return `${MEANINGS[order]} The mark ~ is for numbers that are typical or estimated (${confidenceMeaning.estimated}).`;
+}
+
+/** "~45 µN·m": marked where nobody measured this very kind of cloth. */
+export function markedQuantity(fabric: FabricRecord, order: FabricOrder): string {
+  const key = quantityOf(order);
+  if (key === null) return '';
+  const mark = fabric[key].confidence === 'measured' ? '' : '~';
+  return mark + quantityText(fabric, key);
 }
 
 /** Cell of the list: the fabric's button in column 0, its check box in column 1. */
@@ -50,6 +89,7 @@ function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggl
   swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
   const { bar, show: showWeights } = createWeightBar();
   const words = element('span', { class: 'unseen' });
+  const quantity = element('span', { class: 'fabric-quantity' });
   const button = element(
     'button',
     { type: 'button', tabindex: -1, click: press },
@@ -57,6 +97,7 @@ function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggl
     element('span', { class: 'fabric-name' }, name),
     words,
     bar,
+    quantity,
   );
   const box = element('input', {
     type: 'checkbox',
@@ -72,13 +113,14 @@ function createRow({ id, name_en: name }: FabricRecord, press: () => void, toggl
     element('span', { role: 'gridcell' }, button),
     boxCell,
   );
-  return { name, row, button, box, boxCell, words, showWeights };
+  return { name, row, button, box, boxCell, words, bar, quantity, showWeights };
 }
 
 type Row = ReturnType<typeof createRow>;
 
 /** The rows as one stop for Tab; arrow keys lead on from it. */
-function createGrid(rows: readonly Row[]) {
+function createGrid(all: readonly Row[]) {
+  let rows = all;
   let current: Cell = { row: 0, column: 0 };
 
   function controlAt({ row, column }: Cell): HTMLElement | null {
@@ -119,6 +161,12 @@ function createGrid(rows: readonly Row[]) {
   moveTo(current);
   return {
     grid,
+    order(names: readonly string[]) {
+      controlAt(current)?.setAttribute('tabindex', '-1');
+      rows = names.flatMap((name) => all.find((row) => row.name === name) ?? []);
+      grid.replaceChildren(...rows.map(({ row }) => row));
+      moveTo({ row: 0, column: 0 });
+    },
     /** The check boxes are gone. */
     leaveBoxes() {
       if (current.column === 1) moveTo({ row: current.row, column: 0 });
@@ -126,14 +174,18 @@ function createGrid(rows: readonly Row[]) {
   };
 }
 
-/** Shows in each row what is shown in panes, and the weights. */
+/** Shows in each row what is shown in panes, and the weights or what the list is ordered by. */
 function renderRows(rows: readonly Row[], state: DeformState): void {
-  const { panes, chosen, gallery, weightsFrom } = state;
+  const { panes, chosen, gallery, weightsFrom, order } = state;
   const shown = panes.map(({ fabric }) => titleOf(fabric));
-  for (const { name, button, box, boxCell, words, showWeights } of rows) {
-    const weights = geometryOf(fabricNamed(name))[weightsFrom];
+  for (const { name, button, box, boxCell, words, bar, quantity, showWeights } of rows) {
+    const fabric = fabricNamed(name);
+    const weights = geometryOf(fabric)[weightsFrom];
     showWeights(weights);
-    setText(words, `: ${weightWords(weights)}`);
+    bar.hidden = order !== 'source';
+    quantity.hidden = order === 'source';
+    setText(quantity, markedQuantity(fabric, order));
+    setText(words, order === 'source' ? `: ${weightWords(weights)}` : '');
     button.setAttribute('aria-pressed', String(shown[chosen] === name));
     box.checked = shown.includes(name);
     boxCell.hidden = gallery;
@@ -180,7 +232,14 @@ export function createFabricGallery(
     const pressRow = () => press(choice);
     return createRow(fabric, pressRow, () => toggle(choice));
   });
-  const { grid, leaveBoxes } = createGrid(rows);
+  const { grid, leaveBoxes, order: orderRows } = createGrid(rows);
+  const order = choiceOf(ORDER_TITLES, actions.setOrder);
+  const orderWords = element('p', { class: 'note' });
+  const legend = element(
+    'ul',
+    { class: 'marks', 'aria-label': 'Bars' },
+    ...TERMS.map((term) => element('li', {}, termKey(term), TERM_TITLES[term])),
+  );
   const all = element(
     'button',
     {
@@ -193,11 +252,27 @@ export function createFabricGallery(
   const hint = element('p', { class: 'note' });
   const refusal = element('p', { class: 'note', role: 'status' });
   parent.append(
-    element('section', { 'aria-label': 'Choice of fabrics' }, all, hint, grid, refusal),
+    element(
+      'section',
+      { 'aria-label': 'Choice of fabrics' },
+      all,
+      hint,
+      field('Order', order.control),
+      orderWords,
+      legend,
+      grid,
+      refusal,
+    ),
   );
 
+  let ordered: FabricOrder = 'source';
   function render(): void {
     const state = store.get();
+    if (state.order !== ordered) orderRows(orderedFabrics(state.order).map((one) => one.name_en));
+    ordered = state.order;
+    order.select(state.order);
+    setText(orderWords, orderNote(state.order));
+    legend.hidden = state.order !== 'source';
     all.setAttribute('aria-pressed', String(state.gallery));
     setText(
       hint,
@@ -211,10 +286,10 @@ export function createFabricGallery(
 
   // Numbers of a pane change with every frame of a drag, this list does not.
   let drawn = '';
-  return watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom'], (state) => {
+  return watch(store, ['panes', 'chosen', 'gallery', 'weightsFrom', 'order'], (state) => {
     const { panes, chosen, gallery, weightsFrom } = state;
     const names = panes.map(({ fabric }) => titleOf(fabric));
-    const text = JSON.stringify([names, chosen, gallery, weightsFrom]);
+    const text = JSON.stringify([names, chosen, gallery, weightsFrom, state.order]);
     if (text === drawn) return;
     drawn = text;
     setText(refusal, '');

@@ -1,9 +1,13 @@
 // What each pane shows: fabric, energy, time; a press on it chooses the pane.
+
+import { fabricNamed } from '../../shared/fabric/fabric-data';
 import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { titleOf } from '../state/fabric-choice';
+import type { FabricOrder } from '../state/fabric-order';
 import type { FabricsState } from '../state/fabrics-state';
+import { markedQuantity } from './fabric-gallery';
 
 type Pane = FabricsState['panes'][number];
 
@@ -15,18 +19,28 @@ function timeWords({ status, updateMs }: Pane, isLoading: boolean): string {
   return status === 'converged' ? `found in ${time}` : `not quite found in ${time}`;
 }
 
+const ENERGY_MEANING =
+  'What the shape costs by the weights of this fabric: a number without unit, to be compared with other shapes of the same fabric only';
+
+/** What the list is ordered by, or the energy. */
+function numberWords({ fabric, energy }: Pane, order: FabricOrder): string {
+  if (order === 'source' || fabric.kind === 'own') return `energy ${digits(energy)}`;
+  return markedQuantity(fabricNamed(fabric.name), order);
+}
+
 function createBadge(choose: () => void) {
   const name = element('b');
-  const energy = element('span');
+  const number = element('span', { title: ENERGY_MEANING });
   const time = element('span');
   const button = element('button', { type: 'button', class: 'pane-badge', click: choose }, name);
-  button.append(energy, time);
+  button.append(number, time);
   return {
     cell: element('div', { class: 'pane' }, button),
-    show(pane: Pane, isChosen: boolean, isBrief: boolean, isLoading: boolean) {
+    show(pane: Pane, isChosen: boolean, { panes, phase, order }: FabricsState) {
+      const isBrief = panes.length > 4;
+      const isLoading = phase === 'loading';
       setText(name, titleOf(pane.fabric));
-      setText(energy, `E ${digits(pane.energy)}`);
-      energy.title = 'Energy of the shape: a number without unit';
+      setText(number, numberWords(pane, isBrief ? order : 'source'));
       setText(time, timeWords(pane, isLoading));
       button.classList.toggle('brief', isBrief);
       time.hidden = isBrief && !isLoading && pane.status !== 'settling';
@@ -51,13 +65,14 @@ export function createPaneBadges(
   const grid = element('div', { class: 'panes' });
   parent.append(grid);
   let badges: ReturnType<typeof createBadge>[] = [];
-  const close = watch(store, ['panes', 'chosen', 'phase'], ({ panes, chosen, phase }) => {
+  const close = watch(store, ['panes', 'chosen', 'phase', 'order'], (state) => {
+    const { panes, chosen } = state;
     if (badges.length !== panes.length) {
       badges = panes.map((_, index) => createBadge(() => actions.choose(index)));
       grid.replaceChildren(...badges.map(({ cell }) => cell));
     }
     panes.forEach((pane, index) => {
-      badges[index]?.show(pane, index === chosen, panes.length > 4, phase === 'loading');
+      badges[index]?.show(pane, index === chosen, state);
     });
   });
   return {

@@ -2,6 +2,7 @@
 // questions to the worker, and answers into state and frames.
 import {
   brokenSentence,
+  describe,
   type Failure,
   inputFailure,
   internalFailure,
@@ -9,14 +10,23 @@ import {
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import { fetched } from '../../shared/page/fetched';
 import type { StartShape } from '../../shared/page/view';
+import {
+  type ObjFile,
+  type ObjUnit,
+  oddSize,
+  openObjFile,
+  textInMetres,
+} from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import type { TermNumbers } from '../bindings/deform-module';
 import type { PaneState } from '../state/deform-state';
-import { EXPERIMENTS, type Experiment, OWN, ownExperiment } from '../state/experiments';
-import type { Comparison } from '../state/fabric-choice';
-import { linkedHolds } from '../state/fabrics-link';
+import { EXPERIMENTS, type Experiment, ownExperiment } from '../state/experiments';
+import { type Comparison, titleOf } from '../state/fabric-choice';
+import type { FabricOrder } from '../state/fabric-order';
+import { decodeFabricsLink, encodeFabricsLink, linkedHolds } from '../state/fabrics-link';
 import {
   countedWeights,
   type FabricsLink,
@@ -51,17 +61,23 @@ export interface DeformerView {
 interface Opening {
   experiment: Experiment;
   link: FabricsLink | null;
-  /** Text of the mesh that it names, unless that is to be fetched. */
-  objText: string;
+  /** The visitor's mesh, if it is of that. */
+  own: OwnMesh | null;
+}
+
+interface OwnMesh {
+  file: ObjFile;
+  unit: ObjUnit;
 }
 
 type Shown = Pick<
   FabricsState,
-  'compared' | 'gallery' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
+  'compared' | 'gallery' | 'order' | 'chosen' | 'terms' | 'form' | 'weightsFrom'
 >;
 
-function shownOf({ compared, gallery, chosen, terms, form, weightsFrom }: FabricsState): Shown {
-  return { compared, gallery, chosen, terms, form, weightsFrom };
+function shownOf(state: FabricsState): Shown {
+  const { compared, gallery, order, chosen, terms, form, weightsFrom } = state;
+  return { compared, gallery, order, chosen, terms, form, weightsFrom };
 }
 
 const ALL_TERMS = { recovery: true, stretch: true, bending: true };
@@ -69,15 +85,17 @@ const ALL_TERMS = { recovery: true, stretch: true, bending: true };
 /** How a cloth is held that comes without a link. */
 const UNMOVED: Pick<FabricsLink, 'moved' | 'released'> = { moved: [], released: [] };
 
-async function meshText({ experiment, objText }: Opening): Promise<string> {
-  if (experiment.meshUrl === null) return objText;
-  const answer = await fetch(experiment.meshUrl);
-  if (!answer.ok) throw new Error(answer.statusText);
-  return answer.text();
+async function meshText({ experiment, own }: Opening): Promise<string> {
+  if (own) return textInMetres(own.file, own.unit);
+  return experiment.meshUrl === null ? '' : (await fetched(experiment.meshUrl)).text();
+}
+
+function ownState({ file, unit }: OwnMesh) {
+  return { objName: file.name, objUnit: unit, objOdd: oddSize(file, unit) };
 }
 
 export class Deformer {
-  private readonly client: DeformClient;
+  private client: DeformClient;
   private readonly held: HeldCloth;
   private readonly hand: Hand;
   private readonly granted = new LastGranted<Shown | null>(null);
@@ -85,23 +103,24 @@ export class Deformer {
   private cloth = -1; // the one that is shown
   private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
   private lastNumbersMs = 0;
-  private obj: { name: string; text: string } | null = null; // the visitor's
+  private obj: OwnMesh | null = null; // the visitor's, as it was opened last
 
   constructor(
     private readonly store: Store<FabricsState>,
     private readonly view: DeformerView,
-    start: StartDeform = startDeformWorker,
+    private readonly start: StartDeform = startDeformWorker,
   ) {
-    this.client = start({
-      news: (message) => this.hear(message),
-      broken: (reason) => this.breakDown(reason),
-    });
+    this.client = this.startClient();
     this.hand = new Hand(
       store,
       () => this.held,
       (vertex, pane) => this.place(vertex, pane),
     );
-    this.held = new HeldCloth(store, this.client, () => this.hand.hasTaken());
+    this.held = new HeldCloth(
+      store,
+      () => this.client,
+      () => this.hand.hasTaken(),
+    );
     store.subscribe((state, previous) => {
       if (!state.cloth || state.cloth !== previous.cloth) return;
       if (state.form !== previous.form || state.terms !== previous.terms) this.sendPanes();
@@ -112,17 +131,29 @@ export class Deformer {
   /** An experiment by its id, as it is by itself or as a link has it. */
   openExperiment(id: string, link?: FabricsLink): void {
     const known = EXPERIMENTS.find((experiment) => experiment.id === id);
-    if (known) return void this.open({ experiment: known, link: link ?? null, objText: '' });
-    if (this.obj) this.openOwn(this.obj.name, this.obj.text);
+    if (known) return void this.open({ experiment: known, link: link ?? null, own: null });
+    if (this.obj) this.openOwn(this.obj);
   }
 
   async openObj(file: File): Promise<void> {
-    const { name } = file;
-    if (!/\.obj$/i.test(name))
-      return this.refuse(inputFailure(`${name} is no OBJ file: the name does not end in .obj.`));
-    const text = await file.text().catch(() => null);
-    if (text === null) this.refuse(inputFailure(`${name} could not be read.`));
-    else this.openOwn(name, text);
+    const read = await openObjFile(file);
+    if (typeof read === 'string') this.refuse(inputFailure(read));
+    else this.openOwn({ file: read, unit: 'm' });
+  }
+
+  /** Takes the visitor's file in another unit. */
+  setUnit(unit: ObjUnit): void {
+    if (this.obj) this.openOwn({ ...this.obj, unit });
+  }
+
+  /** Gives up the file that is being read: what was shown before is shown again. */
+  cancel(): void {
+    if (this.store.get().reading === null) return;
+    this.client.terminate();
+    this.client = this.startClient();
+    this.store.set({ reading: null });
+    const state = this.store.get();
+    this.openExperiment(state.experiment, decodeFabricsLink(encodeFabricsLink(state)).link);
   }
 
   grab(vertex: number, pane: number): void {
@@ -174,6 +205,18 @@ export class Deformer {
     this.showPanes();
   }
 
+  /** All fabrics in another order; the chosen one stays chosen. */
+  setOrder(order: FabricOrder): void {
+    const { panes, chosen, gallery } = this.store.get();
+    this.store.set({ order });
+    if (!gallery) return;
+    const title = (pane: PaneState | undefined) => pane && titleOf(pane.fabric);
+    const wanted = title(panes[chosen]);
+    const at = panesFor(this.store.get()).findIndex((pane) => title(pane) === wanted);
+    this.store.set({ chosen: Math.max(0, at) });
+    this.showPanes();
+  }
+
   /** Asks for the weights of a visitor's own measurements. */
   measure(measures: TermNumbers): void {
     const question = answerOf(this.client.ask({ type: 'fit', measures }), (failure) =>
@@ -202,8 +245,17 @@ export class Deformer {
     if (message.type === 'refused') this.refuse(message.failure);
   }
 
-  private openOwn(name: string, objText: string): void {
-    void this.open({ experiment: ownExperiment(name), link: null, objText });
+  private startClient(): DeformClient {
+    return this.start({
+      news: (message) => this.hear(message),
+      broken: (reason) => this.breakDown(reason),
+    });
+  }
+
+  private openOwn(own: OwnMesh): void {
+    const { name } = own.file;
+    this.store.set({ reading: name });
+    void this.open({ experiment: ownExperiment(name), link: null, own });
   }
 
   private async open(wanted: Opening): Promise<void> {
@@ -211,14 +263,17 @@ export class Deformer {
     const cloth = this.nOpened;
     const isCurrent = () => cloth === this.nOpened;
     this.store.set({ phase: 'loading' });
-    const objText = await meshText(wanted).catch(() => null);
+    let reason = '';
+    const objText = await meshText(wanted).catch((error) => {
+      reason = describe(error);
+      return null;
+    });
     if (!isCurrent()) return;
     const refuse = (failure: Failure) => {
-      if (isCurrent()) this.store.set({ phase: 'ready' });
+      if (isCurrent()) this.store.set({ phase: 'ready', reading: null });
       this.refuse(failure);
     };
-    if (objText === null)
-      return refuse(inputFailure('The mesh could not be fetched. Check the connection.'));
+    if (objText === null) return refuse(inputFailure(`The mesh could not be fetched: ${reason}.`));
     const { text: sceneText } = wanted.experiment;
     const question = { type: 'open', cloth, fabricsText, sceneText, objText } as const;
     const opened = await answerOf(this.client.ask(question), refuse);
@@ -226,9 +281,8 @@ export class Deformer {
   }
 
   private receiveOpened({ cloth, answer, triangles }: OpenedMessage, opening: Opening): void {
-    const { experiment, link, objText } = opening;
-    const isOwn = experiment.id === OWN;
-    if (isOwn) this.obj = { name: answer.name, text: objText };
+    const { experiment, link, own } = opening;
+    if (own) this.obj = own;
     this.cloth = cloth;
     this.shown = [];
     this.hand.drop();
@@ -239,7 +293,8 @@ export class Deformer {
     this.store.set({
       phase: 'ready',
       experiment: experiment.id,
-      objName: isOwn ? answer.name : this.store.get().objName,
+      ...(own ? ownState(own) : {}),
+      reading: null,
       cloth: answer,
       ownHolds,
       chosenHold: null,

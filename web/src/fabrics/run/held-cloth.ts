@@ -25,7 +25,7 @@ export class HeldCloth {
 
   constructor(
     private readonly store: Store<FabricsState>,
-    private readonly client: DeformClient,
+    private readonly client: () => DeformClient,
     /** A hand has the cloth now. */
     private readonly isTaken: () => boolean,
   ) {}
@@ -53,7 +53,8 @@ export class HeldCloth {
 
   /** Has the worker hold what the page says is held. */
   send(): void {
-    const { store, client } = this;
+    const { store } = this;
+    const client = this.client();
     store.set({ panes: settlingPanes(store.get().panes) });
     const { vertices, places } = joined(this.holds());
     const message = { type: 'hold', vertices, places } as const;
@@ -70,7 +71,7 @@ export class HeldCloth {
     this.store.set(heldBy(holds));
     if (this.granted.isSettled()) this.granted.value = holds;
     const { places } = joined(holds);
-    this.client.tell({ type: 'move', places }, [places.buffer]);
+    this.client().tell({ type: 'move', places }, [places.buffer]);
     window.clearTimeout(this.restTimer);
     this.restTimer = window.setTimeout(() => this.rest(), REST_AFTER_MS);
   }
@@ -78,7 +79,7 @@ export class HeldCloth {
   /** Nothing moves for now. */
   rest(): void {
     window.clearTimeout(this.restTimer);
-    this.client.tell({ type: 'rest', isHeld: this.isTaken() });
+    this.client().tell({ type: 'rest', isHeld: this.isTaken() });
   }
 
   private undo(): void {

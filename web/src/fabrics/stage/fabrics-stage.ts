@@ -19,7 +19,7 @@ export interface FabricsStageEvents {
   key(name: string): boolean;
   /** After each picture: where the inviting vertex is in the first pane, in pixels. */
   drawn(invitation: { x: number; y: number }): void;
-  contextLost(): void;
+  pictureLost(isLost: boolean): void;
 }
 
 export interface FabricsStage {
@@ -161,7 +161,7 @@ class Stage {
       themed: (colour) => this.setTheme(colour),
       handKey: (name) => this.hand.key(name),
       key: events.key,
-      contextLost: events.contextLost,
+      pictureLost: events.pictureLost,
     });
     this.hand = createStageHand(this.stage, {
       picture: (at) => this.pictureAt(at),

@@ -1,5 +1,6 @@
 // What the view "Fabrics" shows. Only this and the frames travel between its parts.
 import type { Failure } from '../../shared/bindings/answers';
+import type { FabricOrder } from './fabric-order';
 
 export type EnergyForm = 'consistent' | 'published';
 export const TERMS = ['recovery', 'stretch', 'bending'] as const;
@@ -51,6 +52,8 @@ export interface DeformState {
   experiment: string;
   panes: PaneState[]; // 1 to 4, or 15 in the gallery
   gallery: boolean;
+  /** Of the list, and of the panes when all fabrics are shown. */
+  order: FabricOrder;
   form: EnergyForm;
   terms: Record<Term, boolean>;
   weightsFrom: 'recomputed' | 'published';

@@ -5,6 +5,7 @@ import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { type DeformState, type FabricChoice, TERMS, type Term } from './deform-state';
 import { EXPERIMENTS, OWN } from './experiments';
 import { LARGEST_RATIO, MOST_COMPARED, titleOf } from './fabric-choice';
+import { type FabricOrder, ORDERS } from './fabric-order';
 import type { FabricsLink, FabricsState, LinkedHold } from './fabrics-state';
 import { type HeldCloth, type Hold, holdAt } from './holds';
 
@@ -100,6 +101,7 @@ export function encodeFabricsLink(state: FabricsState): string {
     ['scene', state.experiment],
     ['fabrics', state.compared.map(choiceText).join('+')],
     ['gallery', state.gallery ? 'on' : 'off'],
+    ['order', state.order],
     ['form', state.form],
     ['terms', terms.join('+')],
     ['weights', state.weightsFrom],
@@ -136,6 +138,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
     },
   );
   const gallery = take('gallery', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const order = take<FabricOrder>('order', 'source', ORDERS.join(', '), oneOf(ORDERS));
   const form = take<DeformState['form']>(
     'form',
     'consistent',
@@ -165,6 +168,7 @@ export function decodeFabricsLink(hash: string): { link: FabricsLink; problems: 
     experiment,
     compared,
     gallery,
+    order,
     form,
     terms: {
       recovery: terms.includes('recovery'),

@@ -1,7 +1,8 @@
 // The whole state of the view of fabrics: what its panel shows, and what only its stage needs.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { Triple as Place } from '../../shared/bindings/geometry';
-import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed } from '../../shared/fabric/fabric-data';
+import type { ObjUnit } from '../../shared/state/obj-file';
 import type { ClothAnswer } from '../bindings/deform-module';
 import {
   type DeformState,
@@ -13,6 +14,7 @@ import {
 } from './deform-state';
 import { weightsOf } from './fabric-choice';
 import { geometryOf } from './fabric-geometry';
+import { orderedFabrics } from './fabric-order';
 import type { Hold } from './holds';
 
 /** What a press on the cloth does: a hand takes it, or a pin goes in or out. */
@@ -30,6 +32,11 @@ export interface FabricsState extends DeformState {
   cloth: ClothAnswer | null;
   /** The visitor's mesh, once there is one. */
   objName: string | null;
+  objUnit: ObjUnit;
+  /** What is odd about its size, in words. */
+  objOdd: string | null;
+  /** Name of the visitor's file that is being read. */
+  reading: string | null;
   tool: Tool;
   /** Name of the hold that keys move. */
   chosenHold: string | null;
@@ -47,17 +54,20 @@ export interface LinkedHold {
 export interface FabricsLink
   extends Pick<
     FabricsState,
-    'experiment' | 'gallery' | 'form' | 'terms' | 'weightsFrom' | 'chosen' | 'compared' | 'edges'
+    | 'experiment'
+    | 'gallery'
+    | 'order'
+    | 'form'
+    | 'terms'
+    | 'weightsFrom'
+    | 'chosen'
+    | 'compared'
+    | 'edges'
   > {
   moved: LinkedHold[];
   /** Names of the experiment's holds that were let go. */
   released: string[];
 }
-
-const ALL_FABRICS: readonly FabricChoice[] = fabrics.map(({ name_en: name }) => ({
-  kind: 'named',
-  name,
-}));
 
 /** The part of the state that says what holds the cloth. */
 export function heldBy(holds: readonly Hold[]): Pick<FabricsState, 'holds' | 'pins' | 'handles'> {
@@ -79,9 +89,15 @@ export function countedWeights({ weights }: PaneState, terms: DeformState['terms
 
 /** Panes for what is to be shown; a pane that is there keeps its numbers until new ones come. */
 export function panesFor(
-  state: Pick<FabricsState, 'gallery' | 'compared' | 'weightsFrom' | 'ownFabric' | 'panes'>,
+  state: Pick<
+    FabricsState,
+    'gallery' | 'order' | 'compared' | 'weightsFrom' | 'ownFabric' | 'panes'
+  >,
 ): PaneState[] {
-  const shown = state.gallery ? ALL_FABRICS : state.compared;
+  const all = orderedFabrics(state.order).map(
+    ({ name_en: name }): FabricChoice => ({ kind: 'named', name }),
+  );
+  const shown = state.gallery ? all : state.compared;
   return shown.map((fabric, index): PaneState => {
     const numbers = state.panes[index] ?? {
       energy: Number.NaN,
@@ -119,6 +135,9 @@ export function initialFabricsState(link: FabricsLink, problems: string[]): Fabr
     ownHolds: [],
     cloth: null,
     objName: null,
+    objUnit: 'm',
+    objOdd: null,
+    reading: null,
     tool: 'pull',
     chosenHold: null,
     isDragging: false,

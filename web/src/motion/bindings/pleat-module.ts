@@ -55,6 +55,8 @@ export interface ObjAnswer {
   high_m: Triple;
   /** Some triangle has no texture coordinates. */
   needs_direction: boolean;
+  /** Which statements were skipped, counted, in words; missing or empty when none was. */
+  skipped?: string;
 }
 
 export interface SceneHandle {

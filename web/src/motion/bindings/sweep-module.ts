@@ -50,6 +50,8 @@ export interface SweepReport {
   /** Indices into `rows`. */
   front: number[];
   message: string;
+  /** What the whole sweep is expected to take [s]. */
+  estimated_s?: number;
 }
 
 export interface ExperimentHandle {

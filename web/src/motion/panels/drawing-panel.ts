@@ -2,6 +2,7 @@
 import { choice, element, field } from '../../shared/panels/element';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
+import { referenceUrl } from '../run/references';
 import { HEAT_RANGES } from '../state/motion-link';
 import { type MotionState, shownHeat } from '../state/motion-state';
 
@@ -34,11 +35,10 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
       element('label', { class: 'check' }, edges, 'Edges of the mesh'),
     ),
   );
-  return watch(store, ['heat', 'heatRange', 'edges', 'numbers'], (state) => {
-    heat.limit((value) =>
-      value === 'distance' && !state.numbers?.reference ? 'none of this scene' : null,
-    );
-    heat.select(shownHeat(state));
+  return watch(store, ['heat', 'heatRange', 'edges', 'numbers', 'setting'], (state) => {
+    const hasReference = referenceUrl(state.setting) !== null;
+    heat.limit((value) => (value === 'distance' && !hasReference ? 'none of this scene' : null));
+    heat.select(hasReference ? state.heat : shownHeat(state));
     range.select(String(state.heatRange));
     rangeField.hidden = !['magnitude', 'signed'].includes(shownHeat(state));
     edges.checked = state.edges;

@@ -2,7 +2,8 @@
 import { digits, percent, smallLength } from '../../shared/panels/quantity';
 import { stepperRow } from '../../shared/steppers/steppers';
 import type { ReferenceNumbers, RunNumbers } from '../bindings/pleat-module';
-import type { MotionState } from '../state/motion-state';
+import { referenceUrl } from '../run/references';
+import { type MotionState, wantsReference } from '../state/motion-state';
 import { presetSetting } from '../state/setting';
 import { rowOfSetting } from '../state/sweep-state';
 
@@ -10,7 +11,14 @@ export interface ErrorWords {
   value: string;
   detail: string;
   sentence: string;
+  /** What brings the number, where something does. */
+  action?: string;
 }
+
+type ErrorState = Pick<
+  MotionState,
+  'numbers' | 'setting' | 'sweep' | 'mesh' | 'reference' | 'compare' | 'heat'
+>;
 
 /** A reference has to be known so many times better than what it judges. */
 const SURER = 4;
@@ -33,7 +41,7 @@ function fromReference(reference: ReferenceNumbers, isOwnMesh: boolean): ErrorWo
   }
   if (uncertainty === null) {
     const sentence = 'The reference of this scene did not converge: no error can be told from it.';
-    return { value: 'unknown', detail: 'not converged', sentence };
+    return { value: 'unknown', detail: 'no converged one', sentence };
   }
   const known = `known to ${smallLength(uncertainty)}`;
   if (distance < SURER * uncertainty) {
@@ -61,11 +69,37 @@ function fromItself(numbers: RunNumbers, solves: boolean): string {
   return parts.join(' ');
 }
 
-export function errorWords(
-  state: Pick<MotionState, 'numbers' | 'setting' | 'sweep' | 'mesh'>,
-): ErrorWords {
+/** What is said until the reference of the scene is there; null when it is, or when there is none. */
+function beforeReference(state: ErrorState): ErrorWords | null {
+  const { reference, setting } = state;
+  if (referenceUrl(setting) === null || reference === 'here') return null;
+  if (reference === 'failed') {
+    const sentence = 'The reference of this scene could not be fetched. Check the connection.';
+    return { value: 'unknown', detail: 'no reference yet', sentence, action: 'Try again' };
+  }
+  if (wantsReference(state))
+    return { value: '–', detail: 'comes in a moment', sentence: 'Fetching the reference.' };
+  const sentence = 'How wrong is it? This scene has a reference to compare with.';
+  return { value: '–', detail: 'compare to see', sentence, action: 'Compare' };
+}
+
+/** What the last sweep found for the very same setting; null when it did not. */
+function fromSweep(state: ErrorState): ErrorWords | null {
+  const row = rowOfSetting(state);
+  if (!row || row.position_error_m === null) return null;
+  const value = smallLength(row.position_error_m);
+  const { converged } = row.reference;
+  const than = converged ? 'a converged reference' : 'a fine run that is no converged reference';
+  const detail = converged ? 'in the sweep' : 'by a rough reference';
+  return { value, detail, sentence: `In the sweep it was ${value} from ${than}.` };
+}
+
+export function errorWords(state: ErrorState): ErrorWords {
   const { numbers, setting } = state;
   if (!numbers) return { value: '–', detail: '', sentence: '' };
+  const inSweep = fromSweep(state);
+  const before = beforeReference(state);
+  if (before) return { ...before, ...(wantsReference(state) ? null : inSweep) };
   if (numbers.reference && numbers.step === 0) {
     const sentence = 'This scene has a reference: play to see how far from it the cloth gets.';
     return { value: '–', detail: 'play to see', sentence };
@@ -73,14 +107,5 @@ export function errorWords(
   const isOwnMesh = setting.level === presetSetting(setting.preset).level;
   if (numbers.reference) return fromReference(numbers.reference, isOwnMesh);
   const sentence = fromItself(numbers, stepperRow(setting.stepper).solves);
-  const row = rowOfSetting(state);
-  if (!row) return { value: 'unknown', detail: 'run a sweep', sentence };
-  const { converged } = row.reference;
-  return {
-    value: smallLength(row.position_error_m),
-    detail: converged ? 'converged reference' : 'not converged',
-    sentence: `In the sweep it was ${smallLength(row.position_error_m)} from ${
-      converged ? 'a converged reference' : 'a fine run that is no converged reference'
-    }.`,
-  };
+  return inSweep ?? { value: 'unknown', detail: 'run a sweep', sentence };
 }

@@ -1,6 +1,6 @@
 // The choice of a method: model, level, stepper, step, and the one count that the stepper reads.
 import { choice, element, field, setText } from '../../shared/panels/element';
-import { stepTitle } from '../../shared/panels/quantity';
+import { shortTime, stepTitle } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import {
   type Count,
@@ -23,6 +23,7 @@ import {
   withModel,
   withStepper,
 } from '../state/setting';
+import { type StepCost, type StepCosts, stepCostAt } from '../state/step-cost';
 
 function levelPicker(onChoice: (level: number) => void) {
   const inputs = LEVELS.map((level) =>
@@ -30,28 +31,43 @@ function levelPicker(onChoice: (level: number) => void) {
       type: 'radio',
       name: 'level',
       value: level,
-      'aria-label': `Level ${level}`,
       change: () => onChoice(level),
     }),
   );
+  const times = LEVELS.map(() => element('small'));
+  const labels = inputs.map((input, level) =>
+    element('label', {}, input, element('span', {}, `${level}`, times[level] ?? '')),
+  );
   const group = element(
     'fieldset',
-    { class: 'field' },
-    element('legend', {}, 'Refinement level'),
-    element(
-      'div',
-      { class: 'segments' },
-      ...inputs.map((input, level) => element('label', {}, input, element('span', {}, `${level}`))),
-    ),
+    { class: 'field levels' },
+    element('legend', {}, 'Refinement level, time of a step'),
+    element('div', { class: 'segments' }, ...labels),
   );
   return {
     group,
-    select(level: number) {
-      inputs.forEach((input, index) => {
-        input.checked = index === level;
+    show(setting: Setting, costs: StepCosts) {
+      LEVELS.forEach((level, index) => {
+        const cost = stepCostAt(costs, setting, level);
+        const [input, label, time] = [inputs[index], labels[index], times[index]];
+        if (!input || !label || !time) return;
+        input.checked = level === setting.level;
+        input.setAttribute('aria-label', `Level ${level}${cost ? `, ${costSentence(cost)}` : ''}`);
+        label.title = cost ? costSentence(cost) : 'Play, and what a step takes is known.';
+        setText(time, cost ? costText(cost) : '–');
       });
     },
   };
+}
+
+function costText({ ms, isMeasured, isLeast }: StepCost): string {
+  if (isLeast) return `> ${shortTime(ms)}`;
+  return isMeasured ? shortTime(ms) : `≈ ${shortTime(ms, 1)}`;
+}
+
+function costSentence({ ms, isMeasured, isLeast }: StepCost): string {
+  if (isLeast) return `a step takes more than ${shortTime(ms)}`;
+  return isMeasured ? `a step took ${shortTime(ms)}` : `a step takes about ${shortTime(ms)}`;
 }
 
 /** Each model with its sentence, or with why this scene cannot have it. */
@@ -165,10 +181,12 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
     ),
   );
 
+  const stopCosts = watch(store, ['setting', 'costs'], ({ setting, costs }) =>
+    level.show(setting, costs),
+  );
   const stopSetting = watch(store, ['setting'], ({ setting }) => {
     const row = stepperRow(setting.stepper);
     model.show(setting);
-    level.select(setting.level);
     stepper.limit((value) => (canRun(value, setting.model) ? null : 'needs springs'));
     stepper.select(setting.stepper);
     step.select(Math.round(1 / setting.stepS));
@@ -199,6 +217,7 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
     setText(builtNote, needs.filter((part) => part !== '').join(' '));
   });
   return () => {
+    stopCosts();
     stopSetting();
     stopSummary();
   };

@@ -14,6 +14,9 @@ const STATUS_WORDS: Record<MotionState['phase'], string> = {
   broken: 'not available',
 };
 
+/** A pace below this is told in words: its digits say no more. */
+const SLOWEST_PACE = 0.01;
+
 /** Parts below this share of a step are not worth their room. */
 const LEAST_PART = 0.02;
 
@@ -29,7 +32,8 @@ interface Item {
 function statusText({ phase, playing, pace, ahead }: MotionState): string {
   if (ahead !== null) return `ahead, ${Math.round(100 * ahead)} %`;
   if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
-  return pace === null ? 'running' : `running ${digits(Math.min(pace, 1), 2)} ×`;
+  if (pace === null) return 'running';
+  return pace < SLOWEST_PACE ? 'running slowly' : `running ${digits(Math.min(pace, 1), 2)} ×`;
 }
 
 const ITEMS: readonly Item[] = [
@@ -77,7 +81,7 @@ const ITEMS: readonly Item[] = [
     meaning: 'What is left over of the step’s own equations, relative.',
     text: ({ numbers }) => (numbers ? digits(numbers.residual, 2) : '–'),
     detail: ({ numbers, isCutShort }) =>
-      isCutShort ? 'not converged' : numbers ? `${numbers.iterations} iterations` : '',
+      isCutShort ? 'cut short' : numbers ? `${numbers.iterations} iterations` : '',
   },
   {
     title: 'Vertices',
@@ -89,16 +93,42 @@ const ITEMS: readonly Item[] = [
   {
     title: 'Fabric',
     width: 'middle',
-    meaning: 'The fabric, and how well its weight is known, from which source.',
+    meaning: 'The fabric, and how its weight is known; the panel names the source.',
     text: ({ setting }) => setting.fabric.replace(/ \(.*\)/, ''),
-    detail({ setting }) {
-      const { confidence, source } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
-      return `${confidence}, ${source[0] ?? 'no source'}`;
-    },
+    detail: ({ setting }) =>
+      `weight ${fabricNamed(setting.fabric).areal_density_kg_per_m2.confidence}`,
   },
 ];
 
-export function createNumbersStrip(parent: HTMLElement, store: Store<MotionState>): () => void {
+/** The error in a sentence, with a button for what it takes to know it. */
+function createVerdict(
+  store: Store<MotionState>,
+  actions: { bringReference(): void },
+): { line: HTMLElement; update(state: MotionState): void } {
+  const sentence = element('span');
+  const button = element('button', {
+    type: 'button',
+    click() {
+      store.set({ compare: true });
+      actions.bringReference();
+    },
+  });
+  return {
+    line: element('p', { class: 'verdict' }, sentence, ' ', button),
+    update(state) {
+      const words = errorWords(state);
+      setText(sentence, words.sentence);
+      setText(button, words.action ?? '');
+      button.hidden = words.action === undefined;
+    },
+  };
+}
+
+export function createNumbersStrip(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  actions: { bringReference(): void },
+): () => void {
   const cells = ITEMS.map((item) => {
     const value = element('dd');
     const detail = element('dd', { class: 'detail' });
@@ -111,8 +141,11 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<MotionState
     );
     return { item, value, detail, cell };
   });
-  const verdict = element('p', { class: 'verdict' });
-  parent.append(element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)), verdict);
+  const verdict = createVerdict(store, actions);
+  parent.append(
+    element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)),
+    verdict.line,
+  );
   return watch(
     store,
     [
@@ -126,13 +159,16 @@ export function createNumbersStrip(parent: HTMLElement, store: Store<MotionState
       'sweep',
       'setting',
       'mesh',
+      'reference',
+      'compare',
+      'heat',
     ],
     (state) => {
       for (const { item, value, detail } of cells) {
         setText(value, item.text(state));
         setText(detail, item.detail?.(state) ?? '');
       }
-      setText(verdict, errorWords(state).sentence);
+      verdict.update(state);
     },
   );
 }

@@ -1,6 +1,9 @@
 // The visitor's mesh: the file, what holds it, and what to know about it.
 import { element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
+import { createObjUnit } from '../../shared/panels/obj-unit';
+import { createReading } from '../../shared/panels/reading';
+import { OBJ_UNITS, type ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
 import { type Hold, holdFor, holdsOf, type ObjMesh } from '../state/obj-mesh';
@@ -14,9 +17,19 @@ function titleOf(hold: Hold): string {
   return `Its group “${hold.slice('group:'.length)}”`;
 }
 
-function sentences(mesh: ObjMesh): string {
-  const { name, nVertices, nTriangles, threads, isOwn, start } = mesh;
-  const parts = [`${name}: ${nVertices} vertices, ${nTriangles} triangles, taken in metres.`];
+export interface ObjActions {
+  open(file: File): void;
+  setUnit(unit: ObjUnit): void;
+  /** Gives up what is being read. */
+  cancel(): void;
+}
+
+export function sentences(mesh: ObjMesh): string {
+  const { name, nVertices, nTriangles, threads, isOwn, start, unit, odd, skipped } = mesh;
+  const { title } = OBJ_UNITS.find(({ value }) => value === unit) ?? OBJ_UNITS[0];
+  const parts = [`${name}: ${nVertices} vertices, ${nTriangles} triangles, taken in ${title}.`];
+  if (odd) parts.push(odd);
+  if (skipped) parts.push(`${skipped}.`);
   if (threads === 'down') parts.push('No texture coordinates: threads run downward.');
   if (threads === 'along_x') parts.push('No texture coordinates: threads run along x.');
   if (nTriangles > MANY_TRIANGLES) parts.push('So many triangles will be slow.');
@@ -32,7 +45,7 @@ function sentences(mesh: ObjMesh): string {
 export function createObjPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
-  actions: { openObj(file: File): void },
+  actions: ObjActions,
 ): () => void {
   const holds = element('select', {
     change() {
@@ -43,13 +56,17 @@ export function createObjPanel(
   const held = field('Held by', holds);
   const note = element('p', { class: 'note' });
   const box = element('div', { class: 'mesh' });
-  const closePicker = createObjPicker(box, actions);
-  box.append(held, note);
+  const closePicker = createObjPicker(box, { openObj: (file) => actions.open(file) });
+  const unit = createObjUnit((value) => actions.setUnit(value));
+  const reading = createReading(() => actions.cancel());
+  box.append(reading.box, unit.box, held, note);
   parent.append(box);
   let listed: ObjMesh | null = null;
-  const stop = watch(store, ['setting', 'mesh'], ({ setting, mesh }) => {
-    box.hidden = setting.preset !== 'obj';
+  const stop = watch(store, ['setting', 'mesh', 'reading'], ({ setting, mesh, reading: name }) => {
+    box.hidden = setting.preset !== 'obj' && name === null;
+    reading.show(name);
     held.hidden = mesh === null;
+    unit.box.hidden = !mesh?.isOwn || mesh.start !== undefined;
     if (mesh === null) return;
     if (mesh !== listed) {
       holds.replaceChildren(
@@ -57,6 +74,7 @@ export function createObjPanel(
       );
       listed = mesh;
     }
+    unit.select(mesh.unit);
     holds.value = holdFor(mesh, setting.hold);
     setText(note, sentences(mesh));
   });

@@ -9,16 +9,32 @@ export function createProblemBanner(
   actions: { reset(): void },
 ): () => void {
   const sentence = element('p');
+  const remedy = element('button', {
+    type: 'button',
+    click() {
+      const { problem } = store.get();
+      if (problem?.remedy) store.set({ setting: problem.remedy.setting });
+    },
+  });
   const reset = element('button', { type: 'button', click: actions.reset }, 'Reset');
   const dismiss = element(
     'button',
     { type: 'button', click: () => store.set({ problem: null }) },
     'Dismiss',
   );
-  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, reset, dismiss);
+  const banner = element(
+    'div',
+    { class: 'problem', role: 'alert' },
+    sentence,
+    remedy,
+    reset,
+    dismiss,
+  );
   parent.append(banner);
   return watch(store, ['problem'], ({ problem }) => {
     banner.hidden = problem === null;
+    remedy.hidden = !problem?.remedy;
+    setText(remedy, problem?.remedy?.title ?? '');
     reset.hidden = problem?.source !== 'run';
     dismiss.hidden = problem?.source === 'browser';
     setText(sentence, problem?.sentence ?? '');

@@ -1,33 +1,23 @@
-// The choice of a scene, what to notice in it, and the visitor's mesh.
-import { choice, element, field, setText } from '../../shared/panels/element';
+// Which scene, and the visitor's mesh.
+import { choice, element, field } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import type { MotionState } from '../state/motion-state';
+import { AT_START, type MotionState } from '../state/motion-state';
 import { PRESET_IDS, PRESETS, presetSetting } from '../state/setting';
-import { createObjPanel } from './obj-panel';
+import { createObjPanel, type ObjActions } from './obj-panel';
 
 export function createScenePanel(
   parent: HTMLElement,
   store: Store<MotionState>,
-  actions: { openObj(file: File): void },
+  actions: ObjActions,
 ): () => void {
   const presets = choice(
     PRESET_IDS.map((value) => ({ value, title: PRESETS[value].title })),
-    (preset) =>
-      store.set({ setting: presetSetting(preset), startS: 0, playing: false, invited: true }),
+    (preset) => store.set({ ...AT_START, setting: presetSetting(preset) }),
   );
-  const caption = element('p', { class: 'caption' });
-  const section = element(
-    'section',
-    { 'aria-label': 'Scene' },
-    field('Scene', presets.control),
-    caption,
-  );
+  const section = element('section', { 'aria-label': 'Scene' }, field('Scene', presets.control));
   parent.append(section);
   const closeObjPanel = createObjPanel(section, store, actions);
-  const stop = watch(store, ['setting'], ({ setting }) => {
-    presets.select(setting.preset);
-    setText(caption, PRESETS[setting.preset].caption);
-  });
+  const stop = watch(store, ['setting'], ({ setting }) => presets.select(setting.preset));
   return () => {
     stop();
     closeObjPanel();

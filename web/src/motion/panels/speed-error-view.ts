@@ -1,11 +1,12 @@
-// The sweep's chart with its table beside it; a chosen point becomes the shown setting.
+// The sweep's chart with its table beside it; a chosen point is run to the time that its error is of.
 import { element, setText, svg } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
+import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
 import { PRESETS } from '../state/setting';
-import { hasFinished, settingOfRow } from '../state/sweep-plan';
+import { DURATION_S, hasFinished, settingOfRow } from '../state/sweep-plan';
 import { rowOfSetting } from '../state/sweep-state';
 import { createSpeedErrorPlot, markOf } from './speed-error-plot';
 import { createSpeedErrorTable } from './speed-error-table';
@@ -47,14 +48,20 @@ function footnote({ sweep }: MotionState): string {
   return parts.join(' ');
 }
 
-export function createSpeedErrorView(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createSpeedErrorView(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  actions: Pick<MotionRun, 'showAnew'>,
+): () => void {
   function use(index: number): void {
     const { sweep, setting } = store.get();
     const row = sweep.rows[index];
     if (!row || !sweep.scene) return;
     const { mesh, ...swept } = sweep.scene;
-    const content = { setting: settingOfRow(row, { ...setting, ...swept }) };
-    store.set(mesh ? { ...content, mesh } : content);
+    const measured = settingOfRow(row, { ...setting, ...swept });
+    const startSteps = Math.round(DURATION_S / measured.stepS);
+    const content = { setting: measured, startSteps, invited: false };
+    actions.showAnew(mesh ? { ...content, mesh } : content);
   }
 
   const heading = element('h2', {}, 'Speed and error');

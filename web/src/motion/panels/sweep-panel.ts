@@ -1,29 +1,48 @@
 // Starts and cancels the sweep, and tells how far it is.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import { type Model, STEPPERS } from '../../shared/steppers/steppers';
+import type { Model } from '../../shared/steppers/steppers';
 import type { Sweep } from '../run/sweep';
 import type { MotionState } from '../state/motion-state';
+import { FINEST_SWEEP, type SweepWish, slowSteppers } from '../state/sweep-plan';
+import type { SweepState } from '../state/sweep-state';
 
-/** Finest level of a sweep to begin with: some seconds to a minute. */
+/** Finest level of a sweep to begin with: some seconds. */
 const FIRST_FINEST = 1;
 
-/** Finest level of a sweep; each one more takes about ten times as long. */
+/** Finest level of a sweep. */
 const FINEST = [
-  { value: 1, title: '0 to 1' },
-  { value: 2, title: '0 to 2' },
-  { value: 3, title: '0 to 3, minutes' },
+  { value: 1, title: '0 to 1, seconds' },
+  { value: 2, title: '0 to 2, a minute or more' },
+  { value: FINEST_SWEEP, title: `0 to ${FINEST_SWEEP}, many minutes` },
 ];
 
-/** Which steppers a sweep of that model leaves out at fine levels. */
-function sweepLimits(model: Model): string {
-  return STEPPERS.filter(({ models }) => models.includes(model))
-    .flatMap(({ title, finest_sweep_level: finest }) =>
-      finest === undefined
-        ? []
-        : `${title} takes part up to level ${finest}: beyond, each of its runs takes minutes.`,
-    )
-    .join(' ');
+/** What takes part only when it is asked for. */
+function slowPicker(onChange: (withSlow: boolean) => void) {
+  const input = element('input', { type: 'checkbox', change: () => onChange(input.checked) });
+  const title = element('span');
+  const line = element('label', { class: 'check' }, input, title);
+  return {
+    line,
+    show(model: Model) {
+      const slow = slowSteppers(model);
+      line.hidden = slow.length === 0;
+      const names = slow.map((row) => `${row.title} up to level ${row.finest_sweep_level}`);
+      setText(title, `Also ${names.join(' and ')}, which takes minutes`);
+    },
+  };
+}
+
+/** How long the rest will take, as far as that is known. */
+function timeLeft({ phase, progress, estimatedS }: SweepState): string {
+  if (phase !== 'running' || estimatedS === null) return '';
+  return `, about ${Math.ceil(estimatedS * (1 - progress))} s left`;
+}
+
+/** How the last sweep went, or how far this one is. */
+function messageOf({ sweep }: MotionState): string {
+  const failed = sweep.phase === 'failed' ? 'The sweep failed: ' : '';
+  return `${failed}${sweep.message}${timeLeft(sweep)}`;
 }
 
 export function createSweepPanel(
@@ -31,15 +50,17 @@ export function createSweepPanel(
   store: Store<MotionState>,
   sweep: Sweep,
 ): () => void {
-  let finest = FIRST_FINEST;
+  const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false };
   const levels = choice(FINEST, (level) => {
-    finest = level;
+    wish.finest = level;
   });
-  levels.select(finest);
-  const limitsNote = element('p', { class: 'note' });
+  levels.select(wish.finest);
+  const slow = slowPicker((withSlow) => {
+    wish.withSlow = withSlow;
+  });
   const start = element(
     'button',
-    { type: 'button', class: 'wide', click: () => sweep.start(finest) },
+    { type: 'button', class: 'wide', click: () => sweep.start({ ...wish }) },
     'Measure speed and error',
   );
   const cancel = element(
@@ -64,7 +85,7 @@ export function createSweepPanel(
         'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
       ),
       field('Levels', levels.control),
-      limitsNote,
+      slow.line,
       start,
       cancel,
       progress,
@@ -73,9 +94,7 @@ export function createSweepPanel(
     ),
   );
   return watch(store, ['sweep', 'sweepOpen', 'phase', 'setting'], (state) => {
-    const limits = sweepLimits(state.setting.model);
-    limitsNote.hidden = limits === '';
-    setText(limitsNote, limits);
+    slow.show(state.setting.model);
     const { phase } = state.sweep;
     const isRunning = phase === 'running';
     start.hidden = isRunning;
@@ -84,7 +103,6 @@ export function createSweepPanel(
     progress.hidden = !isRunning;
     progress.value = state.sweep.progress;
     open.hidden = state.sweepOpen || state.sweep.rows.length === 0;
-    const failed = phase === 'failed' ? 'The sweep failed: ' : '';
-    setText(message, `${failed}${state.sweep.message}`);
+    setText(message, messageOf(state));
   });
 }

@@ -1,6 +1,7 @@
 // Starts the workers of cloth in motion.
 import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
 import type { FromMotion, MotionAnswers, ToMotion } from '../worker/motion-protocol';
+import type { ObjReadMessage, ToObj } from '../worker/obj-protocol';
 import type { FromSweep, ToSweep } from '../worker/sweep-protocol';
 
 export type MotionClient = Asked<ToMotion, MotionAnswers>;
@@ -10,6 +11,17 @@ export type StartMotion = (listener: Listener<FromMotion>) => MotionClient;
 export function startMotionWorker(listener: Listener<FromMotion>): MotionClient {
   return createAsked(
     new Worker(new URL('../worker/motion-worker.ts', import.meta.url), { type: 'module' }),
+    listener,
+  );
+}
+
+export type ObjClient = Asked<ToObj, { readObj: ObjReadMessage }>;
+export type StartObj = (listener: Listener<never>) => ObjClient;
+
+/** Reads one mesh. */
+export function startObjWorker(listener: Listener<never>): ObjClient {
+  return createAsked(
+    new Worker(new URL('../worker/obj-worker.ts', import.meta.url), { type: 'module' }),
     listener,
   );
 }

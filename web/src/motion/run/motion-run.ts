@@ -2,10 +2,11 @@
 import { brokenSentence, type Failure, sentenceOf } from '../../shared/bindings/answers';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
-import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import { type MotionState, shownHeat } from '../state/motion-state';
+import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
+import { presetSetting } from '../state/setting';
+import { withCost } from '../state/step-cost';
 import type {
   FrameMessage,
   FromMotion,
@@ -13,20 +14,35 @@ import type {
   RunReport,
   ToMotion,
 } from '../worker/motion-protocol';
-import { type MotionClient, type StartMotion, startMotionWorker } from './motion-client';
+import {
+  type StartMotion,
+  type StartObj,
+  startMotionWorker,
+  startObjWorker,
+} from './motion-client';
 import { ObjSource } from './obj-source';
-import { referenceUrl } from './references';
+import { ReferenceSource } from './reference-source';
+import { remedyFor } from './remedy';
 import { RunClock } from './run-clock';
 import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content';
 import { RunFrames } from './run-frames';
-import { endOf } from './run-words';
+import { endOf, workWords } from './run-words';
+import { RunWorker, type Work } from './run-worker';
 import { createStepTimer } from './step-timing';
-
-/** Running ahead of the first picture gives up after this much of the clock [ms]. */
-const LONGEST_AHEAD_MS = 4000;
 
 /** Time of a step that is expected before one was measured [ms]. */
 const EXPECTED_STEP_MS = 10;
+
+/** Work that takes longer is shown, and can be stopped [ms]. */
+const SHOWN_WORK_MS = 500;
+
+/** How often a run that is to rest is looked at [ms]. */
+const REST_POLL_MS = 20;
+
+/** A reset or another scene waits this long for a step; then the worker is ended [ms]. */
+const PATIENCE_MS = 1000;
+/** And a change that takes the motion over, which it loses then [ms]. */
+const MOVING_PATIENCE_MS = 5000;
 
 export interface MotionRunView {
   /** A new mesh; its first frame follows at once. */
@@ -37,37 +53,50 @@ export interface MotionRunView {
 
 type Reload = Extract<ToMotion, { type: 'load' | 'reset' }>;
 
-/** Opens the worker, loads the state's setting, and follows the store from then on. */
+/** Loads the state's setting into its worker, and follows the store from then on. */
 export class MotionRun {
-  private readonly client: MotionClient;
-  private readonly obj: ObjSource;
+  readonly obj: ObjSource;
+  private readonly worker: RunWorker;
+  private readonly reference: ReferenceSource;
   private readonly clock = new RunClock();
   private readonly frames = new RunFrames();
   private readonly timer = createStepTimer();
   private request = 0; // counts loads and resets: what belongs to an earlier one is dropped
   private isWaiting = false; // for the answer to a load or a reset
   private isStepping = false;
-  private loaded: Content | null = null;
-  private referenceAt: string | null = null; // that the worker has, or is about to get
-  private aheadSinceMs: number | null = null; // running to the start time, nothing is shown
+  private areNumbersOld = false; // they are not those of the shown frame
+  private isAhead = false; // running to the start, nothing is shown
+  private isRecovering = false; // started again after an end, and no step since
+  private startsAnew = false; // the next load keeps no motion
+  private keepsMotion = false; // the load that is waited for does
+  private loaded: Content | null = null; // by the worker
+  private seen: Content | null = null; // in the picture
+  private proven: Content | null = null; // the last one whose steps came without a wait
   private tickHandle = 0;
 
   constructor(
     private readonly store: Store<MotionState>,
     private readonly view: MotionRunView,
     start: StartMotion = startMotionWorker,
+    startObj: StartObj = startObjWorker,
   ) {
-    this.client = start({
+    this.worker = new RunWorker(start, {
       news: (message) => this.hear(message),
-      broken: (reason) => this.breakDown(reason),
+      broken: (reason, hasStarted) => this.breakDown(reason, hasStarted),
+      atWork: (work) => this.watchWork(work),
     });
-    this.obj = new ObjSource(store, this.client, () => void this.load());
+    this.obj = new ObjSource(store, startObj, () => void this.load());
+    this.reference = new ReferenceSource(store, this.worker, (numbers) => {
+      if (!this.isWaiting) store.set({ numbers });
+    });
     store.subscribe((state, previous) => {
       if (state.setting !== previous.setting && state.phase !== 'broken') void this.load();
       if (state.playing && !previous.playing) this.startClock();
-      if (shownHeat(state) !== shownHeat(previous)) this.refill();
+      if (wantsReference(state) && !wantsReference(previous)) this.bringReference();
+      const isPaused = !state.playing && previous.playing;
+      if (isPaused || shownHeat(state) !== shownHeat(previous)) this.refill();
     });
-    void this.open();
+    void this.load();
   }
 
   play(): void {
@@ -87,44 +116,140 @@ export class MotionRun {
 
   reset(): void {
     const { phase, setting } = this.store.get();
-    if (phase === 'broken' || !this.loaded) return;
-    this.aheadSinceMs = null;
-    this.store.set({ playing: false, held: false, phase: 'loading', startS: 0, ahead: null });
-    if (this.loaded.setting !== setting) return void this.load();
+    if (phase === 'broken') return;
+    this.isAhead = false;
+    this.startsAnew = true;
+    this.keepsMotion = false;
+    this.store.set({ playing: false, held: false, phase: 'loading', startSteps: 0, ahead: null });
+    if (this.loaded?.setting !== setting) return void this.load();
     this.request += 1;
-    void this.reload({ type: 'reset', request: this.request, scalar: this.scalar() }, this.loaded);
+    const question = { type: 'reset', request: this.request, scalar: this.scalar() } as const;
+    void this.reload(question, this.loaded, null);
+  }
+
+  /** Shows a setting from its start, run to as many steps as the patch says, whatever moved before. */
+  showAnew(patch: Partial<MotionState> & Pick<MotionState, 'setting' | 'startSteps'>): void {
+    this.startsAnew = true;
+    this.store.set({ playing: false, ...patch, setting: { ...patch.setting } });
+  }
+
+  /** Pauses; what the state says is of the shown frame then. */
+  async rest(): Promise<void> {
+    this.pause();
+    while (!this.isAhead && (this.isStepping || this.areNumbersOld))
+      await new Promise((resume) => setTimeout(resume, REST_POLL_MS));
+  }
+
+  /** Tries again to bring what the cloth is compared with. */
+  bringReference(): void {
+    if (this.store.get().phase === 'ready') void this.reference.bring();
+  }
+
+  /** Ends what takes long: the way to the start where it is, else the worker, for the last good setting. */
+  stopWork(): void {
+    const { ahead, busy, numbers, summary, startSteps, setting } = this.store.get();
+    if (!busy) {
+      if (ahead === null || !numbers || !summary) return;
+      const endS = (startSteps * summary.step_s).toFixed(2);
+      const sentence = `Stopped at ${numbers.time_s.toFixed(2)} s, on the way to ${endS} s.`;
+      this.endAhead();
+      return this.store.set({ problem: { source: 'link', sentence } });
+    }
+    if (busy.type === 'step' && this.isWaiting) return this.loadAtOnce(1000 * busy.seconds);
+    if (busy.type === 'step') this.noteLeastCost(1000 * busy.seconds);
+    const again = this.lastGood();
+    const stopped = `${workWords(busy.type, setting)} was stopped after ${busy.seconds} s.`;
+    const { level } = again.setting;
+    this.startAgain(again, `${stopped} The cloth is back at its start, at level ${level}.`);
   }
 
   grab(vertex: number): void {
-    this.client.tell({ type: 'grab', vertex });
-    this.store.set({ held: true });
+    this.worker.tell({ type: 'grab', vertex });
+    this.store.set({ held: true, astray: 'pulled' });
   }
 
   moveGrab(target: Triple): void {
-    this.client.tell({ type: 'moveGrab', target });
+    this.worker.tell({ type: 'moveGrab', target });
   }
 
   releaseGrab(): void {
-    this.client.tell({ type: 'releaseGrab' });
+    this.worker.tell({ type: 'releaseGrab' });
     this.store.set({ held: false });
-  }
-
-  /** Shows the visitor's mesh, or says what is wrong with the file while the cloth goes on. */
-  openObj(file: File): Promise<void> {
-    return this.obj.open(file);
-  }
-
-  private async open(): Promise<void> {
-    if (await this.answer(this.client.ask({ type: 'open', fabricsText }))) await this.load();
-  }
-
-  private breakDown(reason: string): void {
-    const sentence = brokenSentence('The cloth', reason);
-    this.store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
   }
 
   private hear(message: FromMotion): void {
     if (message.type === 'refused') this.refuse(message.failure);
+  }
+
+  /** The worker is gone, or of no use any more: another one takes its place, once. */
+  private breakDown(reason: string, hasStarted: boolean): void {
+    const { numbers, setting } = this.store.get();
+    if (!hasStarted) {
+      const sentence = brokenSentence('The cloth', reason);
+      this.store.set({ phase: 'broken', playing: false, problem: { source: 'browser', sentence } });
+      return;
+    }
+    const at = numbers ? ` after step ${numbers.step}` : '';
+    const ended = `The computation ended by itself${at} (${reason.replace(/[.]$/, '')}).`;
+    if (this.isRecovering) return this.giveUp(ended);
+    this.isRecovering = true;
+    const again = this.loaded?.setting === setting ? this.loaded : this.lastGood();
+    this.startAgain(again, `${ended} It was started again, and the cloth is back at its start.`);
+  }
+
+  private giveUp(ended: string): void {
+    this.isRecovering = false;
+    this.replaceWorker();
+    this.end(`${ended} That happened twice. Choose another setting, or reset to try once more.`);
+  }
+
+  /** What ran last without a wait in this scene, or what the scene is made for. */
+  private lastGood(): Content {
+    const { setting, mesh } = this.store.get();
+    const own = { setting: presetSetting(setting.preset), mesh };
+    return this.proven && isSameScene(this.proven, own) ? this.proven : own;
+  }
+
+  private replaceWorker(): void {
+    this.worker.replace();
+    this.reference.forget();
+    this.loaded = null;
+    this.request += 1;
+    this.isWaiting = false;
+    this.isStepping = false;
+  }
+
+  /** Another worker starts with this content; `sentence` says why. */
+  private startAgain({ setting, mesh }: Content, sentence: string): void {
+    this.replaceWorker();
+    this.startsAnew = true;
+    const problem = { source: 'worker', sentence } as const;
+    const rest = { playing: false, startSteps: 0, held: false, busy: null } as const;
+    this.store.set({ ...rest, phase: 'loading', problem, mesh, setting: { ...setting } });
+  }
+
+  private watchWork(work: Work | null): void {
+    const isLong = work !== null && work.forMs > SHOWN_WORK_MS;
+    const patienceMs = this.keepsMotion ? MOVING_PATIENCE_MS : PATIENCE_MS;
+    if (work?.type === 'step' && this.isWaiting && work.forMs > patienceMs)
+      return this.loadAtOnce(work.forMs);
+    const busy = isLong ? { type: work.type, seconds: Math.floor(work.forMs / 1000) } : null;
+    const { busy: shown } = this.store.get();
+    if (busy?.type !== shown?.type || busy?.seconds !== shown?.seconds) this.store.set({ busy });
+  }
+
+  /** What is wanted does not wait for a step that has taken so long by now. */
+  private loadAtOnce(forMs: number): void {
+    this.noteLeastCost(forMs);
+    this.replaceWorker();
+    void this.load();
+  }
+
+  /** A step of the loaded setting takes longer than that. */
+  private noteLeastCost(ms: number): void {
+    if (!this.loaded) return;
+    const { costs } = this.store.get();
+    this.store.set({ costs: withCost(costs, this.loaded.setting, ms, true) });
   }
 
   /** The answer; null when there is none, or when it comes too late for what is shown by now. */
@@ -136,10 +261,27 @@ export class MotionRun {
   }
 
   private refuse(failure: Failure): void {
+    if (failure.kind === 'internal') return this.breakDown(failure.what, true);
     this.isWaiting = false;
     this.isStepping = false;
-    const problem = { source: 'setting', sentence: sentenceOf(failure) } as const;
+    const { setting, mesh } = this.store.get();
+    const known = remedyFor(failure, setting);
+    const sentence = known?.sentence ?? sentenceOf(failure);
+    const problem = { source: 'setting', sentence, remedy: known?.remedy } as const;
     this.store.set({ phase: 'refused', playing: false, problem });
+    if (this.loaded) return;
+    const shown = known?.remedy.setting ?? presetSetting(setting.preset);
+    void this.showStandIn({ setting: shown, mesh });
+  }
+
+  /** The picture of a cloth at its start, for one that cannot be run: the stage is not left empty. */
+  private async showStandIn(content: Content): Promise<void> {
+    const { request } = this;
+    const question = { type: 'load', ...loadOf(content), keepMotion: false, request } as const;
+    const message = await answerOf(this.worker.ask(question), () => undefined);
+    if (!message || request !== this.request) return;
+    this.showLoaded(message, content);
+    this.store.set({ colliders: message.colliders });
   }
 
   private scalar(): Scalar {
@@ -147,38 +289,56 @@ export class MotionRun {
   }
 
   private async load(): Promise<void> {
-    const { numbers, phase, setting, mesh } = this.store.get();
+    const { numbers, phase, setting, mesh, astray } = this.store.get();
     const content: Content = { setting, mesh };
     const isMoving = phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
-    const keepMotion = isMoving && canKeepMotion(this.loaded, content);
-    this.aheadSinceMs = null;
+    const keepMotion = isMoving && !this.startsAnew && canKeepMotion(this.loaded, content);
+    this.keepsMotion = keepMotion;
+    this.startsAnew = false;
+    this.isAhead = false;
     this.isWaiting = true;
     this.request += 1;
     const { request } = this;
     this.store.set({ phase: 'loading', held: false, ahead: null });
     if (setting.preset === 'obj' && !mesh) return this.obj.bringExample();
-    const scalar = this.scalar();
-    await this.reload({ type: 'load', ...loadOf(content), keepMotion, request, scalar }, content);
+    const question = { type: 'load', ...loadOf(content), keepMotion, request } as const;
+    const led = keepMotion ? (astray ?? 'changed') : null;
+    await this.reload({ ...question, scalar: this.scalar() }, content, led);
   }
 
-  private async reload(question: Reload, content: Content): Promise<void> {
+  private async reload(
+    question: Reload,
+    content: Content,
+    astray: MotionState['astray'],
+  ): Promise<void> {
     this.isWaiting = true;
-    const message = await this.answer(this.client.ask(question));
-    if (message) this.receiveLoaded(message, content);
+    const message = await this.answer(this.worker.ask(question));
+    if (message) this.receiveLoaded(message, content, astray);
   }
 
-  private receiveLoaded(message: LoadedMessage, content: Content): void {
-    const isNewScene = !isSameScene(this.loaded, content);
+  private showLoaded(message: LoadedMessage, content: Content): void {
+    const isNewScene = !isSameScene(this.seen, content);
     this.loaded = content;
+    this.seen = content;
+    this.frames.replace(message.buffers, message.scalar);
+    this.view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
+    this.showFrame();
+  }
+
+  private receiveLoaded(
+    message: LoadedMessage,
+    content: Content,
+    astray: MotionState['astray'],
+  ): void {
+    this.startsAnew = false;
     this.isWaiting = false;
     this.isStepping = false;
-    this.frames.replace(message.buffers, message.scalar);
+    this.areNumbersOld = false;
     this.clock.restart(message.numbers.time_s);
     this.timer.clear();
     this.timer.feed(message.numbers);
-    this.view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
-    this.showFrame();
-    const { problem, startS } = this.store.get();
+    this.showLoaded(message, content);
+    const { problem, startSteps } = this.store.get();
     const isSolved = problem !== null && ['setting', 'run', 'file'].includes(problem.source);
     this.store.set({
       phase: 'ready',
@@ -188,11 +348,12 @@ export class MotionRun {
       timing: null,
       isCutShort: false,
       pace: null,
+      astray,
       problem: isSolved ? null : problem,
     });
-    void this.bringReference();
-    if (message.numbers.time_s === 0 && startS > 0) {
-      this.aheadSinceMs = performance.now();
+    this.bringReference();
+    if (message.numbers.time_s === 0 && startSteps > 0) {
+      this.isAhead = true;
       this.runAhead();
     }
     this.refill();
@@ -203,48 +364,28 @@ export class MotionRun {
     if (shown) this.view.showFrame(shown, scalar);
   }
 
-  /** Fetches what the shown cloth is compared with; without it there is no error, and no harm. */
-  private async bringReference(): Promise<void> {
-    const url = this.loaded && referenceUrl(this.loaded.setting);
-    if (!url || url === this.referenceAt || navigator.onLine === false) return;
-    this.referenceAt = url;
-    try {
-      const answer = await fetch(url);
-      if (!answer.ok) throw new Error(answer.statusText);
-      const bytes = await answer.arrayBuffer();
-      if (this.referenceAt === url) await this.setReference(bytes);
-    } catch {
-      if (this.referenceAt === url) this.referenceAt = null; // the next load tries again
-    }
-  }
-
-  private async setReference(bytes: ArrayBuffer): Promise<void> {
-    const question = this.client.ask({ type: 'setReference', bytes }, [bytes]);
-    const answer = await answerOf(question, (failure) => this.refuse(failure));
-    if (answer?.type === 'referenceSet' && !this.isWaiting)
-      this.store.set({ numbers: answer.numbers });
-  }
-
-  /** Has the frame that stands filled with the number that the colours show. */
+  /** Has the frame that stands filled with the number that the colours show, and its numbers read. */
   private refill(): void {
-    const isFree = !this.isWaiting && !this.isStepping && this.aheadSinceMs === null;
-    if (!isFree || this.store.get().phase !== 'ready') return;
-    if (this.frames.scalar !== this.scalar()) void this.send(0);
+    const { phase, playing } = this.store.get();
+    const isFree = !this.isWaiting && !this.isStepping && !this.isAhead;
+    if (!isFree || phase !== 'ready') return;
+    const isBehind = this.areNumbersOld && !playing;
+    if (isBehind || this.frames.scalar !== this.scalar()) void this.send(0);
   }
 
-  /** Takes the next steps towards the start time, or shows the frame when there. */
+  /** Takes the next steps towards the start, or shows the frame when there. */
   private runAhead(): void {
-    const { startS, numbers, summary, timing, playing } = this.store.get();
-    if (this.aheadSinceMs === null || !numbers || !summary) return;
-    const { step_s: stepS } = summary;
-    const left = Math.round((startS - numbers.time_s) / stepS);
-    const isLate = performance.now() - this.aheadSinceMs > LONGEST_AHEAD_MS;
-    if (left > 0 && !isLate && !playing) {
-      this.store.set({ ahead: numbers.time_s / startS });
-      const msPerStep = timing?.totalMs ?? EXPECTED_STEP_MS;
-      return void this.send(this.clock.takeOf(left, stepS, msPerStep));
-    }
-    this.aheadSinceMs = null;
+    const { startSteps, numbers, summary, timing, playing } = this.store.get();
+    if (!this.isAhead || !numbers || !summary) return;
+    const left = startSteps - numbers.step;
+    if (left <= 0 || playing) return this.endAhead();
+    this.store.set({ ahead: numbers.step / startSteps });
+    const msPerStep = timing?.totalMs ?? EXPECTED_STEP_MS;
+    void this.send(this.clock.takeOf(left, summary.step_s, msPerStep));
+  }
+
+  private endAhead(): void {
+    this.isAhead = false;
     this.showFrame();
     this.store.set({ ahead: null });
     this.refill();
@@ -253,8 +394,12 @@ export class MotionRun {
   private receiveReport({ numbers, status }: RunReport): void {
     const patch: Partial<MotionState> = { numbers, isCutShort: status === 'not_converged' };
     const timing = this.timer.feed(numbers);
-    if (timing) patch.timing = timing;
-    const pace = this.store.get().playing ? this.clock.pace(numbers.time_s) : null;
+    const { playing, costs } = this.store.get();
+    if (timing) {
+      patch.timing = timing;
+      if (this.loaded) patch.costs = withCost(costs, this.loaded.setting, timing.totalMs);
+    }
+    const pace = playing ? this.clock.pace(numbers.time_s) : null;
     if (pace !== null) patch.pace = pace;
     this.store.set(patch);
   }
@@ -262,17 +407,18 @@ export class MotionRun {
   private receiveFrame({ buffer, scalar, hasEnded, report, colliders }: FrameMessage): void {
     this.isStepping = false;
     this.frames.show(buffer, scalar);
-    if (this.aheadSinceMs === null || hasEnded) this.showFrame();
+    if (!this.isAhead || hasEnded) this.showFrame();
     if (colliders.length > 0) this.store.set({ colliders });
+    this.areNumbersOld = report === null;
     if (report) this.receiveReport(report);
     if (hasEnded) return this.end(endOf(report, buffer));
-    if (this.aheadSinceMs !== null) return this.runAhead();
+    if (this.isAhead) return this.runAhead();
     this.goOn();
     this.refill();
   }
 
   private end(sentence: string): void {
-    this.aheadSinceMs = null;
+    this.isAhead = false;
     const problem = { source: 'run', sentence } as const;
     this.store.set({ phase: 'stopped', playing: false, held: false, ahead: null, problem });
   }
@@ -284,9 +430,15 @@ export class MotionRun {
     this.isStepping = true;
     const { request } = this;
     const scalar = this.scalar();
+    const beginMs = performance.now();
     const question = { type: 'step', count, wantsNumbers, request, scalar, buffer } as const;
-    const frame = await this.answer(this.client.ask(question, [buffer]));
-    if (frame?.type === 'frame') this.receiveFrame(frame);
+    const frame = await this.answer(this.worker.ask(question, [buffer]));
+    if (frame?.type !== 'frame') return;
+    if (count > 0 && performance.now() - beginMs < PATIENCE_MS) {
+      this.proven = this.loaded;
+      this.isRecovering = false;
+    }
+    this.receiveFrame(frame);
   }
 
   /** Asks for the steps that are due by the clock; called at each frame and at each answer. */
@@ -294,7 +446,7 @@ export class MotionRun {
     const { playing, speed, summary, timing } = this.store.get();
     if (!playing || !summary) return;
     this.clock.tick(speed);
-    if (this.isWaiting || this.isStepping || this.aheadSinceMs !== null) return;
+    if (this.isWaiting || this.isStepping || this.isAhead) return;
     const count = this.clock.take(summary.step_s, timing?.totalMs ?? null);
     if (count > 0) void this.send(count);
   }

@@ -1,36 +1,60 @@
-// Where the mesh of "Your OBJ" comes from: the visitor's file, or an example until there is one.
+// Where the mesh of "Your OBJ" comes from: the visitor's file, or an example until there is one. A file is
+// read in a worker of its own, so that the cloth goes on and the reading can be given up.
 import exampleUrl from '../../../../assets/meshes/skirt.obj?url';
-import { sentenceOf } from '../../shared/bindings/answers';
+import { brokenSentence, sentenceOf } from '../../shared/bindings/answers';
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import { fetched } from '../../shared/page/fetched';
+import {
+  type ObjFile,
+  type ObjUnit,
+  oddSize,
+  openObjFile,
+  textInMetres,
+} from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { MotionState } from '../state/motion-state';
+import { AT_START, type MotionState } from '../state/motion-state';
 import type { ObjMesh } from '../state/obj-mesh';
 import { presetSetting } from '../state/setting';
-import type { MotionClient } from './motion-client';
+import type { ObjClient, StartObj } from './motion-client';
 
 export class ObjSource {
+  private client: ObjClient | null = null; // that is reading
+  private own: ObjFile | null = null; // the visitor's, that was read last
+
   constructor(
     private readonly store: Store<MotionState>,
-    private readonly client: MotionClient,
+    private readonly start: StartObj,
     private readonly onExample: () => void,
   ) {}
 
   /** Shows the visitor's mesh, or says what is wrong with the file while the cloth goes on. */
   async open(file: File): Promise<void> {
-    const { name } = file;
-    if (!/\.obj$/i.test(name))
-      return this.refuse(`${name} is no OBJ file: the name does not end in .obj.`);
-    const text = await file.text().catch(() => null);
-    if (text === null) return this.refuse(`${name} could not be read.`);
-    await this.read(name, text, true);
+    this.store.set({ reading: file.name });
+    const read = await openObjFile(file);
+    if (this.store.get().reading !== file.name) return; // given up
+    if (typeof read === 'string') return this.refuse(read);
+    await this.read(read, 'm', true);
+  }
+
+  /** Takes the visitor's file in another unit. */
+  async setUnit(unit: ObjUnit): Promise<void> {
+    if (this.own) await this.read(this.own, unit, true);
+  }
+
+  /** Gives up what is being read. */
+  cancel(): void {
+    this.client?.terminate();
+    this.client = null;
+    this.store.set({ reading: null });
   }
 
   /** Brings the mesh that stands in until there is one of the visitor's. */
   async bringExample(): Promise<void> {
     try {
-      const answer = await fetch(exampleUrl);
-      if (!answer.ok) throw new Error(answer.statusText);
-      await this.read('skirt.obj', await answer.text(), false);
+      const text = await (await fetched(exampleUrl)).text();
+      const read = await openObjFile(new File([text], 'skirt.obj'));
+      if (typeof read !== 'string' && this.client === null) await this.read(read, 'm', false);
     } catch {
       if (this.store.get().setting.preset !== 'obj') return;
       const sentence =
@@ -40,19 +64,36 @@ export class ObjSource {
     }
   }
 
-  private async read(name: string, objText: string, isOwn: boolean): Promise<void> {
-    const question = this.client.ask({ type: 'readObj', name, objText, isOwn });
+  private async read(file: ObjFile, unit: ObjUnit, isOwn: boolean): Promise<void> {
+    this.cancel();
+    const { name, low, high } = file;
+    const client = this.start({
+      broken: (reason) => this.refuse(brokenSentence('The mesh', reason)),
+    });
+    this.client = client;
+    if (isOwn) this.store.set({ reading: name });
+    const question = client.ask({
+      type: 'readObj',
+      fabricsText,
+      objText: textInMetres(file, unit),
+      file: { name, isOwn, unit, odd: oddSize(file, unit), low, high },
+    });
     const answer = await answerOf(question, (failure) => this.refuse(sentenceOf(failure)));
-    if (answer?.type === 'objRead') this.take(answer.mesh);
-    if (answer?.type === 'objRefused') this.refuse(sentenceOf(answer.failure));
+    if (!answer || this.client !== client) return;
+    this.cancel();
+    if (isOwn) this.own = file;
+    this.take(answer.mesh);
   }
 
   private take(mesh: ObjMesh): void {
     const { setting, mesh: present } = this.store.get();
     if (mesh.isOwn) {
       const start = setting.preset === 'obj' ? setting : presetSetting('obj');
-      const patch = { startS: 0, playing: false, invited: true };
-      return this.store.set({ mesh, setting: { ...start, level: 0, hold: 'highest' }, ...patch });
+      return this.store.set({
+        ...AT_START,
+        mesh,
+        setting: { ...start, level: 0, hold: 'highest' },
+      });
     }
     if (present) return; // the visitor was quicker
     this.store.set({ mesh });
@@ -60,6 +101,7 @@ export class ObjSource {
   }
 
   private refuse(sentence: string): void {
+    this.cancel();
     this.store.set({ problem: { source: 'file', sentence } });
   }
 }

@@ -1,5 +1,6 @@
-// The words for what ended a run.
+// What a run is at, and what ended it, in words.
 import { frameViews } from '../../shared/bindings/frame';
+import type { Setting } from '../state/setting';
 import type { RunReport } from '../worker/motion-protocol';
 
 /** Where the vertex that a message names was in a frame, in words; nothing when it names none. */
@@ -17,4 +18,12 @@ export function endOf(report: RunReport | null, frame: ArrayBuffer): string {
   const { numbers, status, message } = report;
   const reason = `${status.replaceAll('_', ' ')}: ${message.replace(/[.]$/, '')}`;
   return `The run stopped in step ${numbers.step + 1}, ${reason}.${placeOf(message, frame)} ${next}`;
+}
+
+/** What the worker is at, for a question of this type. */
+export function workWords(type: string, { level }: Setting): string {
+  if (type === 'step') return `One step at level ${level}`;
+  if (type === 'load' || type === 'reset') return `Building level ${level}`;
+  if (type === 'open') return 'Fetching the program';
+  return 'The work at hand';
 }

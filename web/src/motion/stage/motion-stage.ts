@@ -4,9 +4,11 @@ import { Box3, Sphere, Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
+import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+import { invitingVertex } from './inviting';
 
 export interface MotionStageEvents {
   grab(vertex: number): void;
@@ -14,9 +16,17 @@ export interface MotionStageEvents {
   releaseGrab(): void;
   /** Keys that are neither the camera's nor the hand's. True when used. */
   key(name: string): boolean;
-  /** Hears after each drawn frame the heat map's scale, and the invitation's place in pixels. */
-  drawn(scale: HeatScale, invitation: { x: number; y: number }): void;
-  contextLost(): void;
+  /** Hears of each drawn frame. */
+  drawn(picture: DrawnPicture): void;
+  pictureLost(isLost: boolean): void;
+}
+
+export interface DrawnPicture {
+  heatScale: HeatScale;
+  /** Where the invitation belongs, in pixels. */
+  invitation: { x: number; y: number };
+  /** From where it is seen; null from where the scene is seen at first. */
+  camera: Pose | null;
 }
 
 export interface MotionStage {
@@ -28,6 +38,8 @@ export interface MotionStage {
   setHeat(map: HeatMap, range: 'auto' | number): void;
   setEdges(isShown: boolean): void;
   homeView(): void;
+  /** From where the scene is seen, also once it is another one. */
+  setCamera(pose: Pose | null): void;
   /** Present positions, three numbers a vertex [m]. */
   positions(): Float32Array;
   /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
@@ -49,10 +61,7 @@ const SWING_AROUND = 0.15;
 /** A plane tilted by less than 8 degrees, as a cosine, is a floor. */
 const FLOOR_COSINE = 0.99;
 
-/** A metre lower counts for the invitation as much as two metres nearer: free corners hang low. */
-const LOW_OVER_NEAR = 2;
-
-/** The sphere to keep in view: where the cloth is, where it can swing to, and the bodies. */
+/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
 function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
   const box = new Box3().setFromArray(positions);
   const reach = box.getSize(new Vector3());
@@ -81,23 +90,7 @@ function floorHeight(sphere: Sphere, colliders: Collider[]): number {
   return Math.min(0, sphere.center.y - sphere.radius);
 }
 
-/** The vertex that asks to be taken: low, and on the side of the eye. */
-function invitingVertex(positions: Float32Array, towards: Vector3): number {
-  let best = 0;
-  let bestScore = Number.NEGATIVE_INFINITY;
-  const place = new Vector3();
-  for (let v = 0; 3 * v < positions.length; ++v) {
-    place.fromArray(positions, 3 * v);
-    const score = place.dot(towards) - LOW_OVER_NEAR * place.y;
-    if (score > bestScore) {
-      bestScore = score;
-      best = v;
-    }
-  }
-  return best;
-}
-
-/** The setters of how the cloth is drawn. */
+/** What is set of how the cloth is drawn. */
 function drawingOf(
   cloth: ClothMesh,
   redraw: () => void,
@@ -134,6 +127,7 @@ export function createMotionStage(
   let awaitsFraming = false;
   let isFreshMesh = false;
   let inviting = 0;
+  let wantedPose: Pose | null = null;
   let floor = 0; // height of what is drawn as the floor [m]
 
   const stage = createPaneStage(parent, canvas, {
@@ -144,11 +138,14 @@ export function createMotionStage(
       cloth.update();
       hand.mark(cloth.positions());
     },
-    drawn: () => events.drawn(cloth.heatScale(), project(inviting)),
+    drawn() {
+      const [invitation, camera] = [project(inviting), stage.control.pose()];
+      events.drawn({ heatScale: cloth.heatScale(), invitation, camera });
+    },
     themed: (colour) => hand.setColour(colour('--stage-hand')),
     handKey: (name) => hand.key(name),
     key: events.key,
-    contextLost: events.contextLost,
+    pictureLost: events.pictureLost,
   });
   const { grid, redraw } = stage;
   const hand = createStageHand(stage, {
@@ -164,7 +161,7 @@ export function createMotionStage(
 
   function chooseInviting(): void {
     const towards = stage.camera.getWorldDirection(new Vector3()).negate();
-    inviting = invitingVertex(cloth.positions(), towards);
+    inviting = invitingVertex(cloth.positions(), cloth.triangles(), towards);
   }
 
   stage.open();
@@ -189,12 +186,18 @@ export function createMotionStage(
         const sphere = framedSphere(cloth.positions(), colliders);
         floor = floorHeight(sphere, colliders);
         frame(stage, sphere, floor);
+        stage.control.setPose(wantedPose);
         chooseInviting();
       }
       redraw();
     },
     ...drawingOf(cloth, redraw),
     homeView: stage.control.home,
+    setCamera(pose) {
+      wantedPose = pose;
+      if (JSON.stringify(pose) !== JSON.stringify(stage.control.pose()))
+        stage.control.setPose(pose);
+    },
     positions: () => cloth.positions(),
     project,
     inviting: () => inviting,

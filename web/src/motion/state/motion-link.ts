@@ -1,8 +1,9 @@
 // The state that a link carries, to text and back. A part that cannot be read gives its default
 // and one sentence; it never stops the page.
 import { fabrics } from '../../shared/fabric/fabric-data';
+import type { Pose } from '../../shared/stage/camera-control';
 import type { HeatMap } from '../../shared/stage/heat-map';
-import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
+import { createLinkReader, type LinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { type Count, canRun, STEPPER_NAMES, stepperRow } from '../../shared/steppers/steppers';
 import type { Hold } from './obj-mesh';
 import {
@@ -25,14 +26,19 @@ export interface MotionLink {
   /** Upper end of the scale of stretch [%], or chosen from the frame. */
   heatRange: 'auto' | number;
   edges: boolean;
-  /** Simulated time that is run through before the cloth is shown [s]. */
-  startS: number;
+  /** The reference is compared with, which takes fetching it. */
+  compare: boolean;
+  /** Steps that are run through before the cloth is shown. */
+  startSteps: number;
+  /** From where the cloth is seen; null from where it is at first. */
+  camera: Pose | null;
 }
 
 export const HEAT_MAPS: readonly HeatMap[] = ['off', 'magnitude', 'signed', 'distance'];
 export const HEAT_RANGES: readonly number[] = [0.5, 1, 2, 5, 10];
 const DEFAULT_PRESET: PresetId = 'curtain';
-const LATEST_START_S = 10;
+/** A link runs through this much at most: half a minute of a usual scene on a usual device [s]. */
+const LATEST_START_S = 60;
 /** A first visit starts here: the curtain hangs in folds, and its error is known [s]. */
 const FIRST_VISIT_START_S = 1.5;
 
@@ -50,13 +56,51 @@ function stepFraction(text: string): number | undefined {
 }
 
 function startTime(text: string): number | undefined {
-  const value = /^\d{1,2}(\.\d)?$/.test(text) ? Number(text) : Number.NaN;
+  const value = /^\d{1,2}(\.\d{1,3})?$/.test(text) ? Number(text) : Number.NaN;
   return value <= LATEST_START_S ? value : undefined;
+}
+
+/** Steps as `steps` counts them, or as the seconds of `start` hold them. */
+function takeStart({ take }: LinkReader, stepS: number, usualS: number): number {
+  const stepsIn = (seconds: number) => Math.round(seconds / stepS);
+  const start = take('start', usualS, `0 to ${LATEST_START_S} s`, startTime);
+  const most = stepsIn(LATEST_START_S);
+  return take('steps', stepsIn(start), `0 to ${most}`, wholeNumber(0, most));
+}
+
+/** Decimals of the numbers of a pose: a thousandth of a turn or of the scene cannot be seen. */
+const POSE_DECIMALS = 3;
+
+function poseText({ azimuth, polar, zoom, shift }: Pose): string {
+  return [azimuth, polar, zoom, ...shift]
+    .map((value) => Number(value.toFixed(POSE_DECIMALS)))
+    .join(',');
+}
+
+function poseIn(text: string): Pose | undefined {
+  if (!/^-?\d{1,3}(\.\d{1,6})?(,-?\d{1,3}(\.\d{1,6})?){5}$/.test(text)) return undefined;
+  const [azimuth = 0, polar = 0, zoom = 1, x = 0, y = 0, z = 0] = text.split(',').map(Number);
+  return { azimuth, polar, zoom, shift: [x, y, z] };
 }
 
 function holdIn(text: string): Hold | undefined {
   if (text === 'highest' || text === 'nothing') return text;
   return text.startsWith('group:') ? (text as Hold) : undefined;
+}
+
+/** The link to the state that is shown: one that rests is met after as many steps as it took. */
+export function linkTo(
+  state: MotionLink & {
+    phase: string;
+    playing: boolean;
+    ahead: number | null;
+    numbers: { time_s: number } | null;
+  },
+): MotionLink {
+  const { phase, playing, ahead, numbers, setting, startSteps } = state;
+  if (phase !== 'ready' || playing || ahead !== null || !numbers) return { ...state, startSteps };
+  const steps = Math.round(Math.min(numbers.time_s, LATEST_START_S) / setting.stepS);
+  return { ...state, startSteps: steps };
 }
 
 /** The part of a link after `#`. */
@@ -74,8 +118,10 @@ export function encodeMotionLink(link: MotionLink): string {
     ['heat', link.heat],
     ['range', String(link.heatRange)],
     ['edges', link.edges ? 'on' : 'off'],
-    ['start', String(link.startS)],
+    ['steps', String(link.startSteps)],
   ];
+  if (link.compare) parts.push(['compare', 'on']);
+  if (link.camera) parts.push(['camera', poseText(link.camera)]);
   if (setting.preset === 'obj') parts.push(['hold', encodeURIComponent(setting.hold)]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
 }
@@ -83,7 +129,8 @@ export function encodeMotionLink(link: MotionLink): string {
 /** The state a link stands for; `problems` says in words what could not be read. */
 export function decodeMotionLink(hash: string): { link: MotionLink; problems: string[] } {
   const text = hash.replace(/^#/, '');
-  const { take, finish } = createLinkReader(new URLSearchParams(text));
+  const reader = createLinkReader(new URLSearchParams(text));
+  const { take, finish } = reader;
   const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
   const models = modelsOf(preset);
   const own = presetSetting(preset);
@@ -115,6 +162,9 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   );
   const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
   const usualStart = text === '' ? FIRST_VISIT_START_S : 0;
-  const startS = take('start', usualStart, `0 to ${LATEST_START_S} s`, startTime);
-  return { link: { setting, heat, heatRange: range, edges, startS }, problems: finish() };
+  const startSteps = takeStart(reader, setting.stepS, usualStart);
+  const compare = take('compare', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const camera = take<Pose | null>('camera', null, 'six numbers', poseIn);
+  const link = { setting, heat, heatRange: range, edges, compare, startSteps, camera };
+  return { link, problems: finish() };
 }

@@ -4,14 +4,26 @@ import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
 import type { MotionLink } from './motion-link';
 import type { ObjMesh } from './obj-mesh';
+import type { Setting } from './setting';
+import type { StepCosts } from './step-cost';
 import { NO_SWEEP, type SweepState } from './sweep-state';
 
 export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
 
+/** What helps, and the words for it. */
+export interface Remedy {
+  title: string;
+  setting: Setting;
+}
+
 export interface Problem {
-  /** Who has to act: the link, the settings, a file, the run's numbers, or the browser itself. */
-  source: 'link' | 'setting' | 'file' | 'run' | 'browser' | 'sweep';
+  /**
+   * What is at fault: the link, the settings, a file, the run's numbers, the worker that computes, the
+   * graphics, or the browser itself.
+   */
+  source: 'link' | 'setting' | 'file' | 'run' | 'worker' | 'picture' | 'browser';
   sentence: string;
+  remedy?: Remedy;
 }
 
 /**
@@ -34,11 +46,21 @@ export interface MotionState extends MotionLink {
   invited: boolean;
   /** The mesh of "Your OBJ": the visitor's or the example, null until one is there. */
   mesh: ObjMesh | null;
+  /** Name of the visitor's file that is being read. */
+  reading: string | null;
   summary: SceneSummary | null;
   numbers: RunNumbers | null;
   timing: StepTiming | null;
-  /** How much of the time before the start is run through, 0 to 1; null when nothing is. */
+  /** How much of the way to the start is run through, 0 to 1; null when nothing is. */
   ahead: number | null;
+  /** What the worker has been at for a while, and for how long by now [s]. */
+  busy: { type: string; seconds: number } | null;
+  /** Why the shown state is not what its link replays. */
+  astray: 'pulled' | 'changed' | null;
+  /** Whether the reference of the shown cloth is there to compare with. */
+  reference: 'unasked' | 'coming' | 'failed' | 'here';
+  /** What a step was measured to take on this device. */
+  costs: StepCosts;
   /** Simulated seconds a second of the clock, as reached. */
   pace: number | null;
   /** The last step's solve reached its iteration cap. */
@@ -59,10 +81,15 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     held: false,
     invited: true,
     mesh: null,
+    reading: null,
     summary: null,
     numbers: null,
     timing: null,
     ahead: null,
+    busy: null,
+    astray: null,
+    reference: 'unasked',
+    costs: {},
     pace: null,
     isCutShort: false,
     colliders: [],
@@ -74,6 +101,19 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     sweep: NO_SWEEP,
     sweepOpen: false,
   };
+}
+
+/** What is set when another scene is shown: it starts still, from its first view. */
+export const AT_START = {
+  startSteps: 0,
+  playing: false,
+  invited: true,
+  camera: null,
+} as const satisfies Partial<MotionState>;
+
+/** A reference is some hundred kilobytes: it comes when a distance is asked for. */
+export function wantsReference({ compare, heat }: Pick<MotionState, 'compare' | 'heat'>): boolean {
+  return compare || heat === 'distance';
 }
 
 /** The heat map that can be shown: distance only where there is a reference. */

@@ -1,5 +1,6 @@
 // A mesh from an OBJ file: how its threads run, what holds it, and the world around it.
 import type { Triple } from '../../shared/bindings/geometry';
+import type { ObjUnit } from '../../shared/state/obj-file';
 import type { ObjAnswer } from '../bindings/pleat-module';
 
 /** "highest", "nothing", or "group:" and the name of a group of the mesh. */
@@ -13,6 +14,12 @@ export interface ObjMesh {
   name: string;
   /** Brought by the visitor; else it is the page's example. */
   isOwn: boolean;
+  /** Of the file; everything here is in metres. */
+  unit: ObjUnit;
+  /** What is odd about its size, in words. */
+  odd: string | null;
+  /** Which statements of the file were skipped, in words. */
+  skipped?: string;
   /** The section "cloth" of a scene. */
   clothText: string;
   groups: string[];
@@ -49,11 +56,12 @@ export function liesFlat(box: Box): boolean {
 }
 
 export function objMesh(
-  file: Pick<ObjMesh, 'name' | 'isOwn' | 'threads'>,
+  file: Pick<ObjMesh, 'name' | 'isOwn' | 'unit' | 'odd' | 'threads'>,
   answer: ObjAnswer,
 ): ObjMesh {
   return {
     ...file,
+    skipped: answer.skipped,
     clothText: JSON.stringify(answer.cloth),
     groups: answer.groups,
     nVertices: answer.n_vertices,
@@ -109,6 +117,8 @@ export function deformedMesh(section: object, start: Float64Array): ObjMesh {
   return {
     name: 'The pulled cloth',
     isOwn: true,
+    unit: 'm',
+    odd: null,
     clothText: JSON.stringify(section),
     groups: Object.keys(mesh.groups ?? {}),
     nVertices: start.length / 3,

@@ -4,6 +4,7 @@ import {
   STABLE_SUBSTEPS,
   STEPPER_NAMES,
   STEPPERS,
+  type StepperRow,
   type Substeps,
 } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
@@ -18,7 +19,7 @@ export interface PlannedMethod {
 }
 
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
-const DURATION_S = 1;
+export const DURATION_S = 1;
 
 /** Time that one step of a measured run advances [s]. */
 const STEP_S = 1 / 60;
@@ -35,26 +36,45 @@ export interface SweepPlan {
   duration_s: number;
 }
 
-/** The methods measured at one level: those of every stepper that takes part there. */
-function methodsAt(level: number, model: Model): PlannedMethod[] {
-  const taking = STEPPERS.filter(
-    ({ models, finest_sweep_level: finest }) =>
-      models.includes(model) && level <= (finest ?? Number.POSITIVE_INFINITY),
-  );
+/** The finest level that a sweep is offered for. */
+export const FINEST_SWEEP = 3;
+
+/** It is too slow for the finest sweeps, and takes most of the time of the others. */
+function isSlow({ finest_sweep_level: finest = FINEST_SWEEP }: StepperRow): boolean {
+  return finest < FINEST_SWEEP;
+}
+
+/** Steppers that take part in a sweep only when they are asked for. */
+export function slowSteppers(model: Model): StepperRow[] {
+  return STEPPERS.filter((row) => row.models.includes(model) && isSlow(row));
+}
+
+/** What is measured at one level, of every stepper that takes part there. */
+function methodsAt(level: number, model: Model, withSlow: boolean): PlannedMethod[] {
+  const isWanted = (row: StepperRow) =>
+    !isSlow(row) || (withSlow && level <= (row.finest_sweep_level ?? FINEST_SWEEP));
+  const taking = STEPPERS.filter((row) => row.models.includes(model) && isWanted(row));
   return taking.flatMap(({ name, sweep }) =>
     sweep.map((counts) => ({ stepper: name, step_s: STEP_S, ...counts })),
   );
 }
 
-/** Levels 0 to `finest` of the shown scene, each with every method that can keep up. */
+/** What a visitor asks a sweep for. */
+export interface SweepWish {
+  /** Measures levels 0 to this one. */
+  finest: number;
+  withSlow: boolean;
+}
+
+/** Levels 0 to `finest` of the shown scene, each with every method that takes part. */
 export function sweepPlan(
   setting: Setting,
-  finest: number,
+  { finest, withSlow }: SweepWish,
   mesh: ObjMesh | null = null,
 ): SweepPlan {
   const settings: PlannedSetting[] = [];
   for (let level = 0; level <= finest; ++level) {
-    for (const method of methodsAt(level, setting.model)) {
+    for (const method of methodsAt(level, setting.model, withSlow)) {
       settings.push({ '/refinement/level': level, '/method': method });
     }
   }

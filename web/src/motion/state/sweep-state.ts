@@ -9,6 +9,10 @@ export interface SweepState {
   /** 0 to 1. */
   progress: number;
   message: string;
+  /** When it was started, on the page's clock [ms]. */
+  beganMs: number;
+  /** What the whole of it is expected to take [s]; null while nobody knows. */
+  estimatedS: number | null;
   rows: BenchRow[];
   /** Indices into `rows`. */
   front: number[];
@@ -22,6 +26,8 @@ export const NO_SWEEP: SweepState = {
   phase: 'none',
   progress: 0,
   message: '',
+  beganMs: 0,
+  estimatedS: null,
   rows: [],
   front: [],
   scene: null,

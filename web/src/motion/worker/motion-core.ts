@@ -12,13 +12,11 @@ import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../../shared/binding
 import type { Collider } from '../../shared/bindings/geometry';
 import type { Post } from '../../shared/workers/serve';
 import type {
-  ObjAnswer,
   PleatModule,
   RunNumbers,
   SceneSummary,
   SimulationHandle,
 } from '../bindings/pleat-module';
-import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
 import type { FromMotion, LoadMessage, RunReport, StepMessage, ToMotion } from './motion-protocol';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
@@ -49,7 +47,6 @@ function readColliders(simulation: SimulationHandle): Collider[] {
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
 export class MotionCore {
-  private fabricsText: string | null = null;
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
   private isHeld = false;
@@ -117,29 +114,8 @@ export class MotionCore {
     ]);
   }
 
-  private readObj(text: string, message: Extract<ToMotion, { type: 'readObj' }>): void {
-    const { name, objText, isOwn } = message;
-    const scene = new this.module.Scene(text);
-    const readAlong = (threads: keyof typeof DIRECTIONS) => {
-      const meshText = JSON.stringify({ obj: name, warp_direction: DIRECTIONS[threads] });
-      return { threads, answer: read<ObjAnswer>(scene.readObj(objText, meshText)) };
-    };
-    try {
-      let { threads, answer } = readAlong('down');
-      const isFlat = answer.ok && liesFlat({ low: answer.low_m, high: answer.high_m });
-      if (answer.ok && answer.needs_direction && isFlat)
-        ({ threads, answer } = readAlong('along_x'));
-      if (!answer.ok) return this.post({ type: 'objRefused', failure: answer }, []);
-      const known = answer.needs_direction ? threads : 'texture';
-      this.post({ type: 'objRead', mesh: objMesh({ name, isOwn, threads: known }, answer) }, []);
-    } finally {
-      scene.delete();
-    }
-  }
-
   private open(text: string): void {
     this.simulation?.delete();
-    this.fabricsText = text;
     this.simulation = new this.module.Simulation(text);
     this.loaded = null;
     this.post({ type: 'ready' }, []);
@@ -147,11 +123,8 @@ export class MotionCore {
 
   private handle(message: ToMotion): void {
     if (message.type === 'open') return this.open(message.fabricsText);
-    if (!this.simulation || this.fabricsText === null)
-      throw new Error(`${message.type} before open`);
+    if (!this.simulation) throw new Error(`${message.type} before open`);
     switch (message.type) {
-      case 'readObj':
-        return this.readObj(this.fabricsText, message);
       case 'load':
         this.isHeld = false;
         return this.load(this.simulation, message);

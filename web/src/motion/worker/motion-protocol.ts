@@ -5,7 +5,6 @@ import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider } from '../../shared/bindings/geometry';
 import type { Done } from '../../shared/workers/asked';
 import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
-import type { ObjMesh } from '../state/obj-mesh';
 
 export interface StepMessage {
   type: 'step';
@@ -35,8 +34,6 @@ export type ToMotion =
   | { type: 'reset'; request: number; scalar?: Scalar }
   /** A reference's file, for whichever scene is loaded and is what it is of. */
   | { type: 'setReference'; bytes: ArrayBuffer }
-  /** `isOwn`: the visitor brought it. Whatever runs goes on. */
-  | { type: 'readObj'; name: string; objText: string; isOwn: boolean }
   /** The buffer is given away here and comes back filled in `frame`. */
   | StepMessage
   | { type: 'grab'; vertex: number }
@@ -81,16 +78,11 @@ export interface ReferenceSetMessage {
   numbers: RunNumbers;
 }
 
-export type ObjAnswerMessage =
-  | { type: 'objRead'; mesh: ObjMesh }
-  | { type: 'objRefused'; failure: Failure };
-
 export type FromMotion =
   | { type: 'ready' }
   | LoadedMessage
   | FrameMessage
   | ReferenceSetMessage
-  | ObjAnswerMessage
   /** `request` is -1 when what was refused had none. */
   | { type: 'refused'; request: number; failure: Failure };
 
@@ -100,7 +92,6 @@ export interface MotionAnswers {
   load: LoadedMessage;
   reset: LoadedMessage;
   setReference: ReferenceSetMessage | Done;
-  readObj: ObjAnswerMessage;
   step: FrameMessage | Done;
   grab: Done;
   moveGrab: Done;

@@ -17,12 +17,21 @@ function slider(options: { min: number; max: number; step: number }, moved: (at:
     ...options,
     input() {
       window.clearTimeout(timer);
-      timer = window.setTimeout(() => moved(input.valueAsNumber), FOLLOW_AFTER_MS);
+      timer = window.setTimeout(() => {
+        timer = 0;
+        moved(input.valueAsNumber);
+      }, FOLLOW_AFTER_MS);
       told();
     },
   });
   const told = () => input.dispatchEvent(new CustomEvent('told'));
-  return input;
+  return {
+    input,
+    /** Nothing is put over what a visitor has just chosen and nobody has followed yet. */
+    show(value: number) {
+      if (timer === 0) input.value = String(value);
+    },
+  };
 }
 
 export function createDetailPanel(
@@ -30,11 +39,13 @@ export function createDetailPanel(
   store: Store<RefinementState>,
   actions: { cancel(): void },
 ): () => void {
-  const demand = slider({ min: DEMANDS.least, max: DEMANDS.most, step: DEMANDS.step }, (value) =>
-    store.set({ rule: 'demand', demand: value }),
+  const { input: demand, show: showDemand } = slider(
+    { min: DEMANDS.least, max: DEMANDS.most, step: DEMANDS.step },
+    (value) => store.set({ rule: 'demand', demand: value }),
   );
-  const budget = slider({ min: 0, max: 1, step: BUDGET_STEP }, (value) =>
-    store.set({ rule: 'budget', budget: value }),
+  const { input: budget, show: showBudget } = slider(
+    { min: 0, max: 1, step: BUDGET_STEP },
+    (value) => store.set({ rule: 'budget', budget: value }),
   );
   const [demandValue, budgetValue] = [element('output'), element('output')];
   const demandField = field('Detail demand τ: less makes more vertices', demand, demandValue);
@@ -51,7 +62,7 @@ export function createDetailPanel(
   const source = element('p', { class: 'note' });
   const work = element('div');
   const closeWork = createWork(work, store, {
-    isOwn: ({ share }) => share === null,
+    isOwn: ({ share, canCancel }) => share === null && canCancel,
     cancel: actions.cancel,
   });
   const sayDemand = () => setText(demandValue, `τ = ${demand.valueAsNumber}`);
@@ -82,9 +93,9 @@ export function createDetailPanel(
       const [least, most] = state.budgetRange ?? [0, 1];
       budget.min = String(BUDGET_STEP * Math.ceil(least / BUDGET_STEP));
       budget.max = String(BUDGET_STEP * Math.floor(most / BUDGET_STEP));
-      demand.value = String(state.demand);
+      showDemand(state.demand);
       const known = state.rule === 'budget' ? state.budget : state.plan?.vertices;
-      budget.value = String(known ?? least);
+      showBudget(known ?? least);
       sayDemand();
       sayBudget();
       demandField.classList.toggle('idle', state.rule !== 'demand');

@@ -69,7 +69,7 @@ export function createGarmentLegend(
       setText(title, 'Curvature now');
       setText(high, `${digits(ranges.curvature, 2)} 1/m and more`);
     } else if (colour === 'distance') {
-      setText(title, 'Distance to the same point of fine');
+      setText(title, 'Distance to the same point of fine, which is grey');
       setText(high, `${smallLength(ranges.distance)} and more`);
     }
   });

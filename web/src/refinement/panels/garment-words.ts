@@ -8,20 +8,18 @@ import {
   type FrameSource,
   type GarmentPane,
   isExample,
+  PANE_TITLES,
   PANES,
   type PaneId,
   type RefinementState,
 } from '../state/refinement-state';
 
-export const PANE_TITLES: Record<PaneId, string> = {
-  coarse: 'Coarse',
-  planned: 'Multi-resolution',
-  fine: 'Fine',
-};
-
-/** The monitor fires beyond this share of faces for ten frames; docs/methods/multiresolution.md. */
+/** Beyond this share of its faces for ten frames the monitor fires; docs/methods/multiresolution.md. */
 export const LARGEST_SHARE = 0.05;
 export const FRAMES_TO_FIRE = 10;
+
+/** Before a second of motion was seen, a motion that fits and one that does not look alike. */
+export const FRAMES_TO_FIT = 30;
 
 export function vertices(count: number): string {
   return `${count.toLocaleString('en').replaceAll(',', '\u202f')} vertices`;
@@ -67,10 +65,12 @@ export function fromTo(values: readonly number[]): string {
 }
 
 function whatToDo({ garment, motion, fabric }: RefinementState, plan: PlanFile): string {
-  if (motion !== 'squat') return 'Compare the folds with those on the right.';
+  if (motion !== 'squat') return 'Compare the folds with those of the fine mesh.';
   const own = exampleName(garment, motion, fabric);
   if (plan.examples.some(({ name }) => name === own))
     return 'Play, and watch the light below: now the plan knows where the knees bend the cloth.';
+  if (garment === 'trousers')
+    return 'Play: the knees bend the cloth where no walk did. Of trousers the light below does not tell it, as a walk folds them at the fork as sharply.';
   return 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.';
 }
 
@@ -82,6 +82,29 @@ export function noticeSentence(state: RefinementState): string {
     return 'One garment on one walking figure, on a coarse, a planned and a fine mesh.';
   const share = planned.nVertices / fine.nVertices;
   return `The middle mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
+}
+
+function times(more: number, less: number): string {
+  return `${digits(more / less, 2)} times`;
+}
+
+/** What the finer meshes cost, and how much nearer they are. */
+export function buysSentence({ panes }: Pick<RefinementState, 'panes'>): string {
+  const { coarse, planned, fine } = panes;
+  if (coarse.nVertices === 0 || fine.nVertices === 0) return '';
+  const isTimed = coarse.msPerFrame !== null && fine.msPerFrame !== null;
+  const isTimedAlike = isTimed && coarse.source === fine.source;
+  const time = isTimedAlike
+    ? ` and ${times(fine.msPerFrame ?? 0, coarse.msPerFrame ?? 1)} the time of a frame`
+    : '';
+  const sentences = [
+    `A level splits each face into four. The two from coarse to fine cost ${times(fine.nVertices, coarse.nVertices)} the vertices${time}.`,
+  ];
+  if (coarse.errorM !== null && planned.errorM !== null)
+    sentences.push(
+      `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the planned one. Not all of that is the mesh’s: folds fall as they may, and the surfaces of two fine runs, one in air heavier by a millionth, are at least two thirds as far apart.`,
+    );
+  return sentences.join(' ');
 }
 
 export function ruleWords({ rule }: PlanStory): string {
@@ -107,7 +130,7 @@ export function storySentences(story: PlanStory): string {
 }
 
 export interface FitReading {
-  light: 'fits' | 'uneasy' | 'fires' | 'unknown';
+  light: 'fits' | 'uneasy' | 'fires' | 'watching' | 'unknown';
   title: string;
   detail: string;
 }
@@ -127,6 +150,12 @@ export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitR
       light: 'fires',
       title: `Does not fit the ${examples}`,
       detail: `${share} More than ${percent(LARGEST_SHARE)} for ${FRAMES_TO_FIRE} frames in a row: the mesh was planned for another kind of motion.`,
+    };
+  if (fit.n_frames < FRAMES_TO_FIT)
+    return {
+      light: 'watching',
+      title: 'Watching',
+      detail: `${fit.n_frames} of ${FRAMES_TO_FIT} frames seen: too few to tell. ${share}`,
     };
   if (fit.share > LARGEST_SHARE)
     return {
@@ -155,7 +184,7 @@ export function sourceSentence({ panes }: RefinementState): string {
   const sentences: string[] = [];
   if (recorded.length > 0)
     sentences.push(
-      `Frames that come with the page: ${recorded.join(', ')}. They were computed by the same core on one core of a desktop, whose milliseconds are shown.`,
+      `Frames that come with the page: ${recorded.join(', ')}. They were computed beforehand by the native build of the same program; their milliseconds are that machine’s, not this one’s.`,
     );
   if (here.length > 0) sentences.push(`Computed on this device: ${here.join(', ')}.`);
   if (panes.fine.source === 'computed') sentences.push('The others wait for the fine mesh.');

@@ -9,6 +9,9 @@ import type { GarmentMesh } from '../worker/garment-protocol';
 export const LEVEL_COLOURS = ['#f3e3b5', '#5bb3a6', '#4380bd', '#5a2a78'];
 export const PATTERN_COLOURS = ['#d5d8dc', '#f0a25a', '#b3282d', '#5b1038'];
 
+/** What there is nothing to tell of: no colour of a scale, and no fabric's. */
+export const NEUTRAL_COLOUR = '#c9c5bd';
+
 function colourOf(colours: readonly string[], index: number): readonly number[] {
   return linearColour(colours[Math.min(index, colours.length - 1)] ?? '#000000');
 }
@@ -27,7 +30,10 @@ export function paintOf(
   isFine: boolean,
 ): Paint {
   // It has no distance to itself.
-  if (isFine && colour === 'distance') return { kind: 'material' };
+  if (isFine && colour === 'distance') {
+    const none = Array.from({ length: countFaces(mesh.faces) }, () => 0);
+    return facePaint(none, [NEUTRAL_COLOUR]);
+  }
   switch (colour) {
     case 'material':
       return { kind: 'material' };

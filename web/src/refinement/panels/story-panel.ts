@@ -1,28 +1,13 @@
 // The plan in words and in a small table, and why the face that was asked about is as fine as it is.
 import { element, setText } from '../../shared/panels/element';
-import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { faceAt, faceStory, planStory } from '../state/plan-file';
-import { PANES, type PaneId, type RefinementState } from '../state/refinement-state';
+import { PANE_TITLES, type RefinementState } from '../state/refinement-state';
 import type { GarmentMesh } from '../worker/garment-protocol';
-import { fromTo, PANE_TITLES, storySentences } from './garment-words';
+import { fromTo, storySentences } from './garment-words';
 import { PATTERN_COLOURS } from './paints';
-
-function heading(...words: string[]): HTMLElement {
-  return element(
-    'thead',
-    {},
-    element('tr', {}, ...words.map((word) => element('th', { scope: 'col' }, word))),
-  );
-}
-
-function count(number: number | undefined): string {
-  return number === undefined ? '–' : String(number);
-}
-
-function numberCell(text: string): HTMLElement {
-  return element('td', { class: 'number' }, text);
-}
+import { heading, numberCell } from './table-parts';
 
 /** Pattern, curvature in the example, how many coarse vertices. */
 function patternTable({ plan }: RefinementState): HTMLElement {
@@ -48,64 +33,6 @@ function patternTable({ plan }: RefinementState): HTMLElement {
   );
 }
 
-/** Milliseconds of a frame: the equations of motion, and contact. */
-function costCells({ panes }: RefinementState, part: 'contact' | 'dynamics'): HTMLElement[] {
-  return PANES.map((id) => {
-    const { parts, msPerFrame } = panes[id];
-    const contact = parts.find(({ name }) => name === 'contact')?.ms ?? 0;
-    if (parts.length === 0 || msPerFrame === null) return numberCell('–');
-    return numberCell(milliseconds(part === 'contact' ? contact : msPerFrame - contact));
-  });
-}
-
-function numberTable(state: RefinementState): HTMLElement {
-  const { panes } = state;
-  const nFine = panes.fine.nVertices;
-  const row = (title: string, cells: HTMLElement[]) =>
-    element('tr', {}, element('th', { scope: 'row' }, title), ...cells);
-  const cells = (text: (id: PaneId) => string) => PANES.map((id) => numberCell(text(id)));
-  return element(
-    'table',
-    { class: 'quantities number-table' },
-    element('caption', { class: 'unseen' }, 'Three meshes in numbers'),
-    heading('', 'coarse', 'multi', 'fine'),
-    element(
-      'tbody',
-      {},
-      row(
-        'vertices',
-        cells((id) => String(panes[id].nVertices)),
-      ),
-      row(
-        'of fine',
-        cells((id) => (nFine > 0 ? percent(panes[id].nVertices / nFine) : '–')),
-      ),
-      row(
-        'a frame',
-        cells((id) => milliseconds(panes[id].msPerFrame)),
-      ),
-      row('– motion', costCells(state, 'dynamics')),
-      row('– contact', costCells(state, 'contact')),
-      row(
-        'points off',
-        cells((id) => (id === 'fine' ? '' : smallLength(panes[id].errorM))),
-      ),
-      row(
-        'in the body',
-        cells((id) => count(panes[id].faults?.n_inside)),
-      ),
-      row(
-        'in itself',
-        cells((id) => count(panes[id].faults?.n_crossings)),
-      ),
-      row(
-        'surface off',
-        cells((id) => (id === 'fine' ? '' : smallLength(panes[id].surfaceM))),
-      ),
-    ),
-  );
-}
-
 function faceText({ plan, face }: RefinementState, mesh: GarmentMesh | null): string {
   if (!plan || !mesh || face === null)
     return `Press a face of the ${PANE_TITLES.planned.toLowerCase()} mesh to read why it is as fine as it is.`;
@@ -120,12 +47,6 @@ export function createStoryPanel(
   const sentences = element('p');
   const patterns = element('div');
   const face = element('p', { class: 'face-story', 'aria-live': 'polite' });
-  const numbers = element('div');
-  const meaning = element(
-    'p',
-    { class: 'note' },
-    'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.',
-  );
   parent.append(
     element(
       'section',
@@ -135,24 +56,10 @@ export function createStoryPanel(
       patterns,
       face,
     ),
-    element(
-      'section',
-      { 'aria-label': 'Numbers' },
-      element('h2', {}, 'What it buys'),
-      numbers,
-      meaning,
-    ),
   );
-  const closePlan = watch(store, ['plan', 'face', 'phase'], (state) => {
+  return watch(store, ['plan', 'face', 'phase'], (state) => {
     setText(sentences, state.plan ? storySentences(planStory(state.plan)) : '');
     patterns.replaceChildren(patternTable(state));
     setText(face, faceText(state, plannedMesh()));
   });
-  const closeNumbers = watch(store, ['panes'], (state) =>
-    numbers.replaceChildren(numberTable(state)),
-  );
-  return () => {
-    closePlan();
-    closeNumbers();
-  };
 }

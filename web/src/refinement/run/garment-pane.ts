@@ -1,4 +1,5 @@
 // One pane of a garment: its worker, what that has loaded, and the buffers of its frames.
+import { describe } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
 import { FRAME_S } from '../state/garment-frames';
@@ -21,6 +22,8 @@ export interface PaneRun {
   source: FrameSource;
   /** Head of the record that is loaded. */
   recording(): RecordingHead | null;
+  /** Why the record of what is loaded could not be had; null if it could, or if there is none. */
+  missed(): string | null;
   isLoaded(): boolean;
   /** Null when that is loaded already. */
   load(content: GarmentContent): Promise<Loaded | null>;
@@ -41,6 +44,7 @@ export function createPaneRun(
   let request = 0;
   let loadedContent = '';
   let recording: RecordingHead | null = null;
+  let missed: string | null = null;
   let stepS = FRAME_S;
   let shown: ArrayBuffer | null = null;
   let spare: ArrayBuffer | null = null;
@@ -49,6 +53,7 @@ export function createPaneRun(
     id,
     source: 'resting',
     recording: () => recording,
+    missed: () => missed,
     isLoaded: () => loadedContent !== '',
     async load({ sceneText, recordUrl }) {
       const content = `${recordUrl} ${sceneText}`;
@@ -56,8 +61,13 @@ export function createPaneRun(
       const own = request;
       if (loadedContent === content) return null;
       loadedContent = '';
-      // Frames that cannot be had are computed.
-      const bytes = recordUrl ? await fetchBytes(recordUrl).catch(() => null) : null;
+      let reason: string | null = null;
+      const bytes = recordUrl
+        ? await fetchBytes(recordUrl).catch((error) => {
+            reason = describe(error);
+            return null;
+          })
+        : null;
       const files = SCENE_FILES;
       const answer = await client.ask(
         {
@@ -74,6 +84,7 @@ export function createPaneRun(
       if (own !== request) return null; // another one follows
       loadedContent = content;
       recording = answer.recording;
+      missed = bytes && !recording ? 'they are of another mesh' : reason;
       stepS = answer.summary.step_s;
       shown = null;
       spare = null;

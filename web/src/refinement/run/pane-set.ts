@@ -6,16 +6,18 @@ import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';
 import type { PlanFile } from '../state/plan-file';
 import {
   EMPTY_PANE,
+  type FrameSource,
   type GarmentPane,
   PANES,
   type PaneId,
   type RefinementState,
 } from '../state/refinement-state';
 import type { Advance, Described, GarmentMesh, GarmentScalar } from '../worker/garment-protocol';
+import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 import { createPaneRun, type PaneRun } from './garment-pane';
 import { contentOf } from './pane-content';
-import type { Fetched } from './planner';
+import type { FetchBytes } from './planner';
 
 /** A run without records ends here [s]. */
 const LONGEST_S = 10;
@@ -34,7 +36,7 @@ export interface TrioView {
 /** The functions by which panes start their workers and fetch files. */
 export interface PaneParts {
   start(): GarmentClient;
-  fetchBytes: Fetched;
+  fetchBytes: FetchBytes;
 }
 
 /** False when something else is wanted by now: then nothing is shown any more. */
@@ -88,6 +90,13 @@ export class PaneSet {
     return this.at * FRAME_S;
   }
 
+  /** The panes that compute what was to come with the page, and why. */
+  missed(): { panes: PaneId[]; reason: string } | null {
+    const panes = this.panes.filter((pane) => pane.missed() !== null);
+    const reason = panes[0]?.missed() ?? null;
+    return reason === null ? null : { panes: panes.map(({ id }) => id), reason };
+  }
+
   async load(plan: PlanFile, isCurrent: IsCurrent): Promise<void> {
     await Promise.all(this.panes.map((pane) => this.loadPane(pane, plan, isCurrent)));
     if (!isCurrent()) return;
@@ -101,19 +110,16 @@ export class PaneSet {
 
   /** The first picture: where the link says if frames come with the page, else at the beginning. */
   async start(isCurrent: IsCurrent): Promise<void> {
-    const first = Math.min(Math.round(this.store.get().startS / FRAME_S), this.endFrame());
+    const first = Math.min(this.startFrame(), this.endFrame());
     const isComputed = this.isComputed();
     this.isPreview = isComputed && this.fine.source === 'recorded';
-    await this.restart(isComputed && !this.isPreview ? 0 : first, isCurrent);
+    for (const pane of this.panes) this.set(pane.id, { source: this.shownSource(pane) });
+    await this.showAnew(isComputed && !this.isPreview ? 0 : first, isCurrent);
   }
 
-  /** Starts all panes anew and goes to that frame, to which nothing is computed. */
+  /** Everything anew, and then at that frame, to which nothing is computed; the numbers follow. */
   async restart(frame: number, isCurrent: IsCurrent): Promise<void> {
-    this.store.set({ fit: null });
-    await Promise.all(this.panes.map((pane) => pane.reset()));
-    if (!isCurrent()) return;
-    this.at = frame;
-    await this.advance(({ source }) => (source === 'recorded' ? 'recorded' : 'still'), isCurrent);
+    await this.showAnew(frame, isCurrent);
     await this.describe(true, isCurrent);
   }
 
@@ -154,6 +160,23 @@ export class PaneSet {
     this.store.set({ timeS: this.timeS() });
   }
 
+  private async showAnew(frame: number, isCurrent: IsCurrent): Promise<void> {
+    this.store.set({ fit: null });
+    await Promise.all(this.panes.map((pane) => pane.reset()));
+    if (!isCurrent()) return;
+    this.at = frame;
+    await this.advance(({ source }) => (source === 'recorded' ? 'recorded' : 'still'), isCurrent);
+    await this.describe(false, isCurrent);
+  }
+
+  private isSampled(pane: PaneRun): boolean {
+    return this.isPreview && pane.source === 'computed';
+  }
+
+  private shownSource(pane: PaneRun): FrameSource {
+    return this.isSampled(pane) ? 'sampled' : pane.source;
+  }
+
   private set(id: PaneId, patch: Partial<GarmentPane>): void {
     const { panes } = this.store.get();
     this.store.set({ panes: { ...panes, [id]: { ...panes[id], ...patch } } });
@@ -167,6 +190,33 @@ export class PaneSet {
     const msPerFrame = loaded.recording?.ms_per_frame ?? null;
     const { source } = this.store.get().panes[pane.id];
     this.set(pane.id, { ...EMPTY_PANE, source, nVertices, msPerFrame });
+    await this.showEarly(pane, loaded.recording, isCurrent);
+  }
+
+  /** The recorded frame that a pane will start with, before the other panes are there. */
+  private async showEarly(
+    pane: PaneRun,
+    recording: RecordingHead | null,
+    isCurrent: IsCurrent,
+  ): Promise<void> {
+    if (!recording) return;
+    const frame = Math.min(this.startFrame(), recording.n_frames - 1);
+    await pane.advance(frame, 'recorded');
+    const described = await pane.describe({
+      scalar: null,
+      reference: null,
+      fineLevel: FINE_LEVEL,
+      takesSample: false,
+      timeS: frame * FRAME_S,
+      wantsAll: false,
+    });
+    if (!isCurrent()) return;
+    this.view.showFrames([{ pane: pane.id, buffer: described.buffer }], described.solids);
+    pane.keep(described);
+  }
+
+  private startFrame(): number {
+    return Math.round(this.store.get().startS / FRAME_S);
   }
 
   private async advance(
@@ -190,7 +240,7 @@ export class PaneSet {
   ): Promise<Described> {
     const state = this.store.get();
     const isOther = pane !== this.fine;
-    const isSampled = this.isPreview && isOther && pane.source === 'computed';
+    const isSampled = isOther && this.isSampled(pane);
     const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
     return pane.describe({
       scalar: scalarOf(state),
@@ -204,12 +254,12 @@ export class PaneSet {
 
   /** Puts the numbers of one pane into the state. */
   private tell(pane: PaneRun, { errorM, surfaceM, faults, costs }: Described): void {
-    const isSampled = this.isPreview && pane.source === 'computed';
+    const isSampled = this.isSampled(pane);
     const patch: Partial<GarmentPane> = {
       errorM: isSampled ? null : errorM,
       surfaceM: isSampled ? null : surfaceM,
       faults: isSampled ? null : faults,
-      source: isSampled ? 'sampled' : pane.source,
+      source: this.shownSource(pane),
     };
     if (pane.source === 'computed' && costs) Object.assign(patch, pane.costs(costs));
     this.set(pane.id, patch);

@@ -1,6 +1,7 @@
 // Plans for a garment: the usual one comes with the page, others are made of the recorded example and of
 // motions that are run here.
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import { fetched } from '../../shared/page/fetched';
 import { FINE_LEVEL, FRAME_S, KEPT_OF, PATTERNS, SEEN_S, SETTLED_S } from '../state/garment-frames';
 import {
   exampleName,
@@ -17,12 +18,10 @@ import type { PlanWish } from '../worker/garment-protocol';
 import { type ExampleClient, startExampleWorker } from './garment-client';
 import { exampleUrls } from './records';
 
-export type Fetched = (url: string) => Promise<ArrayBuffer>;
+export type FetchBytes = (url: string) => Promise<ArrayBuffer>;
 
-export async function fetched(url: string): Promise<ArrayBuffer> {
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
-  return answer.arrayBuffer();
+export async function fetchedBytes(url: string): Promise<ArrayBuffer> {
+  return (await fetched(url)).arrayBuffer();
 }
 
 export type Wish = Pick<
@@ -66,7 +65,7 @@ interface Seen {
   toS: number;
 }
 
-async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: Fetched) {
+async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: FetchBytes) {
   const urls = exampleUrls(garment);
   if (!urls) throw new Error('no example of this garment comes with the page');
   const [features, frames] = await Promise.all([
@@ -98,7 +97,7 @@ class ExamplePlanner implements Planner {
 
   constructor(
     private readonly start: () => ExampleClient,
-    private readonly fetchBytes: Fetched,
+    private readonly fetchBytes: FetchBytes,
     private readonly seen: Seen,
   ) {}
 
@@ -184,7 +183,7 @@ class ExamplePlanner implements Planner {
 
 export function createPlanner(
   start = startExampleWorker,
-  fetchBytes: Fetched = fetched,
+  fetchBytes: FetchBytes = fetchedBytes,
   seen: Seen = { fromS: SETTLED_S, toS: SETTLED_S + SEEN_S },
 ): Planner {
   const planner = new ExamplePlanner(start, fetchBytes, seen);

@@ -12,11 +12,16 @@ import { BrokenWorker, Refused } from '../../shared/workers/asked';
 import { FRAME_S } from '../state/garment-frames';
 import type { MotionId } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
-import type { Doing, RefinementState } from '../state/refinement-state';
+import {
+  type Doing,
+  PANE_TITLES,
+  type PaneId,
+  type RefinementState,
+} from '../state/refinement-state';
 import { FramePace } from './frame-pace';
 import { startGarmentWorker } from './garment-client';
 import { type IsCurrent, type PaneParts, PaneSet, type TrioView } from './pane-set';
-import { createPlanner, fetched, type Planner } from './planner';
+import { createPlanner, fetchedBytes, type Planner } from './planner';
 
 /** The parts of the browser that a trio needs: tests have their own. */
 export interface TrioParts extends PaneParts {
@@ -28,7 +33,7 @@ export interface TrioParts extends PaneParts {
 
 const BROWSER: TrioParts = {
   start: startGarmentWorker,
-  fetchBytes: fetched,
+  fetchBytes: fetchedBytes,
   planner: createPlanner(),
   later: (callback) => requestAnimationFrame(callback),
   nowMs: () => performance.now(),
@@ -39,6 +44,16 @@ function failureOf(error: unknown): Failure {
   const reason = describe(error);
   if (error instanceof BrokenWorker) return internalFailure(brokenSentence('The garment', reason));
   return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
+}
+
+/** What is computed for want of the frames that come with the page. */
+function missedFailure({ panes, reason }: { panes: readonly PaneId[]; reason: string }): Failure {
+  const names = new Intl.ListFormat('en-GB').format(
+    panes.map((id) => PANE_TITLES[id].toLowerCase()),
+  );
+  return inputFailure(
+    `The recorded frames of ${names} could not be fetched: ${quoted(reason)}. They are computed here instead, from the beginning and slower than real time.`,
+  );
 }
 
 export class Trio {
@@ -77,7 +92,8 @@ export class Trio {
 
   step(): void {
     this.store.set({ playing: false });
-    if (this.store.get().phase === 'ready') void this.alone((isCurrent) => this.goOn(1, isCurrent));
+    if (this.store.get().phase !== 'ready') return;
+    void this.idle().then(() => this.alone((isCurrent) => this.goOn(1, isCurrent)));
   }
 
   reset(): void {
@@ -128,6 +144,7 @@ export class Trio {
       if (!isCurrent()) return;
       this.isBuilt = true;
       this.store.set({ phase: 'ready', doing: null });
+      this.recolour(); // with the numbers, which take longer than the picture
     } catch (error) {
       if (isCurrent()) this.giveUp(error);
     }
@@ -142,6 +159,8 @@ export class Trio {
     this.planned = further;
     await this.panes.load(plan, isCurrent);
     if (!isCurrent()) return;
+    const missed = this.panes.missed();
+    if (missed) this.store.set({ problem: missedFailure(missed) });
     const nFine = this.store.get().panes.fine.nVertices;
     const budgetRange: [number, number] = [plan.base_mesh.vertices, nFine];
     this.store.set({ budgetRange, endS: this.panes.endFrame() * FRAME_S });

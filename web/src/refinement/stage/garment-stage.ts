@@ -15,15 +15,15 @@ export interface GarmentStageEvents {
   press(pane: number, face: number | null): void;
   /** Keys that are not the camera's. True when used. */
   key(name: string): boolean;
-  contextLost(): void;
+  pictureLost(isLost: boolean): void;
 }
 
 export interface GarmentStage {
   setMesh(pane: number, mesh: GarmentMesh): void;
   showFrame(pane: number, buffer: ArrayBuffer): void;
   setSolids(solids: SolidsAnswer): void;
-  /** A cloth that does not move with its figure is left out. */
-  setShown(pane: number, isShown: boolean): void;
+  /** The panes that have a place, from left to right. */
+  setPanes(panes: readonly number[]): void;
   setPaint(pane: number, paint: Paint): void;
   setEdges(isShown: boolean): void;
   setHanging(isShown: boolean): void;
@@ -99,11 +99,11 @@ function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
 class Stage {
   readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
   readonly mannequin = createMannequin();
-  readonly leftOut: boolean[] = [];
   readonly stage: PaneStage;
   areEdgesShown = false;
   areHangingShown = false;
   onPicture: ((picture: Blob | null) => void) | null = null;
+  private shown: readonly number[] = [];
   private isFramed = false;
   private colours = { line: '#000000', dot: '#000000' };
 
@@ -116,20 +116,33 @@ class Stage {
       fov: 30,
       objects: [this.mannequin.object, ...this.clothes.map(({ object }) => object)],
       isReady: () => this.isFramed,
-      prepare: (pane) => this.prepare(pane),
+      prepare: (place) => this.prepare(this.paneIn(place)),
       drawn: () => this.drawn(),
       themed: (colour) => this.setTheme(colour),
       key: events.key,
-      contextLost: events.contextLost,
+      pictureLost: events.pictureLost,
     });
     const { grid, camera } = this.stage;
-    grid.set(N_PANES, N_PANES); // side by side, as people do: they are higher than wide
+    this.setPanes(this.clothes.map((_, pane) => pane));
     listenToPresses(canvas, (x, y) => {
-      const pane = grid.paneAt({ x, y });
+      const place = grid.paneAt({ x, y });
+      const pane = this.paneIn(place);
       const cloth = this.clothes[pane];
-      events.press(pane, cloth ? faceAt(cloth, camera, grid.boxOf(pane), x, y) : null);
+      events.press(pane, cloth ? faceAt(cloth, camera, grid.boxOf(place), x, y) : null);
     });
     this.stage.open();
+  }
+
+  /** Side by side, as people stand: they are higher than wide. */
+  setPanes(panes: readonly number[]): void {
+    this.shown = panes;
+    this.stage.grid.set(panes.length, panes.length);
+    this.stage.refit();
+    this.stage.redraw();
+  }
+
+  project(vertex: number, pane: number): { x: number; y: number } {
+    return this.stage.grid.project(this.positions(pane), vertex, this.shown.indexOf(pane));
   }
 
   showLines(): void {
@@ -153,10 +166,13 @@ class Stage {
     return this.clothes[pane]?.positions() ?? new Float32Array(0);
   }
 
+  private paneIn(place: number): number {
+    return this.shown[place] ?? 0;
+  }
+
   private prepare(pane: number): void {
     this.clothes.forEach((cloth, other) => {
-      const isHere = other === pane && !this.leftOut[other];
-      cloth.object.visible = isHere && cloth.positions().length > 0;
+      cloth.object.visible = other === pane && cloth.positions().length > 0;
     });
     this.clothes[pane]?.update();
   }
@@ -196,10 +212,7 @@ export function createGarmentStage(
       if (pelvis) own.follow(new Vector3(...pelvis));
       redraw();
     },
-    setShown(pane, isShown) {
-      own.leftOut[pane] = !isShown;
-      redraw();
-    },
+    setPanes: (panes) => own.setPanes(panes),
     setPaint(pane, paint) {
       clothes[pane]?.setPaint(paint);
       redraw();
@@ -225,7 +238,7 @@ export function createGarmentStage(
     positions: (pane) => own.positions(pane),
     triangles: (pane) => clothes[pane]?.triangles() ?? new Uint32Array(0),
     scalars: (pane) => clothes[pane]?.scalars() ?? new Float32Array(0),
-    project: (vertex, pane) => stage.grid.project(own.positions(pane), vertex, pane),
+    project: (vertex, pane) => own.project(vertex, pane),
     picture() {
       return new Promise((resolve) => {
         own.onPicture = resolve;

@@ -8,6 +8,12 @@ import type { PlanFile } from './plan-file';
 export const PANES = ['coarse', 'planned', 'fine'] as const;
 export type PaneId = (typeof PANES)[number];
 
+export const PANE_TITLES: Record<PaneId, string> = {
+  coarse: 'Coarse',
+  planned: 'Multi-resolution',
+  fine: 'Fine',
+};
+
 export const COLOURS = ['material', 'level', 'pattern', 'curvature', 'distance'] as const;
 export type ColourId = (typeof COLOURS)[number];
 
@@ -88,6 +94,9 @@ export interface RefinementState extends RefinementLink {
   face: number | null;
   /** Upper ends of the scales. */
   ranges: { curvature: number; distance: number };
+  /** The stage has room for two panes only: fine and the one beside it. */
+  isNarrow: boolean;
+  beside: Exclude<PaneId, 'fine'>;
   doing: Doing | null;
   problem: Failure | null;
 }
@@ -103,11 +112,20 @@ export const DEFAULT_LINK: RefinementLink = {
   useRecords: true,
   computeFine: true,
   colour: 'level',
-  edges: true,
+  edges: false,
   hanging: false,
   speed: 1,
   startS: 3,
 };
+
+/** The panes on the stage, from left to right. A fine mesh that rests while the others move has none. */
+export function shownPanes(
+  state: Pick<RefinementState, 'panes' | 'computeFine' | 'isNarrow' | 'beside'>,
+): readonly PaneId[] {
+  const { source, nVertices } = state.panes.fine;
+  if (!state.computeFine && source === 'resting' && nVertices > 0) return ['coarse', 'planned'];
+  return state.isNarrow ? [state.beside, 'fine'] : PANES;
+}
 
 /** The shown motion is one of those that the plan is made of. */
 export function isExample({ garment, motion, fabric, further }: RefinementLink): boolean {
@@ -137,6 +155,8 @@ export function initialRefinementState(
     fit: null,
     face: null,
     ranges: { curvature: 0, distance: 0 },
+    isNarrow: false,
+    beside: 'planned',
     doing: null,
     problem:
       problems.length > 0

@@ -36,18 +36,18 @@ function createPredictor(head: RecordingHead, parents: Parents) {
   /** The prediction of a number; `next` holds those of the vertex's parents already. */
   function foretold(vertex: number, component: number): number {
     const at = vertex * nComponents + component;
-    let nParents = 0;
+    const now = present[at] as number;
     let change = 0;
-    for (let k = 4 * vertex; k < 4 * vertex + 4; ++k) {
-      const parent = parents[k] ?? -1;
+    let k = 4 * vertex;
+    for (const end = k + 4; k < end; ++k) {
+      const parent = parents[k] as number;
       if (parent < 0) break;
-      nParents += 1;
       const from = parent * nComponents + component;
-      change += (next[from] ?? 0) - (present[from] ?? 0);
+      change += (next[from] as number) - (present[from] as number);
     }
-    const now = present[at] ?? 0;
+    const nParents = k - 4 * vertex;
     if (nParents > 0) return now + Math.round(change / nParents);
-    return nFrames < 2 ? now : 2 * now - (before[at] ?? 0);
+    return nFrames < 2 ? now : 2 * now - (before[at] as number);
   }
 
   function turn(): Int32Array {
@@ -113,9 +113,11 @@ export function decodeFrames(
     }
     return code % 2 === 0 ? code / 2 : -(code + 1) / 2;
   }
-  for (let frame = 0; frame < head.n_frames && !isCut; ++frame) {
+  while (frames.length < head.n_frames && !isCut) {
     const values = predict((foretold) => foretold + number());
-    frames.push(Float32Array.from(values, (value) => value * head.quantum));
+    const frame = new Float32Array(values.length);
+    for (let at = 0; at < frame.length; ++at) frame[at] = (values[at] as number) * head.quantum;
+    frames.push(frame);
   }
   return isCut || place !== bytes.length ? null : frames;
 }

@@ -77,10 +77,20 @@ const LINES: readonly Line[] = [
   },
 ];
 
+/** A quantity of a fabric with its unit: "45 µN·m". */
+export function quantityText(fabric: FabricRecord, key: FabricQuantity): string {
+  const line = LINES.find((one) => one.key === key);
+  return line ? shownText(fabric[key].value, line) : '';
+}
+
+function shownText(value: number, { factor, unit }: Line): string {
+  return `${digits(value * factor, 2)} ${unit}`.trim();
+}
+
 function row(fabric: FabricRecord, line: Line): HTMLElement {
   const { value, range, confidence, source } = fabric[line.key];
   const [from, to] = range;
-  const shown = `${digits(value * line.factor, 2)} ${line.unit}`.trim();
+  const shown = shownText(value, line);
   const span = `${digits(from * line.factor, 2)} to ${digits(to * line.factor, 2)} ${line.unit}`;
   const badge = element(
     'span',

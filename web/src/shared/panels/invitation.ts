@@ -5,6 +5,8 @@ export interface Invitation {
   /** Pixels from the stage's upper left corner. */
   place(x: number, y: number): void;
   setShown(isShown: boolean): void;
+  /** For a stage without a picture. */
+  remove(): void;
 }
 
 export function createInvitation(parent: HTMLElement): Invitation {
@@ -16,9 +18,11 @@ export function createInvitation(parent: HTMLElement): Invitation {
     word,
   );
   ring.hidden = true;
+  ring.style.visibility = 'hidden'; // until it has a place
   parent.append(ring);
   return {
     place(x, y) {
+      ring.style.visibility = '';
       ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       // The word stays inside the stage when the cloth is at its rim.
       const half = word.offsetWidth / 2 + 4;
@@ -28,5 +32,6 @@ export function createInvitation(parent: HTMLElement): Invitation {
     setShown(isShown) {
       ring.hidden = !isShown;
     },
+    remove: () => ring.remove(),
   };
 }

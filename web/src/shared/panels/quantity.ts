@@ -7,10 +7,14 @@ function superscript(exponent: number): string {
   return (exponent < 0 ? '⁻' : '') + digits.join('');
 }
 
-/** Null is a dash. 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷". */
+/** Sizes below this say no more than that there is next to nothing. */
+const NEXT_TO_NOTHING = 1e-9;
+
+/** Null is a dash. 1234.5 → "1230", 0.01234 → "0.0123", 3e-7 → "3·10⁻⁷", 8e-66 → "< 10⁻⁹". */
 export function digits(value: number | null, significant = 3): string {
   if (value === null || !Number.isFinite(value)) return '–';
   if (value === 0) return '0';
+  if (Math.abs(value) < NEXT_TO_NOTHING) return '< 10⁻⁹';
   const rounded = Number(value.toPrecision(significant));
   const exponent = Math.floor(Math.log10(Math.abs(rounded)));
   if (exponent < -3 || exponent > 5) {
@@ -38,6 +42,13 @@ export function smallLength(metres: number | null): string {
 export function milliseconds(ms: number | null): string {
   if (ms === null) return '–';
   return `${digits(ms, 2)} ms`;
+}
+
+/** A time of any size, where there is little room: "13 ms", "0.2 s", "40 s", "5 min". */
+export function shortTime(ms: number, significant = 2): string {
+  if (ms < 100) return `${digits(ms, significant)} ms`;
+  if (ms < 100000) return `${digits(ms / 1000, ms < 1000 ? 1 : significant)} s`;
+  return `${digits(ms / 60000, significant)} min`;
 }
 
 /** A step as the fraction of a second it is. */

@@ -14,7 +14,8 @@ export function createStageCanvas(stageBox: HTMLElement, label: string): HTMLCan
 /** Puts a sentence in the canvas's place, and returns it; `rest` is what still works. */
 export function replaceCanvas(canvas: HTMLElement, rest: string): string {
   const sentence = `This browser shows no WebGL 2, so the cloth cannot be drawn. ${rest} still work.`;
-  canvas.parentElement?.append(element('p', { class: 'plain' }, sentence));
+  canvas.parentElement?.classList.add('undrawn');
+  canvas.parentElement?.prepend(element('p', { class: 'plain' }, sentence));
   canvas.remove();
   return sentence;
 }

@@ -1,6 +1,7 @@
 // Orbit, pan and zoom about the scene by mouse, touch and keyboard. The scene stays in view: the
 // distance and the turning point are kept within bounds of the framed sphere.
 import { type PerspectiveCamera, Spherical, Vector3 } from 'three';
+import type { Triple } from '../bindings/geometry';
 
 /** Turn for one key press, and for a drag across one pixel [rad]. */
 const KEY_TURN = 0.12;
@@ -21,9 +22,23 @@ export interface View {
   upright?: number;
 }
 
+/** From where the framed scene is seen, when that is not from where it is seen at first. */
+export interface Pose {
+  /** [rad] */
+  azimuth: number;
+  polar: number;
+  /** Distance, where 1 is the one that just shows everything. */
+  zoom: number;
+  /** The turning point from the centre, in radii of what has to be seen. */
+  shift: Triple;
+}
+
 export interface CameraControl {
   frame(view: View): void;
   home(): void;
+  /** Null for where the scene is seen from at first. */
+  pose(): Pose | null;
+  setPose(pose: Pose | null): void;
   /** Goes along with what has to be seen, which is there now; the viewer's own turns stay. */
   follow(centre: Vector3): void;
   /** True when the key was one of the camera's. */
@@ -83,6 +98,24 @@ class Orbit {
     this.pose.theta = this.view.azimuth;
     this.pose.phi = this.view.polar;
     this.zoom = 1;
+    this.apply();
+  }
+
+  /** Null at home. */
+  held(): Pose | null {
+    const { pose, target, view, zoom } = this;
+    const shift = target.clone().sub(view.centre).divideScalar(view.radius);
+    const isTurned = pose.theta !== view.azimuth || pose.phi !== clamp(view.polar, HIGHEST, LOWEST);
+    if (!isTurned && zoom === 1 && shift.lengthSq() < 1e-12) return null;
+    return { azimuth: pose.theta, polar: pose.phi, zoom, shift: shift.toArray() };
+  }
+
+  hold({ azimuth, polar, zoom, shift }: Pose): void {
+    const { pose, target, view } = this;
+    target.fromArray(shift).multiplyScalar(view.radius).add(view.centre);
+    pose.theta = azimuth;
+    pose.phi = polar;
+    this.zoom = zoom;
     this.apply();
   }
 
@@ -219,6 +252,11 @@ export function createCameraControl(
   return {
     frame: (view) => orbit.frame(view),
     home,
+    pose: () => orbit.held(),
+    setPose(pose) {
+      if (pose) orbit.hold(pose);
+      else orbit.home();
+    },
     follow: (centre) => orbit.follow(centre),
     key(name) {
       const action = keys[name];

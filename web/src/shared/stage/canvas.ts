@@ -9,7 +9,8 @@ export interface CanvasEvents {
   themed(colour: (name: string) => string): void;
   /** True when the key was used. `name` has letters in lower case. */
   key(name: string): boolean;
-  contextLost(): void;
+  /** The browser took the graphics away, or gave them back. */
+  pictureLost(isLost: boolean): void;
 }
 
 export interface Canvas {
@@ -48,6 +49,7 @@ export function createCanvas(
     renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXEL_RATIO));
     renderer.setSize(width, height, false);
     events.resized(width, height);
+    events.draw(renderer); // a canvas of another size is empty until then
   }
 
   function applyTheme(): void {
@@ -58,9 +60,12 @@ export function createCanvas(
 
   canvas.addEventListener('webglcontextlost', (event) => {
     event.preventDefault();
-    events.contextLost();
+    events.pictureLost(true);
   });
-  canvas.addEventListener('webglcontextrestored', redraw);
+  canvas.addEventListener('webglcontextrestored', () => {
+    events.pictureLost(false);
+    redraw();
+  });
   canvas.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;

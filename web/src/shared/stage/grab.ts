@@ -1,7 +1,10 @@
 // The hand: which vertex it holds and where it wants it, by pointer or by keyboard.
-import { type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
+import { Matrix4, type PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
 import type { Triple } from '../bindings/geometry';
-import { pick } from './pick';
+import { nearestSeen, pick } from './pick';
+
+/** A press beside the cloth takes the vertex that is seen nearest, within this [CSS pixels]. */
+const REACH_PX = 24;
 
 /** How far one key press moves the hand, as a part of its distance from the eye. */
 const KEY_REACH = 0.02;
@@ -73,9 +76,16 @@ class Grip {
   takeAt(x: number, y: number): boolean {
     this.box = this.events.picture({ x, y });
     const hit = this.hitAt(x, y);
-    if (!hit || this.events.press?.(hit.vertex)) return false;
-    this.take(hit.vertex, new Vector3(...hit.point));
+    const vertex = hit?.vertex ?? this.vertexNear(x, y);
+    if (vertex === null || this.events.press?.(vertex)) return false;
+    this.take(vertex, hit ? new Vector3(...hit.point) : this.place(vertex));
     return true;
+  }
+
+  /** Whether a press at this point of the page would take something. */
+  reaches(x: number, y: number): boolean {
+    this.box = this.events.picture({ x, y });
+    return this.vertexNear(x, y) !== null || this.hitAt(x, y) !== null;
   }
 
   /** Takes what is in the middle of the picture. */
@@ -126,16 +136,26 @@ class Grip {
     return pick(positions, triangles, origin.toArray(), direction.toArray());
   }
 
+  private vertexNear(x: number, y: number): number | null {
+    const { camera } = this;
+    const { left, top, width, height } = this.box();
+    const view = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    const picture = { matrix: view.elements, width, height };
+    const at = { x: x - left, y: y - top };
+    return nearestSeen(this.events.cloth().positions, picture, at, REACH_PX);
+  }
+
   private place(vertex: number): Vector3 {
     return new Vector3().fromArray(this.events.cloth().positions, 3 * vertex);
   }
 
-  private take(vertex: number, point: Vector3): void {
+  /** The hand moves in the plane through `depth` that faces the camera. */
+  private take(vertex: number, depth: Vector3): void {
     this.vertex = vertex;
     this.target.copy(this.place(vertex));
-    this.offset.copy(this.target).sub(point);
-    // The hand moves in the plane through the hit that faces the camera.
-    this.plane.setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new Vector3()), point);
+    this.plane.setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new Vector3()), depth);
+    const under = this.raycaster.ray.intersectPlane(this.plane, new Vector3()) ?? depth;
+    this.offset.copy(this.target).sub(under);
     this.events.grab(vertex);
     this.send();
   }
@@ -146,6 +166,19 @@ class Grip {
     events.move([target.x, target.y, target.z]);
     events.onChange();
   }
+}
+
+/** The pointer's shape tells where a press takes the cloth: asked once a picture at most. */
+function showReach(element: HTMLElement, grip: Grip): void {
+  let asked = 0;
+  element.addEventListener('pointermove', ({ pointerType, buttons, clientX, clientY }) => {
+    if (pointerType !== 'mouse' || buttons !== 0) return;
+    cancelAnimationFrame(asked);
+    asked = requestAnimationFrame(() => {
+      const isFree = grip.vertex === null;
+      element.classList.toggle('graspable', isFree && grip.reaches(clientX, clientY));
+    });
+  });
 }
 
 /** Has one pointer take, move and let go. */
@@ -175,6 +208,7 @@ export function createHand(
 ): Hand {
   const grip = new Grip(camera, events);
   listenToPointer(element, grip);
+  showReach(element, grip);
   const release = () => grip.release();
   const heldKeys: Record<string, () => void> = {
     ArrowLeft: () => grip.nudge(-1, 0, 0),

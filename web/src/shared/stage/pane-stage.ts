@@ -24,7 +24,7 @@ export interface PaneStageParts {
   handKey?(name: string): boolean;
   /** Keys that are not the camera's. True when used. */
   key(name: string): boolean;
-  contextLost(): void;
+  pictureLost(isLost: boolean): void;
 }
 
 export type PaneStage = ReturnType<typeof createPaneStage>;
@@ -56,7 +56,7 @@ export function createPaneStage(
       parts.themed(colour);
     },
     key: (name) => parts.handKey?.(name) || control.key(name) || parts.key(name),
-    contextLost: parts.contextLost,
+    pictureLost: parts.pictureLost,
   });
   const control = createCameraControl(canvas, camera, redraw, grid.paneHeight);
 

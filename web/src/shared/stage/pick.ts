@@ -79,3 +79,41 @@ export function pick(
   const vertex = corners[away.indexOf(Math.min(...away))] ?? corners[0];
   return { distance: nearest, point, triangle, vertex };
 }
+
+/** What is seen: `matrix` takes places to clip space, column by column; the size in pixels. */
+export interface Picture {
+  matrix: ArrayLike<number>;
+  width: number;
+  height: number;
+}
+
+/**
+ * The vertex that is seen nearest to a point of the picture, in pixels from its upper left corner;
+ * null when none is within `reach`.
+ */
+export function nearestSeen(
+  positions: Float32Array,
+  { matrix, width, height }: Picture,
+  point: { x: number; y: number },
+  reach: number,
+): number | null {
+  const row = (index: number, [x, y, z]: Point) =>
+    (matrix[index] ?? 0) * x +
+    (matrix[index + 4] ?? 0) * y +
+    (matrix[index + 8] ?? 0) * z +
+    (matrix[index + 12] ?? 0);
+  let nearest: number | null = null;
+  let least = reach;
+  for (let vertex = 0; 3 * vertex < positions.length; ++vertex) {
+    const place = at(positions, vertex);
+    const w = row(3, place);
+    if (w <= 0) continue; // behind the eye
+    const across = ((row(0, place) / w + 1) / 2) * width - point.x;
+    const down = ((1 - row(1, place) / w) / 2) * height - point.y;
+    const away = Math.hypot(across, down);
+    if (away > least) continue;
+    least = away;
+    nearest = vertex;
+  }
+  return nearest;
+}

@@ -8,6 +8,8 @@ export function slug(name: string): string {
     .replace(/^-|-$/g, '');
 }
 
+export type LinkReader = ReturnType<typeof createLinkReader>;
+
 /** Reads one part of the link at a time and collects what was wrong with it. */
 export function createLinkReader(parameters: URLSearchParams) {
   const problems: string[] = [];

@@ -1,5 +1,6 @@
 // The page's end of a worker. A question has exactly one answer; what the worker says unasked is news.
 import type { Failure } from '../bindings/answers';
+import { watchLife } from './life';
 
 /** A worker that will not answer any more. */
 export class BrokenWorker extends Error {}
@@ -26,8 +27,11 @@ export interface Letter<Question> {
   message: Question;
 }
 
-/** A message from the worker: an answer with its question's id, news, or why it cannot go on. */
-export type Reply = { id: number | null; message: Message } | { broken: string };
+/**
+ * What the worker sends: an answer with the id of its question, news without one, why it cannot go on, or
+ * the lock that it holds for life.
+ */
+export type Reply = { id: number | null; message: Message } | { broken: string } | { life: string };
 
 /** Which answer each type of question has. */
 export type AnswersTo<Question extends Message> = Record<Question['type'], Message>;
@@ -59,6 +63,9 @@ export interface Port {
   onerror: ((event: ErrorEvent) => void) | null;
 }
 
+/** Why a worker is broken that ended without a word. */
+const ENDED = 'the browser ended it without a word';
+
 interface Waiting {
   resolve(answer: Message): void;
   reject(reason: Error): void;
@@ -84,12 +91,14 @@ export function createAsked<
   }
 
   function hearBroken(reason: string): void {
+    if (broken) return;
     breakDown(reason);
     listener.broken?.(reason);
   }
 
   port.onmessage = ({ data }: MessageEvent<Reply>) => {
     if ('broken' in data) return hearBroken(data.broken);
+    if ('life' in data) return watchLife(data.life, () => hearBroken(ENDED));
     const { id, message } = data;
     if (id === null) return listener.news?.(message as News);
     const asker = waiting.get(id);
@@ -119,8 +128,8 @@ export function createAsked<
     },
     tell: (message, transfer = []) => post(null, message, transfer),
     terminate() {
-      port.terminate();
       breakDown('it was ended');
+      port.terminate();
     },
   };
 }

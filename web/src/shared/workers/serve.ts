@@ -1,6 +1,7 @@
 // The worker's end of the page: takes one message after the other to the core, and sends back what comes of it.
 import { describe } from '../bindings/answers';
 import type { Done, Letter, Message, Reply } from './asked';
+import { holdLife } from './life';
 
 /** The part of a worker's scope that is used. */
 export interface Scope {
@@ -39,6 +40,7 @@ export function serve<Question, Answer extends Message>(
     isBroken = true;
   }
 
+  holdLife((life) => scope.postMessage({ life }, { transfer: [] }));
   const core = start(post);
   let turn: Promise<unknown> = core;
   turn.catch(breakDown);

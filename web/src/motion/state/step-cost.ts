@@ -1,0 +1,51 @@
+// What a step costs on this device at each level: as measured, or as expected from another level.
+import { stepperRow } from '../../shared/steppers/steppers';
+import { COUNTS, type Setting } from './setting';
+
+export interface StepCost {
+  ms: number;
+  /** It was measured at that level; else it follows from another one. */
+  isMeasured: boolean;
+  /** The step was stopped then: it takes longer. */
+  isLeast: boolean;
+}
+
+/** Measured costs, by `keyOf` a setting. */
+export type StepCosts = Readonly<Record<string, { ms: number; isLeast: boolean }>>;
+
+/** Each level has four times the vertices. */
+const WORK_PER_LEVEL = 4;
+/** And asks for four times the substeps, where they are as many as the stability bound wants. */
+const STABLE_WORK_PER_LEVEL = 16;
+
+/** What the cost depends on, beside the fabric, which matters little. */
+function keyOf(setting: Setting): string {
+  const { preset, model, stepper, stepS, level } = setting;
+  const { settings } = stepperRow(stepper);
+  const counts = COUNTS.filter((count) => settings[count]).map((count) => setting[count]);
+  return [preset, model, stepper, Math.round(1 / stepS), ...counts, level].join(' ');
+}
+
+export function withCost(
+  costs: StepCosts,
+  setting: Setting,
+  ms: number,
+  isLeast = false,
+): StepCosts {
+  return { ...costs, [keyOf(setting)]: { ms, isLeast } };
+}
+
+/** What a step of this setting would cost at a level; null while nothing like it was measured. */
+export function stepCostAt(costs: StepCosts, setting: Setting, level: number): StepCost | null {
+  const measuredAt = (other: number) => costs[keyOf({ ...setting, level: other })];
+  const own = measuredAt(level);
+  if (own) return { ...own, isMeasured: true };
+  const growth = setting.substeps === 0 ? STABLE_WORK_PER_LEVEL : WORK_PER_LEVEL;
+  // The nearest level tells best; of two that are as near, the finer one.
+  for (const away of [1, -1, 2, -2, 3, -3, 4, -4]) {
+    const known = measuredAt(level + away);
+    if (!known || (known.isLeast && away > 0)) continue; // a coarser level may be quick
+    return { ms: known.ms * growth ** -away, isMeasured: false, isLeast: known.isLeast };
+  }
+  return null;
+}

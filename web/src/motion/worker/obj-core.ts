@@ -1,0 +1,25 @@
+// Reads an OBJ file into the section "cloth" of a scene, as a function of the module.
+// The only file that calls delete() on its object.
+import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import type { ObjAnswer, PleatModule } from '../bindings/pleat-module';
+import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
+import type { FromObj, ToObj } from './obj-protocol';
+
+export function readObj(module: Pick<PleatModule, 'Scene'>, message: ToObj): FromObj {
+  const { fabricsText, objText, file } = message;
+  const { name, low, high } = file;
+  const scene = new module.Scene(fabricsText);
+  try {
+    const threads = liesFlat({ low, high }) ? 'along_x' : 'down';
+    const meshText = JSON.stringify({ obj: name, warp_direction: DIRECTIONS[threads] });
+    const answer = read<ObjAnswer>(scene.readObj(objText, meshText));
+    if (!answer.ok) return { type: 'refused', failure: answer };
+    const known = answer.needs_direction ? threads : 'texture';
+    const { isOwn, unit, odd } = file;
+    return { type: 'objRead', mesh: objMesh({ name, isOwn, unit, odd, threads: known }, answer) };
+  } catch (error) {
+    return { type: 'refused', failure: internalFailure(describe(error)) };
+  } finally {
+    scene.delete();
+  }
+}

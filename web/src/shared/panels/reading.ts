@@ -1,0 +1,21 @@
+// A file that is being read, and the way out of it.
+import { element, setText } from './element';
+
+export function createReading(cancel: () => void) {
+  const what = element('p', { class: 'note', role: 'status' });
+  const box = element(
+    'div',
+    { class: 'reading' },
+    what,
+    element('progress', { 'aria-label': 'Reading the file' }),
+    element('button', { type: 'button', class: 'wide', click: cancel }, 'Cancel'),
+  );
+  return {
+    box,
+    /** Null hides it. */
+    show(name: string | null) {
+      box.hidden = name === null;
+      setText(what, name === null ? '' : `Reading ${name}`);
+    },
+  };
+}

@@ -1,0 +1,364 @@
+// What a visitor of the view of motion has to be able to trust: the first press, links, and an end to waiting.
+import {
+  eventually,
+  expectThat,
+  isReady,
+  largestMove,
+  positionsOf,
+  stateOf,
+  until,
+} from './harness.mjs';
+import { alertText, button, canvasOf, choice, createTouch, PHONE, picture } from './visitor.mjs';
+
+/** Presses that have to take the cloth. */
+const N_PRESSES = 20;
+
+/** So much of the cloth is seen on the first screen at least. */
+const LEAST_STAGE_PX = 150;
+
+/** Places all over a disc, as a sunflower has its seeds. */
+function seedsOf({ x, y, radius }) {
+  const turn = Math.PI * (3 - Math.sqrt(5));
+  return Array.from({ length: N_PRESSES }, (_, k) => {
+    const away = radius * Math.sqrt((k + 0.5) / N_PRESSES);
+    return { x: x + away * Math.cos(k * turn), y: y + away * Math.sin(k * turn) };
+  });
+}
+
+/** Where the ring of the invitation is on the page. */
+async function ringOf(page) {
+  const ring = page.locator('.invitation-ring');
+  await ring.waitFor();
+  const { x, y, width, height } = await ring.boundingBox();
+  return { x: x + width / 2, y: y + height / 2, radius: Math.max(width, height) / 2 };
+}
+
+async function backToStart(page) {
+  await button(page, 'Reset').click();
+  await until(page, ({ phase, numbers }) => phase === 'ready' && numbers.step === 0);
+}
+
+/** Each press within the ring takes the cloth, from the start of the scene. */
+async function expectPressesHold(page, press, release) {
+  const seeds = seedsOf(await ringOf(page));
+  const missed = [];
+  for (const at of seeds) {
+    await press(at);
+    const { held } = await stateOf(page);
+    await release();
+    if (!held) missed.push(`(${at.x.toFixed(1)}, ${at.y.toFixed(1)})`);
+    await until(page, (state) => !state.held);
+    await backToStart(page);
+  }
+  expectThat(missed.length === 0, `missed: ${missed.join(' ')}`);
+}
+
+async function checkHand({ check }, visit) {
+  await check(`${N_PRESSES} presses inside the ring all take the cloth, by mouse`, () =>
+    visit('#scene=curtain', (page) =>
+      expectPressesHold(
+        page,
+        async ({ x, y }) => {
+          await page.mouse.move(x, y);
+          await page.mouse.down();
+        },
+        () => page.mouse.up(),
+      ),
+    ),
+  );
+
+  await check(`${N_PRESSES} presses inside the ring all take the cloth, by touch`, () =>
+    visit(
+      '#scene=tablecloth',
+      async (page) => {
+        const touch = await createTouch(page);
+        await expectPressesHold(
+          page,
+          (at) => touch('touchStart', at),
+          () => touch('touchEnd'),
+        );
+      },
+      PHONE,
+    ),
+  );
+
+  await check('the pointer says grab where a press takes the cloth, and nowhere else', () =>
+    visit('#scene=curtain', async (page) => {
+      const cursorAt = async ({ x, y }) => {
+        await page.mouse.move(x, y);
+        await page.waitForTimeout(150);
+        return canvasOf(page).evaluate((canvas) => getComputedStyle(canvas).cursor);
+      };
+      const ring = await ringOf(page);
+      expectThat((await cursorAt(ring)) === 'grab', 'not in the ring');
+      const box = await canvasOf(page).boundingBox();
+      const beside = { x: box.x + 40, y: box.y + 40 };
+      expectThat((await cursorAt(beside)) !== 'grab', 'beside the cloth as well');
+    }),
+  );
+}
+
+/** A state is what its setting, its step and the places of its vertices are. */
+async function shownState(page) {
+  const { setting, numbers } = await stateOf(page);
+  return { setting: JSON.stringify(setting), step: numbers.step, places: await positionsOf(page) };
+}
+
+async function checkLinks({ check, open }, visit) {
+  const copiedLink = async (page) => {
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await button(page, 'Copy link').click();
+    const said = page.locator('#toolbar [role=status]');
+    await eventually(async () => /Link copied/.test(await said.textContent()), 'it is copied');
+    return { hash: new URL(await page.evaluate(() => navigator.clipboard.readText())).hash, said };
+  };
+
+  for (const start of ['#scene=curtain&level=1', '#scene=swinging-sheet&level=1&stepper=xpbd']) {
+    await check(`a copied link of ${start} replays what is shown to the bit`, () =>
+      visit(start, async (page) => {
+        await button(page, 'Play').click();
+        await until(page, (state) => state.numbers.time_s > 0.7);
+        const { hash, said } = await copiedLink(page);
+        expectThat(/runs to 0\.\d\d s|runs to 1\.\d\d s/.test(await said.textContent()), 'no time');
+        const shown = await shownState(page);
+        expectThat(shown.step > 40, `step ${shown.step}`);
+        const copy = await open(hash);
+        await isReady(copy.page);
+        const replayed = await shownState(copy.page);
+        await copy.close();
+        expectThat(replayed.step === shown.step, `step ${replayed.step}, not ${shown.step}`);
+        expectThat(replayed.setting === shown.setting, replayed.setting);
+        const move = largestMove(shown.places, replayed.places);
+        expectThat(move === 0, `a vertex is ${move} m off`);
+      }),
+    );
+  }
+
+  await check('a link keeps the view, and says that a pull is not kept', () =>
+    visit('#scene=curtain&level=1', async (page) => {
+      await canvasOf(page).focus();
+      for (const key of ['ArrowRight', 'ArrowRight', '+', 'g', 'Escape'])
+        await page.keyboard.press(key);
+      const { hash, said } = await copiedLink(page);
+      expectThat(/pull is not kept/.test(await said.textContent()), await said.textContent());
+      const place = () => page.evaluate(() => window.pleat.project(0));
+      await backToStart(page);
+      await picture(page);
+      const before = await place();
+      const copy = await open(hash.replace(/&steps=\d+/, '&steps=0'));
+      await isReady(copy.page);
+      await picture(copy.page);
+      const after = await copy.page.evaluate(() => window.pleat.project(0));
+      await copy.close();
+      const off = Math.hypot(after.x - before.x, after.y - before.y);
+      expectThat(off < 2, `a vertex is seen ${off} px off`);
+    }),
+  );
+
+  await check('a long replay shows how far it is, and Stop says where it stopped', async () => {
+    const { page, close } = await open('#scene=curtain&level=3&steps=3000');
+    const stop = button(page, 'Stop');
+    await until(page, (state) => state.ahead > 0);
+    expectThat(/of|first 50\.00 s/.test(await page.locator('.work-bar').textContent()), 'no words');
+    await stop.click();
+    const { ahead, phase } = await until(page, (state) => state.ahead === null);
+    expectThat(ahead === null && phase === 'ready', phase);
+    expectThat(/Stopped at .* s, on the way to 50\.00 s/.test(await alertText(page)), 'no place');
+    await close();
+  });
+}
+
+async function checkWorker({ check, open }, visit) {
+  await check('a worker that ends without a word is noticed in seconds, and started again', () =>
+    visit('#scene=curtain&level=1', async (page) => {
+      await button(page, 'Play').click();
+      await until(page, (state) => state.numbers.time_s > 0.2);
+      await page.workers()[0].evaluate(() => self.close());
+      await until(page, (state) => state.problem?.source === 'worker', 5000);
+      const sentence = await alertText(page);
+      expectThat(/ended by itself after step \d+.*started again/.test(sentence), sentence);
+      await isReady(page);
+      expectThat((await stateOf(page)).numbers.step === 0, 'it is not at its start');
+      await button(page, 'Play').click();
+      await until(page, (state) => state.numbers.time_s > 0.2);
+    }),
+  );
+
+  await check(
+    'a step that takes for ever is shown, stopped, and gives way to a reset',
+    async () => {
+      const hang = () => {
+        const { postMessage } = Worker.prototype;
+        Worker.prototype.postMessage = function post(letter, transfer) {
+          // The worker is kept busy by steps enough for an hour.
+          if (window.hangs && letter.message.type === 'step') letter.message.count = 1e7;
+          postMessage.call(this, letter, transfer);
+        };
+      };
+      const { page, close } = await open('#scene=curtain&level=1', {
+        prepare: (fresh) => fresh.addInitScript(hang),
+      });
+      await isReady(page);
+      await button(page, 'Step').click();
+      await until(page, (state) => state.numbers.step === 1);
+      const hangInStep = async () => {
+        await page.evaluate(() => {
+          window.hangs = true;
+        });
+        await button(page, 'Step').click();
+        await until(page, (state) => state.busy?.type === 'step');
+        await page.evaluate(() => {
+          window.hangs = false;
+        });
+      };
+      await hangInStep();
+      await button(page, 'Stop').click();
+      await isReady(page);
+      expectThat(/was stopped after/.test(await alertText(page)), 'no sentence');
+      await hangInStep();
+      const begin = performance.now();
+      await backToStart(page);
+      const seconds = (performance.now() - begin) / 1000;
+      expectThat(seconds < 10, `the reset took ${seconds} s`);
+      await close();
+    },
+  );
+
+  await check('the word on lost graphics goes once they are back', async () => {
+    const { page, close } = await open('#scene=curtain&level=0');
+    await isReady(page);
+    await page.evaluate(() => {
+      const canvas = document.querySelector('#stage canvas');
+      window.lost = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+      window.lost.loseContext();
+    });
+    await until(page, (state) => state.problem?.source === 'picture');
+    await page.evaluate(() => window.lost.restoreContext());
+    await until(page, (state) => state.problem === null);
+    await close();
+  });
+}
+
+async function checkFirstVisit({ check, open }, visit) {
+  await check('a first visit fetches no reference until it compares', async () => {
+    const asked = [];
+    const { page, close } = await open('', {
+      prepare: (fresh) => fresh.on('request', (request) => asked.push(request.url())),
+    });
+    const references = () => asked.filter((url) => url.endsWith('.reference'));
+    await isReady(page);
+    await page.waitForLoadState('networkidle');
+    expectThat(references().length === 0, references().join(' '));
+    await button(page, 'Compare').click();
+    await until(page, (state) => state.numbers.reference !== null);
+    expectThat(references().length === 1, `${references().length} fetched`);
+    await close();
+  });
+
+  for (const [name, size] of [
+    ['a phone', PHONE],
+    ['a window at 200 %', { width: 640, height: 400 }],
+  ]) {
+    await check(`on ${name}, the sentence, the cloth and Play are on the first screen`, () =>
+      visit(
+        '',
+        async (page) => {
+          const ends = async (part) => {
+            const { y, height } = await part.boundingBox();
+            return [y, y + height];
+          };
+          for (const part of [page.locator('.caption'), button(page, 'Play')]) {
+            const [top, bottom] = await ends(part);
+            expectThat(top >= 0 && bottom <= size.height, `from ${top} to ${bottom} px`);
+          }
+          const [top] = await ends(canvasOf(page));
+          const [play] = await ends(button(page, 'Play'));
+          expectThat(play - top > LEAST_STAGE_PX, `${play - top} px of the cloth`);
+        },
+        size,
+      ),
+    );
+  }
+
+  await check('no word of the read-out is cut', async () => {
+    for (const width of [320, 390, 720, 1280]) {
+      await visit(
+        '#scene=curtain&level=0',
+        async (page) => {
+          await button(page, 'Play').click();
+          await until(page, (state) => state.timing !== null && state.pace !== null);
+          const cut = await page
+            .locator('.numbers dd')
+            .evaluateAll((cells) =>
+              cells
+                .filter((cell) => cell.scrollWidth > cell.clientWidth + 1)
+                .map((cell) => cell.textContent),
+            );
+          expectThat(cut.length === 0, `at ${width} px: ${cut.join(', ')}`);
+        },
+        { width },
+      );
+    }
+  });
+
+  await check('boxes to tick are at least 24 px high and wide', () =>
+    visit('#scene=curtain&level=0', async (page) => {
+      const boxes = await page.locator('#panel input:is([type=checkbox], .option input)').all();
+      expectThat(boxes.length >= 3, `${boxes.length} boxes`);
+      for (const box of boxes) {
+        const { width, height } = await box.boundingBox();
+        expectThat(width >= 24 && height >= 24, `${width} by ${height}`);
+      }
+    }),
+  );
+}
+
+async function checkRefused({ check, open }) {
+  await check(
+    'explicit with too few substeps: a sentence, a cloth, and a button that helps',
+    async () => {
+      const { page, close } = await open('#scene=curtain&level=0&stepper=explicit&substeps=1');
+      await until(page, (state) => state.phase === 'refused');
+      const sentence = await alertText(page);
+      expectThat(/a step of it takes \d+/.test(sentence) && !/[/]method/.test(sentence), sentence);
+      await eventually(async () => (await positionsOf(page)).length > 0, 'a cloth');
+      expectThat(!(await page.locator('.invitation').isVisible()), 'the invitation is there');
+      await button(page, 'Take as many as it needs').click();
+      await isReady(page);
+      await close();
+    },
+  );
+
+  await check('no invitation where there is no picture', async () => {
+    const { page, close } = await open('#scene=curtain&level=0', {
+      prepare: (fresh) =>
+        fresh.addInitScript(() => {
+          HTMLCanvasElement.prototype.getContext = () => null;
+        }),
+    });
+    await isReady(page);
+    expectThat((await page.locator('#stage .invitation').count()) === 0, 'it is there');
+    await close();
+  });
+
+  await check('levels tell what a step takes, measured or expected', async () => {
+    const { page, close } = await open('');
+    await isReady(page);
+    await until(page, (state) => state.timing !== null);
+    const texts = await page.locator('.levels small').allTextContents();
+    expectThat(/^[\d.]+ m?s$/.test(texts[2]), texts.join(', '));
+    expectThat(texts.filter((text) => /^≈ [\d.]+ m?s$/.test(text)).length === 4, texts.join(', '));
+    await choice(page, 'Stepper').selectOption({ label: 'XPBD' });
+    await isReady(page);
+    expectThat((await page.locator('.levels small').allTextContents())[4] === '–', 'of another');
+    await close();
+  });
+}
+
+export async function checkMotion(harness, visit) {
+  await checkHand(harness, visit);
+  await checkLinks(harness, visit);
+  await checkWorker(harness, visit);
+  await checkFirstVisit(harness, visit);
+  await checkRefused(harness);
+}

@@ -1,0 +1,48 @@
+import { describe, expect, it } from 'vitest';
+import { stiffnessSentence } from '../../src/fabrics/panels/fabric-card';
+import { markedQuantity, orderNote } from '../../src/fabrics/panels/fabric-gallery';
+import { ORDERS, orderedFabrics, quantityOf } from '../../src/fabrics/state/fabric-order';
+import { decodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
+import { initialFabricsState } from '../../src/fabrics/state/fabrics-state';
+import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
+
+const names = (order: (typeof ORDERS)[number]) => orderedFabrics(order).map((one) => one.name_en);
+
+describe('order of fabrics', () => {
+  it('has the stiffest first by forces, where linen comes after wool, canvas and leather', () => {
+    expect(names('bending').slice(0, 3)).toEqual(['wool', 'canvas', 'leather']);
+    expect(names('bending').indexOf('linen')).toBeGreaterThan(3);
+    expect(names('bending').at(-1)).toBe('chiffon');
+    expect(names('weight')[0]).toBe('leather');
+    expect(names('stretch').at(-1)).toBe('spandex');
+  });
+
+  it.each(ORDERS)('lists every fabric once by %s, no value below one that follows', (order) => {
+    expect(names(order).toSorted()).toEqual(fabrics.map((one) => one.name_en).toSorted());
+    const key = quantityOf(order);
+    const values = key ? orderedFabrics(order).map((one) => one[key].value) : [];
+    values.slice(1).forEach((value, k) => {
+      expect(value).toBeLessThanOrEqual(values[k] ?? 0);
+    });
+  });
+
+  it('writes numbers with units, and marks what was not measured', () => {
+    expect(markedQuantity(fabricNamed('wool'), 'bending')).toBe('~45 µN·m');
+    expect(markedQuantity(fabricNamed('polyester'), 'bending')).toBe('5.0 µN·m');
+    expect(markedQuantity(fabricNamed('wool'), 'source')).toBe('');
+    expect(orderNote('source')).toContain('do not say which of two fabrics is stiffer');
+    expect(stiffnessSentence(fabricNamed('linen'))).toMatch(
+      /15 µN·m \(estimated\): number 7 of 15/,
+    );
+  });
+
+  it('orders the panes of the gallery too, and stands in the link', () => {
+    const { link, problems } = decodeFabricsLink('#view=fabrics&gallery=on&order=bending');
+    expect(problems).toEqual([]);
+    const { panes } = initialFabricsState(link, []);
+    expect(panes.map(({ fabric }) => fabric)).toEqual(
+      names('bending').map((name) => ({ kind: 'named', name })),
+    );
+    expect(decodeFabricsLink('#view=fabrics&order=colour').problems[0]).toMatch(/^order: expected/);
+  });
+});

@@ -1,0 +1,232 @@
+// What the caption of a scene says is seen in the scene.
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import type { PleatModule, SimulationHandle } from '../../src/motion/bindings/pleat-module';
+import { PRESETS } from '../../src/motion/state/setting';
+import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { isBuilt, loadModule } from '../support/built-module';
+
+const ASSETS = new URL('../../../assets/', import.meta.url);
+const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
+const STEPS_PER_SECOND = 60;
+
+interface Scene {
+  caption: string;
+  [part: string]: unknown;
+}
+
+interface Vertex {
+  id: number;
+  x: number;
+  y: number;
+  z: number;
+}
+
+const sceneOf = (name: string) => JSON.parse(textOf(`scenes/${name}.json`)) as Scene;
+
+function verticesOf(simulation: SimulationHandle): Vertex[] {
+  const places = simulation.exactPositions();
+  return Array.from({ length: places.length / 3 }, (_, id) => {
+    const [x = 0, y = 0, z = 0] = places.subarray(3 * id, 3 * id + 3);
+    return { id, x, y, z };
+  });
+}
+
+/** A scene that has begun; `at` runs on to a time and gives the vertices there [s]. */
+function begin(module: PleatModule, scene: object) {
+  const simulation = new module.Simulation(fabricsText);
+  expect(JSON.parse(simulation.load(JSON.stringify(scene)))).toMatchObject({ ok: true });
+  const rest = verticesOf(simulation);
+  let nDone = 0;
+  return {
+    simulation,
+    rest,
+    at(time: number): Vertex[] {
+      const nSteps = Math.round(time * STEPS_PER_SECOND);
+      expect(simulation.step(nSteps - nDone)).toBe(0);
+      nDone = nSteps;
+      return verticesOf(simulation);
+    },
+  };
+}
+
+const mean = (values: number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
+const span = (values: number[]) => Math.max(...values) - Math.min(...values);
+const isNear = (a: number, b: number) => Math.abs(a - b) < 1e-6;
+
+/** The vertices that satisfy `test` at rest, as they are in `now`. */
+function those(rest: Vertex[], now: Vertex[], test: (vertex: Vertex) => boolean): Vertex[] {
+  return rest.filter(test).map(({ id }) => now[id] as Vertex);
+}
+
+/** How often a curve turns between ups and downs higher than `least`. */
+function turnsOf(values: number[], least: number): number {
+  const signs: number[] = [];
+  let extreme = values[0] ?? 0;
+  for (const value of values) {
+    const sign = signs.at(-1) ?? 0;
+    const isOn = sign === 0 ? false : sign * (value - extreme) > 0;
+    if (isOn) extreme = value;
+    else if (Math.abs(value - extreme) > least) {
+      signs.push(Math.sign(value - extreme));
+      extreme = value;
+    }
+  }
+  return Math.max(0, signs.length - 1);
+}
+
+function nearestTo({ x, y, z }: Vertex, vertices: Vertex[]): Vertex {
+  const away = vertices.map((one) => Math.hypot(one.x - x, one.y - y, one.z - z));
+  return vertices[away.indexOf(Math.min(...away))] as Vertex;
+}
+
+function rmsApart(a: Vertex[], b: Vertex[]): number {
+  const squares = a.map(({ x, y, z }, id) => {
+    const other = b[id] as Vertex;
+    return (x - other.x) ** 2 + (y - other.y) ** 2 + (z - other.z) ** 2;
+  });
+  return Math.sqrt(mean(squares));
+}
+
+// Seconds of cloth in motion.
+describe.runIf(isBuilt('pleat'))('the caption of', { timeout: 60000 }, () => {
+  it('the curtain: half the width, four folds in every fabric, deeper on their way down', async () => {
+    const module = await loadModule('pleat');
+    expect(sceneOf('curtain').caption).toMatch(/half its width.*the same four.*deeper/);
+    for (const name of ['silk', 'fine cotton', 'canvas', 'wool', 'leather']) {
+      const { rest, at } = begin(module, { ...sceneOf('curtain'), fabric: { name } });
+      const now = at(4);
+      const heights = [...new Set(rest.map(({ y }) => Number(y.toFixed(6))))].sort((a, b) => b - a);
+      const rowAt = (part: number) => {
+        const height = heights[Math.round(part * (heights.length - 1))] ?? 0;
+        const across = [...rest].sort((a, b) => a.x - b.x);
+        return those(across, now, ({ y }) => Math.abs(y - height) < 1e-4);
+      };
+      const width = span(rowAt(0).map(({ x }) => x)) / 1.2;
+      expect(Math.abs(width - 0.5), `${name}: ${width}`).toBeLessThan(0.1);
+      const depths = [0.06, 0.5, 1].map((part) => {
+        const row = rowAt(part).map(({ z }) => z);
+        expect(turnsOf(row, 0.01), `${name} at ${part}`).toBe(7); // four folds: eight flanks
+        return span(row);
+      });
+      expect(depths).toEqual([...depths].sort((a, b) => a - b));
+    }
+  });
+
+  it('the tablecloth: corners hang close to the ball, the hem between stands out', async () => {
+    const module = await loadModule('pleat');
+    expect(sceneOf('tablecloth').caption).toMatch(/settles.*corners hang down close/);
+    for (const name of ['silk', 'linen', 'leather']) {
+      const { rest, at } = begin(module, { ...sceneOf('tablecloth'), fabric: { name } });
+      const before = at(4 - 1 / STEPS_PER_SECOND);
+      const now = at(4);
+      expect(STEPS_PER_SECOND * rmsApart(before, now)).toBeLessThan(0.05);
+      const isEdge = (value: number) => isNear(Math.abs(value), 0.5);
+      const isCorner = ({ x, z }: Vertex) => isEdge(x) && isEdge(z);
+      const isMiddle = ({ x, z }: Vertex) =>
+        (isEdge(x) && isNear(z, 0)) || (isEdge(z) && isNear(x, 0));
+      const [corners, middles] = [those(rest, now, isCorner), those(rest, now, isMiddle)];
+      const away = (vertices: Vertex[]) => vertices.map(({ x, z }) => Math.hypot(x, z));
+      expect(corners).toHaveLength(4);
+      expect(Math.max(...away(corners))).toBeLessThan(Math.min(...away(middles)));
+      expect(Math.max(...corners.map(({ y }) => y))).toBeLessThan(
+        Math.min(...middles.map(({ y }) => y)),
+      );
+    }
+  });
+
+  it('the swinging sheet: methods agree to millimetres until it whips, and not after', async () => {
+    const module = await loadModule('pleat');
+    expect(sceneOf('swinging_sheet').caption).toMatch(/millimetres, after it hardly to decimetres/);
+    const step_s = 1 / STEPS_PER_SECOND;
+    const [a, b] = [
+      { stepper: 'implicit', step_s, substeps: 8, tolerance: 0.001 },
+      { stepper: 'xpbd', step_s, substeps: 30, iterations: 1 },
+    ].map((method) => begin(module, { ...sceneOf('swinging_sheet'), method }));
+    if (!a || !b) throw new Error('two methods');
+    expect(rmsApart(a.at(0.3), b.at(0.3))).toBeLessThan(0.01);
+    expect(rmsApart(a.at(1), b.at(1))).toBeGreaterThan(0.1);
+    // Each row across stays straight, as a link of a chain does.
+    const now = a.at(1.1);
+    for (const { z } of a.rest.filter(({ x }) => isNear(x, -0.5))) {
+      const row = those(a.rest, now, (vertex) => isNear(vertex.z, z));
+      expect(span(row.map(({ y }) => y))).toBeLessThan(0.02);
+    }
+  });
+
+  it('the falling sheet: all parts alike, 4.9 m and the 8 cm of its steps, no stretch', async () => {
+    const module = await loadModule('pleat');
+    expect(sceneOf('falling_sheet').caption).toMatch(/4\.9 m .* 8 cm/);
+    const { rest, at, simulation } = begin(module, sceneOf('falling_sheet'));
+    const falls = at(1).map(({ id, y }) => (rest[id] as Vertex).y - y);
+    expect(span(falls)).toBeLessThan(1e-4);
+    expect(mean(falls) - 9.81 / 2).toBeCloseTo(0.08, 2);
+    expect(JSON.parse(simulation.numbers()).largest_stretch).toBeLessThan(1e-6);
+  });
+
+  it('corners meet: to half their distance in a second, and one fold between them', async () => {
+    const module = await loadModule('pleat');
+    const { rest, at } = begin(module, sceneOf('corners_meet'));
+    for (const time of [1, 2]) {
+      const edge = those(rest, at(time), ({ y }) => isNear(y, 1.5)).sort((a, b) => a.x - b.x);
+      expect(span(edge.map(({ x }) => x))).toBeCloseTo(0.5, 6);
+      const heights = edge.map(({ y }) => y);
+      expect(turnsOf(heights, 0.01)).toBe(1);
+      expect(span(heights)).toBeGreaterThan(0.1);
+    }
+  });
+
+  it('the hanging chain: link k of n stretches by (n - k + 1) m g / stiffness', async () => {
+    const module = await loadModule('pleat');
+    const now = begin(module, sceneOf('hanging_chain')).at(10);
+    for (let k = 1; k <= 10; ++k) {
+      const stretch = (now[k - 1]?.y ?? 0) - (now[k]?.y ?? 0) - 0.1;
+      expect(stretch).toBeCloseTo(((10 - k + 1) * 0.01 * 9.81) / 100, 6);
+    }
+  });
+
+  it('the spring pendulum: about a place 9.81 mm lower, five times a second', async () => {
+    const module = await loadModule('pleat');
+    const { at } = begin(module, sceneOf('spring_pendulum'));
+    const heights = Array.from({ length: 2 * STEPS_PER_SECOND }, (_, step) => {
+      return at((step + 1) / STEPS_PER_SECOND)[1]?.y ?? 0;
+    });
+    const middle = mean(heights);
+    expect(1 - middle).toBeCloseTo(0.00981, 3);
+    const crossings = heights.filter(
+      (y, step) => step > 0 && (y - middle) * ((heights[step - 1] ?? 0) - middle) < 0,
+    );
+    expect(crossings.length / 2 / 2).toBe(5);
+  });
+
+  it('the skirt: the hem follows late and swings past, and falls otherwise at the back', async () => {
+    const module = await loadModule('pleat');
+    const reader = new module.Scene(fabricsText);
+    const mesh = JSON.stringify({ obj: 'skirt.obj' });
+    const { cloth } = JSON.parse(reader.readObj(textOf('meshes/skirt.obj'), mesh));
+    const { method } = PRESETS.obj.scene; // as the page runs it
+    const { rest, at } = begin(module, { ...sceneOf('skirt'), cloth, method });
+    const low = Math.min(...rest.map(({ y }) => y));
+    const isHem = ({ y }: Vertex) => y < low + 0.01;
+    const waist: number[] = [];
+    const hem: number[] = [];
+    for (let step = 1; step <= 150; ++step) {
+      const now = at(step / STEPS_PER_SECOND);
+      waist.push(mean(those(rest, now, ({ y }) => isNear(y, 1)).map(({ x }) => x)));
+      hem.push(mean(those(rest, now, isHem).map(({ x }) => x)));
+    }
+    const late = (lag: number) =>
+      hem.slice(60).reduce((sum, x, k) => sum + x * (waist[k + 60 - lag] ?? 0), 0);
+    const lags = Array.from({ length: 40 }, (_, lag) => lag);
+    const best = lags.reduce((a, b) => (late(b) > late(a) ? b : a));
+    expect(best).toBeGreaterThan(3);
+    expect(span(hem.slice(60))).toBeGreaterThan(1.2 * span(waist.slice(60)));
+    // At rest the back is the front's mirror image, but for the mesh.
+    const mirrored = (vertex: Vertex) => ({ ...vertex, z: -vertex.z });
+    const image = rest.map((vertex) => nearestTo(mirrored(vertex), rest));
+    expect(rmsApart(rest.map(mirrored), image)).toBeLessThan(0.01);
+    const now = at(2.5);
+    const moved = image.map(({ id }) => now[id] as Vertex);
+    expect(rmsApart(now.map(mirrored), moved)).toBeGreaterThan(0.05);
+  });
+});
