@@ -22,6 +22,7 @@ constexpr const char* kHelp =
   --overwrite            remove those of an earlier run from it first
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
                          into this folder; replaces earlier ones
+  --check                exit status 1 when a warning says that the run shows nonsense
   --drift                account for the energy: what no force explains is the method's own
   --steps N | --duration S    the latter rounded to whole steps
 pleat sweep SCENE.json   compute it with many settings: milliseconds against error

@@ -14,6 +14,7 @@
 #include "core/model/energy_ledger.h"
 #include "core/model/stretch.h"
 #include "core/model/system_matrix.h"
+#include "core/run/run_watch.h"
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
@@ -31,6 +32,7 @@ struct RunSummary {
   std::int64_t last_crossings = 0;  // of the cloth with itself, where they are counted
   std::int64_t largest_crossings = 0;
   int n_frames = 0;
+  std::vector<RunWarning> warnings;
 };
 
 /// The folder after --dump and the files in it.
@@ -118,14 +120,16 @@ RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
   const std::int64_t steps_per_frame = whole_steps(scene.record.every, step);
   RunSummary summary;
   TimedRun run(simulation, TimedRun::Parts::untimed);
+  RunWatch watch(simulation);
   Progress progress;
   State begin;
   add_frame(simulation, watchers, summary);
   while (simulation.n_steps() < n_steps) {
     if (watchers.ledger != nullptr) begin = simulation.state();
-    run.step();
+    const SolveReport step_report = run.step();
     const bool ended = run.has_ended();
     add_step(simulation, summary);
+    watch.look(simulation, step_report);
     if (watchers.ledger != nullptr && !ended)
       watchers.ledger->record(begin, simulation.state(), simulation.time(), step);
     // The last finite frame of a run that ended early is kept, unless it was written already.
@@ -136,6 +140,7 @@ RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
                   scene.name);
   }
   summary.report = run.report();
+  summary.warnings = watch.warnings();
   return summary;
 }
 
@@ -181,6 +186,9 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                {"largest_stretch_at_end", summary.last_stretch.largest},
                {"mean_rms_stretch", summary.rms_stretch_sum / n_steps},
                {"largest_stretch", summary.largest_stretch}};
+  json["warnings"] = Json::array();
+  for (const RunWarning& warning : summary.warnings)
+    json["warnings"].push_back(json_warning(warning));
   if (watchers.crossings != nullptr) {
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
@@ -235,6 +243,7 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
 
 struct RunOptions {
   bool for_machines = false;
+  bool checks = false;
   bool wants_drift = false;
   bool overwrite = false;
   std::optional<Output> out;
@@ -242,7 +251,7 @@ struct RunOptions {
 };
 
 Outcome run_scene(const Scene& scene, const RunOptions& options) {
-  const auto& [for_machines, wants_drift, overwrite, out, dump] = options;
+  const auto& [for_machines, checks, wants_drift, overwrite, out, dump] = options;
   if (out) check_frame_count(scene);
   Simulation simulation(scene);
   if (dump) dump->prepare();
@@ -276,7 +285,11 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
     print_summary(simulation, summary, watchers);
   if (out) write_file(out->metrics, format_json(metrics));
   if (dump) write_stiffness(simulation, dump->stiffness_end);
-  if (!summary.report.ends_run()) return Outcome::ok;
+  if (!summary.report.ends_run()) {
+    for (const RunWarning& warning : summary.warnings)
+      std::fprintf(stderr, "pleat: warning: %s\n", sentence(warning).c_str());
+    return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
+  }
   print_early_end(simulation, summary.report, frames ? "; the last finite frame is kept" : "");
   return Outcome::check_failed;
 }
@@ -286,6 +299,7 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
 Outcome run_command(Arguments arguments) {
   RunOptions options;
   options.for_machines = arguments.flag("--json");
+  options.checks = arguments.flag("--check");
   options.wants_drift = arguments.flag("--drift");
   options.overwrite = arguments.flag("--overwrite");
   if (const auto folder = arguments.text("--out")) options.out = Output{*folder};

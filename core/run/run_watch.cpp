@@ -1,0 +1,259 @@
+#include "core/run/run_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <variant>
+
+#include "core/dynamics/stepper_table.h"
+#include "core/model/elasticity.h"
+
+namespace pleat {
+namespace {
+
+/// Below this the stretch of one edge is no nonsense, whatever its load: trousers on a fast walk
+/// reach a third at the fork for a moment.
+constexpr double kLeastStretch = 0.35;
+/// A fall that is stopped, and a load that one thread of many bears, pull so many times as much as
+/// the weight at rest.
+constexpr double kRoomForMotion = 10;
+/// Cloth twice as long as it was made is beyond what any of its measurements say, whatever the
+/// load. Particles with springs of their own may be made for it.
+constexpr double kMostStretch = 1;
+/// The free end of a whip is so many times as fast as its handle.
+constexpr double kWhip = 4;
+constexpr double kLeastSpeed = 1;  // [m/s]
+/// Half of what a step had to solve for is left.
+constexpr double kUnsolved = 0.5;
+
+/// Force per strain of a gauge's edge [N].
+double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
+  const double per_width = std::min(scene.fabric.stretch_warp, scene.fabric.stretch_weft);
+  return per_width * edge.rest_length;
+}
+
+/// The force per strain of everything that ends at what is held [N]; without pins, that of a cut
+/// through the middle of the cloth.
+double holding_stiffness(const Simulation& simulation) {
+  const ClothModel& model = simulation.model();
+  std::vector<bool> is_held(static_cast<std::size_t>(model.n_vertices()), false);
+  for (const Pin& pin : model.pins) is_held[pin.vertex] = true;
+  double held = 0;
+  double all = 0;
+  const auto add = [&](VertexId a, VertexId b, double stiffness) {
+    all += stiffness;
+    if (is_held[a] != is_held[b]) held += stiffness;
+  };
+  if (simulation.scene().cloth->is_surface()) {
+    for (const GaugeEdge& edge : simulation.gauge())
+      add(edge.a, edge.b, edge_stiffness(simulation.scene(), edge));
+    // As many edges go through a cut as are in one of the rows and columns that all are in.
+    const auto n_edges = static_cast<double>(simulation.gauge().size());
+    return held > 0 ? held : all / std::sqrt(2 * std::max(n_edges, 1.0));
+  }
+  double weakest = 0;
+  for (const Spring& spring : model.springs) {
+    const double stiffness = spring.stiffness * spring.rest_length;
+    add(spring.a, spring.b, stiffness);
+    if (stiffness > 0) weakest = weakest > 0 ? std::min(weakest, stiffness) : stiffness;
+  }
+  return held > 0 ? std::min(held, weakest) : weakest;
+}
+
+double height(const Vec3& up, const Eigen::Ref<const Positions>& positions, bool highest) {
+  const Eigen::RowVectorXd heights = up.transpose() * positions;
+  return highest ? heights.maxCoeff() : heights.minCoeff();
+}
+
+/// Against gravity, unit; zero without gravity.
+Vec3 up_of(const ClothModel& model) {
+  return model.gravity.isZero(0) ? Vec3(0, 0, 0) : Vec3(-model.gravity.normalized());
+}
+
+/// The largest stretch that held vertices ask for by their distance from each other. Straight
+/// through the cloth at rest there is at most the distance at rest.
+double stretch_between_pins(const Simulation& simulation) {
+  const auto& pins = simulation.model().pins;
+  const Positions& now = simulation.state().positions;
+  const Positions& rest = simulation.rest_positions();
+  double largest = 0;
+  for (std::size_t a = 0; a < pins.size(); ++a)
+    for (std::size_t b = a + 1; b < pins.size(); ++b) {
+      const VertexId i = pins[a].vertex;
+      const VertexId j = pins[b].vertex;
+      const double length = (rest.col(i) - rest.col(j)).norm();
+      if (length > 0) largest = std::max(largest, (now.col(i) - now.col(j)).norm() / length - 1);
+    }
+  return largest;
+}
+
+Vec3 middle_of(const SolidShape& shape) {
+  if (const auto* plane = std::get_if<Plane>(&shape)) return plane->point;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->centre;
+  const auto& cone = std::get<RoundedCone>(shape);
+  return (cone.centre_a + cone.centre_b) / 2;
+}
+
+double driven_speed(const Simulation& simulation) {
+  double speed = 0;
+  for (const Pin& pin : simulation.model().pins)
+    speed = std::max(speed, pin.velocity(simulation.time()).norm());
+  for (const Collider& collider : simulation.scene().colliders)
+    if (collider.motion.kind != Motion::Kind::hold) {
+      const Vec3 velocity = collider.motion.velocity(middle_of(collider.shape), simulation.time());
+      speed = std::max(speed, velocity.norm());
+    }
+  return speed;
+}
+
+/// Four times as many of what the stepper takes more of, else a step of a quarter.
+std::vector<SettingHint> hints_for(const Scene& scene) {
+  const MethodOptions& method = scene.method;
+  std::vector<SettingHint> hints;
+  if (method.stepper->reads(MethodSetting::iterations) && method.iterations < 10)
+    hints.push_back({"/method/iterations", 4 * method.iterations});
+  if (method.stepper->reads(MethodSetting::substeps) && method.substeps > 0)
+    hints.push_back({"/method/substeps", 4 * method.substeps});
+  if (hints.empty()) hints.push_back({"/method/step_s", method.step / 4});
+  return hints;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+const char* name(RunWarning::Kind kind) {
+  switch (kind) {
+    case RunWarning::Kind::stretch:
+      return "stretch";
+    case RunWarning::Kind::speed:
+      return "speed";
+    case RunWarning::Kind::unsolved:
+      return "unsolved";
+  }
+  return "";
+}
+
+std::string sentence(const RunWarning& warning) {
+  const std::string since = "from " + number(warning.time) + " s";
+  const std::string place = since + " at vertex " + std::to_string(warning.vertex.value);
+  std::string text;
+  switch (warning.kind) {
+    case RunWarning::Kind::stretch:
+      text = place + " on, the cloth stretched by up to " + number(100 * warning.value) +
+             " %; its load explains " + number(100 * warning.bound) + " %";
+      break;
+    case RunWarning::Kind::speed:
+      text = place + " on, the cloth was as fast as " + number(warning.value) +
+             " m/s; falling and pulling explain " + number(warning.bound) + " m/s";
+      break;
+    case RunWarning::Kind::unsolved:
+      text = since + " on, steps left " + number(100 * warning.value) +
+             " % of their equations unsolved";
+      break;
+  }
+  for (const SettingHint& hint : warning.hints)
+    text += (&hint == warning.hints.data() ? "; try " : " or ") + hint.pointer + " = " +
+            hint.value.dump();
+  return text;
+}
+
+Json json_warning(const RunWarning& warning) {
+  Json hints = Json::object();
+  for (const SettingHint& hint : warning.hints) hints[hint.pointer] = hint.value;
+  return {{"kind", name(warning.kind)},     {"time_s", warning.time},
+          {"vertex", warning.vertex.value}, {"value", warning.value},
+          {"bound", warning.bound},         {"hints", hints},
+          {"sentence", sentence(warning)}};
+}
+
+RunWatch::RunWatch(const Simulation& simulation) {
+  const ClothModel& model = simulation.model();
+  const State& state = simulation.state();
+  const double weight = model.masses.sum() * model.gravity.norm();
+  const double stiffness = holding_stiffness(simulation);
+  const bool is_surface = simulation.scene().cloth->is_surface();
+  const double pull = stiffness > 0 ? kRoomForMotion * weight / stiffness : 0;
+  load_stretch_ =
+      is_surface ? std::clamp(pull, kLeastStretch, kMostStretch) : std::max(pull, kLeastStretch);
+  start_stretch_ = stretch(simulation.gauge(), state.positions).largest;
+  start_height_ = height(up_of(model), state.positions, true);
+  const double mass = model.masses.sum();
+  const double stored = elastic_energy(model, state.positions);
+  start_speed_ = mass > 0 ? std::sqrt(2 * stored / mass) : 0;
+}
+
+void RunWatch::look(const Simulation& simulation, const SolveReport& step) {
+  driven_speed_ = std::max(driven_speed_, driven_speed(simulation));
+  look_at_stretch(simulation);
+  look_at_speed(simulation);
+  look_at_report(simulation, step);
+}
+
+void RunWatch::look_at_stretch(const Simulation& simulation) {
+  const Positions& positions = simulation.state().positions;
+  RunWarning warning{RunWarning::Kind::stretch,
+                     simulation.time(),
+                     VertexId(0),
+                     0,
+                     load_stretch_ + start_stretch_,
+                     {}};
+  for (const GaugeEdge& edge : simulation.gauge()) {
+    const double length = (positions.col(edge.a) - positions.col(edge.b)).norm();
+    const double strain = std::abs(length / edge.rest_length - 1);
+    if (strain > warning.value) {
+      warning.value = strain;
+      warning.vertex = edge.a;
+    }
+  }
+  if (warning.value <= warning.bound) return;
+  warning.bound += stretch_between_pins(simulation);
+  if (warning.value > warning.bound) warn(simulation, std::move(warning));
+}
+
+void RunWatch::look_at_speed(const Simulation& simulation) {
+  const ClothModel& model = simulation.model();
+  const State& state = simulation.state();
+  const double drop = std::max(0.0, start_height_ - height(up_of(model), state.positions, false));
+  const double explained =
+      std::sqrt(2 * model.gravity.norm() * drop) + driven_speed_ + start_speed_ + kLeastSpeed;
+  RunWarning warning{
+      RunWarning::Kind::speed, simulation.time(), VertexId(0), 0, kWhip * explained, {}};
+  Eigen::Index fastest = 0;
+  if (state.velocities.cols() == 0) return;
+  warning.value = std::sqrt(state.velocities.colwise().squaredNorm().maxCoeff(&fastest));
+  warning.vertex = VertexId(static_cast<int>(fastest));
+  if (warning.value > warning.bound) warn(simulation, std::move(warning));
+}
+
+void RunWatch::look_at_report(const Simulation& simulation, const SolveReport& step) {
+  const bool is_unsolved =
+      simulation.scene().method.stepper->solves_equations && step.relative_residual > kUnsolved;
+  if (!is_unsolved && step.status != SolveStatus::not_converged) return;
+  warn(simulation, {RunWarning::Kind::unsolved,
+                    simulation.time(),
+                    VertexId(0),
+                    step.relative_residual,
+                    kUnsolved,
+                    {}});
+}
+
+/// Keeps the first time and the worst value.
+void RunWatch::warn(const Simulation& simulation, RunWarning warning) {
+  for (RunWarning& known : warnings_) {
+    if (known.kind != warning.kind) continue;
+    if (warning.value > known.value) {
+      known.value = warning.value;
+      known.vertex = warning.vertex;
+    }
+    return;
+  }
+  warning.hints = hints_for(simulation.scene());
+  warnings_.push_back(std::move(warning));
+}
+
+}  // namespace pleat

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/files/json_reader.h"
+#include "core/run/simulation.h"
+
+namespace pleat {
+
+/// A value in the scene that may help a run: its JSON pointer.
+struct SettingHint {
+  std::string pointer;
+  Json value;
+};
+
+/// A sign that a run's numbers are finite nonsense (docs/methods/plausibility.md).
+struct RunWarning {
+  enum class Kind {
+    stretch,   ///< cloth is longer than its load explains
+    speed,     ///< a vertex is faster than falling and pulling explain
+    unsolved,  ///< a step's equations were left unsolved
+  };
+  Kind kind;
+  double time;      ///< when it was first seen [s]
+  VertexId vertex;  ///< where, at its worst
+  double value;     ///< at its worst: |l/L - 1|, [m/s], or the relative residual
+  double bound;     ///< that the first one was beyond, in the same unit
+  std::vector<SettingHint> hints;
+};
+
+/// "stretch", "speed" or "unsolved".
+const char* name(RunWarning::Kind kind);
+
+/// What was seen, where and since when, what the scene explains, and what to try.
+std::string sentence(const RunWarning& warning);
+
+Json json_warning(const RunWarning& warning);
+
+/// Looks at a running simulation now and then and tells when it shows what the scene cannot
+/// explain. Costs nothing between looks.
+class RunWatch {
+ public:
+  /// simulation  at the beginning of its run
+  explicit RunWatch(const Simulation& simulation);
+
+  /// step  the report of the steps since the last look
+  void look(const Simulation& simulation, const SolveReport& step);
+
+  /// At most one of each kind, in the order in which they were first seen.
+  const std::vector<RunWarning>& warnings() const { return warnings_; }
+
+ private:
+  void look_at_stretch(const Simulation& simulation);
+  void look_at_speed(const Simulation& simulation);
+  void look_at_report(const Simulation& simulation, const SolveReport& step);
+  void warn(const Simulation& simulation, RunWarning warning);
+
+  double load_stretch_;      // of what the cloth's whole weight pulls at, with room for motion [1]
+  double start_stretch_;     // [1]
+  double start_height_;      // of the highest vertex against gravity [m]
+  double start_speed_;       // that the energy stored at the start can give [m/s]
+  double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
+  std::vector<RunWarning> warnings_;
+};
+
+}  // namespace pleat
