@@ -287,7 +287,8 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   if (dump) write_stiffness(simulation, dump->stiffness_end);
   if (!summary.report.ends_run()) {
     for (const RunWarning& warning : summary.warnings)
-      std::fprintf(stderr, "pleat: warning: %s\n", sentence(warning).c_str());
+      std::fprintf(stderr, "pleat: warning: %s; %s\n", sentence(warning).c_str(),
+                   advice(warning).c_str());
     return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
   }
   print_early_end(simulation, summary.report, frames ? "; the last finite frame is kept" : "");

@@ -170,6 +170,7 @@ class Simulation {
       envelope.set("residual", run_.report().relative_residual);
       envelope.set("iterations", run_.report().iterations);
       run_.put_costs(envelope);
+      run_.put_warnings(envelope);
       envelope.set("reference", matches_ ? compare() : val::null());
     });
   }

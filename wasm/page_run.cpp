@@ -1,6 +1,7 @@
 #include "wasm/page_run.h"
 
 #include "core/base/check.h"
+#include "wasm/envelope.h"
 
 namespace pleat {
 
@@ -8,6 +9,7 @@ using emscripten::val;
 
 void PageRun::begin() {
   steps_.emplace(*simulation_, TimedRun::Parts::timed);
+  watch_.emplace(*simulation_);
   report_ = {};
 }
 
@@ -36,6 +38,7 @@ int PageRun::step(int n, const std::function<void()>& show) {
   try {
     running();
     for (int i = 0; i < n && !report_.ends_run(); ++i) report_ = steps_->step();
+    if (!report_.ends_run()) watch_->look(running(), report_);
     show();
   } catch (const std::exception& error) {
     report_.status = SolveStatus::not_finite;
@@ -47,6 +50,13 @@ int PageRun::step(int n, const std::function<void()>& show) {
 void PageRun::put_status(val& envelope) const {
   envelope.set("status", std::string(name(report_.status)));
   envelope.set("message", report_.message);
+}
+
+void PageRun::put_warnings(val& envelope) const {
+  running();
+  Json warnings = Json::array();
+  for (const RunWarning& warning : watch_->warnings()) warnings.push_back(json_warning(warning));
+  envelope.set("warnings", json_value(warnings.dump()));
 }
 
 void PageRun::put_costs(val& envelope) const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/run/run_watch.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
 
@@ -34,6 +35,8 @@ class PageRun {
 
   /// "status" and "message".
   void put_status(emscripten::val& envelope) const;
+  /// "warnings": what the run shows that its scene cannot explain.
+  void put_warnings(emscripten::val& envelope) const;
   /// "parts_ms" of the parts that took time, "steps_ms" and "steps_timed" since the run began.
   void put_costs(emscripten::val& envelope) const;
 
@@ -42,6 +45,7 @@ class PageRun {
 
   std::unique_ptr<Simulation> simulation_;
   std::optional<TimedRun> steps_;
+  std::optional<RunWatch> watch_;
   SolveReport report_;
 };
 

@@ -156,8 +156,13 @@ std::string sentence(const RunWarning& warning) {
              " % of their equations unsolved";
       break;
   }
+  return text;
+}
+
+std::string advice(const RunWarning& warning) {
+  std::string text = "try";
   for (const SettingHint& hint : warning.hints)
-    text += (&hint == warning.hints.data() ? "; try " : " or ") + hint.pointer + " = " +
+    text += (&hint == warning.hints.data() ? " " : " or ") + hint.pointer + " = " +
             hint.value.dump();
   return text;
 }

@@ -32,8 +32,10 @@ struct RunWarning {
 /// "stretch", "speed" or "unsolved".
 const char* name(RunWarning::Kind kind);
 
-/// What was seen, where and since when, what the scene explains, and what to try.
+/// What was seen, where and since when, and what the scene explains.
 std::string sentence(const RunWarning& warning);
+/// "try /method/substeps = 4".
+std::string advice(const RunWarning& warning);
 
 Json json_warning(const RunWarning& warning);
 

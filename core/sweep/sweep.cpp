@@ -146,14 +146,14 @@ void Sweep::skip_left_out() {
   while (run_is_left_out()) ++n_done_;
 }
 
-/// The first reference that a setting without a row needs.
+/// The first reference that the next row needs. Those of later rows wait, so that the first are
+/// there soon.
 std::optional<std::size_t> Sweep::missing_reference() const {
-  for (std::size_t s = rows_.size(); s < n_settings(); ++s) {
-    const auto& [whole, own] = references_.of_setting[s];
-    for (const std::optional<std::size_t> needed :
-         {references_.recipes[whole].coarser, std::optional(whole), own})
-      if (needed && !made_[*needed]) return needed;
-  }
+  if (rows_.size() == n_settings()) return std::nullopt;
+  const auto& [whole, own] = references_.of_setting[rows_.size()];
+  for (const std::optional<std::size_t> needed :
+       {references_.recipes[whole].coarser, std::optional(whole), own})
+    if (needed && !made_[*needed]) return needed;
   return std::nullopt;
 }
 
@@ -347,7 +347,8 @@ double Sweep::progress() const {
   const std::optional<std::size_t> missing = missing_reference();
   for (std::size_t r = 0; r < made_.size(); ++r) {
     const double at_hand = r == missing && maker_ != nullptr ? maker_->progress() : 0;
-    add(expected_work(references_.recipes[r].scene), 1, made_[r] || !missing ? 1 : at_hand);
+    const bool is_passed = made_[r] || rows_.size() == n_settings();
+    add(expected_work(references_.recipes[r].scene), 1, is_passed ? 1 : at_hand);
   }
   for (std::size_t s = 0; s < n_settings(); ++s) {
     const double at_hand = s == setting() && run_ != nullptr ? run_->progress() : 0;

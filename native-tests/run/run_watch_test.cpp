@@ -110,7 +110,7 @@ TEST_CASE("run_watch: a warning names its place, its bound and what to try", "[r
   const RunWarning warning{RunWarning::Kind::stretch, 0.4, VertexId(12), 0.978, 0.35,
                            {{"/method/substeps", 4}}};
   CHECK(sentence(warning) ==
-        "from 0.4 s at vertex 12 on, the cloth stretched by up to 97.8 %; its load explains 35 %; "
-        "try /method/substeps = 4");
+        "from 0.4 s at vertex 12 on, the cloth stretched by up to 97.8 %; its load explains 35 %");
+  CHECK(advice(warning) == "try /method/substeps = 4");
   CHECK(json_warning(warning).at("hints").at("/method/substeps") == 4);
 }

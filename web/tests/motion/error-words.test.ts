@@ -23,6 +23,7 @@ const running: RunNumbers = {
   parts_ms: {},
   steps_ms: 0,
   steps_timed: 0,
+  warnings: [],
   reference: null,
 };
 

@@ -147,6 +147,7 @@ class FakeSimulation implements SimulationHandle {
       parts_ms: { forces: 0.5 * this.steps, solve: 1.5 * this.steps },
       steps_ms: 2.5 * this.steps,
       steps_timed: this.steps,
+      warnings: [],
       reference: this.compare(),
     });
   }

@@ -26,6 +26,17 @@ export interface ReferenceNumbers {
   disturbed: boolean;
 }
 
+/** What a run shows that its scene cannot explain. */
+export interface RunWarning {
+  kind: 'stretch' | 'speed' | 'unsolved';
+  /** When it was first seen. */
+  time_s: number;
+  vertex: number;
+  sentence: string;
+  /** Values that may help, by their JSON pointers into the scene. */
+  hints: Record<string, number>;
+}
+
 export interface RunNumbers {
   time_s: number;
   step: number;
@@ -40,6 +51,8 @@ export interface RunNumbers {
   /** The same of the steps as a whole [ms], of which there were `steps_timed`. */
   steps_ms: number;
   steps_timed: number;
+  /** At most one of each kind since the run began. */
+  warnings: RunWarning[];
   /** Null where there is none of this scene. */
   reference: ReferenceNumbers | null;
 }

@@ -35,13 +35,14 @@ function createLegend() {
 /** Says what the numbers are, and how far to trust them. */
 function footnote({ sweep }: MotionState): string {
   const { rows, disturbed } = sweep;
-  const [first] = rows;
-  if (!first) return 'Waiting for the first row.';
-  const { converged, description } = first.reference;
+  const finest = rows.at(-1);
+  if (!finest) return 'Waiting for the first row.';
+  const { converged, description } = finest.reference;
   const nRuns = Math.min(...rows.filter(hasFinished).map((row) => row.n_runs));
   const runs = Number.isFinite(nRuns) && nRuns > 0 ? `${nRuns} runs, ` : '';
   const parts = [
     `Measured on this device, ${runs}median.`,
+    'The error is what a method does wrong on its own mesh; what a coarser mesh does wrong is not in it.',
     `Reference${converged ? '' : ' (not converged)'}: ${description.replace(/[.]$/, '')}.`,
   ];
   if (disturbed) parts.push('The cloth was playing meanwhile: the times are too long.');

@@ -22,7 +22,7 @@ import {
 } from './motion-client';
 import { ObjSource } from './obj-source';
 import { ReferenceSource } from './reference-source';
-import { remedyFor } from './remedy';
+import { remedyFor, remedyForWarning } from './remedy';
 import { RunClock } from './run-clock';
 import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content';
 import { RunFrames } from './run-frames';
@@ -66,6 +66,7 @@ export class MotionRun {
   private isStepping = false;
   private areNumbersOld = false; // they are not those of the shown frame
   private isAhead = false; // running to the start, nothing is shown
+  private nWarned = 0; // warnings of the run that were told
   private isRecovering = false; // started again after an end, and no step since
   private startsAnew = false; // the next load keeps no motion
   private keepsMotion = false; // the load that is waited for does
@@ -337,6 +338,7 @@ export class MotionRun {
     this.clock.restart(message.numbers.time_s);
     this.timer.clear();
     this.timer.feed(message.numbers);
+    this.nWarned = 0;
     this.showLoaded(message, content);
     const { problem, startSteps } = this.store.get();
     const isSolved = problem !== null && ['setting', 'run', 'file'].includes(problem.source);
@@ -401,6 +403,12 @@ export class MotionRun {
     }
     const pace = playing ? this.clock.pace(numbers.time_s) : null;
     if (pace !== null) patch.pace = pace;
+    const warning = numbers.warnings.slice(this.nWarned).at(0);
+    this.nWarned = numbers.warnings.length;
+    if (warning) {
+      const { setting } = this.store.get();
+      patch.problem = { source: 'setting', ...remedyForWarning(warning, setting) };
+    }
     this.store.set(patch);
   }
 

@@ -1,8 +1,9 @@
-// What helps a setting that was refused.
+// What helps a setting that was refused, or whose run shows nonsense.
 import type { Failure } from '../../shared/bindings/answers';
 import { stepperRow } from '../../shared/steppers/steppers';
+import type { RunWarning } from '../bindings/pleat-module';
 import type { Remedy } from '../state/motion-state';
-import { type Setting, withStepper } from '../state/setting';
+import { MOST_ITERATIONS, MOST_SUBSTEPS, type Setting, withStepper } from '../state/setting';
 
 /** The sentence in place of the program's own, and what to do; null when it is not known what helps. */
 export function remedyFor(
@@ -21,4 +22,29 @@ export function remedyFor(
     sentence: `This cloth is too stiff for ${title}: no number of substeps that the page offers is enough.`,
     remedy: { title: 'Take Implicit', setting: withStepper(setting, 'implicit') },
   };
+}
+
+/** How a value that may help is set, and the words for it. */
+const HINTS: Record<string, (value: number) => { title: string; change: Partial<Setting> }> = {
+  '/method/substeps': (value) => ({
+    title: `Take ${value} substeps`,
+    change: { substeps: Math.min(value, MOST_SUBSTEPS) },
+  }),
+  '/method/iterations': (value) => ({
+    title: `Take ${value} rounds`,
+    change: { iterations: Math.min(value, MOST_ITERATIONS) },
+  }),
+};
+
+/** The sentence for a run that shows what its scene cannot explain, and what may help. */
+export function remedyForWarning(
+  { sentence, hints }: RunWarning,
+  setting: Setting,
+): { sentence: string; remedy: Remedy } {
+  const known = Object.entries(hints).flatMap(([pointer, value]) => HINTS[pointer]?.(value) ?? []);
+  const [first] = known;
+  const remedy = first
+    ? { title: first.title, setting: { ...setting, ...first.change } }
+    : { title: 'Take Implicit', setting: withStepper(setting, 'implicit') };
+  return { sentence: `This is not how cloth moves: ${sentence}.`, remedy };
 }

@@ -34,6 +34,8 @@ export interface SweepPlan {
   scene: Record<string, unknown>;
   settings: PlannedSetting[];
   duration_s: number;
+  /** Each level against the exact motion of its own mesh: a finer mesh's takes minutes here. */
+  reference: 'same_mesh';
 }
 
 /** The finest level that a sweep is offered for. */
@@ -78,7 +80,12 @@ export function sweepPlan(
       settings.push({ '/refinement/level': level, '/method': method });
     }
   }
-  return { scene: sceneOf(setting, mesh), settings, duration_s: DURATION_S };
+  return {
+    scene: sceneOf(setting, mesh),
+    settings,
+    duration_s: DURATION_S,
+    reference: 'same_mesh',
+  };
 }
 
 /** True for a run that came to its end: only such a row has a time and an error. */
