@@ -17,6 +17,13 @@ bool is_option(const std::string& word) {
   return word.size() > 1 && word[0] == '-' && word.find_first_of(".0123456789") != 1;
 }
 
+/// The option of a word, without the value that "=" may join to it.
+std::string option_of(const std::string& word) {
+  return is_option(word) ? word.substr(0, word.find('=')) : word;
+}
+
+bool has_joined_value(const std::string& word) { return word.find('=') != std::string::npos; }
+
 /// NaN where it says no finite number.
 double parsed_number(const std::string& text) {
   char* stop = nullptr;
@@ -50,12 +57,15 @@ double parse_number_from_zero(const std::string& text, const std::string& where)
 
 std::vector<std::string>::iterator Arguments::find(const char* option) {
   asked_.push_back(option);
-  return std::find(words_.begin(), words_.end(), option);
+  return std::find_if(words_.begin(), words_.end(),
+                      [&](const std::string& word) { return option_of(word) == option; });
 }
 
 bool Arguments::flag(const char* option) {
   const auto place = find(option);
   if (place == words_.end()) return false;
+  if (has_joined_value(*place))
+    throw InputError(option, "expected no value, got " + quotation(*place));
   words_.erase(place);
   return true;
 }
@@ -63,13 +73,14 @@ bool Arguments::flag(const char* option) {
 std::optional<std::string> Arguments::text(const char* option) {
   const auto place = find(option);
   if (place == words_.end()) return std::nullopt;
-  const auto value = place + 1;
-  if (value == words_.end() || is_option(*value))
+  const bool is_joined = has_joined_value(*place);
+  const auto last = is_joined ? place : place + 1;
+  if (last == words_.end() || (!is_joined && is_option(*last)))
     throw InputError(option, "expected a value after it, got " +
-                                 (value == words_.end() ? "none" : abbreviated(Json(*value))));
-  if (value->empty()) throw InputError(option, "expected a value after it, got an empty one");
-  std::string text = *value;
-  words_.erase(place, value + 1);
+                                 (last == words_.end() ? "none" : quotation(*last)));
+  std::string text = is_joined ? last->substr(last->find('=') + 1) : *last;
+  if (text.empty()) throw InputError(option, "expected a value after it, got an empty one");
+  words_.erase(place, last + 1);
   return text;
 }
 
@@ -100,15 +111,16 @@ void Arguments::refuse(const char* option, const std::string& sentence) {
 }
 
 void Arguments::refuse_options() const {
-  const auto option = std::find_if(words_.begin(), words_.end(), is_option);
-  if (option == words_.end()) return;
-  if (std::find(asked_.begin(), asked_.end(), *option) != asked_.end())
-    throw InputError(*option, "expected this option once, got it twice");
+  const auto word = std::find_if(words_.begin(), words_.end(), is_option);
+  if (word == words_.end()) return;
+  const std::string option = option_of(*word);
+  if (std::find(asked_.begin(), asked_.end(), option) != asked_.end())
+    throw InputError(option, "expected this option once, got it twice");
   std::vector<const char*> known;  // without dashes, which would make all of them alike
   for (const char* asked : asked_) known.push_back(asked + 2);
   const std::string_view near =
-      nearest_word(option->substr(std::min(option->size(), std::size_t{2})), known);
-  throw InputError(cut(*option),
+      nearest_word(option.substr(std::min(option.size(), std::size_t{2})), known);
+  throw InputError(cut(option),
                    near.empty() ? "unknown option; \"pleat help\" lists what each command takes"
                                 : "unknown option; the nearest is --" + std::string(near));
 }

@@ -13,7 +13,7 @@ class Arguments {
   explicit Arguments(std::vector<std::string> words) : words_(std::move(words)) {}
 
   bool flag(const char* option);
-  /// The word after an option, not empty, or nothing.
+  /// The word after an option or joined to it by "=", not empty, or nothing.
   std::optional<std::string> text(const char* option);
   std::optional<int> whole_number(const char* option, int low, int high);
   /// Separated by commas, none empty.

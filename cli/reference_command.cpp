@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
@@ -89,6 +90,7 @@ void keep_level(Reference& reference, const Scene& scene, int level) {
 Outcome reference_command(Arguments arguments) {
   const ReferenceKind kind = take_kind(arguments);
   const auto out = arguments.text("--out");
+  Overwriting overwriting(arguments);
   const auto every_text = arguments.text("--every");
   const double every =
       every_text ? parse_positive_number(*every_text, "--every") : RecordOptions{}.every;
@@ -104,7 +106,9 @@ Outcome reference_command(Arguments arguments) {
                                    " s between two samples, got " + Json(step).dump());
   scene.method = exact_method(step);
   const std::vector<double> times = sample_times(input.scene, every);
-  if (out) check_writable(*out);
+  overwriting.need(out.has_value(), "--out");
+  overwriting.spare(input.files_read);
+  if (out) overwriting.check(*out);
   Reference reference = with_source_named(input, [&] { return made(kind, scene, times); });
   if (kept_level) keep_level(reference, scene, *kept_level);
   print_reference(reference);

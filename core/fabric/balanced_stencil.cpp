@@ -1,5 +1,6 @@
 #include "core/fabric/balanced_stencil.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pleat {
@@ -34,21 +35,17 @@ struct EdgeSide {
 };
 
 EdgeSide edge_side(const TriangleMesh& mesh, const MeshEdge& edge, std::size_t side) {
-  const Positions& x = mesh.rest_positions;
   const FaceId face = edge.faces[side];
   const Triangle& corners = mesh.triangles[face];
-  const Vec3& warp = mesh.warp_directions[face];
-  const Vec3 x0 = x.col(corners[0]);
-  const Vec3 weft = (x.col(corners[1]) - x0).cross(x.col(corners[2]) - x0).normalized().cross(warp);
-  const Vec3 along = (x.col(edge.b) - x.col(edge.a)).normalized();
-  const Vec3 arm = x.col(edge.across[side]) - (x.col(edge.a) + x.col(edge.b)) / 2;
-  const Vec3 height = arm - arm.dot(along) * along;
+  const CornerTexture flat = flat_corners(mesh, face);
+  const auto place = [&](VertexId v) {
+    return Vec2(flat.col(std::find(corners.begin(), corners.end(), v) - corners.begin()));
+  };
+  const Vec2 along = (place(edge.b) - place(edge.a)).normalized();
+  const Vec2 arm = place(edge.across[side]) - (place(edge.a) + place(edge.b)) / 2;
+  const Vec2 height = arm - arm.dot(along) * along;
   const double sign = side == 0 ? -1 : 1;  // the first triangle's corner lies against n
-  const Vec3 across = sign * height.normalized();
-  return {face,
-          {warp.dot(along), weft.dot(along)},
-          {warp.dot(across), weft.dot(across)},
-          {arm.dot(along), sign * height.norm()}};
+  return {face, along, sign * height.normalized(), {arm.dot(along), sign * height.norm()}};
 }
 
 /// p' H q of the second derivatives (ww, ff, wf).
@@ -132,8 +129,7 @@ std::vector<CurvatureStencil> balanced_stencils(const TriangleMesh& mesh) {
   for (const MeshEdge& edge : mesh_edges(mesh.triangles)) {
     std::vector<EdgeSide> sides{edge_side(mesh, edge, 0)};
     if (!edge.is_border()) sides.push_back(edge_side(mesh, edge, 1));
-    const double length =
-        (mesh.rest_positions.col(edge.b) - mesh.rest_positions.col(edge.a)).norm();
+    const double length = rest_length(mesh, edge);
     const Combination<double> slope =
         slope_across(edge, sides, length, second_derivatives(sides, fits));
     for (std::size_t s = 0; s < sides.size(); ++s) {

@@ -37,18 +37,10 @@ Neighbours neighbours(const TriangleMesh& mesh) {
 class UnfoldedPatch {
  public:
   UnfoldedPatch(const TriangleMesh& mesh, const Neighbours& beside, FaceId centre)
-      : mesh_(&mesh), beside_(&beside), faces_{centre} {
-    const Triangle& t = mesh.triangles[centre];
-    const Vec3 x0 = mesh.rest_positions.col(t[0]);
-    const Vec3 doubled_area =
-        (mesh.rest_positions.col(t[1]) - x0).cross(mesh.rest_positions.col(t[2]) - x0);
-    area_ = doubled_area.norm() / 2;
-    const Vec3& warp = mesh.warp_directions[centre];
-    const Vec3 weft = doubled_area.normalized().cross(warp);
-    for (const VertexId v : t) {
-      const Vec3 arm = mesh.rest_positions.col(v) - x0;
-      place(v, {warp.dot(arm), weft.dot(arm)});
-    }
+      : mesh_(&mesh), beside_(&beside), faces_{centre}, area_(rest_area(mesh, centre)) {
+    const CornerTexture flat = flat_corners(mesh, centre);
+    for (std::size_t k = 0; k < 3; ++k)
+      place(mesh.triangles[centre][k], flat.col(static_cast<Eigen::Index>(k)));
   }
 
   /// Adds the triangles beyond the edges of the first one.
@@ -99,17 +91,23 @@ class UnfoldedPatch {
     const VertexId a = t[edge];
     const VertexId b = t[(edge + 1) % 3];
     const Triangle& beyond = mesh_->triangles[next];
-    const VertexId corner =
-        *std::find_if(beyond.begin(), beyond.end(), [&](VertexId v) { return v != a && v != b; });
-    if (find(corner) == nullptr) place(corner, unfolded(a, b, corner, *find(t[(edge + 2) % 3])));
+    const auto corner =
+        std::find_if(beyond.begin(), beyond.end(), [&](VertexId v) { return v != a && v != b; });
+    if (find(*corner) != nullptr) return;
+    // Wound alike, the triangle beyond goes from b to a and then to its corner.
+    const CornerTexture flat = flat_corners(*mesh_, next);
+    const Eigen::Index k = corner - beyond.begin();
+    const Vec2 at_b = flat.col((k + 1) % 3);
+    const Vec2 at_a = flat.col((k + 2) % 3);
+    place(*corner, unfolded(a, b, flat.col(k) - at_a, at_b - at_a, *find(t[(edge + 2) % 3])));
   }
 
-  /// The foot of the corner on the edge and its height above it stay as they are in space; the
-  /// corner goes to the side of the edge where `inside` is not.
-  Vec2 unfolded(VertexId a, VertexId b, VertexId corner, const Vec2& inside) const {
-    const Positions& x = mesh_->rest_positions;
-    const Vec3 edge = x.col(b) - x.col(a);
-    const Vec3 arm = x.col(corner) - x.col(a);
+  /// The foot of the corner on the edge, as a share of it, and its height above it stay as they are
+  /// in its own triangle; the corner goes to the side of the edge where `inside` is not.
+  ///
+  /// arm, edge  from a to the corner and to b, in the triangle beyond [m]
+  Vec2 unfolded(VertexId a, VertexId b, const Vec2& arm, const Vec2& edge,
+                const Vec2& inside) const {
     const double foot = arm.dot(edge) / edge.squaredNorm();
     const double height = (arm - foot * edge).norm();
     const Vec2& place_a = *find(a);
@@ -124,7 +122,7 @@ class UnfoldedPatch {
   std::vector<FaceId> faces_;
   std::vector<VertexId> vertices_;
   std::vector<Vec2> places_;
-  double area_ = 0;
+  double area_;
 };
 
 using PerPlace = Eigen::Matrix<double, Eigen::Dynamic, 3>;

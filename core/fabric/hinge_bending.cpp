@@ -132,16 +132,14 @@ HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
 
 std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity) {
   PLEAT_CHECK(rigidity >= 0, "a rigidity is not negative");
-  const Positions& x = mesh.rest_positions;
   std::vector<Hinge> result;
   for (const MeshEdge& edge : mesh_edges(mesh.triangles)) {
     if (edge.is_border()) continue;
-    const Hinge at{{edge.a, edge.b, edge.across[0], edge.across[1]}, 0};
-    const Fold rest = fold(at.vertices, x);
-    PLEAT_CHECK(rest.has_area, "each triangle has area at rest");
-    const double doubled_areas = rest.flaps[0].normal.norm() + rest.flaps[1].normal.norm();
-    result.push_back(
-        {at.vertices, 2 * rigidity * rest.flaps[0].edge.squaredNorm() / doubled_areas});
+    const std::array<VertexId, 4> vertices{edge.a, edge.b, edge.across[0], edge.across[1]};
+    PLEAT_CHECK(fold(vertices, mesh.rest_positions).has_area, "each triangle has area at rest");
+    const double length = rest_length(mesh, edge);
+    const double areas = rest_area(mesh, edge.faces[0]) + rest_area(mesh, edge.faces[1]);
+    result.push_back({vertices, rigidity * length * length / areas});
   }
   return result;
 }

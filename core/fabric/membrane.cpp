@@ -122,23 +122,17 @@ Eigen::Matrix<double, 9, 9> second_derivative(const MembraneElement& element, co
 std::vector<MembraneElement> membrane_elements(const TriangleMesh& mesh) {
   PLEAT_CHECK(mesh.warp_directions.size() == mesh.triangles.size(),
               "each triangle has a warp direction");
-  const Positions& x = mesh.rest_positions;
   std::vector<MembraneElement> elements;
   elements.reserve(mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    Eigen::Matrix<double, 3, 2> edges;
-    edges << x.col(t[1]) - x.col(t[0]), x.col(t[2]) - x.col(t[0]);
-    const Vec3 doubled_area = edges.col(0).cross(edges.col(1));
-    PLEAT_CHECK(doubled_area.norm() > 0, "each triangle has area at rest");
-    Eigen::Matrix<double, 3, 2> threads;
-    threads << mesh.warp_directions[f], doubled_area.normalized().cross(mesh.warp_directions[f]);
-    const Eigen::Matrix2d rest = threads.transpose() * edges;
+    const FaceId face(static_cast<std::int64_t>(f));
     MembraneElement element;
-    element.vertices = t;
+    element.vertices = mesh.triangles[f];
+    element.area = rest_area(mesh, face);
+    PLEAT_CHECK(element.area > 0, "each triangle has area at rest");
+    const Eigen::Matrix2d rest = flat_corners(mesh, face).rightCols<2>();
     element.gradients.bottomRows<2>() = rest.inverse();
     element.gradients.row(0) = -element.gradients.bottomRows<2>().colwise().sum();
-    element.area = doubled_area.norm() / 2;
     elements.push_back(element);
   }
   return elements;

@@ -29,6 +29,22 @@ class EdgeMiddles {
   std::unordered_map<std::uint64_t, VertexId> middles_;  // only looked up, never walked
 };
 
+/// The four parts of a triangle, whose corners come first and then the middles of the sides 01, 12
+/// and 20.
+constexpr std::array<std::array<std::size_t, 3>, 4> kParts{
+    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+
+void add_pattern_of_parts(const CornerTexture& whole, std::vector<CornerTexture>& pattern) {
+  Eigen::Matrix<double, 2, 6> places;
+  places << whole, (whole.col(0) + whole.col(1)) / 2, (whole.col(1) + whole.col(2)) / 2,
+      (whole.col(2) + whole.col(0)) / 2;
+  for (const auto& part : kParts) {
+    CornerTexture& corners = pattern.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      corners.col(static_cast<Eigen::Index>(k)) = places.col(static_cast<Eigen::Index>(part[k]));
+  }
+}
+
 TriangleMesh subdivided_once(const TriangleMesh& mesh,
                              std::vector<std::array<VertexId, 2>>* middles) {
   EdgeMiddles edges(mesh.n_vertices());
@@ -37,10 +53,10 @@ TriangleMesh subdivided_once(const TriangleMesh& mesh,
     const auto& [v0, v1, v2] = mesh.triangles[f];
     const VertexId m01 = edges.of(v0, v1);
     const VertexId m12 = edges.of(v1, v2);
-    const VertexId m20 = edges.of(v2, v0);
-    for (const Triangle& child : {Triangle{v0, m01, m20}, Triangle{m01, v1, m12},
-                                  Triangle{m20, m12, v2}, Triangle{m01, m12, m20}})
-      fine.triangles.push_back(child);
+    const std::array<VertexId, 6> vertices{v0, v1, v2, m01, m12, edges.of(v2, v0)};
+    for (const auto& part : kParts)
+      fine.triangles.push_back({vertices[part[0]], vertices[part[1]], vertices[part[2]]});
+    if (!mesh.pattern.empty()) add_pattern_of_parts(mesh.pattern[f], fine.pattern);
     fine.warp_directions.insert(fine.warp_directions.end(), 4, mesh.warp_directions[f]);
   }
   const Eigen::Index n = mesh.n_vertices();
@@ -79,12 +95,49 @@ std::vector<MeshEdge> mesh_edges(const std::vector<Triangle>& triangles) {
   return edges;
 }
 
-Eigen::VectorXd vertex_areas(const TriangleMesh& mesh) {
+CornerTexture flat_corners(const TriangleMesh& mesh, FaceId face) {
+  if (!mesh.pattern.empty())
+    return mesh.pattern[face].colwise() - Eigen::Vector2d(mesh.pattern[face].col(0));
   const Positions& x = mesh.rest_positions;
+  const Triangle& t = mesh.triangles[face];
+  Mat3 arms;
+  arms << Vec3::Zero(), x.col(t[1]) - x.col(t[0]), x.col(t[2]) - x.col(t[0]);
+  const Vec3& warp = mesh.warp_directions[face];
+  Eigen::Matrix<double, 3, 2> threads;
+  threads << warp, arms.col(1).cross(arms.col(2)).normalized().cross(warp);
+  return threads.transpose() * arms;
+}
+
+double rest_area(const TriangleMesh& mesh, FaceId face) {
+  if (!mesh.pattern.empty()) {
+    const CornerTexture flat = flat_corners(mesh, face);
+    return (flat(0, 1) * flat(1, 2) - flat(1, 1) * flat(0, 2)) / 2;
+  }
+  const Positions& x = mesh.rest_positions;
+  const Triangle& t = mesh.triangles[face];
+  return Vec3(x.col(t[1]) - x.col(t[0])).cross(Vec3(x.col(t[2]) - x.col(t[0]))).norm() / 2;
+}
+
+double rest_length(const TriangleMesh& mesh, const MeshEdge& edge) {
+  if (mesh.pattern.empty())
+    return (mesh.rest_positions.col(edge.a) - mesh.rest_positions.col(edge.b)).norm();
+  double sum = 0;
+  const std::size_t n_sides = edge.is_border() ? 1 : 2;
+  for (std::size_t side = 0; side < n_sides; ++side) {
+    const Triangle& t = mesh.triangles[edge.faces[side]];
+    const auto a = std::find(t.begin(), t.end(), edge.a) - t.begin();
+    const auto b = std::find(t.begin(), t.end(), edge.b) - t.begin();
+    const CornerTexture& flat = mesh.pattern[edge.faces[side]];
+    sum += (flat.col(a) - flat.col(b)).norm();
+  }
+  return sum / static_cast<double>(n_sides);
+}
+
+Eigen::VectorXd vertex_areas(const TriangleMesh& mesh) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.n_vertices());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 doubled_area = (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
-    for (const VertexId v : t) areas[v] += doubled_area.norm() / 6;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const double area = rest_area(mesh, FaceId(static_cast<std::int64_t>(f)));
+    for (const VertexId v : mesh.triangles[f]) areas[v] += area / 3;
   }
   return areas;
 }

@@ -17,12 +17,17 @@ using Triangle = std::array<VertexId, 3>;
 /// Texture coordinates of a triangle's corners, one column each.
 using CornerTexture = Eigen::Matrix<double, 2, 3>;
 
-/// Any triangle mesh at rest. The lengths of its edges are those of unstrained cloth. Cloth is
-/// woven flat, so bending is measured from the flat state however the mesh stands in space.
+/// Any triangle mesh at rest. Unstrained, its triangles are those of its flat pattern, and without
+/// one those of the positions. Cloth is woven flat, so bending is measured from the flat state
+/// however the mesh stands in space.
 struct TriangleMesh {
   Positions rest_positions;           ///< [m]
   std::vector<Triangle> triangles;    ///< at most two at an edge, none without area
   std::vector<Vec3> warp_directions;  ///< one per triangle: unit, in its plane
+  /// Where the corners of each triangle lie in the pattern that it is cut from, along warp and weft
+  /// [m], as the triangle is wound and none without area. Triangles that meet at a seam may lie
+  /// apart in it. Empty: cut to the positions.
+  std::vector<CornerTexture> pattern{};
 
   int n_vertices() const { return static_cast<int>(rest_positions.cols()); }
 };
@@ -39,6 +44,16 @@ struct MeshEdge {
 /// Every edge once, in the order in which the triangles name them. Throws ContractError where more
 /// than two triangles meet.
 std::vector<MeshEdge> mesh_edges(const std::vector<Triangle>& triangles);
+
+/// Where the corners of a triangle lie, from the first one, when it is laid flat without strain:
+/// along warp and weft [m].
+CornerTexture flat_corners(const TriangleMesh& mesh, FaceId face);
+
+/// Of an unstrained triangle [m^2].
+double rest_area(const TriangleMesh& mesh, FaceId face);
+
+/// Of an unstrained edge [m]: the mean of its triangles, whose sides may differ along a seam.
+double rest_length(const TriangleMesh& mesh, const MeshEdge& edge);
 
 /// Rest area of each vertex: a third of each triangle around it [m^2]. 0 for one that is in none.
 Eigen::VectorXd vertex_areas(const TriangleMesh& mesh);

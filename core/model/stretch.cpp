@@ -9,10 +9,6 @@
 namespace pleat {
 namespace {
 
-double distance(const Positions& positions, VertexId a, VertexId b) {
-  return (positions.col(a) - positions.col(b)).norm();
-}
-
 /// l/L - 1.
 double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& positions) {
   return (positions.col(edge.a) - positions.col(edge.b)).norm() / edge.rest_length - 1;
@@ -30,7 +26,7 @@ std::vector<GaugeEdge> gauge_edges(const QuadMesh& mesh) {
 std::vector<GaugeEdge> gauge_edges(const TriangleMesh& mesh) {
   std::vector<GaugeEdge> edges;
   for (const MeshEdge& edge : mesh_edges(mesh.triangles)) {
-    const double length = distance(mesh.rest_positions, edge.a, edge.b);
+    const double length = rest_length(mesh, edge);
     if (length > 0) edges.push_back({edge.a, edge.b, length});
   }
   return edges;
