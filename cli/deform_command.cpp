@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/deform_input.h"
+#include "cli/overwriting.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
 #include "core/deform/deform_solver.h"
@@ -135,10 +136,13 @@ void print_deformation(const DeformScene& scene, const Deformation& result,
 Outcome deform_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const auto out = arguments.text("--out");
+  Overwriting overwriting(arguments);
   const DeformInput input = take_deform_scene(arguments);
   arguments.finish();
   const DeformScene& scene = input.scene;
-  if (out) check_writable(*out);
+  overwriting.need(out.has_value(), "--out");
+  overwriting.spare(input.files_read);
+  if (out) overwriting.check(*out);
   const Deformation result = with_source_named(input, [&] { return deformed(scene); });
   if (for_machines)
     std::printf("%s\n", json_deformation(scene, result, input.fabrics).dump().c_str());
@@ -150,7 +154,7 @@ Outcome deform_command(Arguments arguments) {
   if (out)
     write_file(
         *out,
-        write_obj({result.positions, scene.mesh.triangles, scene.textures, scene.groups, {}}));
+        write_obj({result.positions, scene.mesh.triangles, scene.textures, scene.groups, {}, {}}));
   return result.report.ok() ? Outcome::ok : Outcome::check_failed;
 }
 

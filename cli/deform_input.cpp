@@ -221,11 +221,13 @@ DeformInput take_deform_scene(Arguments& arguments) {
   input.file = arguments.word("a scene or a mesh (.obj)");
   if (is_obj(input.file) && options.fabric.empty())
     throw InputError("--fabric", "expected this, --measure or --weights beside a mesh, got none");
+  input.files_read = {input.file};
   with_source_named(input, [&] {
     input.scene =
         read_deform_scene(changed_text(options, input), input.fabrics,
-                          is_obj(input.file) ? FileSource(read_file) : files_beside(input.file));
+                          files_beside(is_obj(input.file) ? "" : input.file, input.files_read));
   });
+  tell_remark(input.scene.remark);
   return input;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@ struct DeformInput {
   DeformScene scene;
   FabricLibrary fabrics;
   std::string file;
+  std::vector<std::filesystem::path> files_read;  ///< it, and those that it names
   /// Pointers to what options have set, with the options.
   std::vector<std::pair<std::string, const char*>> sources;
 

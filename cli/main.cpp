@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -8,6 +9,7 @@
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/files/json_text.h"
+#include "core/files/whole_file.h"
 
 namespace pleat {
 namespace {
@@ -19,9 +21,9 @@ constexpr int kExitOwnFault = 3;
 constexpr const char* kHelp =
     R"(pleat run SCENE.json     compute a scene
   --out DIR              write frames and metrics.json into this folder, which holds none yet
-  --overwrite            remove those of an earlier run from it first
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
-                         into this folder; replaces earlier ones
+                         into this folder, which holds none yet
+  --overwrite            remove or replace those of an earlier run
   --drift                account for the energy: what no force explains is the method's own
   --steps N | --duration S    the latter rounded to whole steps
 pleat sweep SCENE.json   compute it with many settings: milliseconds against error
@@ -96,10 +98,11 @@ Changes to the scene, for every command but deform, which takes --fabrics and --
   --fabrics FILE         read the fabrics from here
 and for every command but sweep, which has --levels and --steppers:
   --level N  --stepper NAME  --substeps N  --iterations N
---json prints for machines.
+--json prints for machines. --overwrite lets --out write where a file stands, for every command that
+writes one; what a command reads is never written over. --step=S is --step S.
 With another --stepper than the scene's, settings that it does not read or does not take are left
-out. --fabric leaves out all of the scene's own numbers. Exit status: 0 done, 1 ran but a check failed or the output was lost, 2 bad
-input, 3 a fault of the program.
+out. --fabric leaves out all of the scene's own numbers. Exit status: 0 done, 1 ran but a check
+failed or the output was lost, 2 bad input, 3 a fault of the program.
 )";
 
 Outcome dispatch(const std::string& command, Arguments arguments) {
@@ -142,8 +145,14 @@ int run(const std::vector<std::string>& words) {
 }  // namespace pleat
 
 int main(int argc, char** argv) {
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is then an output that is lost
+#endif
   try {
     return pleat::run(std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const pleat::LostOutput& error) {
+    std::fprintf(stderr, "pleat: %s\n", pleat::printable(error.what()).c_str());
+    return pleat::kExitCheckFailed;
   } catch (const pleat::InputError& error) {
     const std::string place = error.where().empty() ? "" : error.where() + ": ";
     std::fprintf(stderr, "pleat: %s\n", pleat::printable(place + error.what()).c_str());

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
@@ -59,6 +60,7 @@ Reference made(const ReferenceRecipe& recipe, const std::vector<double>& times) 
 Outcome reference_command(Arguments arguments) {
   const ReferenceKind kind = take_kind(arguments);
   const auto out = arguments.text("--out");
+  Overwriting overwriting(arguments);
   const auto every_text = arguments.text("--every");
   const double every =
       every_text ? parse_positive_number(*every_text, "--every") : RecordOptions{}.every;
@@ -71,7 +73,9 @@ Outcome reference_command(Arguments arguments) {
   recipe.scene.method = exact_method(step);
   const std::vector<double> times = sample_times(input.scene, every);
   recipe.id = reference_id(id_prefix(kind), recipe.scene, times);
-  if (out) check_writable(*out);
+  overwriting.need(out.has_value(), "--out");
+  overwriting.spare(input.files_read);
+  if (out) overwriting.check(*out);
   const Reference reference = with_source_named(input, [&] { return made(recipe, times); });
   print_reference(reference);
   if (reference.samples.empty()) return Outcome::check_failed;

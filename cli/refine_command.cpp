@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
@@ -33,16 +34,17 @@ PlanRecipe take_recipe(Arguments& arguments) {
   return recipe;
 }
 
-/// The scene, and where else what is refused comes from.
+/// The examples, and where else what is refused comes from.
 struct RefineInput {
-  const SceneInput& scene;
+  std::vector<SceneInput> examples;
 
   [[noreturn]] void throw_with_source(const InputError& error) const {
     for (const auto& [name, option] : kOptions)
       if (error.where() == name) throw InputError(option, error.what());
-    scene.throw_with_source(error);
+    const auto* of_example = dynamic_cast<const ExampleError*>(&error);
+    examples[of_example != nullptr ? of_example->example() : 0].throw_with_source(error);
   }
-  [[noreturn]] void throw_out_of_memory() const { scene.throw_out_of_memory(); }
+  [[noreturn]] void throw_out_of_memory() const { examples.front().throw_out_of_memory(); }
 };
 
 void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& scene) {
@@ -72,22 +74,28 @@ Outcome refine_command(Arguments arguments) {
   const auto begin = arguments.text("--from");
   const auto more = arguments.list("--merge");
   PlanRecipe recipe = take_recipe(arguments);
+  Overwriting overwriting(arguments);
   const FabricLibrary fabrics = take_fabrics(arguments);
   SceneChanges changes = take_scene_changes(arguments);
   const std::string file = arguments.word("an example, SCENE.json");
   arguments.finish();
-  const SceneInput input = read_scene_input(file, changes, fabrics);
-  std::vector<Scene> scenes{input.scene};
+  overwriting.need(out.has_value(), "--out");
+  RefineInput input;
+  input.examples.push_back(read_scene_input(file, changes, fabrics));
   for (const std::string& other : more)
-    scenes.push_back(read_scene_input(other, changes, fabrics).scene);
-  for (Scene& scene : scenes)
-    if (scene.level == 0 && !scene.plan && !input.is_set_by("--level"))
-      scene.level = kUsualFineLevel;
+    input.examples.push_back(read_scene_input(other, changes, fabrics));
+  std::vector<Scene> scenes;
+  for (const SceneInput& example : input.examples) {
+    overwriting.spare(example.files_read);
+    scenes.push_back(example.scene);
+    if (scenes.back().level == 0 && !scenes.back().plan && !example.is_set_by("--level"))
+      scenes.back().level = kUsualFineLevel;
+  }
   recipe.begin = begin ? parse_number_from_zero(*begin, "--from") : settled_time(scenes.front());
-  if (out) check_writable(*out);
-  return with_source_named(RefineInput{input}, [&] {
+  if (out) overwriting.check(*out);
+  return with_source_named(input, [&] {
     PlanMaker maker(scenes, recipe);
-    finish(maker, input.scene.name);
+    finish(maker, scenes.front().name);
     print_plan(maker.plan(), maker.cost(), scenes.front());
     if (out) write_file(*out, plan_text(maker.plan()));
     return Outcome::ok;

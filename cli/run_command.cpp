@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
@@ -40,9 +41,9 @@ struct Dump {
   std::filesystem::path stiffness_begin = folder / "stiffness_begin.mtx";
   std::filesystem::path stiffness_end = folder / "stiffness_end.mtx";
 
-  void prepare() const {
+  void prepare(const Overwriting& overwriting) const {
     make_folder(folder);
-    for (const auto* file : {&mass, &stiffness_begin, &stiffness_end}) check_writable(*file);
+    for (const auto* file : {&mass, &stiffness_begin, &stiffness_end}) overwriting.check(*file);
   }
 };
 
@@ -62,15 +63,15 @@ struct Output {
   }
 
   /// Frames of two runs side by side would pass for those of one.
-  void prepare(bool overwrite) const {
+  void prepare(const Overwriting& overwriting) const {
     const std::vector<std::filesystem::path> old = old_files();
-    if (!old.empty() && !overwrite)
+    if (!old.empty() && !overwriting.is_asked())
       throw FileError(folder, "expected a folder without a run's files, got " +
                                   old.front().filename().string() +
                                   "; --overwrite removes those of the earlier run");
     make_folder(folder);
     check_writable(metrics);
-    for (const std::filesystem::path& file : old) check_writable(file);
+    for (const std::filesystem::path& file : old) overwriting.check(file);
   }
 };
 
@@ -236,17 +237,16 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
 struct RunOptions {
   bool for_machines = false;
   bool wants_drift = false;
-  bool overwrite = false;
   std::optional<Output> out;
   std::optional<Dump> dump;
 };
 
-Outcome run_scene(const Scene& scene, const RunOptions& options) {
-  const auto& [for_machines, wants_drift, overwrite, out, dump] = options;
+Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriting& overwriting) {
+  const auto& [for_machines, wants_drift, out, dump] = options;
   if (out) check_frame_count(scene);
   Simulation simulation(scene);
-  if (dump) dump->prepare();
-  if (out) out->prepare(overwrite);
+  if (dump) dump->prepare(overwriting);
+  if (out) out->prepare(overwriting);
   if (!for_machines || chooses_substeps(scene)) print_beginning(simulation);
   if (dump) {
     write_file(dump->mass, matrix_market_text(mass_matrix(simulation.model())));
@@ -267,7 +267,10 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
   const Watchers watchers{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,
                           ledger ? &*ledger : nullptr};
   RunSummary summary = run_to_end(simulation, watchers);
-  if (frames) summary.n_frames = frames->n_frames();
+  if (frames) {
+    frames->finish();
+    summary.n_frames = frames->n_frames();
+  }
 
   const Json metrics = metrics_json(simulation, summary, watchers);
   if (for_machines)
@@ -287,14 +290,14 @@ Outcome run_command(Arguments arguments) {
   RunOptions options;
   options.for_machines = arguments.flag("--json");
   options.wants_drift = arguments.flag("--drift");
-  options.overwrite = arguments.flag("--overwrite");
+  Overwriting overwriting(arguments);
   if (const auto folder = arguments.text("--out")) options.out = Output{*folder};
-  if (options.overwrite && !options.out)
-    throw InputError("--overwrite", "expected --out beside it, got none");
   if (const auto folder = arguments.text("--dump")) options.dump = Dump{*folder};
+  overwriting.need(options.out || options.dump, "--out or --dump");
   const SceneInput input = take_scene(arguments);
   arguments.finish();
-  return with_source_named(input, [&] { return run_scene(input.scene, options); });
+  overwriting.spare(input.files_read);
+  return with_source_named(input, [&] { return run_scene(input.scene, options, overwriting); });
 }
 
 }  // namespace pleat

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -74,10 +75,12 @@ FabricLibrary take_fabrics(Arguments& arguments) {
   }
 }
 
-FileSource files_beside(const std::string& scene_file) {
-  return [folder = std::filesystem::path(scene_file).parent_path()](const std::string& name) {
-    return read_file(folder / name);
-  };
+FileSource files_beside(const std::string& scene_file, std::vector<std::filesystem::path>& read) {
+  return
+      [folder = std::filesystem::path(scene_file).parent_path(), &read](const std::string& name) {
+        read.push_back(folder / name);
+        return read_file(read.back());
+      };
 }
 
 Json text_value(const std::string& text) {
@@ -87,6 +90,10 @@ Json text_value(const std::string& text) {
 Json option_value(const std::string& text) {
   const Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   return value.is_number() ? value : text_value(text);
+}
+
+void tell_remark(const std::string& remark) {
+  if (!remark.empty()) std::fprintf(stderr, "%s\n", printable(remark).c_str());
 }
 
 SceneChanges take_scene_changes(Arguments& arguments) {
@@ -110,6 +117,7 @@ SceneInput read_scene_input(const std::string& file, const SceneChanges& changes
                             const FabricLibrary& fabrics) {
   SceneInput input;
   input.file = file;
+  input.files_read = {file};
   input.options = changes.options;
   try {
     Json& json = input.json;
@@ -120,7 +128,8 @@ SceneInput read_scene_input(const std::string& file, const SceneChanges& changes
                      std::array{SceneOverride{"/duration_s", duration_of(*changes.n_steps, json)}});
     if (json.is_object() && json.contains("duration_s"))
       input.has_duration = is_duration(json["duration_s"]);
-    input.scene = read_scene(JsonReader(json), fabrics, files_beside(input.file));
+    input.scene = read_scene(JsonReader(json), fabrics, files_beside(file, input.files_read));
+    tell_remark(input.scene.cloth->remark());
   } catch (const FileError&) {
     throw;
   } catch (const InputError& error) {

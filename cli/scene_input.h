@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string>
@@ -31,8 +32,9 @@ struct SceneInput {
   Scene scene;
   Json json;  ///< that it was read from: the file's with the options' changes
   std::string file;
-  std::vector<std::string_view> options;  ///< that changed the scene
-  bool has_duration = true;               ///< that is one, whatever the step
+  std::vector<std::filesystem::path> files_read;  ///< it, and those that it names
+  std::vector<std::string_view> options;          ///< that changed the scene
+  bool has_duration = true;                       ///< that is one, whatever the step
 
   bool is_set_by(std::string_view option) const;
   /// Throws InputError naming the option that set the value at fault, else the file with the JSON
@@ -43,7 +45,12 @@ struct SceneInput {
 };
 
 /// Names of files in a scene are relative to its own folder.
-FileSource files_beside(const std::string& scene_file);
+///
+/// read  gets the path of each file that is read; lives as long as the source
+FileSource files_beside(const std::string& scene_file, std::vector<std::filesystem::path>& read);
+
+/// Says on stderr what a reader of cloth has to tell; nothing where that is empty.
+void tell_remark(const std::string& remark);
 
 /// A text with signs in the place of bytes that are none, as JSON takes no others.
 Json text_value(const std::string& text);

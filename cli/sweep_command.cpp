@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
 #include "cli/sweep_folder.h"
@@ -55,19 +56,20 @@ Outcome judged(const std::vector<BenchRow>& rows) {
 
 Outcome sweep_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
-  const bool overwrite = arguments.flag("--overwrite");
+  Overwriting overwriting(arguments);
   const auto out = arguments.text("--out");
   const auto cache = arguments.text("--cache");
-  const std::string commit = arguments.text("--commit").value_or(core_version());
+  const std::string commit =
+      text_value(arguments.text("--commit").value_or(core_version())).get<std::string>();
   const SweepInput input = take_sweep(arguments);
   arguments.finish();
-  if (overwrite && !out)
-    throw InputError("--overwrite", "expected --out with a folder beside it, got none");
+  overwriting.need(out.has_value(), "--out");
+  overwriting.spare(input.files_read());
 
   const std::string identity =
       with_source_named(input, [&] { return sweep_identity(input.plan, commit); });
   std::optional<SweepFolder> folder;
-  if (out) folder.emplace(*out, identity, overwrite);
+  if (out) folder.emplace(*out, identity, overwriting);
   std::unique_ptr<ReferenceStore> store = std::make_unique<MemoryReferenceStore>();
   if (cache || out)
     store = std::make_unique<ReferenceFolder>(cache ? std::filesystem::path(*cache)

@@ -54,22 +54,26 @@ std::string sweep_table(const Sweep& sweep) {
   return text + "\n\n" + markdown_table(sweep.rows());
 }
 
-SweepFolder::SweepFolder(fs::path folder, const std::string& identity, bool overwrite)
+SweepFolder::SweepFolder(fs::path folder, const std::string& identity,
+                         const Overwriting& overwriting)
     : folder_(std::move(folder)) {
   std::error_code error;
   const auto is_there = [&](const char* name) { return fs::exists(file(name), error); };
   const std::string known = is_there(kPlan) ? read_file(file(kPlan)) : "";
   const bool is_same = known == identity;
   for (const char* name : kFiles) {
-    if (is_same || overwrite || !is_there(name)) continue;
+    if (is_same || overwriting.is_asked() || !is_there(name)) continue;
     const bool is_other_core = !known.empty() && core_of(known) != core_of(identity);
     throw FileError(folder_, std::string("expected a folder without another sweep's files, got ") +
                                  name + " of another " + (is_other_core ? "core" : "plan") +
                                  "; --overwrite removes them");
   }
   make_folder(folder_);
-  for (const char* name : kFiles) check_writable(file(name));
-  if (is_same && !overwrite) return;
+  for (const char* name : kFiles) {
+    check_writable(file(name));
+    overwriting.check_spared(file(name));
+  }
+  if (is_same && !overwriting.is_asked()) return;
   for (const char* name : kFiles)
     if (is_there(name)) remove_file(file(name));
   write_file(file(kPlan), identity);
@@ -87,7 +91,7 @@ void SweepFolder::open_journal(std::size_t n_bytes) {
 
 void SweepFolder::record(const std::string& line) {
   journal_ << line << std::flush;
-  if (!journal_) throw FileError(file(kJournal), "expected a place that can be written to");
+  if (!journal_) throw LostOutput(file(kJournal), "at its last line");
 }
 
 void SweepFolder::write_results(const Sweep& sweep) const {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include "cli/overwriting.h"
 #include "core/sweep/sweep.h"
 
 namespace pleat {
@@ -20,9 +21,10 @@ std::string sweep_table(const Sweep& sweep);
 /// come rows.jsonl, table.md and front.svg. All members throw FileError.
 class SweepFolder {
  public:
-  /// Makes the folder for a sweep of this identity, and with `overwrite` removes the files of
-  /// another. Refuses one that holds another sweep, and changes nothing then.
-  SweepFolder(std::filesystem::path folder, const std::string& identity, bool overwrite);
+  /// Makes the folder for a sweep of this identity, and with --overwrite removes the files of
+  /// another. Refuses one that holds another sweep or what is read, and changes nothing then.
+  SweepFolder(std::filesystem::path folder, const std::string& identity,
+              const Overwriting& overwriting);
 
   /// Where references are kept that no other folder was named for.
   std::filesystem::path references() const { return folder_ / "references"; }

@@ -79,7 +79,7 @@ SweepOptions take_plan_options(Arguments& arguments) {
     options.add_list("--levels", "/refinement/level", *levels);
   while (const auto set = arguments.text("--set")) {
     const std::size_t equals = set->find('=');
-    if (equals == std::string::npos)
+    if (equals == std::string::npos || equals == 0)
       throw InputError("--set",
                        "expected a pointer and its values, such as /method/substeps=1,2, got " +
                            abbreviated(Json(*set)));
@@ -135,6 +135,11 @@ Json plan_of_options(const SweepOptions& options, const SceneInput& scene) {
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> SweepInput::files_read() const {
+  if (scene) return scene->files_read;
+  return {file, scene_file};
+}
 
 void SweepInput::throw_with_source(const InputError& error) const {
   const std::string& where = error.where();

@@ -17,6 +17,8 @@ struct SweepInput {
   std::optional<SceneInput> scene;          ///< of a plan that options made
   std::map<std::string, const char*> grid;  ///< of such a plan: pointer and its option
 
+  /// Files that must not be written over.
+  std::vector<std::filesystem::path> files_read() const;
   /// Throws InputError naming the option that set the value at fault, else the file with the JSON
   /// pointer.
   [[noreturn]] void throw_with_source(const InputError& error) const;

@@ -14,6 +14,7 @@ namespace pleat {
 namespace {
 
 constexpr const char* kBinaryName = "frames.bin";
+constexpr const char* kBinaryPart = "frames.bin.part";  // until the last frame is in it
 constexpr std::string_view kNumberedName = "frame_";
 constexpr std::size_t kDigits = 6;  // of a frame's number, enough for kMaxFrames
 constexpr const char* kBinaryFormat = "pleat frames 1";
@@ -38,7 +39,7 @@ std::string frame_path(const std::string& folder, int frame, const char* extensi
 }
 
 bool is_frame_name(const std::string& name) {
-  if (name == kBinaryName) return true;
+  if (name == kBinaryName || name == kBinaryPart) return true;
   const std::size_t dot = kNumberedName.size() + kDigits;
   return name.size() == dot + 4 && name.rfind(kNumberedName, 0) == 0 &&
          name.find_first_not_of("0123456789", kNumberedName.size()) == dot &&
@@ -95,7 +96,7 @@ FrameWriter::FrameWriter(std::string folder, FrameFormat format, FrameMesh mesh)
 }
 
 void FrameWriter::append_binary(const Positions& positions, double time) {
-  const std::string path = folder_ + "/" + kBinaryName;
+  const std::string path = folder_ + "/" + kBinaryPart;
   std::string bytes;
   if (n_frames_ == 0) {
     binary_.open(path, std::ios::binary | std::ios::trunc);
@@ -106,7 +107,7 @@ void FrameWriter::append_binary(const Positions& positions, double time) {
   for (const double coordinate : positions.reshaped()) append_double(coordinate, bytes);
   binary_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   binary_.flush();
-  if (!binary_) throw FileError(path, "expected a place that can be written to");
+  if (!binary_) throw LostOutput(path, "but " + std::to_string(n_frames_) + " frames were");
 }
 
 void FrameWriter::write(const Positions& positions, double time) {
@@ -130,6 +131,16 @@ void FrameWriter::write(const Positions& positions, double time) {
       break;
   }
   ++n_frames_;
+}
+
+void FrameWriter::finish() {
+  if (!binary_.is_open()) return;
+  binary_.close();
+  const std::string part = folder_ + "/" + kBinaryPart;
+  if (!binary_) throw LostOutput(part, "as it could not be closed");
+  std::error_code error;
+  std::filesystem::rename(part, folder_ + "/" + kBinaryName, error);
+  if (error) throw LostOutput(part, "as it could not be renamed: \"" + error.message() + '"');
 }
 
 std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder) {

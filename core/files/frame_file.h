@@ -39,8 +39,11 @@ class FrameWriter {
   FrameWriter(std::string folder, FrameFormat format, FrameMesh mesh);
 
   /// Throws ContractError unless the frame is finite, all frames have as many vertices as the mesh
-  /// and there are at most kMaxFrames.
+  /// and there are at most kMaxFrames, LostOutput when the file cannot take it.
   void write(const Positions& positions, double time);
+
+  /// No frame comes any more. Throws LostOutput when frames.bin cannot be ended.
+  void finish();
 
   int n_frames() const { return n_frames_; }
 

@@ -103,11 +103,7 @@ BodyMotion read_motion(std::string_view json_text) {
 BodyMotion read_motion(const JsonReader& reader, const FileSource& files) {
   if (!reader.is_text()) return read_motion(reader);
   if (!files) reader.fail("a motion written out, as no files can be read here");
-  try {
-    return read_motion(files(reader.text()));
-  } catch (const InputError& error) {
-    throw InputError(place_in(reader.text(), error.where()), error.what());
-  }
+  return read_named_file(reader, files, [](const std::string& text) { return read_motion(text); });
 }
 
 Json json_motion(const BodyMotion& motion) {

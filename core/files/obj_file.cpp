@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f";
 
-/// Statements that a simulation has no use for.
+/// Statements of OBJ that a simulation has no use for.
 constexpr std::string_view kPassedOver[] = {
     "vn",    "vp",       "s",        "usemtl", "mtllib",     "usemap",   "maplib",
     "bevel", "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj"};
@@ -110,6 +110,7 @@ class ObjParser {
   std::string object_;                    // empty when none is named
   std::vector<std::string> group_names_;  // of the elements that come
   std::map<std::string, std::size_t> group_places_;
+  std::map<std::string, int> skipped_;  // statements by their keyword
   ObjMesh mesh_;
 };
 
@@ -204,8 +205,13 @@ void ObjParser::check_fan(const std::vector<Corner>& face) const {
         (position(face[k - 1].vertex) - origin).cross(position(face[k].vertex) - origin));
     sum += doubled_areas.back();
   }
+  // A quad that crosses itself is two triangles that face each other, and their areas cancel.
+  constexpr double kCancelled = 0.1;  // of all areas; two triangles then meet at 11 degrees
+  double total = 0;
+  for (const Vec3& doubled_area : doubled_areas) total += doubled_area.norm();
+  const bool is_cancelled = sum.norm() < kCancelled * total;
   for (const Vec3& doubled_area : doubled_areas)
-    if (doubled_area.dot(sum) < 0)
+    if (is_cancelled || doubled_area.dot(sum) < 0)
       fail("a polygon that can be split into triangles about its first corner",
            "one that bends inward or crosses itself");
 }
@@ -278,7 +284,7 @@ void ObjParser::take(std::string_view line, int number) {
     fail("triangles or polygons (f), as free-form curves and surfaces are none",
          quotation(statement));
   } else if (!is_among(kPassedOver, statement)) {
-    fail("a statement of OBJ, such as v, vt, f or g", quotation(statement));
+    ++skipped_[as_utf8(std::string(statement))];
   }
 }
 
@@ -296,6 +302,9 @@ ObjMesh ObjParser::finish() {
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
+  for (const auto& [keyword, count] : skipped_) mesh_.skipped.push_back({keyword, count});
+  std::stable_sort(mesh_.skipped.begin(), mesh_.skipped.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
   return std::move(mesh_);
 }
 
@@ -349,6 +358,22 @@ std::string write_obj(const ObjMesh& mesh) {
   text += textures.text() + faces;
   for (const VertexGroup& group : mesh.groups) text += group_lines(group);
   return text;
+}
+
+std::string skipped_sentence(std::span<const SkippedStatements> skipped) {
+  constexpr std::size_t kMostNamed = 4;
+  if (skipped.empty()) return "";
+  int total = 0;
+  std::string names;
+  for (std::size_t k = 0; k < skipped.size(); ++k) {
+    total += skipped[k].count;
+    if (k >= kMostNamed) continue;
+    names +=
+        (k == 0 ? "" : "; ") + cut(skipped[k].keyword) + ", " + std::to_string(skipped[k].count);
+  }
+  if (skipped.size() > kMostNamed) names += "; and others";
+  return "skipped " + std::to_string(total) + (total == 1 ? " statement" : " statements") +
+         " that Pleat does not use (" + names + ")";
 }
 
 ObjMesh read_obj(std::string_view text) {

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <vector>
 
@@ -33,6 +32,22 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
 
 [[noreturn]] void throw_device(const fs::path& path) {
   throw FileError(path, "expected a file or a place for one, got a device");
+}
+
+[[noreturn]] void throw_too_large(const fs::path& path) {
+  throw FileError(path, "expected a file of at most 1 GiB, got more");
+}
+
+/// What opening it cannot tell.
+void check_readable_kind(const fs::path& path) {
+  if (path.native().find('\0') != fs::path::string_type::npos)
+    throw FileError(path, "expected the name of a file, got one with a zero byte");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_other(status) && !fs::is_fifo(status))
+    throw FileError(path, "expected a file, got a device");
+  if (fs::is_regular_file(status) && fs::file_size(path, error) > kMostBytesOfFile && !error)
+    throw_too_large(path);
 }
 
 /// Links below /proc are open files, whatever name they show.
@@ -114,12 +129,21 @@ std::vector<fs::path> missing_folders(const fs::path& path) {
 }  // namespace
 
 std::string read_file(const fs::path& path) {
-  std::error_code error;
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  check_readable_kind(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   const std::error_code cause = last_error();
+  std::error_code error;
   if (!file || fs::is_directory(path, error)) throw_unreadable(path, cause);
-  std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string bytes;
+  while (file) {  // whatever its size was said to be: it may grow meanwhile
+    const std::size_t begin = bytes.size();
+    bytes.resize(begin + kBlock);
+    file.read(bytes.data() + begin, kBlock);
+    bytes.resize(begin + static_cast<std::size_t>(file.gcount()));
+    if (bytes.size() > kMostBytesOfFile) throw_too_large(path);
+  }
   if (file.bad()) throw FileError(path, "expected a file that can be read to its end");
   return bytes;
 }
@@ -127,8 +151,8 @@ std::string read_file(const fs::path& path) {
 void write_file(const fs::path& path, std::string_view bytes) {
   const fs::path target = target_of(path);
   PartFile part(path, target);
-  if (const std::error_code error = part.write(bytes)) throw_unwritable(path, error);
-  if (const std::error_code error = part.rename_to(target)) throw_unwritable(path, error);
+  if (const std::error_code error = part.write(bytes)) throw LostOutput(path, quoted(error));
+  if (const std::error_code error = part.rename_to(target)) throw LostOutput(path, quoted(error));
 }
 
 void check_writable(const fs::path& path) { const PartFile part(path, target_of(path)); }

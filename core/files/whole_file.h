@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -15,14 +17,28 @@ class FileError : public InputError {
       : InputError(path.string(), sentence) {}
 };
 
-/// Throws FileError when it cannot be read whole.
+/// An output that could not be written to its end, as on a full disk. What was asked for was right,
+/// so that this is no InputError.
+class LostOutput : public std::runtime_error {
+ public:
+  /// cause  as the system tells it, without a full stop
+  LostOutput(const std::filesystem::path& path, const std::string& cause)
+      : std::runtime_error(path.string() + ": the output could not be written whole, " + cause) {}
+};
+
+/// More bytes are read from no file: about ten times those of the largest mesh that is taken.
+constexpr std::size_t kMostBytesOfFile = std::size_t{1} << 30;
+
+/// Reads a file or a pipe. Throws FileError when it cannot be read whole, is larger than
+/// kMostBytesOfFile or is a device, which may have no end.
 std::string read_file(const std::filesystem::path& path);
 
 /// Writes beside the file first and renames, so that an interrupted run leaves no half of one.
-/// Links stay, and the file behind them is written. Throws FileError, also for a device.
+/// Links stay, and the file behind them is written. Throws FileError, also for a device, and
+/// LostOutput when what was begun could not be ended.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Throws FileError unless write_file can write there; everything that stands there stays.
+/// Throws FileError unless write_file can begin there; everything that stands there stays.
 void check_writable(const std::filesystem::path& path);
 
 /// Throws FileError when it still stands there.

@@ -33,6 +33,24 @@ std::string description(const Scene& scene) {
          std::to_string(scene.cloth->n_vertices(0)) + " unrefined vertices";
 }
 
+/// Says of what is wrong which example has it.
+template <class Work>
+void of_example(std::size_t example, Work&& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    throw ExampleError(example, error);
+  }
+}
+
+/// Throws InputError unless plans can be made of both together.
+void check_alike(const Scene& scene, const Scene& first) {
+  if (base_fingerprint(example_base(scene)) != base_fingerprint(example_base(first)) ||
+      scene.level != first.level)
+    throw InputError("/cloth", "expected examples of one cloth at one level, got " +
+                                   description(scene) + " beside " + description(first));
+}
+
 std::vector<Scene> checked(std::vector<Scene> examples) {
   PLEAT_CHECK(!examples.empty(), "a plan has an example");
   return examples;
@@ -50,20 +68,18 @@ PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)
   PLEAT_CHECK(recipe.frame_time > 0, "frames follow one another");
   recipe.patterns.validate();
   check_plan_options(recipe.plan, recipe.patterns.n_patterns, study_.base(), scenes_.front().level);
-  for (const Scene& scene : scenes_)
-    if (base_fingerprint(example_base(scene)) != base_fingerprint(study_.base()) ||
-        scene.level != scenes_.front().level)
-      throw InputError("/cloth", "expected examples of one cloth at one level, got " +
-                                     description(scene) + " beside " +
-                                     description(scenes_.front()));
+  for (std::size_t k = 1; k < scenes_.size(); ++k)
+    of_example(k, [&] { check_alike(scenes_[k], scenes_.front()); });
   cost_.frame_time = recipe.frame_time;
   begin_example();
 }
 
 void PlanMaker::begin_example() {
   const Scene& scene = scenes_[study_.n_examples()];
-  run_ =
-      std::make_unique<SampledRun>(scene, frame_times(scene, recipe_), SampledRun::Parts::untimed);
+  of_example(study_.n_examples(), [&] {
+    run_ = std::make_unique<SampledRun>(scene, frame_times(scene, recipe_),
+                                        SampledRun::Parts::untimed);
+  });
 }
 
 void PlanMaker::end_example() {
@@ -88,7 +104,7 @@ void PlanMaker::advance(double budget) {
   cost_.example_seconds += running.elapsed();
   if (!run_->done()) return;
   const Stopwatch planning;
-  end_example();
+  of_example(study_.n_examples(), [&] { end_example(); });
   if (study_.n_examples() < scenes_.size()) {
     begin_example();
   } else {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/check.h"
 #include "core/run/example_study.h"
 #include "core/run/sampled_run.h"
 
@@ -25,6 +26,17 @@ struct PlanCost {
   double frame_time = 0;        ///< [s]
 };
 
+/// An example that cannot be used, and which of them.
+class ExampleError : public InputError {
+ public:
+  ExampleError(std::size_t example, const InputError& cause)
+      : InputError(cause.where(), cause.what()), example_(example) {}
+  std::size_t example() const { return example_; }
+
+ private:
+  std::size_t example_;
+};
+
 /// When cloth has settled into the scene's motion [s]: a while after a figure moves as it will.
 double settled_time(const Scene& scene);
 
@@ -32,13 +44,13 @@ double settled_time(const Scene& scene);
 class PlanMaker {
  public:
   /// examples  scenes of one garment or sheet refined uniformly, to the same level of at least 1
-  /// Throws InputError when an example is none of these, has fewer than two frames or cannot run,
-  /// and for a recipe out of range.
+  /// Throws ExampleError when an example is none of these, has fewer than two frames or cannot run,
+  /// and InputError for a recipe out of range.
   PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe);
 
   bool done() const { return done_; }
-  /// Runs until done or `budget` [s] is spent, at least a step. Throws InputError for an example
-  /// whose numbers end the run, and as refinement_plan and bend_patterns do.
+  /// Runs until done or `budget` [s] is spent, at least a step. Throws ExampleError for an
+  /// example whose numbers end the run, and as refinement_plan and bend_patterns do.
   void advance(double budget);
   double progress() const;  ///< in [0, 1]
 

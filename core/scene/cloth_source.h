@@ -53,6 +53,8 @@ class ClothSource {
   ///
   /// level  0 to kMaxLevel; 0 where is_surface() is false
   virtual RestCloth at_rest(int level) const = 0;
+  /// What its reader has to tell beside it, a sentence; mostly empty.
+  virtual std::string remark() const { return {}; }
   /// Length that position errors are given in per cent of [m]: a sheet's diagonal, or that of the
   /// box around other cloth. 0 for a single vertex.
   virtual double rest_diagonal() const = 0;

@@ -92,11 +92,15 @@ void read_cloth(const JsonReader& reader, const FileSource& files, DeformScene& 
   const JsonReader at = reader.at("mesh");
   if (const auto velocity = at.find("initial_velocity_m_per_s"))
     velocity->fail("no velocity, as nothing moves by itself here");
+  for (const char* key : {"rest", "pattern_m"})
+    if (const auto rest = at.find(key))
+      rest->fail("no such key, as shapes of least energy are measured from the mesh itself");
   // Threads make no difference to this energy, so that any direction will do.
   MeshCloth cloth = read_mesh_cloth(at, files, Vec3::UnitX());
   scene.mesh = std::move(cloth.mesh);
   scene.textures = std::move(cloth.textures);
   scene.groups = std::move(cloth.groups);
+  scene.remark = std::move(cloth.skipped);
 }
 
 double sum(const DeformWeights& w) { return w.recovery + w.stretch + w.bending; }

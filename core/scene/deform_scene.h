@@ -35,6 +35,7 @@ struct DeformTermChoice {
 struct DeformScene {
   std::string name = "unnamed";
   std::string caption;                                 ///< one sentence: what to notice
+  std::string remark;                                  ///< of its mesh's reader; mostly empty
   TriangleMesh mesh;                                   ///< with all warp directions
   std::vector<std::optional<CornerTexture>> textures;  ///< one per triangle
   std::vector<VertexGroup> groups;  ///< of a sheet: its edges, and what is grasped at its corners

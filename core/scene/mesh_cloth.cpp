@@ -14,6 +14,28 @@ namespace pleat {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
+using Textures = std::vector<std::optional<CornerTexture>>;
+
+enum class RestShape { positions, texture };
+constexpr std::array<Word<RestShape>, 2> kRestShapes{
+    {{"positions", RestShape::positions}, {"texture", RestShape::texture}}};
+
+/// Height over length; files often carry six digits.
+constexpr double kSlimmest = 1e-6;
+
+/// Twice the area of a triangle in the plane, positive when it is wound to the left.
+double doubled_area(const CornerTexture& corners) {
+  const Eigen::Vector2d a = corners.col(1) - corners.col(0);
+  const Eigen::Vector2d b = corners.col(2) - corners.col(0);
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool has_area(const CornerTexture& corners) {
+  const double longest = std::max({(corners.col(1) - corners.col(0)).squaredNorm(),
+                                   (corners.col(2) - corners.col(1)).squaredNorm(),
+                                   (corners.col(0) - corners.col(2)).squaredNorm()});
+  return std::abs(doubled_area(corners)) > kSlimmest * longest;
+}
 
 Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
   const Positions& x = mesh.rest_positions;
@@ -30,13 +52,10 @@ Vec3 in_plane(const Vec3& direction, const Corners& x) {
 /// The texture is x(s, t) = x0 + s S + t T in the triangle: its sides give S, the direction of s.
 /// Zero when the texture has no area.
 Vec3 texture_direction(const CornerTexture& texture, const Corners& x) {
-  constexpr double kSlimmest = 1e-6;  // height over length; files often carry six digits
-  const Eigen::Vector2d a = texture.col(1) - texture.col(0);
-  const Eigen::Vector2d b = texture.col(2) - texture.col(0);
-  const double doubled_area = a.x() * b.y() - a.y() * b.x();
-  if (std::abs(doubled_area) <= kSlimmest * std::max(a.squaredNorm(), b.squaredNorm()))
-    return Vec3::Zero();
-  return in_plane((b.y() * (x[1] - x[0]) - a.y() * (x[2] - x[0])) / doubled_area, x);
+  if (!has_area(texture)) return Vec3::Zero();
+  const double t_of_a = texture(1, 1) - texture(1, 0);
+  const double t_of_b = texture(1, 2) - texture(1, 0);
+  return in_plane((t_of_b * (x[1] - x[0]) - t_of_a * (x[2] - x[0])) / doubled_area(texture), x);
 }
 
 /// Zero where neither texture nor vector says it.
@@ -50,8 +69,7 @@ Vec3 warp_direction(const std::optional<CornerTexture>& texture, const std::opti
 
 /// Fills in the warp directions. `place` tells where a triangle stands in the input.
 template <class Place>
-void fill_warp_directions(TriangleMesh& mesh,
-                          const std::vector<std::optional<CornerTexture>>& textures,
+void fill_warp_directions(TriangleMesh& mesh, const Textures& textures,
                           const std::optional<Vec3>& vector, Place&& place) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     mesh.warp_directions.push_back(
@@ -61,6 +79,52 @@ void fill_warp_directions(TriangleMesh& mesh,
                        "expected texture coordinates with an area, or \"warp_direction\" in the "
                        "scene, to tell how the threads run, got neither");
   }
+}
+
+/// Throws InputError{place} for a triangle of the pattern that cloth cannot be cut to.
+void check_cut(const CornerTexture& corners, const std::string& place) {
+  if (!has_area(corners))
+    throw InputError(place,
+                     "expected a triangle with an area in the flat pattern, got one without");
+  if (doubled_area(corners) < 0)
+    throw InputError(place,
+                     "expected a triangle wound alike in the mesh and in the flat pattern, got one "
+                     "turned over there");
+}
+
+/// The flat pattern that a mesh's texture coordinates are.
+///
+/// scale  [m] per unit of the texture
+template <class Place>
+std::vector<CornerTexture> texture_pattern(const Textures& textures, double scale, Place&& place) {
+  std::vector<CornerTexture> pattern;
+  for (std::size_t f = 0; f < textures.size(); ++f) {
+    if (!textures[f])
+      throw InputError(place(f),
+                       "expected texture coordinates, of which \"rest\": \"texture\" makes the "
+                       "flat pattern, got none");
+    pattern.push_back(scale * *textures[f]);
+    check_cut(pattern.back(), place(f));
+  }
+  return pattern;
+}
+
+/// What a mesh says of its rest shape.
+struct RestChoice {
+  bool is_texture = false;
+  double scale = 1;  // [m] per unit of the texture
+};
+
+RestChoice read_rest(const JsonReader& reader) {
+  RestChoice choice;
+  if (const auto at = reader.find("rest"))
+    choice.is_texture = at->word(kRestShapes) == RestShape::texture;
+  const auto scale = reader.find("texture_scale_m");
+  if (scale && !choice.is_texture) scale->fail("no such key without \"rest\": \"texture\"");
+  if (scale) choice.scale = scale->number(kPositive);
+  if (const auto warp = reader.find("warp_direction"); warp && choice.is_texture)
+    warp->fail("no such key with \"rest\": \"texture\", which says how the threads run");
+  return choice;
 }
 
 /// One column per vertex; empty where a vertex has none or several.
@@ -79,9 +143,9 @@ RestCoordinates vertex_textures(const ObjMesh& obj) {
   return coordinates;
 }
 
-std::vector<std::optional<CornerTexture>> corner_textures(const RestCoordinates& coordinates,
-                                                          const std::vector<Triangle>& triangles) {
-  std::vector<std::optional<CornerTexture>> textures(triangles.size());
+Textures corner_textures(const RestCoordinates& coordinates,
+                         const std::vector<Triangle>& triangles) {
+  Textures textures(triangles.size());
   if (coordinates.cols() == 0) return textures;
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     textures[f].emplace();
@@ -98,26 +162,41 @@ std::optional<Vec3> read_warp_vector(const JsonReader& reader, const std::option
 
 MeshCloth read_obj_mesh(const JsonReader& reader, const FileSource& files,
                         const std::optional<Vec3>& usual_warp) {
-  reader.allow_keys({"obj", "warp_direction", "initial_velocity_m_per_s"});
+  reader.allow_keys(
+      {"obj", "rest", "texture_scale_m", "warp_direction", "initial_velocity_m_per_s"});
   const JsonReader at = reader.at("obj");
-  const std::string& name = at.text();
+  at.text();
   if (!files) at.fail("a mesh written out in the scene, as no files can be read here");
   const std::optional<Vec3> vector = read_warp_vector(reader, usual_warp);
-  const std::string text = files(name);
-  try {
+  const RestChoice rest = read_rest(reader);
+  return read_named_file(at, files, [&](const std::string& text) {
     ObjMesh obj = read_obj(text);
+    const auto place = [&](std::size_t f) { return "line " + std::to_string(obj.lines[f]); };
     MeshCloth cloth;
     cloth.texture_coordinates = vertex_textures(obj);
     cloth.mesh.rest_positions = std::move(obj.positions);
     cloth.mesh.triangles = std::move(obj.triangles);
     cloth.groups = std::move(obj.groups);
-    fill_warp_directions(cloth.mesh, obj.textures, vector,
-                         [&](std::size_t f) { return "line " + std::to_string(obj.lines[f]); });
+    if (rest.is_texture) cloth.mesh.pattern = texture_pattern(obj.textures, rest.scale, place);
+    fill_warp_directions(cloth.mesh, obj.textures, vector, place);
     cloth.textures = std::move(obj.textures);
+    if (!obj.skipped.empty()) cloth.skipped = place_in(at.text(), skipped_sentence(obj.skipped));
     return cloth;
-  } catch (const InputError& error) {
-    throw InputError(place_in(name, error.where()), error.what());
+  });
+}
+
+std::vector<CornerTexture> read_pattern(const JsonReader& reader, std::size_t n_triangles) {
+  std::vector<CornerTexture> pattern;
+  for (const JsonReader& triangle : reader.elements(n_triangles)) {
+    CornerTexture& corners = pattern.emplace_back();
+    Eigen::Index column = 0;
+    for (const JsonReader& corner : triangle.elements(3)) {
+      const std::vector<JsonReader> pair = corner.elements(2);
+      corners.col(column++) << pair[0].number(), pair[1].number();
+    }
+    check_cut(corners, triangle.pointer());
   }
+  return pattern;
 }
 
 RestCoordinates read_texture_coordinates(const JsonReader& reader, std::size_t n_vertices) {
@@ -159,8 +238,10 @@ void read_warp_directions(const JsonReader& reader, TriangleMesh& mesh) {
 }
 
 MeshCloth read_inline_mesh(const JsonReader& reader, const std::optional<Vec3>& usual_warp) {
-  reader.allow_keys({"positions_m", "triangles", "warp_direction", "warp_directions",
-                     "texture_coordinates", "groups", "initial_velocity_m_per_s"});
+  reader.allow_keys({"positions_m", "triangles", "rest", "texture_scale_m", "pattern_m",
+                     "warp_direction", "warp_directions", "texture_coordinates", "groups",
+                     "initial_velocity_m_per_s"});
+  const RestChoice rest = read_rest(reader);
   MeshCloth cloth;
   TriangleMesh& mesh = cloth.mesh;
   mesh.rest_positions = read_positions(reader.at("positions_m"));
@@ -178,11 +259,18 @@ MeshCloth read_inline_mesh(const JsonReader& reader, const std::optional<Vec3>& 
     cloth.texture_coordinates = read_texture_coordinates(*at, static_cast<std::size_t>(n));
   if (const auto at = reader.find("groups")) cloth.groups = read_groups(*at, n);
   cloth.textures = corner_textures(cloth.texture_coordinates, mesh.triangles);
+  Textures threads = cloth.textures;
+  if (rest.is_texture) mesh.pattern = texture_pattern(cloth.textures, rest.scale, place);
+  if (const auto at = reader.find("pattern_m")) {
+    if (rest.is_texture) at->fail("either this or \"rest\": \"texture\"");
+    mesh.pattern = read_pattern(*at, mesh.triangles.size());
+    threads.assign(mesh.pattern.begin(), mesh.pattern.end());
+  }
   if (const auto at = reader.find("warp_directions")) {
     if (reader.find("warp_direction")) at->fail("either this or warp_direction");
     read_warp_directions(*at, mesh);
   } else {
-    fill_warp_directions(mesh, cloth.textures, read_warp_vector(reader, usual_warp), place);
+    fill_warp_directions(mesh, threads, read_warp_vector(reader, usual_warp), place);
   }
   return cloth;
 }
@@ -200,6 +288,11 @@ Json MeshCloth::json() const {
   json["warp_directions"] = Json::array();
   for (const Vec3& direction : mesh.warp_directions)
     json["warp_directions"].push_back(json_vec3(direction));
+  for (const CornerTexture& corners : mesh.pattern) {
+    Json triangle = Json::array();
+    for (const auto& corner : corners.colwise()) triangle.push_back({corner.x(), corner.y()});
+    json["pattern_m"].push_back(std::move(triangle));
+  }
   json["groups"] = Json::object();
   for (const VertexGroup& group : groups)
     json["groups"][group.name] = json_vertices(group.vertices);

@@ -15,10 +15,12 @@ class MeshCloth final : public ClothSource {
   RestCoordinates texture_coordinates;  ///< 2 x n; empty unless each vertex has exactly one pair
   std::vector<std::optional<CornerTexture>> textures;  ///< of each triangle
   Vec3 initial_velocity{0, 0, 0};                      ///< [m/s]
+  std::string skipped;                                 ///< of its file (skipped_sentence)
 
   const char* key() const override;
   /// Always written out, so that the text is the whole scene.
   Json json() const override;
+  std::string remark() const override { return skipped; }
   std::int64_t n_vertices(int level) const override;
   RestCloth at_rest(int level) const override;
   double rest_diagonal() const override;
@@ -31,7 +33,9 @@ class MeshCloth final : public ClothSource {
 /// Warp runs along the direction in which the first texture coordinate grows while the second
 /// stays. Where a triangle has no texture coordinates, or they have no area, it is the direction
 /// nearest to "warp_direction" in its plane, or its first side where that is perpendicular to it.
-/// Lengths are those of the positions.
+/// Lengths are those of the positions, or with "rest": "texture" those of the flat pattern that the
+/// texture coordinates are, times "texture_scale_m"; then every face needs them, with an area and
+/// wound like the face.
 ///
 /// usual_warp  takes the place of a "warp_direction" that is not there
 /// Faults of an OBJ file are InputErrors at "name: line N".

@@ -14,12 +14,16 @@ RefinementPlan read_scene_plan(const JsonReader& reader, const FileSource& files
     reader.fail("no plan with a membrane, as only springs hold hanging vertices");
   const bool is_file = reader.is_text();
   if (is_file && !files) reader.fail("a plan written out, as no files can be read here");
-  try {
-    RefinementPlan plan = is_file ? read_plan(files(reader.text())) : read_plan(reader);
+  const auto checked = [&base](RefinementPlan plan) {
     planned_mesh(*base, plan);
     return plan;
+  };
+  if (is_file)
+    return read_named_file(reader, files,
+                           [&](const std::string& text) { return checked(read_plan(text)); });
+  try {
+    return checked(read_plan(reader));
   } catch (const InputError& error) {
-    if (is_file) throw InputError(place_in(reader.text(), error.where()), error.what());
     if (error.where().rfind(reader.pointer(), 0) == 0) throw;
     throw InputError(reader.pointer() + error.where(), error.what());
   }

@@ -896,8 +896,9 @@ TEST_CASE("command: refine refuses an example, a plan or an option that it canno
        scene.file + ": /duration_s: expected at least two frames after 0.19 s, got 1"},
       {{scene.file, "--level", "0"}, "--level: expected an example refined once at least"},
       {{scene.file, "--merge", other("other.json")},
-       scene.file + ": /cloth: expected examples of one cloth at one level, got \"small sheet\" at "
-                    "level 2 with 12 unrefined vertices beside \"small sheet\" at level 2 with 9 "},
+       other("other.json") +
+           ": /cloth: expected examples of one cloth at one level, got \"small sheet\" at "
+           "level 2 with 12 unrefined vertices beside \"small sheet\" at level 2 with 9 "},
       {{other("particles.json")}, other("particles.json") + ": /cloth: expected a sheet or"},
       {{other("wild.json")}, other("wild.json") + ": expected an example that runs to its end"},
   };

@@ -97,6 +97,8 @@ TEST_CASE("frames: binary frames are read back to the bit", "[files]") {
   writer.write(first, 0);
   writer.write(second, 1.0 / 3);
   CHECK(writer.n_frames() == 2);
+  CHECK_FALSE(std::filesystem::exists(folder.file("frames.bin")));  // before the last frame
+  writer.finish();
   const RecordedFrames recorded = read_frames(folder.file("frames.bin"));
   REQUIRE(recorded.positions.size() == 2);
   CHECK(recorded.times == std::vector<double>{0, 1.0 / 3});
@@ -123,14 +125,13 @@ TEST_CASE("frames: the same frames give the same bytes, whatever stood there", "
   for (std::string& run : bytes) {
     FrameWriter writer(folder.path(), FrameFormat::binary, triangle_mesh());
     writer.write(triangle_positions(), 0);
-    if (&run == bytes) {
-      writer.write(triangle_positions(), 1);
-      continue;
-    }
+    if (&run == bytes) writer.write(triangle_positions(), 1);
+    writer.finish();
     run = folder.bytes("frames.bin");
   }
-  FrameWriter(folder.path() + "/fresh", FrameFormat::binary, triangle_mesh())
-      .write(triangle_positions(), 0);
+  FrameWriter fresh(folder.path() + "/fresh", FrameFormat::binary, triangle_mesh());
+  fresh.write(triangle_positions(), 0);
+  fresh.finish();
   CHECK(bytes[1] == folder.bytes("fresh/frames.bin"));
 }
 
@@ -138,13 +139,14 @@ TEST_CASE("frames: the files of earlier frames are found by their names", "[file
   const FrameFolder folder;
   CHECK(frame_files(folder.path()).empty());
   std::filesystem::create_directory(folder.path());
-  for (const char* name :
-       {"frame_000010.obj", "frame_000002.ply", "frames.bin", "frame_12.obj", "frame_000001.png",
-        "frame_000001.obj.part", "myframe_000001.obj", "frame_00000x.obj", "notes.txt"})
+  for (const char* name : {"frame_000010.obj", "frame_000002.ply", "frames.bin", "frames.bin.part",
+                           "frame_12.obj", "frame_000001.png", "frame_000001.obj.part",
+                           "myframe_000001.obj", "frame_00000x.obj", "notes.txt"})
     std::ofstream(folder.file(name)) << name;
   std::vector<std::string> names;
   for (const auto& file : frame_files(folder.path())) names.push_back(file.filename().string());
-  CHECK(names == std::vector<std::string>{"frame_000002.ply", "frame_000010.obj", "frames.bin"});
+  CHECK(names == std::vector<std::string>{"frame_000002.ply", "frame_000010.obj", "frames.bin",
+                                          "frames.bin.part"});
 }
 
 TEST_CASE("frames: a folder that cannot be looked into is named", "[files]") {
@@ -175,7 +177,9 @@ TEST_CASE("frames: a place that cannot be written to is named", "[files]") {
 
 TEST_CASE("frames: a cut or foreign binary file is refused by name", "[files]") {
   const FrameFolder folder;
-  FrameWriter(folder.path(), FrameFormat::binary, triangle_mesh()).write(triangle_positions(), 0);
+  FrameWriter writer(folder.path(), FrameFormat::binary, triangle_mesh());
+  writer.write(triangle_positions(), 0);
+  writer.finish();
   const std::string whole = folder.bytes("frames.bin");
   const std::size_t n_header = whole.find('\n') + 1;
   for (std::size_t length = 0; length < whole.size(); ++length) {

@@ -57,12 +57,14 @@ const BadObj kBadTexts[] = {
     {"v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 2 3 4 1\n", "line 5",
      "expected a polygon that can be split into triangles about its first corner, got one that "
      "bends inward or crosses itself"},
+    {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n", "line 5",
+     "expected a polygon that can be split into triangles about its first corner, got one that "
+     "bends inward or crosses itself"},
     {kSquare + "l 1\n", "line 5", "expected at least 2 vertices, got 1"},
     {kSquare + "p\n", "line 5", "expected at least 1 vertex, got 0"},
     // Statements.
-    {"w 1 2 3\n", "line 1", R"(expected a statement of OBJ, such as v, vt, f or g, got "w")"},
-    {"\n{\"cloth\": 1}\n", "line 2",
-     R"(expected a statement of OBJ, such as v, vt, f or g, got "{\"cloth\":")"},
+    {"w 1 2 3\n", "", "expected vertices (v), got none"},
+    {"\n{\"cloth\": 1}\n", "", "expected vertices (v), got none"},
     {"cstype bspline\n", "line 1",
      "expected triangles or polygons (f), as free-form curves and surfaces are none, got "
      "\"cstype\""},
@@ -72,10 +74,7 @@ const BadObj kBadTexts[] = {
     {std::string("v 0 0 0\nv 1 \0 0\n", 16), "line 2", "expected text in UTF-8, got a zero byte"},
     {"\x7f"
      "ELF\x02\x01",
-     "line 1",
-     R"(expected a statement of OBJ, such as v, vt, f or g, got ")"
-     "\x7f"
-     R"(ELF\u0002\u0001")"},
+     "", "expected vertices (v), got none"},
     // The whole.
     {"", "", "expected vertices (v), got none"},
     {"# only\n", "", "expected vertices (v), got none"},
@@ -123,6 +122,20 @@ TEST_CASE("obj: a bad text is refused with its line, what was expected and what 
       CHECK(std::string(error.what()) == bad.sentence);
     }
   }
+}
+
+TEST_CASE("obj: statements of other programs are skipped and counted", "[files]") {
+  const std::string triangles = kSquare + "f 1 2 3\nf 1 3 4\n";
+  CHECK(read_obj(triangles + "vn 0 0 1\nusemtl wool\n").skipped.empty());
+  const ObjMesh mesh = read_obj("seam 1 2\nfoo\n" + triangles + "seam 3 4\n");
+  REQUIRE(mesh.skipped.size() == 2);
+  CHECK(mesh.skipped[0].keyword == "seam");
+  CHECK(mesh.skipped[0].count == 2);
+  CHECK(skipped_sentence(mesh.skipped) ==
+        "skipped 3 statements that Pleat does not use (seam, 2; foo, 1)");
+  CHECK(skipped_sentence({}).empty());
+  CHECK(skipped_sentence(read_obj("a\nb\nc\nd\ne\nb\n" + triangles).skipped) ==
+        "skipped 6 statements that Pleat does not use (b, 2; a, 1; c, 1; d, 1; and others)");
 }
 
 TEST_CASE("obj: one vertex more than a simulation takes is refused at its line", "[files]") {

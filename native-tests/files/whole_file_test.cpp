@@ -41,6 +41,29 @@ TEST_CASE("whole file: a file that cannot be read is told from none and from a f
         "expected a file that can be read, got \"Permission denied\"");
 }
 
+TEST_CASE("whole file: a device and a name with a zero byte are refused, a pipe is read",
+          "[files]") {
+  const auto read = [](const fs::path& path) { read_file(path); };
+  for (const char* device : {"/dev/zero", "/dev/null"})
+    CHECK(complaint(device, read) == "expected a file, got a device");
+  CHECK(complaint(std::string("a\0b", 3), read) ==
+        "expected the name of a file, got one with a zero byte");
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  REQUIRE(::write(ends[1], "piped", 5) == 5);
+  close(ends[1]);
+  CHECK(read_file("/proc/self/fd/" + std::to_string(ends[0])) == "piped");
+  close(ends[0]);
+}
+
+TEST_CASE("whole file: a file that is too large is refused before it is read", "[files]") {
+  const ScratchFolder folder;
+  write_file(folder / "huge", "");
+  fs::resize_file(folder / "huge", kMostBytesOfFile + 1);  // takes no place
+  CHECK(complaint(folder / "huge", [](const fs::path& path) { read_file(path); }) ==
+        "expected a file of at most 1 GiB, got more");
+}
+
 TEST_CASE("whole file: looking whether a file can be written changes nothing", "[files]") {
   const ScratchFolder folder;
   write_file(folder / "kept", "as it was");

@@ -5,6 +5,7 @@
 #include "core/base/check.h"
 #include "core/files/frame_file.h"
 #include "core/files/obj_file.h"
+#include "core/model/elasticity.h"
 #include "core/run/simulation.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/mesh_cloth.h"
@@ -61,6 +62,45 @@ Scene skirt() {
               [](const std::string& name) { return repository_file("assets/scenes/" + name); });
 }
 
+constexpr int kTubeSides = 12;
+constexpr int kTubeRings = 4;
+constexpr double kTubeRadius = 0.2;  // [m], of the corners
+constexpr double kTubeHeight = 0.5;  // [m]
+/// A side of the tube [m].
+const double kTubeSide = 2 * kTubeRadius * std::sin(M_PI / kTubeSides);
+const double kTubeArea = kTubeSides * kTubeSide * kTubeHeight;  // [m^2]
+
+/// A tube of flat sides whose texture is the rectangle that it is rolled of, in metres: first
+/// around, then up. At its seam a vertex has two places in the rectangle.
+std::string tube_obj() {
+  std::string text;
+  for (int ring = 0; ring < kTubeRings; ++ring)
+    for (int side = 0; side < kTubeSides; ++side) {
+      const double angle = -2 * M_PI * side / kTubeSides;
+      const double place[] = {kTubeRadius * std::cos(angle), kTubeHeight * ring / (kTubeRings - 1),
+                              kTubeRadius * std::sin(angle)};
+      text += obj_line("v", place);
+    }
+  for (int ring = 0; ring < kTubeRings; ++ring)
+    for (int side = 0; side <= kTubeSides; ++side) {
+      const double place[] = {kTubeSide * side, kTubeHeight * ring / (kTubeRings - 1)};
+      text += obj_line("vt", place);
+    }
+  const auto corner = [](int ring, int side) {
+    return std::to_string(ring * kTubeSides + side % kTubeSides + 1) + "/" +
+           std::to_string(ring * (kTubeSides + 1) + side + 1) + " ";
+  };
+  for (int ring = 0; ring + 1 < kTubeRings; ++ring)
+    for (int side = 0; side < kTubeSides; ++side)
+      text += "f " + corner(ring, side) + corner(ring, side + 1) + corner(ring + 1, side + 1) +
+              corner(ring + 1, side) + "\n";
+  return text;
+}
+
+Scene tube_scene(const std::string& rest) {
+  return obj_scene(tube_obj(), R"(, "rest": "texture")" + rest);
+}
+
 double angle_at(const Vec3& corner, const Vec3& b, const Vec3& c) {
   return std::atan2((b - corner).cross(c - corner).norm(), (b - corner).dot(c - corner));
 }
@@ -115,6 +155,83 @@ TEST_CASE("mesh scene: a vertex on a seam has no one pair of texture coordinates
   CHECK(cloth_of(obj_scene(text)).texture_coordinates.col(3) == Eigen::Vector2d(1, 4));
   text.replace(text.find("f 3/3"), 5, "f 3/1");
   CHECK(cloth_of(obj_scene(text)).texture_coordinates.cols() == 0);
+}
+
+TEST_CASE("mesh scene: a tube cut to a flat rectangle is free of strain, however it is sewn",
+          "[scene]") {
+  const Simulation tube(tube_scene(""));
+  const ClothModel& model = tube.model();
+  const Positions& x = tube.state().positions;
+  CHECK(membrane_energy(model.membrane, x) < 1e-20);
+  CHECK(stretch(tube.gauge(), x).largest < 1e-12);
+  CHECK(model.masses.sum() == Approx(kTubeArea * tube.scene().fabric.areal_density));
+  // Cut in another place of the pattern, the threads still run around it.
+  for (const MembraneElement& element : model.membrane.elements) {
+    const Vec3 around = x.col(element.vertices[0]) * element.gradients(0, 0) +
+                        x.col(element.vertices[1]) * element.gradients(1, 0) +
+                        x.col(element.vertices[2]) * element.gradients(2, 0);
+    CHECK(std::abs(around.y()) < 1e-12);
+    CHECK(around.norm() == Approx(1));
+  }
+}
+
+TEST_CASE("mesh scene: a tube cut 2 % too small is stretched by 2 % all over", "[scene]") {
+  constexpr double kScale = 0.98;
+  const Scene scene = tube_scene(R"(, "texture_scale_m": 0.98)");
+  const int level = GENERATE(0, 1);
+  Scene refined = scene;
+  refined.level = level;
+  const Simulation tube(refined);
+  const ClothModel& model = tube.model();
+  const Positions& x = tube.state().positions;
+  const double area = kScale * kScale * kTubeArea;
+  CHECK(stretch(tube.gauge(), x).rms == Approx(1 / kScale - 1));
+  CHECK(stretch(tube.gauge(), x).largest == Approx(1 / kScale - 1));
+  CHECK(model.masses.sum() == Approx(area * scene.fabric.areal_density));
+  // Green strain E along both threads and none across: W = (K_u + K_v + 2 G) E^2/2.
+  const double green = (1 / (kScale * kScale) - 1) / 2;
+  const MembraneLaw& law = model.membrane.law;
+  CHECK(membrane_energy(model.membrane, x) ==
+        Approx(area * (law.stretch_warp + law.stretch_weft + 2 * law.shear) * green * green / 2));
+}
+
+TEST_CASE("mesh scene: bending of a tube is that of its flat pattern", "[scene]") {
+  const auto tube = [](const std::string& rest) {
+    return Simulation(read(
+        R"({"cloth": {"mesh": {"obj": "any.obj")" + rest + R"(}}, "fabric": {"name": "wool"}})",
+        source_of(tube_obj())));
+  };
+  // Of the same tube without a pattern, whose lengths are the same.
+  const Simulation cut = tube(R"(, "rest": "texture")");
+  const Simulation standing = tube("");
+  CHECK(cut.model().masses.isApprox(standing.model().masses, 1e-12));
+  CHECK(cut.model().fitted_bending.isApprox(standing.model().fitted_bending, 1e-9));
+  const double of_cylinder =
+      cut.scene().fabric.bend_warp * kTubeArea / (2 * kTubeRadius * kTubeRadius);
+  CHECK(elastic_energy(cut.model(), cut.state().positions) == Approx(of_cylinder).epsilon(0.1));
+}
+
+TEST_CASE("mesh scene: an edge between two lengths of pattern is as long as their mean",
+          "[scene]") {
+  const Scene scene = read(R"({"cloth": {"mesh": {"obj": "any.obj", "rest": "texture"}}})",
+                           source_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+                                     "vt 0 0\nvt 1 0\nvt 0 1\nvt 0 0\nvt 2 2\nvt -3 3\n"
+                                     "f 1/1 2/2 3/3\nf 3/6 2/4 4/5\n"));
+  const TriangleMesh& mesh = cloth_of(scene).mesh;
+  for (const MeshEdge& edge : mesh_edges(mesh.triangles))
+    if (!edge.is_border()) CHECK(rest_length(mesh, edge) == Approx(2 * std::sqrt(2.0)));
+  CHECK(rest_area(mesh, FaceId(0)) == Approx(0.5));
+  CHECK(rest_area(mesh, FaceId(1)) == Approx(6));
+}
+
+TEST_CASE("mesh scene: a flat pattern is written out and read back to the bit", "[scene]") {
+  const Scene scene = tube_scene(R"(, "texture_scale_m": 0.3)");
+  const Scene again = read(write_scene(scene));
+  const auto& pattern = cloth_of(scene).mesh.pattern;
+  REQUIRE(cloth_of(again).mesh.pattern.size() == pattern.size());
+  for (std::size_t f = 0; f < pattern.size(); ++f)
+    CHECK(cloth_of(again).mesh.pattern[f] == pattern[f]);
+  CHECK(write_scene(again) == write_scene(scene));
 }
 
 TEST_CASE("mesh scene: faults of the file are told with its name and line", "[scene]") {

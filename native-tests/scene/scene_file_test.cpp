@@ -135,7 +135,7 @@ const BadScene kBadScenes[] = {
      "expected a mesh written out in the scene, as no files can be read here, got \"skirt.obj\""},
     {R"({"cloth": {"mesh": {"obj": 7}}})", "/cloth/mesh/obj", "expected a text in quotes, got 7"},
     {R"({"cloth": {"mesh": {"obj": "skirt.obj", "groups": {}}}})", "/cloth/mesh/groups",
-     R"(expected one of the keys "obj", "warp_direction", "initial_velocity_m_per_s", got "groups")"},
+     R"(expected one of the keys "obj", "rest", "texture_scale_m", "warp_direction", "initial_velocity_m_per_s", got "groups")"},
     {R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0]]}}})", "/cloth/mesh",
      "expected the key \"triangles\", got an object"},
     {R"({"cloth": {"mesh": {"positions_m": [], "triangles": []}}})", "/cloth/mesh/positions_m",

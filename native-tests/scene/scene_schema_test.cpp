@@ -39,6 +39,11 @@ const char* const kShortScenes[] = {
 const char* const kFurtherScenes[] = {
     R"({"cloth": {"mesh": {"obj": "triangle.obj", "warp_direction": [1, 0, 0],
         "initial_velocity_m_per_s": [0, 1, 0]}}})",
+    R"({"cloth": {"mesh": {"obj": "triangle.obj", "rest": "texture", "texture_scale_m": 0.5}}})",
+    R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 1, 2]],
+        "texture_coordinates": [[0, 0], [2, 0], [0, 1]], "rest": "texture", "texture_scale_m": 0.5}}})",
+    R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 1, 2]],
+        "pattern_m": [[[0, 0], [1, 0], [0, 1]]]}}})",
     R"({"$schema": "scene_schema.json", "cloth": {"sheet": {}},
         "fabric": {"name": "silk", "overrides": {"shear_n_per_m": 3}}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
@@ -75,7 +80,7 @@ json written(const std::string& text) {
   const FileSource files = [](const std::string& name) -> std::string {
     if (name == "turn.json") return repository_file("assets/motions/turn.json");
     if (name == "plan.json") return plan_of_unit_sheet();
-    return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    return "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 0 2\nf 1/1 2/2 3/3\n";
   };
   return json::parse(write_scene(read_scene(text, fabric_library(), files)));
 }
