@@ -1,5 +1,6 @@
 #include "core/dynamics/stepper_explicit.h"
 
+#include "core/dynamics/jumping_forces.h"
 #include "core/dynamics/stability_bound.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
@@ -9,7 +10,9 @@ namespace pleat {
 StepperExplicit::StepperExplicit(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, stable_substeps(model, options), ContactMemory::none),
       forces_(3, model.n_vertices()),
-      positions_begin_(3, model.n_vertices()) {}
+      positions_begin_(3, model.n_vertices()) {
+  refuse_jumping_forces(model, "explicit");
+}
 
 SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;

@@ -1,6 +1,7 @@
 #include "core/dynamics/stepper_implicit.h"
 
 #include "core/base/check.h"
+#include "core/dynamics/jumping_forces.h"
 #include "core/model/elasticity.h"
 
 namespace pleat {
@@ -17,6 +18,7 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
       forces_(3, model.n_vertices()),
       velocity_changes_(Positions::Zero(3, model.n_vertices())),
       positions_begin_(3, model.n_vertices()) {
+  refuse_jumping_forces(model, "implicit");
   solver_->analyze(matrix_.lower());
   if (model_.contact) hold_.emplace(model_);
   refresh();

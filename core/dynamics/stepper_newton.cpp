@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/random.h"
+#include "core/dynamics/jumping_forces.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
@@ -49,12 +50,7 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
                      "expected backward_euler or midpoint beside solids, got equilibrium");
   if (is_at_rest() && model.pins.empty() && !model.gravity.isZero(0))
     throw InputError("/pins", "expected something held, as weight alone has no rest, got nothing");
-  const bool has_jumps = std::any_of(model.chord_bends.begin(), model.chord_bends.end(),
-                                     [](const ChordBend& b) { return b.law == ChordLaw::arc; });
-  if (has_jumps)
-    throw InputError("/model/bending",
-                     "expected quadratic, linear or none for newton, which solves no force that "
-                     "jumps, got arc");
+  refuse_jumping_forces(model, "newton");
   solver_ = make_solver(options);
   solver_->analyze(matrix_.lower());
   base_ = matrix_.lower();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/base/check.h"
 
@@ -30,6 +31,25 @@ double position_error(const Eigen::Ref<const Positions>& positions,
   for (Eigen::Index i = 0; i < n; ++i)
     sum += areas[i] * (positions.col(i) - reference.col(i)).squaredNorm();
   return std::sqrt(sum / areas.sum());
+}
+
+double position_error_95(const Eigen::Ref<const Positions>& positions,
+                         const Eigen::Ref<const Positions>& reference,
+                         const Eigen::Ref<const Eigen::VectorXd>& areas) {
+  constexpr double kShare = 0.95;
+  const Eigen::Index n = std::min(positions.cols(), reference.cols());
+  PLEAT_CHECK(areas.size() == n && n > 0, "one area for each point that both states have");
+  if (!(areas.sum() > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXd distances =
+      (positions.leftCols(n) - reference.leftCols(n)).colwise().norm();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return distances[a] < distances[b]; });
+  double within = 0;
+  for (const Eigen::Index i : order)
+    if ((within += areas[i]) >= kShare * areas.sum()) return distances[i];
+  return distances[order.back()];
 }
 
 // With d_k = |x_k - x_{k+1}| falling by 2^p at each halving, x - x_3 = (x_3 - x_2) / (2^p - 1).

@@ -27,6 +27,12 @@ double position_error(const Eigen::Ref<const Positions>& positions,
                       const Eigen::Ref<const Positions>& reference,
                       const Eigen::Ref<const Eigen::VectorXd>& areas);
 
+/// The distance [m] that material points of 95 % of the area are within, as of position_error. NaN
+/// where all areas are zero.
+double position_error_95(const Eigen::Ref<const Positions>& positions,
+                         const Eigen::Ref<const Positions>& reference,
+                         const Eigen::Ref<const Eigen::VectorXd>& areas);
+
 /// Where positions on three meshes lead, each with edges half as long as the one before.
 struct MeshLimit {
   Positions positions;              ///< [m], of the vertices of the coarsest mesh

@@ -93,10 +93,12 @@ RunErrors RunComparison::errors(std::span<const Sample> run,
   RunErrors errors;
   std::vector<double> position_errors;
   std::vector<double> surface_errors;
+  errors.position_95 = 0;
   if (bend_) errors.surface_95 = errors.bend_distribution = errors.bend_regions = 0;
   for (std::size_t s = 0; s < run.size(); ++s) {
     const Positions own = at_common_vertices(run[s].positions);
     position_errors.push_back(position_error(own, reference[s].positions, areas_));
+    errors.position_95 += position_error_95(own, reference[s].positions, areas_) / n;
     if (!bend_) continue;
     const SurfaceError surface = surface_error(own_.mesh.triangles, run[s].positions,
                                                reference_.mesh.triangles, reference[s].positions);

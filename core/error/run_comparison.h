@@ -16,6 +16,7 @@ struct RunErrors {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   double position = kUnknown;           ///< RMS over material points and times [m]
+  double position_95 = kUnknown;        ///< mean over times of position_error_95 [m]
   double surface_rms = kUnknown;        ///< RMS over times of SurfaceError::rms [m]
   double surface_95 = kUnknown;         ///< mean over times of SurfaceError::percentile_95 [m]
   double bend_distribution = kUnknown;  ///< mean over times of BendError [1/m]

@@ -54,6 +54,7 @@ double half_angle(double e) {
 }  // namespace
 
 double arc_curvature(double chord, double length) {
+  PLEAT_CHECK(chord >= 0 && length > 0, "a chord has no negative length, an arc a positive one");
   if (chord >= length) return 0;
   return 2 * half_angle((length - chord) / length) / length;
 }

@@ -9,7 +9,7 @@ namespace pleat {
 /// Curvature [1/m] of the arc whose ends are `chord` [m] apart; 0 from chord = length on.
 ///
 /// chord   not negative
-/// length  of the arc [m], positive
+/// length  of the arc [m], positive; ContractError for others
 ///
 /// As a function of chord / length within 1e-10 of itself from 0.05 to 1 - 1e-12.
 double arc_curvature(double chord, double length);

@@ -23,6 +23,7 @@ constexpr NumberField kNumberFields[] = {
     {"spread_ms", &BenchRow::spread_ms},
     {"position_error_m", &BenchRow::position_error},
     {"position_error_percent", &BenchRow::position_error_percent},
+    {"position_error_95_m", &BenchRow::position_error_95},
     {"surface_error_m", &BenchRow::surface_error},
     {"surface_error_95_m", &BenchRow::surface_error_95},
     {"bend_error_per_m", &BenchRow::bend_error},
@@ -74,6 +75,9 @@ constexpr NumberColumn kNumberColumns[] = {
     {"spread", &BenchRow::spread_ms, 1},
     {"position error mm", &BenchRow::position_error, 1e3},
     {"%", &BenchRow::position_error_percent, 1},
+    {"95 % within mm", &BenchRow::position_error_95, 1e3},
+    {"surface mm", &BenchRow::surface_error, 1e3},
+    {"bend 1/m", &BenchRow::bend_error, 1},
     {"rms stretch %", &BenchRow::rms_stretch, 1e2},
     {"largest %", &BenchRow::largest_stretch, 1e2},
     {"residual", &BenchRow::residual, 1},
@@ -137,25 +141,50 @@ std::string value_cell(const BenchRow& row, const std::string& pointer) {
   return cell(value == row.setting.end() ? "" : value_text(*value));
 }
 
-std::string table_head(const std::vector<std::string>& pointers) {
+/// The parts of a step that took time in some row.
+std::vector<Stage> timed_parts(std::span<const BenchRow> rows) {
+  std::vector<Stage> parts;
+  for (int s = 0; s < kStageCount; ++s) {
+    const auto took_time = [s](const BenchRow& row) {
+      return row.parts_ms[static_cast<std::size_t>(s)] > 0;
+    };
+    if (std::any_of(rows.begin(), rows.end(), took_time)) parts.push_back(static_cast<Stage>(s));
+  }
+  return parts;
+}
+
+/// The columns of a table that are not the same in all.
+struct VaryingColumns {
+  std::vector<std::string> pointers;
+  std::vector<Stage> parts;
+};
+
+std::string table_head(const VaryingColumns& varying) {
   std::string head = "| front | method | level | ";
-  for (const std::string& pointer : pointers) head += cell(cut(pointer));
+  for (const std::string& pointer : varying.pointers) head += cell(cut(pointer));
   head += "vertices | ";
   for (const NumberColumn& column : kNumberColumns) head += cell(column.title);
-  head += "status |\n|";
-  const std::size_t n_columns = 5 + pointers.size() + std::size(kNumberColumns);
+  for (const Stage part : varying.parts) head += cell(std::string(name(part)) + " ms");
+  head += "process peak MB | status |\n|";
+  const std::size_t n_columns =
+      6 + varying.pointers.size() + std::size(kNumberColumns) + varying.parts.size();
   for (std::size_t c = 0; c < n_columns; ++c) head += "---|";
   return head + "\n";
 }
 
-std::string table_line(const BenchRow& row, bool is_on_front,
-                       const std::vector<std::string>& pointers) {
+std::string table_line(const BenchRow& row, bool is_on_front, const VaryingColumns& varying) {
   std::string line = "| " + cell(is_on_front ? "*" : "") + cell(method_phrase(row)) +
                      cell(std::to_string(row.level));
-  for (const std::string& pointer : pointers) line += value_cell(row, pointer);
+  for (const std::string& pointer : varying.pointers) line += value_cell(row, pointer);
   line += cell(std::to_string(row.n_vertices));
   for (const NumberColumn& column : kNumberColumns)
     line += cell(short_number(column.factor * row.*column.value));
+  for (const Stage part : varying.parts)
+    line += cell(short_number(row.parts_ms[static_cast<std::size_t>(part)]));
+  constexpr double kBytesPerMegabyte = 1e6;
+  line += cell(short_number(row.process_peak_memory
+                                ? static_cast<double>(*row.process_peak_memory) / kBytesPerMegabyte
+                                : BenchRow::kUnknown));
   return line + row.status + " |\n";
 }
 
@@ -238,13 +267,13 @@ std::string setting_phrase(const BenchRow& row) {
 }
 
 std::string markdown_table(std::span<const BenchRow> rows) {
-  const std::vector<std::string> pointers = varying_pointers(rows);
+  const VaryingColumns varying{varying_pointers(rows), timed_parts(rows)};
   std::vector<bool> on_front(rows.size(), false);
   for (const std::size_t i : front_of(rows)) on_front[i] = true;
-  std::string table = table_head(pointers);
+  std::string table = table_head(varying);
   std::string remarks;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    table += table_line(rows[i], on_front[i], pointers);
+    table += table_line(rows[i], on_front[i], varying);
     remarks += remarks_on(rows[i]);
   }
   return remarks.empty() ? table : table + "\n" + remarks;

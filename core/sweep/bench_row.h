@@ -38,6 +38,7 @@ struct BenchRow {
 
   double position_error = kUnknown;          ///< RMS over the cloth and the sample times [m]
   double position_error_percent = kUnknown;  ///< of the rest diagonal
+  double position_error_95 = kUnknown;       ///< see RunErrors [m]
   double surface_error = kUnknown;           ///< see RunErrors, as are the next three [m]
   double surface_error_95 = kUnknown;        ///< [m]
   double bend_error = kUnknown;              ///< of the distribution of curvature [1/m]
@@ -46,16 +47,19 @@ struct BenchRow {
   double largest_stretch = kUnknown;
   double rms_stretch_error = kUnknown;  ///< minus the reference's
   double largest_stretch_error = kUnknown;
-  double residual = kUnknown;  ///< of the steps' own equations, the largest
+  /// Of the steps' own equations, the largest; unknown where it was not computed, as by a direct
+  /// solver.
+  double residual = kUnknown;
   double iterations_per_step = kUnknown;
   double energy_drift = kUnknown;  ///< what no force explains, of the largest kinetic energy
 
   ReferenceLabel reference;
   std::string status = "ok";  ///< or the name of a SolveStatus, or "refused"
   std::string message;
-  std::string target;                               ///< "native" or "wasm"
-  std::string commit;                               ///< what was measured
-  std::optional<std::int64_t> process_peak_memory;  ///< [bytes], where the platform tells
+  std::string target;  ///< "native" or "wasm"
+  std::string commit;  ///< what was measured
+  /// Of the whole process, with what earlier rows needed [bytes], where the platform tells.
+  std::optional<std::int64_t> process_peak_memory;
 
   /// False for a run that was refused or ended early: such a row is on no front.
   bool finished() const { return status == "ok" || status == "not_converged"; }
@@ -76,8 +80,8 @@ std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
 /// A row's setting for people: method, level, and what else it changes.
 std::string setting_phrase(const BenchRow& row);
 
-/// Rows as a Markdown table, those on the front marked, with a column for each pointer that varies;
-/// below it, what a row's status means.
+/// Rows as a Markdown table, those on the front marked, with a column for each pointer that varies
+/// and for each part of a step that took time; below it, what a row's status means.
 std::string markdown_table(std::span<const BenchRow> rows);
 
 }  // namespace pleat

@@ -71,6 +71,7 @@ void compare(const SampledRun& run, const Scene& reference_scene, const Referenc
     return;
   }
   row.position_error = errors.position;
+  row.position_error_95 = errors.position_95;
   const double diagonal = scene.cloth->rest_diagonal();
   if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
 }
@@ -180,7 +181,7 @@ BenchRow Sweep::measured_row() const {
   row.n_substeps = simulation.substeps();
   row.status = name(report.status);
   row.message = report.message;
-  row.residual = report.relative_residual;
+  if (report.relative_residual > 0) row.residual = report.relative_residual;  // else not computed
   row.energy_drift = run_->relative_drift();
   if (simulation.model().contact)
     row.n_unresolved_contacts = static_cast<int>(simulation.model().contact->n_unresolved());

@@ -68,6 +68,10 @@ TEST_CASE("vertex curvature: a chord as long as its arc or longer does not bend"
   CHECK(arc_curvature(1, 1) == 0);
   CHECK(arc_curvature(1.2, 1) == 0);
   CHECK(arc_curvature(0, 0.5) == Approx(2 * M_PI / 0.5).epsilon(1e-12));
+  CHECK_THROWS_AS(arc_curvature(-0.1, 1), ContractError);
+  CHECK_THROWS_AS(arc_curvature(0, 0), ContractError);
+  CHECK_THROWS_AS(arc_curvature(1, -1), ContractError);
+  CHECK_THROWS_AS(arc_curvature(std::nan(""), 1), ContractError);
 }
 
 TEST_CASE("vertex curvature: a cylinder has the mean of its eight chords everywhere",

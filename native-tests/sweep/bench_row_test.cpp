@@ -29,6 +29,9 @@ BenchRow measured_row() {
   row.parts_ms = {0, 0.1, 0.2, 0, 5.9, 0};
   row.position_error = 0.013;
   row.position_error_percent = 0.92;
+  row.position_error_95 = 0.031;
+  row.surface_error = 0.0042;
+  row.bend_error = 1.75;
   row.rms_stretch = 1.0 / 3;
   row.largest_stretch = 0.5;
   row.rms_stretch_error = -1e-5;
@@ -57,6 +60,7 @@ TEST_CASE("bench_row: a row reads back to what was written", "[sweep]") {
   CHECK(read.model == row.model);
   CHECK(read.method.stepper == &steppers::projective);
   CHECK(read.rms_stretch == row.rms_stretch);
+  CHECK(read.position_error_95 == row.position_error_95);
   CHECK(read.energy_drift == row.energy_drift);
   CHECK(read.n_unresolved_contacts == row.n_unresolved_contacts);
   CHECK(read.process_peak_memory == row.process_peak_memory);
@@ -97,6 +101,21 @@ TEST_CASE("bench_row: failed rows are on no front", "[sweep]") {
   CHECK(front_of(rows) == std::vector<std::size_t>{1});
   const std::string table = markdown_table(rows);
   CHECK(std::count(table.begin(), table.end(), '*') == 1);
+}
+
+TEST_CASE("bench_row: the table tells surface, bend, parts and the process's memory", "[sweep]") {
+  std::vector<BenchRow> rows(2, measured_row());
+  rows[1].process_peak_memory.reset();
+  rows[1].parts_ms = {};
+  const std::string table = markdown_table(rows);
+  for (const char* title :
+       {"| 95 % within mm |", "| surface mm |", "| bend 1/m |", "| process peak MB |"})
+    CHECK(table.find(title) != std::string::npos);
+  CHECK(table.find(std::string("| ") + name(Stage::solve) + " ms |") != std::string::npos);
+  CHECK(table.find(std::string("| ") + name(Stage::contact) + " ms |") == std::string::npos);
+  CHECK(table.find("| 31 | 4.2 | 1.75 |") != std::string::npos);
+  CHECK(table.find("| 123 | ok |") != std::string::npos);
+  CHECK(table.find("| - | ok |") != std::string::npos);
 }
 
 TEST_CASE("bench_row: the table has a column for each pointer that varies", "[sweep]") {
