@@ -27,9 +27,9 @@ constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then an
 /// triangle has collapsed, which another factor does not know either, but corrections learn.
 constexpr int kFactorsInVain = 2;
 
-/// Many short steps can still lead far: the end is a short one that gained less than this share of
-/// the energy. Where the least energy is nothing every step gains most of it, and the end is a step
-/// of kNoStep, in which files and screens see no change.
+/// Many short steps can still lead far: the end is a short one after which less than this share of
+/// the energy is left to gain (left_to_gain). Where the least energy is nothing every step gains
+/// most of it, and the end is a step of kNoStep, in which files and screens see no change.
 constexpr double kWorthMore = 1e-7;
 constexpr double kNoStep = 1e-8;  // DeformStep::relative_step
 
@@ -73,6 +73,20 @@ Positions bulges(const TriangleMesh& mesh, double extent) {
     result.col(v) *= kBulge * extent * height / 3;
   }
   return result;
+}
+
+/// What steps after `last` have to gain, foretold from the gains of the last steps and of as many
+/// before: where they shrink by a factor q, they have the last ones over 1 - q in them. Before
+/// there are two such spans, what the last step gained.
+double left_to_gain(const std::vector<DeformStep>& steps, const DeformStep& last, double before) {
+  constexpr std::size_t kLongestSpan = 5;  // steps; single gains go up and down
+  constexpr double kSlowest = 0.999;       // where gains do not shrink, a thousand spans count
+  const std::size_t span = std::min(kLongestSpan, steps.size() / 2);
+  if (span == 0) return before - last.energy;
+  const double middle = steps[steps.size() - span].energy;
+  const double recent = middle - last.energy;
+  const double earlier = steps[steps.size() - 2 * span].energy - middle;
+  return recent / (1 - std::min(recent / earlier, kSlowest));
 }
 
 bool are_equal(const DeformWeights& a, const DeformWeights& b) {
@@ -292,7 +306,7 @@ void DeformSolver::judge(const DeformStep& step, double before) {
       (is_halved && n_in_vain_ < kFactorsInVain) || n_with_factor_ >= kMostSteps ||
       (n_with_factor_ >= kPatience && step.relative_step > kContraction * first_with_factor_);
   if (step.halvings > 0) return;
-  const bool gains = before - step.energy > kWorthMore * before;
+  const bool gains = left_to_gain(steps_, step, before) > kWorthMore * before;
   converged_ = step.relative_step <= (gains ? kNoStep : kTolerance);
   damping_ = damping_ > kFirstDamping ? damping_ / kDampingFactor : 0;
 }

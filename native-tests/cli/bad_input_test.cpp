@@ -35,9 +35,6 @@ const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string kTextures = "vt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\n";
 const std::string kSquare = kCorners + kTextures + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-constexpr const char* kPlacedMesh = R"("positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
-                                       "triangles": [[0, 1, 2]])";
-
 /// The scene with a part of its text replaced.
 std::string changed_scene(const std::string& from, const std::string& to) {
   std::string text = kDeskScene;
@@ -50,7 +47,9 @@ std::string mesh_scene(const std::string& name, const std::string& keys = "") {
 }
 
 std::string placed_scene(const std::string& keys) {
-  return std::string(R"({"cloth": {"mesh": {)") + kPlacedMesh + keys + "}}}";
+  return R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
+             "triangles": [[0, 1, 2]])" +
+         keys + "}}}";
 }
 
 std::string deform_scene(const std::string& mesh_keys) {

@@ -104,7 +104,7 @@ TEST_CASE("deform command: a mesh is pinned and pulled by number, name, box and 
   };
   for (std::vector<std::string> words : same) {
     CAPTURE(words);
-    words.insert(words.end(), {"--fabric", "wool", "--out", place.out});
+    words.insert(words.end(), {"--fabric", "wool", "--out", place.out, "--overwrite"});
     const Json json = place.json(place.mesh, words);
     CHECK(json.at("scene") == "any");
     CHECK(json.at("n_held") == 4);
