@@ -120,9 +120,9 @@ void Arguments::refuse_options() const {
   for (const char* asked : asked_) known.push_back(asked + 2);
   const std::string_view near =
       nearest_word(option.substr(std::min(option.size(), std::size_t{2})), known);
-  throw InputError(cut(option),
-                   near.empty() ? "unknown option; \"pleat help\" lists what each command takes"
-                                : "unknown option; the nearest is --" + std::string(near));
+  throw InputError(cut(option), near.empty()
+                                    ? "unknown option; \"pleat help\" lists what each command takes"
+                                    : "unknown option; the nearest is --" + std::string(near));
 }
 
 std::string Arguments::first_word(const char* what) {

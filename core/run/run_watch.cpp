@@ -162,8 +162,8 @@ std::string sentence(const RunWarning& warning) {
 std::string advice(const RunWarning& warning) {
   std::string text = "try";
   for (const SettingHint& hint : warning.hints)
-    text += (&hint == warning.hints.data() ? " " : " or ") + hint.pointer + " = " +
-            hint.value.dump();
+    text +=
+        (&hint == warning.hints.data() ? " " : " or ") + hint.pointer + " = " + hint.value.dump();
   return text;
 }
 

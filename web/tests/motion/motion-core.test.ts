@@ -231,7 +231,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     for (const row of report.rows) {
       expect(row.status).toBe('ok');
       expect(row.reference.id).not.toBe('');
-      expect(row.reference.converged).toBe(false);
+      expect(row.reference.converged).toBe(true);
       expect(row.ms_per_frame).toBeGreaterThan(0);
       expect(row.position_error_m).toBeGreaterThan(0);
       expect(settingOfRow(row, setting).stepper).toBe(row.method.stepper);
