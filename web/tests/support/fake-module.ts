@@ -279,7 +279,7 @@ function row(level: number, method: BenchRow['method'], reference: string): Benc
     position_error_percent: 1 / 2 ** level,
     rms_stretch: 0.004,
     largest_stretch: 0.01,
-    reference: { id: 'fake', converged: false, description: reference },
+    reference: { id: 'fake', converged: true, description: reference },
     status: 'ok',
     message: '',
     target: 'wasm',
