@@ -18,12 +18,14 @@ bad_usage() {
   exit 2
 }
 
-# Shows how far a running phase is, by the last "[57/222]" in its log, until it is killed or ./pleat ends.
+# The last "[57/222]" of a log.
+progress_in() { tail -n 20 "$1" | sed -n 's/^\[\([0-9]\+\/[0-9]\+\)\].*/\1/p' | tail -n 1; }
+
+# Shows how far a running phase is until it is killed or ./pleat ends.
 show_progress() {
-  local what=$1 log=$2 count
+  local what=$1 log=$2
   while sleep 0.5 && kill -0 $$ 2>/dev/null; do
-    count=$(tail -n 20 "$log" | sed -n 's/^\[\([0-9]\+\/[0-9]\+\)\].*/\1/p' | tail -n 1)
-    printf '\r%-46s %s' "$what" "$count" >&3
+    printf '\r%-46s %s' "$what" "$(progress_in "$log")" >&3
   done
 }
 
@@ -81,6 +83,41 @@ suite() {
   passed=$((passed + n_passed))
   failed=$((failed + n_failed))
   [ "$n_failed" -eq 0 ]
+}
+
+# meanwhile COMMAND…: runs phases beside those that follow, which go before them. One at a time.
+meanwhile() {
+  mkdir -p "$root/build/logs"
+  rm -f "$root/build/logs/meanwhile.counts"
+  set -m # a process group of its own, which an interrupt ends as well
+  (
+    exec 3>"$root/build/logs/meanwhile.log"
+    renice -n 10 -p "$BASHPID" >/dev/null
+    passed=0
+    failed=0
+    "$@"
+    echo "$passed $failed" >"$root/build/logs/meanwhile.counts"
+  ) &
+  meanwhile_pid=$!
+  set +m
+  trap 'kill -- "-$meanwhile_pid"; exit 130' INT TERM
+}
+
+# rejoin: waits for them, shows their lines and counts what they counted; one failure when they broke off.
+rejoin() {
+  local n_passed=0 n_failed=1 lines=$root/build/logs/meanwhile.log
+  while [ -t 3 ] && kill -0 "$meanwhile_pid" 2>/dev/null; do
+    # shellcheck disable=SC2012
+    printf '\r\e[K%s%s' "$(tail -n 1 "$lines")" "$(progress_in "$(ls -t "$root"/build/logs/*.log | head -n 1)")" >&3
+    sleep 0.5
+  done
+  wait "$meanwhile_pid"
+  trap - INT TERM
+  [ ! -t 3 ] || printf '\r\e[K' >&3
+  cat "$lines" >&3
+  [ ! -f "$root/build/logs/meanwhile.counts" ] || read -r n_passed n_failed <"$root/build/logs/meanwhile.counts"
+  passed=$((passed + n_passed))
+  failed=$((failed + n_failed))
 }
 
 # Catch2's console reporter ends with "All tests passed (7 assertions in 3 test cases)" or

@@ -66,12 +66,15 @@ run_native_tests() {
       exit "$status"' "$preset" "$@"
 }
 
-test_native() {
-  local modules
-  modules=$(tested_modules | tr '\n' ' ')
-  # Long motions walk the same code as short ones, twenty times slower with sanitizers.
+# Long motions walk the same code as short ones, twenty times slower with sanitizers.
+test_long_motions() {
   step release-build "Build, Release" build_preset release pleat long_tests &&
     suite read_catch2 release-tests "Test long motions, Release" run_native_tests long release '[long]'
+}
+
+test_with_sanitizers() {
+  local modules
+  modules=$(tested_modules | tr '\n' ' ')
   step dev-build "Build with sanitizers" build_preset dev pleat_tests &&
     suite read_catch2 dev-tests "Test with sanitizers" run_native_tests "$modules" dev '~[long]'
   step tidy-configure "Configure for clang-tidy" configure_tidy &&
@@ -115,9 +118,13 @@ run_all_tests() {
   (install_tools "$native_tools" "$wasm_tools" "$node_tools" "$test_tools") || failed=1
   check format "Check the format of C++" check_format
   check layers "Check the layers" check_layers
-  test_native
+  test_long_motions
+  # The page's tests wait for a browser now and then, and leave a core to the compiler.
+  meanwhile test_with_sanitizers
   test_wasm_build
   test_page
+  say "Meanwhile:"
+  rejoin
   say "Took $((SECONDS / 60)) min $((SECONDS % 60)) s."
   summary
 }
