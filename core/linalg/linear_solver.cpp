@@ -6,6 +6,7 @@
 #include "core/linalg/conjugate_gradient.h"
 #include "core/linalg/eigen_solver.h"
 #include "core/linalg/finite_check.h"
+#include "core/linalg/supernodal_solver.h"
 #ifdef PLEAT_HAS_CHOLMOD
 #include "core/linalg/cholmod_solver.h"
 #endif
@@ -55,6 +56,8 @@ const char* name(SolverKind kind) {
   switch (kind) {
     case SolverKind::cholmod:
       return "cholmod";
+    case SolverKind::supernodal:
+      return "supernodal";
     case SolverKind::eigen:
       return "eigen";
     case SolverKind::cg:
@@ -90,6 +93,8 @@ std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, const SolverOp
 #else
       break;
 #endif
+    case SolverKind::supernodal:
+      return make_supernodal_solver();
     case SolverKind::eigen:
       return make_eigen_solver();
     case SolverKind::cg:

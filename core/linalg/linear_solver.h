@@ -43,7 +43,7 @@ class LinearSolver {
   bool factorized_ = false;
 };
 
-enum class SolverKind { cholmod, eigen, cg };
+enum class SolverKind { cholmod, supernodal, eigen, cg };
 
 const char* name(SolverKind kind);
 

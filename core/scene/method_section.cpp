@@ -5,8 +5,10 @@ namespace {
 
 constexpr std::int64_t kMaxIterations = 100000;
 
-constexpr std::array<Word<SolverKind>, 3> kSolvers{
-    {{"cholmod", SolverKind::cholmod}, {"eigen", SolverKind::eigen}, {"cg", SolverKind::cg}}};
+constexpr std::array<Word<SolverKind>, 4> kSolvers{{{"cholmod", SolverKind::cholmod},
+                                                    {"supernodal", SolverKind::supernodal},
+                                                    {"eigen", SolverKind::eigen},
+                                                    {"cg", SolverKind::cg}}};
 
 constexpr std::array<Word<Constraints>, 2> kConstraints{
     {{"compliant", Constraints::compliant}, {"rigid", Constraints::rigid}}};

@@ -18,7 +18,7 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
       break;
     case MethodSetting::solver:
       if (type.needs_factor)
-        schema["enum"] = Json::array({"cholmod", "eigen"});
+        schema["enum"] = Json::array({"cholmod", "supernodal", "eigen"});
       else
         schema["default"] = name(usual.solver);
       break;

@@ -82,7 +82,8 @@ State expected_step(double h) {
 }  // namespace
 
 TEST_CASE("implicit: CHOLMOD, Eigen and CG take the step of a dense solve", "[dynamics]") {
-  const auto solver = GENERATE(SolverKind::cholmod, SolverKind::eigen, SolverKind::cg);
+  const auto solver =
+      GENERATE(SolverKind::cholmod, SolverKind::supernodal, SolverKind::eigen, SolverKind::cg);
   CAPTURE(name(solver));
   const State expected = expected_step(1.0 / 60);
   const State found = stepped(solver, 1e-12);

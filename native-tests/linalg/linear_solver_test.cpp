@@ -17,7 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// A native build has all of them: making one that it lacks throws.
-constexpr std::array kKinds = {SolverKind::cholmod, SolverKind::eigen, SolverKind::cg};
+constexpr std::array kKinds = {SolverKind::cholmod, SolverKind::supernodal, SolverKind::eigen,
+                               SolverKind::cg};
 
 SolverOptions tight() { return {1e-12, 10000}; }
 
