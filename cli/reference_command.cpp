@@ -80,9 +80,7 @@ void keep_level(Reference& reference, const Scene& scene, int level) {
     throw InputError("--keep-level", "expected at most the level of the run, " +
                                          std::to_string(scene.level) + ", got " +
                                          std::to_string(level));
-  const int n_vertices = scene.cloth->n_vertices(level);
-  for (Sample& sample : reference.samples)
-    sample.positions = sample.positions.leftCols(n_vertices).eval();
+  thin(reference, scene.cloth->n_vertices(level));
 }
 
 }  // namespace

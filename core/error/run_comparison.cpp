@@ -39,14 +39,14 @@ void check_times(std::span<const Sample> run, std::span<const Sample> reference)
     PLEAT_CHECK(run[s].time == reference[s].time, "two runs are compared at the same times");
 }
 
-/// Errors over the vertices that both have, one per time [m].
-std::vector<double> position_errors(std::span<const Sample> run, std::span<const Sample> reference,
-                                    const Eigen::VectorXd& areas) {
+/// Rest areas of the vertices that both have.
+Eigen::VectorXd common_areas(const Scene& scene, std::span<const Sample> run,
+                             std::span<const Sample> reference) {
   check_times(run, reference);
-  std::vector<double> errors;
-  for (std::size_t s = 0; s < run.size(); ++s)
-    errors.push_back(position_error(run[s].positions, reference[s].positions, areas));
-  return errors;
+  const Eigen::Index n = std::min(run[0].positions.cols(), reference[0].positions.cols());
+  int level = 0;
+  while (scene.cloth->n_vertices(level) < n) ++level;
+  return rest_areas(rest_cloth(scene, level));
 }
 
 }  // namespace
@@ -132,13 +132,25 @@ double RunComparison::bend_over_time(std::span<const Sample> run,
   return wasserstein_distance(own, theirs, bend_->areas().replicate(n_times, 1));
 }
 
+RunErrors common_vertex_errors(const Scene& scene, std::span<const Sample> run,
+                               std::span<const Sample> reference) {
+  const Eigen::VectorXd areas = common_areas(scene, run, reference);
+  RunErrors errors;
+  errors.position = root_mean_square(sample_distances(scene, run, reference));
+  errors.position_95 = 0;
+  for (std::size_t s = 0; s < run.size(); ++s)
+    errors.position_95 += position_error_95(run[s].positions, reference[s].positions, areas);
+  errors.position_95 /= static_cast<double>(run.size());
+  return errors;
+}
+
 std::vector<double> sample_distances(const Scene& scene, std::span<const Sample> run,
                                      std::span<const Sample> reference) {
-  PLEAT_CHECK(!run.empty() && !reference.empty(), "two runs have samples to compare");
-  const Eigen::Index n = std::min(run[0].positions.cols(), reference[0].positions.cols());
-  int level = 0;
-  while (scene.cloth->n_vertices(level) < n) ++level;
-  return position_errors(run, reference, rest_areas(rest_cloth(scene, level)));
+  const Eigen::VectorXd areas = common_areas(scene, run, reference);
+  std::vector<double> distances;
+  for (std::size_t s = 0; s < run.size(); ++s)
+    distances.push_back(position_error(run[s].positions, reference[s].positions, areas));
+  return distances;
 }
 
 }  // namespace pleat

@@ -61,7 +61,12 @@ class RunComparison {
   std::optional<BendMeasure> bend_;
 };
 
-/// RMS distance between two runs of a cloth at any two levels, for each of their samples [m].
+/// Errors of position alone, at the vertices that two runs of a cloth at any two levels both have:
+/// for runs that were kept without the vertices of their finest meshes.
+RunErrors common_vertex_errors(const Scene& scene, std::span<const Sample> run,
+                               std::span<const Sample> reference);
+
+/// RMS distance between two such runs, for each of their samples [m].
 std::vector<double> sample_distances(const Scene& scene, std::span<const Sample> run,
                                      std::span<const Sample> reference);
 

@@ -113,6 +113,13 @@ std::string step_phrase(double step) {
   return text;
 }
 
+void thin(Reference& reference, std::int64_t n_vertices) {
+  for (Sample& sample : reference.samples) {
+    const Eigen::Index n = std::min<Eigen::Index>(n_vertices, sample.positions.cols());
+    sample.positions = sample.positions.leftCols(n).eval();
+  }
+}
+
 std::string reference_id(std::string_view prefix, const Scene& scene,
                          std::span<const double> times) {
   std::string content = "physics " + std::to_string(kPhysicsVersion);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -39,10 +40,13 @@ constexpr int kPhysicsVersion = 2;
 /// Positions at given times that are taken for right.
 struct Reference {
   ReferenceLabel label;
-  std::vector<Sample> samples;
+  std::vector<Sample> samples;    ///< of all vertices of the run, or of a coarser mesh's
   std::string content{};          ///< content_id of the scene, or empty
   int physics = kPhysicsVersion;  ///< that made it
 };
+
+/// Keeps the first vertices alone: those of a coarser mesh.
+void thin(Reference& reference, std::int64_t n_vertices);
 
 /// Id of a run of this scene at these times [s] by the present physics: another scene, method or
 /// number of its fabric has another one; another name, caption, duration or way to record frames

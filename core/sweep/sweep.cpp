@@ -2,104 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
-#include "core/error/run_comparison.h"
 #include "core/files/json_reader.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
 #include "core/sweep/platform.h"
+#include "core/sweep/row_errors.h"
 
 namespace pleat {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
 
-constexpr double kUncertaintyShare = 4;  // an error is known when it is so many times as large
-
-std::string unconverged_sentence(double distance, double uncertainty) {
-  char sentence[160];
-  std::snprintf(sentence, sizeof sentence,
-                "no error: %.3g mm from the reference, which itself changes by %.3g mm "
-                "when its step or mesh is halved",
-                1e3 * distance, 1e3 * uncertainty);
-  return sentence;
-}
-
-/// The RMS over the sample times of the RMS, and the largest of the largest.
-Stretch overall_stretch(const std::vector<Sample>& samples) {
-  Stretch overall;
-  std::vector<double> values;
-  for (const Sample& sample : samples) {
-    values.push_back(sample.stretch.rms);
-    overall.largest = std::max(overall.largest, sample.stretch.largest);
-  }
-  overall.rms = root_mean_square(values);
-  return overall;
-}
-
-/// True where the reference is known so much better than the error that it can tell it.
-bool is_known(double error, double uncertainty) {
-  return !(error < kUncertaintyShare * uncertainty);
-}
-
-/// RMS distance of two series of samples of the scene at any two levels [m]; NaN where they are
-/// not of the same times or closer than `uncertainty` can tell.
-double known_distance(const Scene& scene, const std::vector<Sample>& samples,
-                      const std::vector<Sample>& reference, double uncertainty) {
-  if (samples.empty() || samples.size() != reference.size()) return BenchRow::kUnknown;
-  const double distance = root_mean_square(sample_distances(scene, samples, reference));
-  return is_known(distance, uncertainty) ? distance : BenchRow::kUnknown;
-}
-
-/// Errors of a run that reached its last sample against a reference that did too. Where the
-/// reference itself is not known four times as well as the position, there is no error at all.
-void compare(const SampledRun& run, const Scene& reference_scene, const Reference& reference,
-             BenchRow& row) {
-  const Stretch own = overall_stretch(run.samples());
-  row.rms_stretch = own.rms;
-  row.largest_stretch = own.largest;
-  if (reference.samples.size() != run.samples().size()) return;
-  const Scene& scene = run.simulation().scene();
-  const RunComparison comparison = scene.plan || reference_scene.plan
-                                       ? RunComparison(scene, reference_scene)
-                                       : RunComparison(scene, reference_scene.level);
-  const RunErrors errors = comparison.errors(run.samples(), reference.samples);
-  const double uncertainty = reference.label.uncertainty;
-  if (!is_known(errors.position, uncertainty)) {
-    row.reference.converged = false;
-    if (row.message.empty()) row.message = unconverged_sentence(errors.position, uncertainty);
-    return;
-  }
-  row.position_error = errors.position;
-  row.position_error_95 = errors.position_95;
-  const double diagonal = scene.cloth->rest_diagonal();
-  if (diagonal > 0) row.position_error_percent = 100 * row.position_error / diagonal;
-  row.surface_error = errors.surface_rms;
-  row.surface_error_95 = errors.surface_95;
-  row.bend_error = errors.bend_distribution;
-  row.bend_error_of_regions = errors.bend_regions;
-  const Stretch theirs = overall_stretch(reference.samples);
-  row.rms_stretch_error = own.rms - theirs.rms;
-  row.largest_stretch_error = own.largest - theirs.largest;
-}
+constexpr double kTellingShare = 0.05;  // of a run: less says nothing of how long it takes
 
 /// A row whose run reached its end and took measurable time.
 bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_frame > 0; }
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// Vertices times substeps times their cost, per second of motion; for progress alone.
+/// By how much more a vertex costs on a mesh of so many: a system that is solved at once takes
+/// about seven times as long with four times the vertices (81 to 4225 of them, in all three
+/// scenes).
+double solving_factor(double n_vertices, const MethodOptions& method) {
+  constexpr double kExponent = 0.4;  // log(7)/log(4) - 1
+  constexpr double kUsual = 1000;    // vertices, where a substep costs what its row says
+  return method.stepper->solves_whole_substeps ? std::pow(n_vertices / kUsual, kExponent) : 1;
+}
+
+/// Substeps times vertices times their cost, per second of motion; for progress and estimates.
 double expected_work(double n_vertices, const MethodOptions& method) {
   constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
   const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
-  return n_vertices / method.step * substeps * method.stepper->substep_cost(method);
+  return n_vertices / method.step * substeps * method.stepper->substep_cost(method) *
+         solving_factor(n_vertices, method);
 }
 
 double expected_work(const Scene& scene) {
@@ -134,7 +77,10 @@ Sweep::Sweep(SweepPlan plan, ReferenceStore& store, std::string commit)
       times_(sweep_sample_times(plan_.duration)),
       references_(sweep_references(plan_)),
       made_(references_.recipes.size()),
-      run_times_(plan_.settings.size()) {
+      is_needed_(references_.recipes.size(), true),
+      run_times_(plan_.settings.size()),
+      reference_seconds_(references_.recipes.size()),
+      row_seconds_(plan_.settings.size()) {
   PLEAT_CHECK(!plan_.settings.empty() && plan_.n_repeats >= 1,
               "a sweep has settings and runs them");
 }
@@ -147,6 +93,19 @@ void Sweep::skip_left_out() {
   while (run_is_left_out()) ++n_done_;
 }
 
+/// Takes what the store has. A finer one that is there needs no coarser one to be made.
+void Sweep::find_references() {
+  has_looked_ = true;
+  is_needed_.assign(made_.size(), false);
+  for (const std::size_t r : references_.compared()) is_needed_[r] = true;
+  for (std::size_t r = made_.size(); r-- > 0;) {
+    if (!is_needed_[r]) continue;
+    made_[r] = store_.find(references_.recipes[r].id);
+    const std::optional<std::size_t> coarser = references_.recipes[r].coarser;
+    if (!made_[r] && coarser) is_needed_[*coarser] = true;
+  }
+}
+
 /// The first reference that the next row needs. Those of later rows wait, so that the first are
 /// there soon.
 std::optional<std::size_t> Sweep::missing_reference() const {
@@ -154,16 +113,13 @@ std::optional<std::size_t> Sweep::missing_reference() const {
   const auto& [whole, own] = references_.of_setting[rows_.size()];
   for (const std::optional<std::size_t> needed :
        {references_.recipes[whole].coarser, std::optional(whole), own})
-    if (needed && !made_[*needed]) return needed;
+    if (needed && is_needed_[*needed] && !made_[*needed]) return needed;
   return std::nullopt;
 }
 
 void Sweep::make_reference(std::size_t index, double budget) {
   const ReferenceRecipe& recipe = references_.recipes[index];
-  if (maker_ == nullptr) {
-    made_[index] = store_.find(recipe.id);
-    if (made_[index]) return;
-  }
+  const Stopwatch watch;
   try {
     const Reference* coarser = recipe.coarser ? &*made_[*recipe.coarser] : nullptr;
     if (maker_ == nullptr) maker_ = make_reference_maker(recipe, times_, coarser);
@@ -171,7 +127,9 @@ void Sweep::make_reference(std::size_t index, double budget) {
   } catch (const InputError& error) {
     throw InputError("/scene" + error.where(), error.what());
   }
+  seconds_at_hand_ += watch.elapsed();
   if (!maker_->done()) return;
+  reference_seconds_[index] = std::exchange(seconds_at_hand_, 0);
   made_[index] = maker_->reference();
   PLEAT_CHECK(made_[index]->label.id == recipe.id, "a reference has the id of its recipe");
   const bool is_whole = made_[index]->samples.size() == times_.size();
@@ -279,19 +237,26 @@ void Sweep::record_time(double ms_per_frame) {
 }
 
 void Sweep::work_on_run(double budget) {
+  const Stopwatch watch;
   if (run_ == nullptr)
     if (std::optional<BenchRow> refused = begin_run()) return record_row(std::move(*refused));
   run_->advance(budget);
-  if (!run_->done()) return;
-  if (in_first_round())
-    record_row(measured_row());
-  else
-    record_time(ms_per_frame(run_->timed_seconds(), run_->timed_duration()));
-  run_.reset();
+  if (run_->done()) {
+    if (in_first_round()) {
+      BenchRow row = measured_row();
+      row_seconds_[setting()] = seconds_at_hand_ + watch.elapsed();
+      record_row(std::move(row));
+    } else {
+      record_time(ms_per_frame(run_->timed_seconds(), run_->timed_duration()));
+    }
+    run_.reset();
+  }
+  seconds_at_hand_ = run_ != nullptr ? seconds_at_hand_ + watch.elapsed() : 0;
 }
 
 void Sweep::advance(double budget) {
   const Stopwatch watch;
+  if (!has_looked_ && rows_.size() < n_settings()) find_references();
   while (!done()) {
     const double left = budget - watch.elapsed();
     if (const auto recipe = missing_reference())
@@ -299,8 +264,9 @@ void Sweep::advance(double budget) {
     else
       work_on_run(left);
     skip_left_out();
-    if (watch.elapsed() >= budget) return;
+    if (watch.elapsed() >= budget) break;
   }
+  seconds_ += watch.elapsed();
 }
 
 /// False for a line that is not the next one of this sweep.
@@ -338,25 +304,52 @@ std::size_t Sweep::resume(std::string_view journal) {
   return taken;
 }
 
-double Sweep::progress() const {
-  double sum = 0;
-  double passed = 0;
-  const auto add = [&](double work, double n_runs, double n_passed) {
-    sum += work * n_runs;
-    passed += work * n_passed;
-  };
+/// References, first runs and timed runs with what is known of them.
+std::vector<ExpectedWork> Sweep::works() const {
+  std::vector<ExpectedWork> works;
   const std::optional<std::size_t> missing = missing_reference();
+  const bool has_all_rows = rows_.size() == n_settings();
+  const auto told_by = [&](double share) {
+    return share > kTellingShare ? std::optional(seconds_at_hand_ / share) : std::nullopt;
+  };
   for (std::size_t r = 0; r < made_.size(); ++r) {
-    const double at_hand = r == missing && maker_ != nullptr ? maker_->progress() : 0;
-    const bool is_passed = made_[r] || rows_.size() == n_settings();
-    add(expected_work(references_.recipes[r].scene), 1, is_passed ? 1 : at_hand);
+    const Scene& scene = references_.recipes[r].scene;
+    ExpectedWork work{"reference", expected_work(scene), 1};
+    const bool is_at_hand = r == missing && maker_ != nullptr;
+    const bool is_passed = made_[r] || has_all_rows || !is_needed_[r];
+    work.n_passed = is_passed ? 1 : is_at_hand ? maker_->progress() : 0;
+    work.seconds = is_at_hand ? told_by(work.n_passed) : reference_seconds_[r];
+    works.push_back(std::move(work));
   }
   for (std::size_t s = 0; s < n_settings(); ++s) {
-    const double at_hand = s == setting() && run_ != nullptr ? run_->progress() : 0;
-    add(expected_work(plan_.settings[s].n_vertices, plan_.settings[s].method),
-        1.0 + plan_.n_repeats, static_cast<double>(round() + (s < setting() ? 1 : 0)) + at_hand);
+    const MethodOptions& method = plan_.settings[s].method;
+    const double amount = expected_work(plan_.settings[s].n_vertices, method);
+    const std::string kind = json_method(method).dump();
+    const bool is_at_hand = s == setting() && run_ != nullptr;
+    const double at_hand = is_at_hand ? run_->progress() : 0;
+    const double n_passed = static_cast<double>(round() + (s < setting() ? 1 : 0)) + at_hand;
+    const bool has_row = s < rows_.size();
+    works.push_back(
+        {kind, amount, 1, std::min(n_passed, 1.0), has_row ? row_seconds_[s] : told_by(at_hand)});
+    if (has_row && !can_be_timed(rows_[s])) continue;  // its timed runs are left out
+    ExpectedWork timed{"timed " + kind, amount, static_cast<double>(plan_.n_repeats),
+                       std::max(n_passed - 1, 0.0)};
+    if (has_row) timed.seconds = 1e-3 * rows_[s].ms_per_frame * plan_.duration / kFrame;
+    works.push_back(std::move(timed));
   }
-  return passed / sum;
+  return works;
+}
+
+std::optional<double> Sweep::estimated_seconds() const {
+  const std::optional<double> rest = expected_rest(works());
+  if (!rest) return std::nullopt;
+  return seconds_ + *rest;
+}
+
+std::vector<std::string> Sweep::reference_ids() const {
+  std::vector<std::string> ids;
+  for (const std::size_t r : references_.compared()) ids.push_back(references_.recipes[r].id);
+  return ids;
 }
 
 std::string Sweep::message() const {
@@ -379,8 +372,10 @@ std::string Sweep::message() const {
 Json Sweep::report() const {
   Json rows = Json::array();
   for (const BenchRow& row : rows_) rows.push_back(json_bench_row(row));
+  const std::optional<double> estimated = estimated_seconds();
   return {{"done", done()},
           {"progress", progress()},
+          {"estimated_s", estimated ? Json(*estimated) : Json(nullptr)},
           {"rows", rows},
           {"front", front_of(rows_)},
           {"message", message()}};

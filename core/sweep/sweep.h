@@ -10,6 +10,7 @@
 #include "core/sweep/bench_row.h"
 #include "core/sweep/sweep_plan.h"
 #include "core/sweep/sweep_reference.h"
+#include "core/sweep/work_estimate.h"
 
 namespace pleat {
 
@@ -21,7 +22,8 @@ std::string sweep_identity(const SweepPlan& plan, const std::string& commit);
 ///
 /// Every setting runs once with its parts timed, which gives its row, after the references that it
 /// needs; then all settings run again in turn, n_repeats times, which gives the row its median
-/// time. A row's numbers other than times and memory do not depend on the slicing.
+/// time. A row's numbers other than times and memory do not depend on the slicing. References that
+/// the store has by the first `advance` are not made.
 ///
 /// Every finished run is a line of a journal. A sweep that resumes one runs only what is missing.
 class Sweep {
@@ -42,7 +44,10 @@ class Sweep {
   bool done() const { return n_done_ == n_runs(); }
   /// Counts the first round, in which parts are timed, and the repeats.
   int n_rounds_done() const { return static_cast<int>(n_done_ / n_settings()); }
-  double progress() const;  ///< share of the expected work, in [0, 1]
+  double progress() const { return passed_share(works()); }  ///< of the expected work, in [0, 1]
+  /// What it takes in all [s], from what it took so far; nothing while there is nothing to tell it
+  /// from.
+  std::optional<double> estimated_seconds() const;
   /// Works for about `budget` [s]: a step is never cut.
   void advance(double budget);
 
@@ -50,8 +55,10 @@ class Sweep {
   /// A row for each setting measured so far, in the order of the plan.
   const std::vector<BenchRow>& rows() const { return rows_; }
   std::string message() const;  ///< what is being worked on, for people; empty when done
+  /// Of the references that rows are compared with.
+  std::vector<std::string> reference_ids() const;
 
-  /// {"done", "progress", "rows", "front", "message"}.
+  /// {"done", "progress", "estimated_s": a number or null, "rows", "front", "message"}.
   Json report() const;
 
  private:
@@ -64,6 +71,7 @@ class Sweep {
   bool in_first_round() const { return round() == 0; }
   bool run_is_left_out() const;
 
+  void find_references();
   std::optional<std::size_t> missing_reference() const;
   void make_reference(std::size_t index, double budget);
   void work_on_run(double budget);
@@ -77,6 +85,7 @@ class Sweep {
   void record_time(double ms_per_frame);
   void skip_left_out();
   bool take_line(std::string_view line);
+  std::vector<ExpectedWork> works() const;
 
   SweepPlan plan_;
   ReferenceStore& store_;
@@ -85,11 +94,17 @@ class Sweep {
   std::vector<double> times_;  // of samples [s]
   SweepReferences references_;
   std::vector<std::optional<Reference>> made_;  // by recipe
+  std::vector<bool> is_needed_;                 // by recipe: it is compared with, or is to be made
+  bool has_looked_ = false;                     // in the store
   std::unique_ptr<ReferenceMaker> maker_;       // of the reference at hand
   std::unique_ptr<SampledRun> run_;             // the run at hand
   std::size_t n_done_ = 0;                      // runs, round by round
   std::vector<BenchRow> rows_;
   std::vector<std::vector<double>> run_times_;  // by setting: ms per frame of its timed runs
+  double seconds_ = 0;                          // worked so far
+  double seconds_at_hand_ = 0;                  // of them on the reference or the run at hand
+  std::vector<std::optional<double>> reference_seconds_;  // by recipe: what it took
+  std::vector<std::optional<double>> row_seconds_;        // by setting: what its first run took
 };
 
 }  // namespace pleat

@@ -100,6 +100,21 @@ bool is_converged(const Scene& scene, double uncertainty) {
   return uncertainty <= kShare * scene.cloth->rest_diagonal();
 }
 
+/// Adds what halving one thing changed in a run of the scene.
+void doubt(Reference& reference, const Scene& scene, const char* halved,
+           std::span<const Sample> before) {
+  const std::vector<double> changes = sample_distances(scene, before, reference.samples);
+  const double change = root_mean_square(changes);
+  reference.label.uncertainty = std::max(reference.label.uncertainty, change);
+  for (std::size_t s = 0; s < changes.size(); ++s)
+    reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
+  char phrase[80];
+  std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm", halved,
+                1e3 * change);
+  reference.label.description += phrase;
+  reference.label.converged = is_converged(scene, reference.label.uncertainty);
+}
+
 /// `newton` with twice the recipe's step, to see what is still missing, and then with the step
 /// itself. What the mesh leaves open is seen from the run on the coarser one.
 class NewtonMaker : public ReferenceMaker {
@@ -145,26 +160,12 @@ class NewtonMaker : public ReferenceMaker {
     reference.content = content_id(scene);
     reference.label.uncertainty = 0;
     for (Sample& sample : reference.samples) sample.uncertainty = 0;
-    doubt(reference, "step", runs_.front());
-    if (coarser_) doubt(reference, "mesh", *coarser_);
-    reference.label.converged = is_converged(scene, reference.label.uncertainty);
+    doubt(reference, scene, "step", runs_.front());
+    if (coarser_) doubt(reference, scene, "mesh", *coarser_);
     return reference;
   }
 
  private:
-  /// What halving one thing changed in it.
-  void doubt(Reference& reference, const char* halved, std::span<const Sample> before) const {
-    const std::vector<double> changes = sample_distances(scenes_.back(), before, reference.samples);
-    const double change = root_mean_square(changes);
-    reference.label.uncertainty = std::max(reference.label.uncertainty, change);
-    for (std::size_t s = 0; s < changes.size(); ++s)
-      reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
-    char phrase[80];
-    std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm", halved,
-                  1e3 * change);
-    reference.label.description += phrase;
-  }
-
   std::string id_;
   std::vector<double> times_;
   std::array<Scene, 2> scenes_;  // to run, the reference itself last
@@ -256,6 +257,15 @@ class Recipes {
 
 }  // namespace
 
+std::vector<std::size_t> SweepReferences::compared() const {
+  std::set<std::size_t> indices;
+  for (const SettingReferences& references : of_setting) {
+    indices.insert(references.whole);
+    if (references.own) indices.insert(*references.own);
+  }
+  return {indices.begin(), indices.end()};
+}
+
 SweepReferences sweep_references(const SweepPlan& plan) {
   std::map<std::string, Family> families;
   for (std::size_t s = 0; s < plan.settings.size(); ++s)
@@ -266,6 +276,15 @@ SweepReferences sweep_references(const SweepPlan& plan) {
     references.of_setting.push_back(recipes.of(setting));
   references.recipes = recipes.take();
   return references;
+}
+
+Reference checked_on_coarser(const ReferenceRecipe& recipe, Reference same_mesh,
+                             const Reference& coarser) {
+  PLEAT_CHECK(recipe.coarser && same_mesh.samples.size() == coarser.samples.size(),
+              "both are whole runs");
+  same_mesh.label.id = recipe.id;
+  doubt(same_mesh, recipe.scene, "mesh", coarser.samples);
+  return same_mesh;
 }
 
 std::unique_ptr<ReferenceMaker> make_reference_maker(const ReferenceRecipe& recipe,

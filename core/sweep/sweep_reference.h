@@ -37,6 +37,10 @@ struct SettingReferences {
 struct SweepReferences {
   std::vector<ReferenceRecipe> recipes;  ///< each once, a coarser one before its finer one
   std::vector<SettingReferences> of_setting;
+
+  /// Indices of the recipes that settings are compared with, each once. The others are for what is
+  /// still to be made.
+  std::vector<std::size_t> compared() const;
 };
 
 /// Throws InputError at /duration_s when a reference has more than kMaxSteps steps.
@@ -60,5 +64,10 @@ class ReferenceMaker {
 std::unique_ptr<ReferenceMaker> make_reference_maker(const ReferenceRecipe& recipe,
                                                      const std::vector<double>& times,
                                                      const Reference* coarser = nullptr);
+
+/// What make_reference_maker makes of a recipe with a coarser one, without a run: from the same run
+/// as it is kept for its own mesh.
+Reference checked_on_coarser(const ReferenceRecipe& recipe, Reference same_mesh,
+                             const Reference& coarser);
 
 }  // namespace pleat

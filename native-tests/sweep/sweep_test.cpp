@@ -326,6 +326,65 @@ TEST_CASE("sweep: a kept reference is not computed again", "[sweep]") {
   CHECK(sweep.rows()[0].reference.description == "kept");
 }
 
+TEST_CASE("sweep: a finer reference that is there needs no coarser one", "[sweep]") {
+  const SweepPlan plan = plan_of(small_plan());
+  CountingStore store;
+  Sweep first(plan, store, "test");
+  while (!first.done()) first.advance(kLongSlice);
+  CHECK(store.n_kept == 3);
+  Json only_coarse = small_plan();
+  only_coarse["grid"]["/refinement/level"] = {0};
+  only_coarse["reference_level"] = 2;
+  CountingStore shipped;
+  Sweep sweep(plan_of(only_coarse), shipped, "test");
+  for (const std::string& id : sweep.reference_ids()) shipped.keep(*store.find(id));
+  CHECK(shipped.n_kept == 2);  // not that of level 1, from which the finer one is known
+  while (!sweep.done()) sweep.advance(0);
+  CHECK(shipped.n_kept == 2);
+  CHECK(sweep.progress() == Approx(1));
+}
+
+TEST_CASE("sweep: a reference of fewer vertices tells the same of what it has", "[sweep]") {
+  const SweepPlan plan = plan_of(small_plan());
+  MemoryReferenceStore whole;
+  MemoryReferenceStore thinned;
+  Sweep first(plan, whole, "test");
+  while (!first.done()) first.advance(kLongSlice);
+  const int n_coarse = first.rows().front().n_vertices;
+  for (const std::string& id : first.reference_ids()) {
+    Reference reference = *whole.find(id);
+    thin(reference, n_coarse);
+    thinned.keep(reference);
+  }
+  Sweep second(plan, thinned, "test");
+  while (!second.done()) second.advance(kLongSlice);
+  for (const std::size_t i : {0, 2}) {  // the long steps, whose errors are told
+    CAPTURE(i);
+    const BenchRow& expected = first.rows()[i];
+    const BenchRow& found = second.rows()[i];
+    const bool is_coarse = expected.level == 0;
+    // The coarse vertices alone stand for the finer mesh.
+    const double tolerance = is_coarse ? 1e-12 : 0.2;
+    CHECK(found.position_error == Approx(expected.position_error).epsilon(tolerance));
+    CHECK(found.position_error_95 == Approx(expected.position_error_95).epsilon(tolerance));
+    CHECK(found.method_error == Approx(expected.method_error).epsilon(tolerance));
+    CHECK(std::isnan(found.surface_error));
+    CHECK(std::isnan(found.bend_error));
+    CHECK(found.rms_stretch_error == Approx(expected.rms_stretch_error));
+  }
+}
+
+TEST_CASE("sweep: what it takes in all is told once something has run", "[sweep]") {
+  MemoryReferenceStore store;
+  Sweep sweep(plan_of(small_plan()), store, "test");
+  CHECK(sweep.report().at("estimated_s").is_null());
+  while (sweep.rows().empty()) sweep.advance(0);
+  const double early = sweep.report().at("estimated_s");
+  CHECK(early > 0);
+  while (!sweep.done()) sweep.advance(0);
+  CHECK(sweep.report().at("estimated_s").get<double>() > 0);
+}
+
 TEST_CASE("sweep: a rigid chain is kept under the id that was expected", "[sweep]") {
   Json plan = small_plan();
   plan["reference"] = "rigid_chain";
