@@ -45,6 +45,8 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
                          sweep that was stopped goes on
   --overwrite            remove those of another sweep from it first
   --cache DIR            keep references here (default: in the folder after --out)
+  --ship-references DIR  no rows: make what they are compared with and keep it here, with 32-bit
+                         positions; --keep-level N  of finer meshes the vertices of this one alone
   --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
 pleat reference SCENE.json    make one by newton and tell how well it is known
   --kind same_mesh       (default) halve its step; converged: halve its step and its mesh

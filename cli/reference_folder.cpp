@@ -4,7 +4,8 @@
 
 namespace pleat {
 
-ReferenceFolder::ReferenceFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+ReferenceFolder::ReferenceFolder(std::filesystem::path folder, Precision precision)
+    : folder_(std::move(folder)), precision_(precision) {
   make_folder(folder_);
   check_writable(path("any"));
 }
@@ -25,7 +26,7 @@ std::optional<Reference> ReferenceFolder::find(const std::string& id) {
 }
 
 void ReferenceFolder::keep(const Reference& reference) {
-  write_file(path(reference.label.id), write_reference(reference));
+  write_file(path(reference.label.id), write_reference(reference, precision_));
 }
 
 }  // namespace pleat

@@ -11,7 +11,7 @@ namespace pleat {
 class ReferenceFolder : public ReferenceStore {
  public:
   /// Makes the folder. Throws FileError when nothing can be kept in it.
-  explicit ReferenceFolder(std::filesystem::path folder);
+  explicit ReferenceFolder(std::filesystem::path folder, Precision precision = Precision::float64);
 
   /// A file that cannot be read as a reference counts as none.
   std::optional<Reference> find(const std::string& id) override;
@@ -21,6 +21,7 @@ class ReferenceFolder : public ReferenceStore {
   std::filesystem::path path(const std::string& id) const;
 
   std::filesystem::path folder_;
+  Precision precision_;
 };
 
 }  // namespace pleat

@@ -9,6 +9,7 @@
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
+#include "cli/shipped_references.h"
 #include "cli/sweep_folder.h"
 #include "cli/sweep_input.h"
 #include "core/base/check.h"
@@ -64,6 +65,11 @@ Outcome sweep_command(Arguments arguments) {
   Overwriting overwriting(arguments);
   const auto out = arguments.text("--out");
   const auto cache = arguments.text("--cache");
+  const auto ship = arguments.text("--ship-references");
+  const auto kept_level = arguments.whole_number("--keep-level", 0, kMaxLevel);
+  if (ship && (out || for_machines))
+    throw InputError("--ship-references", "makes no rows for --out and --json");
+  if (kept_level && !ship) throw InputError("--keep-level", "expected --ship-references beside it");
   const std::string commit =
       text_value(arguments.text("--commit").value_or(core_version())).get<std::string>();
   const SweepInput input = take_sweep(arguments);
@@ -79,6 +85,11 @@ Outcome sweep_command(Arguments arguments) {
   if (cache || out)
     store = std::make_unique<ReferenceFolder>(cache ? std::filesystem::path(*cache)
                                                     : folder->references());
+  if (ship) {
+    const bool all_made = with_source_named(
+        input, [&] { return ship_references(input.plan, *store, *ship, kept_level); });
+    return all_made ? Outcome::ok : Outcome::check_failed;
+  }
   Sweep sweep(input.plan, *store, commit);
   work_through(sweep, input, folder ? &*folder : nullptr);
   std::fputs((for_machines ? json_lines(sweep.rows()) : sweep_table(sweep)).c_str(), stdout);

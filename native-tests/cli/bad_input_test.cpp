@@ -134,6 +134,12 @@ TEST_CASE("bad input: words that are no options, options or values too many", "[
       {{"sweep", "scene.json", "--level=1"}, "--level: a sweep does not take this option", {}},
       {{"deform", "deform.json", "--overwrite"}, "--overwrite: expected --out beside it", {}},
       {{"refine", "scene.json", "--overwrite"}, "--overwrite: expected --out beside it", {}},
+      {{"sweep", "scene.json", "--keep-level=1"},
+       "--keep-level: expected --ship-references beside it",
+       {}},
+      {{"sweep", "scene.json", "--ship-references=r", "--json"},
+       "--ship-references: makes no rows for --out and --json",
+       {}},
       {{"reference", "scene.json", "--overwrite"}, "--overwrite: expected --out beside it", {}},
       {{"run", "scene.json", "--overwrite"}, "--overwrite: expected --out or --dump beside it", {}},
   };

@@ -225,6 +225,34 @@ TEST_CASE("command: sweep prints rows that all name their reference", "[cli]") {
   CHECK(table.out.find("halving its step changed it by") != std::string::npos);
 }
 
+TEST_CASE("command: the references of a sweep are made alone, and found by another one", "[cli]") {
+  const SmallScene scene;
+  const std::string shipped = (scene.folder / "shipped").string();
+  const auto sweep = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"sweep", "--levels", "0,1", "--steppers", "implicit"});
+    return scene.run(words);
+  };
+  const Ending made = sweep({"--ship-references", shipped, "--keep-level", "1"});
+  REQUIRE(made.status == 0);
+  std::set<Eigen::Index> sizes;
+  std::map<std::string, std::string> files = contents(shipped);
+  for (const auto& [path, bytes] : files) {
+    const Reference reference = read_reference(bytes);
+    CHECK(fs::path(path).filename() == reference.label.id + ".reference");
+    CHECK(made.out.find(reference.label.id + ": newton") != std::string::npos);
+    sizes.insert(reference.samples.at(0).positions.cols());
+  }
+  CHECK(files.size() == 3);                       // of both levels, and a finer one
+  CHECK(sizes == std::set<Eigen::Index>{9, 25});  // which has the vertices of level 1 alone
+  const Ending measured = sweep({"--json", "--repeat", "1", "--cache", shipped});
+  REQUIRE(measured.status == 0);
+  CHECK(contents(shipped) == files);
+  for (const BenchRow& row : rows_in(measured.out)) {
+    CHECK(row.reference.id.rfind("converged-", 0) == 0);
+    CHECK(row.method_error > 0);
+  }
+}
+
 TEST_CASE("command: a sweep none of whose errors is known says so, and exit status 1", "[cli]") {
   const SmallScene scene;
   // A reference whose step is coarser than what it judges.
