@@ -22,8 +22,10 @@ class Experiment {
  public:
   explicit Experiment(std::string fabrics_json) : fabrics_json_(std::move(fabrics_json)) {}
 
+  /// Answers with the ids of the references that rows are compared with. Those that are kept by the
+  /// first `advance` are not made.
   std::string start(const std::string& plan_text) {
-    return guarded([&](val&) {
+    return guarded([&](val& envelope) {
       const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
       const auto read = [fabrics](const pleat::JsonReader& scene) {
         return pleat::read_scene(scene, fabrics, {}, pleat::plain_scene_parts());
@@ -31,7 +33,12 @@ class Experiment {
       const pleat::Json plan = pleat::parse_json(plan_text);
       sweep_.emplace(pleat::read_sweep_plan(pleat::JsonReader(plan), read), references_,
                      pleat::core_version());
+      envelope.set("references", pleat::json_array(sweep_->reference_ids()));
     });
+  }
+
+  std::string keep_reference(const std::string& bytes) {
+    return guarded([&](val&) { references_.keep(pleat::read_reference(bytes)); });
   }
 
   std::string advance(double budget_ms) {
@@ -39,7 +46,7 @@ class Experiment {
       if (!sweep_) throw pleat::InputError("", "expected a started experiment, got none");
       sweep_->advance(1e-3 * budget_ms);
       const val report = pleat::json_value(sweep_->report().dump());
-      for (const char* key : {"done", "progress", "rows", "front", "message"})
+      for (const char* key : {"done", "progress", "estimated_s", "rows", "front", "message"})
         envelope.set(key, report[key]);
     });
   }
@@ -56,5 +63,6 @@ EMSCRIPTEN_BINDINGS(pleat_sweep) {
   emscripten::class_<Experiment>("Experiment")
       .constructor<std::string>()
       .function("start", &Experiment::start)
+      .function("keepReference", &Experiment::keep_reference)
       .function("advance", &Experiment::advance);
 }

@@ -102,6 +102,13 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
   return nullptr;
 }
 
+/// Rough cost of a substep of one iteration, see StepperType::substep_cost.
+double substep_work(const StepperType& type) {
+  MethodOptions method = type.usual_method();
+  method.iterations = 1;
+  return type.substep_cost(method);
+}
+
 /// A count with what it starts from and what more of it does.
 Json json_count(int start, int least, const char* meaning) {
   Json json;
@@ -130,6 +137,8 @@ Json json_stepper(const StepperType& type) {
     if (counts_rounds) usual["iterations"] = counts.iterations;
     json["sweep"].push_back(usual);
   }
+  json["solves_whole_substeps"] = type.solves_whole_substeps;
+  json["substep_work"] = substep_work(type);
   json["models"] = Json::array();
   if (type.is_usual_for_springs) json["models"].push_back("springs");
   if (type.is_usual_for_membranes) json["models"].push_back("membrane");

@@ -19,7 +19,7 @@ import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
 import { readObj } from '../../src/motion/worker/obj-core';
 import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
-import { runSweep } from '../../src/motion/worker/sweep-core';
+import { SweepCore } from '../../src/motion/worker/sweep-core';
 import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
 import type { Failure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
@@ -50,10 +50,13 @@ function serve(module: AllModules) {
     core,
     posted,
     send: (message: ToMotion) => core.receive(message),
-    sweep: (plan: object) =>
-      runSweep(module, { type: 'sweep', fabricsText, planText: JSON.stringify(plan) }, (message) =>
-        posted.push(message),
-      ),
+    /** Plans and runs; what is posted begins with the ids of its references. */
+    sweep(plan: object) {
+      const sweeping = new SweepCore(module, (message) => posted.push(message));
+      sweeping.receive({ type: 'plan', fabricsText, planText: JSON.stringify(plan) });
+      if (posted.at(-1)?.type === 'planned') sweeping.receive({ type: 'measure' });
+      sweeping.close();
+    },
     take<Type extends Posted['type']>(type: Type): Sent<Type> {
       const message = posted.shift();
       if (message?.type !== type) throw new Error(`${type} expected: ${JSON.stringify(message)}`);
@@ -327,7 +330,9 @@ describe('motion-core', () => {
   it('runs a sweep to its end, with growing rows', () => {
     const { sweep, posted } = serve(createFakeModule().module);
     sweep(sweepPlan(setting, ALL_TO_1));
-    const reports = posted.map((message) => (message as Sent<'sweepReport'>).report);
+    const [planned, ...sent] = posted;
+    expect(planned).toEqual({ type: 'planned', references: ['converged', 'own-0'] });
+    const reports = sent.map((message) => (message as Sent<'sweepReport'>).report);
     expect(reports.map((report) => report.rows.length)).toEqual(
       Array.from({ length: 16 }, (_, index) => index + 1),
     );

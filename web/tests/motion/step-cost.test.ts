@@ -9,9 +9,16 @@ describe('the cost of a step', () => {
   const costs = withCost({}, setting, 12);
 
   it('is what was measured at a level, and grows with the vertices at the others', () => {
-    expect(stepCostAt(costs, setting, 2)).toEqual({ ms: 12, isMeasured: true, isLeast: false });
-    expect(stepCostAt(costs, setting, 4)).toEqual({ ms: 192, isMeasured: false, isLeast: false });
-    expect(stepCostAt(costs, setting, 0)).toMatchObject({ ms: 0.75, isMeasured: false });
+    const xpbd = withStepper(setting, 'xpbd');
+    const measured = withCost({}, xpbd, 12);
+    expect(stepCostAt(measured, xpbd, 2)).toEqual({ ms: 12, isMeasured: true, isLeast: false });
+    expect(stepCostAt(measured, xpbd, 3)).toEqual({ ms: 48, isMeasured: false, isLeast: false });
+    expect(stepCostAt(measured, xpbd, 0)).toMatchObject({ ms: 0.75, isMeasured: false });
+  });
+
+  it('grows faster where a system of all vertices is solved, and is a bound two levels on', () => {
+    expect(stepCostAt(costs, setting, 3)).toEqual({ ms: 84, isMeasured: false, isLeast: false });
+    expect(stepCostAt(costs, setting, 4)).toEqual({ ms: 588, isMeasured: false, isLeast: true });
   });
 
   it('grows with the substeps as well where they follow the stability bound', () => {

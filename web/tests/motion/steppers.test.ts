@@ -16,6 +16,8 @@ vi.mock('virtual:pleat-steppers', async (original) => {
     solves: false,
     settings: { iterations: { start: 7, least: 2, meaning: 'Leaps.' } },
     sweep: [{ iterations: 3 }],
+    solves_whole_substeps: false,
+    substep_work: 2,
     models: ['springs'],
     finest_sweep_level: 0,
     mark: 'M0 0H1',

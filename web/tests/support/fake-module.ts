@@ -28,6 +28,12 @@ interface FakeScene {
   method: FakeMethod;
 }
 
+interface FakePlan {
+  settings: FakeChanges[];
+  scene: FakeScene;
+  reference: string;
+}
+
 /** The parts that the module is built with. */
 interface FakeBuild {
   hasCholmod: boolean;
@@ -219,6 +225,7 @@ class FakeSimulation implements SimulationHandle {
 
 class FakeExperiment implements ExperimentHandle {
   private rows: BenchRow[] = [];
+  private readonly kept: string[] = [];
 
   constructor(
     private readonly build: FakeBuild,
@@ -226,7 +233,7 @@ class FakeExperiment implements ExperimentHandle {
   ) {}
 
   start(text: string): string {
-    const plan = JSON.parse(text) as { settings: FakeChanges[]; scene: FakeScene };
+    const plan = JSON.parse(text) as FakePlan;
     if (plan.settings.length === 0) return refuse('/settings', 'expected a setting, found none');
     for (const method of [...plan.settings.map((one) => one['/method']), plan.scene.method]) {
       if (directSolver(this.build, method) === null) return refuse('/settings', 'found cholmod');
@@ -240,6 +247,14 @@ class FakeExperiment implements ExperimentHandle {
         reference,
       );
     });
+    return ok({ references: [plan.reference, 'own-0'] });
+  }
+
+  /** The stand-in's references are the texts of their ids. */
+  keepReference(bytes: Uint8Array): string {
+    const text = new TextDecoder().decode(bytes);
+    if (text.startsWith('<')) return refuse('', 'expected a reference');
+    this.kept.push(text);
     return ok();
   }
 
@@ -253,7 +268,8 @@ class FakeExperiment implements ExperimentHandle {
       progress: this.shown / this.rows.length,
       rows: this.rows.slice(0, this.shown),
       front: [0],
-      message: done ? 'done' : 'running',
+      message: done ? 'done' : `running with ${this.kept.join(' and ') || 'what it makes'}`,
+      estimated_s: this.rows.length,
     });
   }
 
@@ -277,9 +293,11 @@ function row(level: number, method: BenchRow['method'], reference: string): Benc
     spread_ms: 0.1,
     position_error_m: 0.01 / 2 ** level,
     position_error_percent: 1 / 2 ** level,
+    method_error_m: 0.002,
+    mesh_error_m: 0.009 / 2 ** level,
     rms_stretch: 0.004,
     largest_stretch: 0.01,
-    reference: { id: 'fake', converged: true, description: reference },
+    reference: { id: 'fake', converged: true, description: reference, uncertainty_m: 1e-4 },
     status: 'ok',
     message: '',
     target: 'wasm',

@@ -32,9 +32,14 @@ export interface BenchRow {
   position_error_m: number | null;
   /** Percent of the diagonal at rest. */
   position_error_percent: number | null;
+  /** Of `position_error_m` what its method does wrong, against the exact motion of its own mesh. */
+  method_error_m: number | null;
+  /** What its mesh does wrong: how far that motion is from the reference. */
+  mesh_error_m: number | null;
   rms_stretch: number | null;
   largest_stretch: number | null;
-  reference: { id: string; converged: boolean; description: string };
+  /** `uncertainty_m`: errors of less than four times as much are not told. */
+  reference: { id: string; converged: boolean; description: string; uncertainty_m: number | null };
   /** "ok", "not_converged" (it ran to its end), or why it failed. */
   status: string;
   message: string;
@@ -50,12 +55,15 @@ export interface SweepReport {
   /** Indices into `rows`. */
   front: number[];
   message: string;
-  /** What the whole sweep is expected to take [s]. */
-  estimated_s?: number;
+  /** What the whole sweep is expected to take [s]; null while nothing tells. */
+  estimated_s: number | null;
 }
 
 export interface ExperimentHandle {
+  /** Answers with the ids of the `references` that rows are compared with. */
   start(planText: string): string;
+  /** The bytes of a reference's file, which is then not computed. */
+  keepReference(bytes: Uint8Array): string;
   advance(budgetMs: number): string;
   delete(): void;
 }
@@ -66,5 +74,10 @@ export interface SweepModule {
 }
 
 export const SWEEP_METHODS: Record<keyof SweepModule, string[]> = {
-  Experiment: methodsOf<ExperimentHandle>({ start: true, advance: true, delete: true }),
+  Experiment: methodsOf<ExperimentHandle>({
+    start: true,
+    keepReference: true,
+    advance: true,
+    delete: true,
+  }),
 };

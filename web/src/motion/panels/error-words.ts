@@ -5,6 +5,7 @@ import type { ReferenceNumbers, RunNumbers } from '../bindings/pleat-module';
 import { referenceUrl } from '../run/references';
 import { type MotionState, wantsReference } from '../state/motion-state';
 import { presetSetting } from '../state/setting';
+import { SURER } from '../state/sweep-plan';
 import { rowOfSetting } from '../state/sweep-state';
 
 export interface ErrorWords {
@@ -19,9 +20,6 @@ type ErrorState = Pick<
   MotionState,
   'numbers' | 'setting' | 'sweep' | 'mesh' | 'reference' | 'compare' | 'heat'
 >;
-
-/** A reference has to be known so many times better than what it judges. */
-const SURER = 4;
 
 /** Less than this is left of the equations: nothing but rounding. */
 const EXACT_RESIDUAL = 1e-8;

@@ -5,6 +5,8 @@ import { digits, milliseconds, smallLength } from '../../shared/panels/quantity'
 import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
+import type { MeshError } from '../state/sweep-state';
+import { boundOf, floorMarks, floorsOf } from './mesh-floors';
 
 export interface PlotContent {
   rows: BenchRow[];
@@ -12,6 +14,7 @@ export interface PlotContent {
   front: number[];
   /** Index of the row that the stage shows, or -1. */
   current: number;
+  meshError: MeshError;
 }
 
 const WIDTH = 520;
@@ -41,11 +44,35 @@ export function titleOf(row: BenchRow): string {
   return parts.filter((part) => part !== '').join(', ');
 }
 
-/** A row's place: [ms for a frame, position error in mm]; null when it has none. */
+/** A row's place: [ms for a frame, position error or what it is below in mm]; null when it has none. */
 function placeOf(row: BenchRow): [number, number] | null {
-  const { ms_per_frame: ms, position_error_m: metres } = row;
+  const { ms_per_frame: ms } = row;
+  const metres = row.position_error_m ?? boundOf(row);
   if (!hasFinished(row) || ms === null || metres === null) return null;
   return ms > 0 && metres > 0 ? [ms, 1000 * metres] : null;
+}
+
+function errorText(row: BenchRow): string {
+  const { position_error_m: metres } = row;
+  return metres === null
+    ? `error below ${smallLength(boundOf(row))}`
+    : `error ${smallLength(metres)}`;
+}
+
+function axisTitles(): SVGElement[] {
+  const middle = TOP + (HEIGHT - TOP - BOTTOM) / 2;
+  return [
+    svg(
+      'text',
+      { x: LEFT + (WIDTH - LEFT - RIGHT) / 2, y: HEIGHT - 8, class: 'axis' },
+      'ms for a frame (1/60 s of motion)',
+    ),
+    svg(
+      'text',
+      { x: 14, y: middle, class: 'axis', transform: `rotate(-90 14 ${middle})` },
+      'position error [mm]',
+    ),
+  ];
 }
 
 /** A chart that `update` draws anew; `onChoice` gets the index of a chosen row. */
@@ -62,11 +89,11 @@ export function createSpeedErrorPlot(
   parent.append(root);
 
   function point(row: BenchRow, index: number, x: number, y: number, isCurrent: boolean) {
-    const label = `${titleOf(row)}: ${milliseconds(row.ms_per_frame)} a frame, error ${smallLength(row.position_error_m)}`;
+    const label = `${titleOf(row)}: ${milliseconds(row.ms_per_frame)} a frame, ${errorText(row)}`;
     const { path, style } = markOf(row.method.stepper);
     const group = svg('g', {
       transform: `translate(${x} ${y})`,
-      class: 'point',
+      class: row.position_error_m === null ? 'point untold' : 'point',
       style,
       'data-stepper': row.method.stepper,
       role: 'button',
@@ -94,8 +121,9 @@ export function createSpeedErrorPlot(
     const hadFocus = focused !== null && root.contains(document.activeElement);
     const places = rows.map(placeOf);
     const placed = places.filter((place) => place !== null);
-    const across = logScale(placed.map(([ms]) => ms));
-    const upward = logScale(placed.map(([, mm]) => mm));
+    const floors = floorsOf(rows);
+    const across = logScale([...placed.map(([ms]) => ms), ...floors.flatMap(({ ms }) => ms)]);
+    const upward = logScale([...placed.map(([, mm]) => mm), ...floors.map(({ mm }) => mm)]);
     const xOf = (ms: number) => LEFT + across.part(ms) * (WIDTH - LEFT - RIGHT);
     const yOf = (mm: number) => HEIGHT - BOTTOM - upward.part(mm) * (HEIGHT - TOP - BOTTOM);
     const parts: SVGElement[] = [];
@@ -113,19 +141,8 @@ export function createSpeedErrorPlot(
       line(LEFT, yOf(mm), WIDTH - RIGHT, yOf(mm), 'grid');
       parts.push(svg('text', { x: LEFT - 8, y: yOf(mm) + 4, class: 'tick tick-y' }, digits(mm, 1)));
     }
-    const middle = TOP + (HEIGHT - TOP - BOTTOM) / 2;
-    parts.push(
-      svg(
-        'text',
-        { x: LEFT + (WIDTH - LEFT - RIGHT) / 2, y: HEIGHT - 8, class: 'axis' },
-        'ms for a frame (1/60 s of motion)',
-      ),
-      svg(
-        'text',
-        { x: 14, y: middle, class: 'axis', transform: `rotate(-90 14 ${middle})` },
-        'position error [mm]',
-      ),
-    );
+    parts.push(...axisTitles());
+    parts.push(...floorMarks(floors, xOf, yOf));
     const corners = front
       .map((index) => places[index] ?? null)
       .filter((place) => place !== null)

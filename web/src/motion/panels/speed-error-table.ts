@@ -3,21 +3,45 @@ import { element } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
+import type { MeshError } from '../state/sweep-state';
+import { boundOf } from './mesh-floors';
 import { type PlotContent, titleOf } from './speed-error-plot';
 
+/** What the two lines of a cell say. */
+type Cell = [string, string];
+
 /** Each column's title, and what its second line is. */
-const HEADS: readonly [string, string][] = [
+const HEADS: readonly Cell[] = [
   ['Setting', ''],
   ['A frame', 'spread'],
   ['Error', 'of diagonal'],
+  ['Method', 'mesh'],
   ['RMS stretch', 'largest'],
 ];
 
+/** An error, or the bound below which the reference tells none. */
+function errorCell(row: BenchRow): Cell {
+  const { position_error_m, position_error_percent } = row;
+  if (position_error_m !== null)
+    return [smallLength(position_error_m), `${digits(position_error_percent, 2)} %`];
+  const bound = boundOf(row);
+  return bound === null ? ['–', 'no reference'] : [`< ${smallLength(bound)}`, 'not told'];
+}
+
+/** What the mesh of a row does wrong, as far as its reference tells. */
+export function meshText(row: BenchRow, meshError: MeshError): string {
+  const bound = boundOf(row);
+  if (meshError !== 'known' || row.mesh_error_m !== null || bound === null)
+    return smallLength(row.mesh_error_m);
+  return `< ${smallLength(bound)}`;
+}
+
 /** Both lines of each column after the first. */
-function cells(row: BenchRow): [string, string][] {
+function cells(row: BenchRow, meshError: MeshError): Cell[] {
   return [
     [milliseconds(row.ms_per_frame), milliseconds(row.spread_ms)],
-    [smallLength(row.position_error_m), `${digits(row.position_error_percent, 2)} %`],
+    errorCell(row),
+    [smallLength(row.method_error_m), meshText(row, meshError)],
     [percent(row.rms_stretch), percent(row.largest_stretch)],
   ];
 }
@@ -47,7 +71,7 @@ export function createSpeedErrorTable(
     ),
   );
 
-  function line(row: BenchRow, index: number, isFront: boolean, isCurrent: boolean): HTMLElement {
+  function line(row: BenchRow, index: number, { front, current, meshError }: PlotContent) {
     const title = titleOf(row);
     const use = element(
       'button',
@@ -62,24 +86,28 @@ export function createSpeedErrorTable(
     const heading = element('th', { scope: 'row' }, use);
     if (row.n_vertices > 0) heading.append(element('small', {}, `${row.n_vertices} vertices`));
     if (row.status === 'not_converged') heading.append(' (solve cut short)');
-    if (isFront) heading.append(' ', element('span', { class: 'badge' }, 'front'));
+    if (front.includes(index)) heading.append(' ', element('span', { class: 'badge' }, 'front'));
     const data = hasFinished(row)
-      ? cells(row).map(([value, detail]) =>
+      ? cells(row, meshError).map(([value, detail]) =>
           element('td', { class: 'number' }, value, element('small', {}, detail)),
         )
-      : [element('td', { colspan: 3, class: 'failed' }, `${row.status}: ${row.message}`)];
-    const kind = isCurrent ? 'current' : '';
+      : [
+          element(
+            'td',
+            { colspan: HEADS.length - 1, class: 'failed' },
+            `${row.status}: ${row.message}`,
+          ),
+        ];
+    const kind = index === current ? 'current' : '';
     return element('tr', { class: kind }, heading, ...data);
   }
 
   return {
-    update({ rows, front, current }) {
+    update(content) {
       const focused = body.contains(document.activeElement)
         ? document.activeElement?.getAttribute('data-row')
         : null;
-      body.replaceChildren(
-        ...rows.map((row, index) => line(row, index, front.includes(index), index === current)),
-      );
+      body.replaceChildren(...content.rows.map((row, index) => line(row, index, content)));
       if (focused) body.querySelector<HTMLElement>(`[data-row="${focused}"]`)?.focus();
     },
   };

@@ -6,8 +6,9 @@ import type { BenchRow } from '../bindings/sweep-module';
 import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
 import { PRESETS } from '../state/setting';
-import { DURATION_S, hasFinished, settingOfRow } from '../state/sweep-plan';
+import { durationS, hasFinished, settingOfRow } from '../state/sweep-plan';
 import { rowOfSetting } from '../state/sweep-state';
+import { errorSentence, refinementSentence } from './mesh-words';
 import { createSpeedErrorPlot, markOf } from './speed-error-plot';
 import { createSpeedErrorTable } from './speed-error-table';
 
@@ -34,19 +35,24 @@ function createLegend() {
 
 /** Says what the numbers are, and how far to trust them. */
 function footnote({ sweep }: MotionState): string {
-  const { rows, disturbed } = sweep;
-  const finest = rows.at(-1);
-  if (!finest) return 'Waiting for the first row.';
-  const { converged, description } = finest.reference;
+  const { rows, disturbed, meshError } = sweep;
+  const last = rows.at(-1);
+  if (!last || !sweep.scene) return 'Waiting for the first row.';
   const nRuns = Math.min(...rows.filter(hasFinished).map((row) => row.n_runs));
   const runs = Number.isFinite(nRuns) && nRuns > 0 ? `${nRuns} runs, ` : '';
+  const isTold = (row: BenchRow) => row.position_error_m !== null;
+  const isConverged = rows.filter(isTold).every((row) => row.reference.converged);
   const parts = [
     `Measured on this device, ${runs}median.`,
-    'The error is what a method does wrong on its own mesh; what a coarser mesh does wrong is not in it.',
-    `Reference${converged ? '' : ' (not converged)'}: ${description.replace(/[.]$/, '')}.`,
+    errorSentence(meshError, durationS(sweep.scene)),
+    rows.some((row) => hasFinished(row) && !isTold(row))
+      ? 'An empty mark is below what its reference tells.'
+      : '',
+    ...(meshError === 'known' ? [refinementSentence(rows)] : []),
+    `Reference${isConverged ? '' : ' (not converged)'}: ${last.reference.description.replace(/[.]$/, '')}.`,
   ];
   if (disturbed) parts.push('The cloth was playing meanwhile: the times are too long.');
-  return parts.join(' ');
+  return parts.filter((part) => part !== '').join(' ');
 }
 
 export function createSpeedErrorView(
@@ -60,7 +66,7 @@ export function createSpeedErrorView(
     if (!row || !sweep.scene) return;
     const { mesh, ...swept } = sweep.scene;
     const measured = settingOfRow(row, { ...setting, ...swept });
-    const startSteps = Math.round(DURATION_S / measured.stepS);
+    const startSteps = Math.round(durationS(measured) / measured.stepS);
     const content = { setting: measured, startSteps, invited: false };
     actions.showAnew(mesh ? { ...content, mesh } : content);
   }
@@ -101,6 +107,7 @@ export function createSpeedErrorView(
     const content = {
       rows: sweep.rows,
       front: sweep.front,
+      meshError: sweep.meshError,
       current: row ? sweep.rows.indexOf(row) : -1,
     };
     setText(note, footnote(state));

@@ -1,9 +1,11 @@
 // Starts and cancels the sweep, and tells how far it is.
 import { choice, element, field, setText } from '../../shared/panels/element';
+import { shortTime } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import type { Model } from '../../shared/steppers/steppers';
 import type { Sweep } from '../run/sweep';
 import type { MotionState } from '../state/motion-state';
+import { expectedSweepS } from '../state/sweep-cost';
 import { FINEST_SWEEP, type SweepWish, slowSteppers } from '../state/sweep-plan';
 import type { SweepState } from '../state/sweep-state';
 
@@ -34,9 +36,17 @@ function slowPicker(onChange: (withSlow: boolean) => void) {
 }
 
 /** How long the rest will take, as far as that is known. */
-function timeLeft({ phase, progress, estimatedS }: SweepState): string {
-  if (phase !== 'running' || estimatedS === null) return '';
-  return `, about ${Math.ceil(estimatedS * (1 - progress))} s left`;
+function timeLeft({ phase, leftS }: SweepState): string {
+  if (phase !== 'running' || leftS === null) return '';
+  return `, about ${shortTime(1000 * Math.ceil(leftS))} left`;
+}
+
+/** What a sweep would take, as far as steps that were timed tell. */
+function expectation({ costs, setting }: MotionState, wish: SweepWish): string {
+  const seconds = expectedSweepS(costs, setting, wish);
+  return seconds === null
+    ? ''
+    : `About ${shortTime(1000 * Math.max(seconds, 1), 1)} on this device.`;
 }
 
 /** How the last sweep went, or how far this one is. */
@@ -53,10 +63,12 @@ export function createSweepPanel(
   const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false };
   const levels = choice(FINEST, (level) => {
     wish.finest = level;
+    showExpectation(store.get());
   });
   levels.select(wish.finest);
   const slow = slowPicker((withSlow) => {
     wish.withSlow = withSlow;
+    showExpectation(store.get());
   });
   const start = element(
     'button',
@@ -70,6 +82,7 @@ export function createSweepPanel(
   );
   const progress = element('progress', { max: 1, 'aria-label': 'Progress of the sweep' });
   const message = element('p', { class: 'note' });
+  const expected = element('p', { class: 'note' });
   const open = element(
     'button',
     { type: 'button', class: 'wide', click: () => store.set({ sweepOpen: true }) },
@@ -86,6 +99,7 @@ export function createSweepPanel(
       ),
       field('Levels', levels.control),
       slow.line,
+      expected,
       start,
       cancel,
       progress,
@@ -93,8 +107,13 @@ export function createSweepPanel(
       open,
     ),
   );
-  return watch(store, ['sweep', 'sweepOpen', 'phase', 'setting'], (state) => {
+  function showExpectation(state: MotionState): void {
+    expected.hidden = state.sweep.phase === 'running';
+    setText(expected, expectation(state, wish));
+  }
+  return watch(store, ['sweep', 'sweepOpen', 'phase', 'setting', 'costs'], (state) => {
     slow.show(state.setting.model);
+    showExpectation(state);
     const { phase } = state.sweep;
     const isRunning = phase === 'running';
     start.hidden = isRunning;

@@ -2,7 +2,7 @@
 import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
 import type { FromMotion, MotionAnswers, ToMotion } from '../worker/motion-protocol';
 import type { ObjReadMessage, ToObj } from '../worker/obj-protocol';
-import type { FromSweep, ToSweep } from '../worker/sweep-protocol';
+import type { FromSweep, PlannedMessage, ToSweep } from '../worker/sweep-protocol';
 
 export type MotionClient = Asked<ToMotion, MotionAnswers>;
 export type StartMotion = (listener: Listener<FromMotion>) => MotionClient;
@@ -26,9 +26,10 @@ export function startObjWorker(listener: Listener<never>): ObjClient {
   );
 }
 
-export type SweepClient = Asked<ToSweep, { sweep: Done }>;
+export type SweepClient = Asked<ToSweep, { plan: PlannedMessage; keep: Done; measure: Done }>;
+export type StartSweep = (listener: Listener<FromSweep>) => SweepClient;
 
-/** Runs one sweep; its reports are news. */
+/** Runs one sweep, told to; its reports are news. */
 export function startSweepWorker(listener: Listener<FromSweep>): SweepClient {
   return createAsked(
     new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' }),

@@ -1,20 +1,24 @@
 // Runs a sweep in a worker of its own, so that the shown cloth and the page stay responsive.
 
-import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { Store } from '../../shared/state/store';
+import { answerOf } from '../../shared/workers/asked';
 import type { BenchRow } from '../bindings/sweep-module';
 import type { MotionState } from '../state/motion-state';
 import { type StepCosts, withCost } from '../state/step-cost';
-import { hasFinished, type SweepWish, settingOfRow, sweepPlan } from '../state/sweep-plan';
+import {
+  hasFinished,
+  type ReferenceKind,
+  type SweepWish,
+  settingOfRow,
+  sweepPlan,
+} from '../state/sweep-plan';
 import { type SweepState, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
-import { type SweepClient, startSweepWorker } from './motion-client';
+import { type StartSweep, type SweepClient, startSweepWorker } from './motion-client';
+import { planSweep } from './sweep-references';
 
 /** Rows tell the time of a sixtieth of a second. */
 const FRAMES_PER_S = 60;
-
-/** Less than this of a sweep tells nothing of the rest. */
-const LEAST_PROGRESS = 0.02;
 
 export interface Sweep {
   /** Measures the shown scene. */
@@ -23,8 +27,12 @@ export interface Sweep {
   cancel(): void;
 }
 
-export function createSweep(store: Store<MotionState>): Sweep {
+export function createSweep(
+  store: Store<MotionState>,
+  startWorker: StartSweep = startSweepWorker,
+): Sweep {
   let worker: SweepClient | null = null;
+  let measuringMs = 0; // when its work began, on the page's clock
 
   function patch(change: Partial<SweepState>): void {
     store.set({ sweep: { ...store.get().sweep, ...change } });
@@ -38,11 +46,11 @@ export function createSweep(store: Store<MotionState>): Sweep {
 
   function news(message: FromSweep): void {
     if (message.type === 'refused') return end('failed', message.failure.what);
-    const { rows, front, progress, done, message: text, estimated_s: toldS } = message.report;
-    const { beganMs } = store.get().sweep;
-    const soFarS = (performance.now() - beganMs) / 1000;
-    const estimatedS = toldS ?? (progress < LEAST_PROGRESS ? null : soFarS / progress);
-    patch({ rows, front, progress, message: text, estimatedS });
+    if (message.type !== 'sweepReport') return;
+    const { rows, front, progress, done, message: text, estimated_s: wholeS } = message.report;
+    const soFarS = (performance.now() - measuringMs) / 1000;
+    const leftS = wholeS === null ? null : Math.max(wholeS - soFarS, 0);
+    patch({ rows, front, progress, message: text, leftS });
     if (!done) return;
     keepCosts(rows);
     end('done', text);
@@ -59,6 +67,17 @@ export function createSweep(store: Store<MotionState>): Sweep {
       return hasFinished(row) && ms > 0 ? withCost(known, measured, ms) : known;
     };
     store.set({ costs: rows.reduce(add, costs) });
+  }
+
+  async function measure(own: SweepClient, wish: SweepWish): Promise<void> {
+    const { setting, mesh } = store.get();
+    const planOf = (reference: ReferenceKind) => sweepPlan(setting, wish, mesh, reference);
+    const planned = planSweep(own, planOf);
+    const meshError = await answerOf(planned, (failure) => end('failed', failure.what));
+    if (meshError === null || worker !== own) return;
+    patch({ meshError });
+    measuringMs = performance.now();
+    own.tell({ type: 'measure' });
   }
 
   store.subscribe((state, previous) => {
@@ -79,18 +98,17 @@ export function createSweep(store: Store<MotionState>): Sweep {
         sweep: {
           phase: 'running',
           progress: 0,
-          message: 'Computing the reference',
-          beganMs: performance.now(),
-          estimatedS: null,
+          message: 'Fetching the references',
+          leftS: null,
+          meshError: 'unshipped',
           rows: [],
           front: [],
           scene: sweptScene(setting, mesh),
           disturbed: false,
         },
       });
-      worker = startSweepWorker({ news, broken: (reason) => end('failed', reason) });
-      const planText = JSON.stringify(sweepPlan(setting, wish, mesh));
-      worker.tell({ type: 'sweep', fabricsText, planText });
+      worker = startWorker({ news, broken: (reason) => end('failed', reason) });
+      void measure(worker, wish);
     },
     cancel() {
       if (worker) end('cancelled', 'Cancelled; the rows so far stay.');

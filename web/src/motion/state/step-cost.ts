@@ -17,6 +17,19 @@ export type StepCosts = Readonly<Record<string, { ms: number; isLeast: boolean }
 const WORK_PER_LEVEL = 4;
 /** And asks for four times the substeps, where they are as many as the stability bound wants. */
 const STABLE_WORK_PER_LEVEL = 16;
+/**
+ * A system of all vertices takes longer still: measured at levels 0 to 3 of all scenes, 4 to 6 times at first, and
+ * then 5 to 8, exact ones up to 19.
+ */
+const SOLVED_WORK_PER_LEVEL = 7;
+
+function growthOf({ stepper, substeps }: Setting): number {
+  if (substeps === 0) return STABLE_WORK_PER_LEVEL;
+  return stepperRow(stepper).solves_whole_substeps ? SOLVED_WORK_PER_LEVEL : WORK_PER_LEVEL;
+}
+
+/** So many levels finer than what was measured, an estimate is a bound: solves grow faster and faster. */
+const LEVELS_TO_BOUND = 2;
 
 /** What the cost depends on, beside the fabric, which matters little. */
 function keyOf(setting: Setting): string {
@@ -40,12 +53,13 @@ export function stepCostAt(costs: StepCosts, setting: Setting, level: number): S
   const measuredAt = (other: number) => costs[keyOf({ ...setting, level: other })];
   const own = measuredAt(level);
   if (own) return { ...own, isMeasured: true };
-  const growth = setting.substeps === 0 ? STABLE_WORK_PER_LEVEL : WORK_PER_LEVEL;
+  const growth = growthOf(setting);
   // The nearest level tells best; of two that are as near, the finer one.
   for (const away of [1, -1, 2, -2, 3, -3, 4, -4]) {
     const known = measuredAt(level + away);
     if (!known || (known.isLeast && away > 0)) continue; // a coarser level may be quick
-    return { ms: known.ms * growth ** -away, isMeasured: false, isLeast: known.isLeast };
+    const isLeast = known.isLeast || away <= -LEVELS_TO_BOUND;
+    return { ms: known.ms * growth ** -away, isMeasured: false, isLeast };
   }
   return null;
 }

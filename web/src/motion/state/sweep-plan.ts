@@ -7,7 +7,7 @@ import {
   type StepperRow,
   type Substeps,
 } from '../../shared/steppers/steppers';
-import type { BenchRow } from '../bindings/sweep-module';
+import type { BenchMethod, BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
 import { type Setting, sceneOf } from './setting';
 
@@ -19,7 +19,18 @@ export interface PlannedMethod {
 }
 
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
-export const DURATION_S = 1;
+const DURATION_S = 1;
+
+/** Until the free end of the sheet whips round: from then on its motion is another on every mesh [s]. */
+const SWING_S = 0.4;
+
+/** What a sweep compares the motion of a scene over [s]. */
+export function durationS({ preset }: Pick<Setting, 'preset'>): number {
+  return preset === 'swinging-sheet' ? SWING_S : DURATION_S;
+}
+
+/** Timed runs of each setting. */
+export const REPEATS = 5;
 
 /** Time that one step of a measured run advances [s]. */
 const STEP_S = 1 / 60;
@@ -34,9 +45,16 @@ export interface SweepPlan {
   scene: Record<string, unknown>;
   settings: PlannedSetting[];
   duration_s: number;
-  /** Each level against the exact motion of its own mesh: a finer mesh's takes minutes here. */
-  reference: 'same_mesh';
+  repeats: number;
+  reference: ReferenceKind;
+  reference_level?: number;
 }
+
+/** What rows are compared with: the exact motion on a finer mesh than any of theirs, or on their own. */
+export type ReferenceKind = 'converged' | 'same_mesh';
+
+/** Level of the finer mesh: runs on it are shipped, since they take from minutes to hours. */
+const REFERENCE_LEVEL = 3;
 
 /** The finest level that a sweep is offered for. */
 export const FINEST_SWEEP = 3;
@@ -52,7 +70,7 @@ export function slowSteppers(model: Model): StepperRow[] {
 }
 
 /** What is measured at one level, of every stepper that takes part there. */
-function methodsAt(level: number, model: Model, withSlow: boolean): PlannedMethod[] {
+export function methodsAt(level: number, model: Model, withSlow: boolean): PlannedMethod[] {
   const isWanted = (row: StepperRow) =>
     !isSlow(row) || (withSlow && level <= (row.finest_sweep_level ?? FINEST_SWEEP));
   const taking = STEPPERS.filter((row) => row.models.includes(model) && isWanted(row));
@@ -60,6 +78,9 @@ function methodsAt(level: number, model: Model, withSlow: boolean): PlannedMetho
     sweep.map((counts) => ({ stepper: name, step_s: STEP_S, ...counts })),
   );
 }
+
+/** A reference has to be known so many times better than what it judges. */
+export const SURER = 4;
 
 /** What a visitor asks a sweep for. */
 export interface SweepWish {
@@ -73,6 +94,7 @@ export function sweepPlan(
   setting: Setting,
   { finest, withSlow }: SweepWish,
   mesh: ObjMesh | null = null,
+  reference: ReferenceKind = 'converged',
 ): SweepPlan {
   const settings: PlannedSetting[] = [];
   for (let level = 0; level <= finest; ++level) {
@@ -83,8 +105,10 @@ export function sweepPlan(
   return {
     scene: sceneOf(setting, mesh),
     settings,
-    duration_s: DURATION_S,
-    reference: 'same_mesh',
+    duration_s: durationS(setting),
+    repeats: REPEATS,
+    reference,
+    ...(reference === 'converged' ? { reference_level: REFERENCE_LEVEL } : {}),
   };
 }
 
@@ -93,16 +117,23 @@ export function hasFinished(row: BenchRow): boolean {
   return row.status === 'ok' || row.status === 'not_converged';
 }
 
-/** The setting a row was measured with; the counts it does not name stay as they are. */
-export function settingOfRow(row: BenchRow, present: Setting): Setting {
-  const stepper = STEPPER_NAMES.find((known) => known === row.method.stepper) ?? present.stepper;
-  const { substeps } = row.method;
+/** A method at a level as a setting; the counts it does not name stay as they are. */
+export function settingOf(
+  level: number,
+  { stepper: name, step_s, substeps, iterations }: Pick<BenchMethod, keyof PlannedMethod>,
+  present: Setting,
+): Setting {
   return {
     ...present,
-    level: row.level,
-    stepper,
-    stepS: row.method.step_s,
+    level,
+    stepper: STEPPER_NAMES.find((known) => known === name) ?? present.stepper,
+    stepS: step_s,
     substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
-    iterations: row.method.iterations ?? present.iterations,
+    iterations: iterations ?? present.iterations,
   };
+}
+
+/** The setting a row was measured with. */
+export function settingOfRow({ level, method }: BenchRow, present: Setting): Setting {
+  return settingOf(level, method, present);
 }

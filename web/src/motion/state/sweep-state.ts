@@ -4,15 +4,20 @@ import type { ObjMesh } from './obj-mesh';
 import { isSameMethod, type Setting } from './setting';
 import { hasFinished, settingOfRow } from './sweep-plan';
 
+/**
+ * Whether errors have what the mesh does wrong in them; else no reference on a finer mesh is shipped for
+ * the scene, or none could be fetched.
+ */
+export type MeshError = 'known' | 'unshipped' | 'unfetched';
+
 export interface SweepState {
   phase: 'none' | 'running' | 'done' | 'cancelled' | 'failed';
   /** 0 to 1. */
   progress: number;
   message: string;
-  /** When it was started, on the page's clock [ms]. */
-  beganMs: number;
-  /** What the whole of it is expected to take [s]; null while nobody knows. */
-  estimatedS: number | null;
+  /** What the rest of it is expected to take [s]; null while nobody knows. */
+  leftS: number | null;
+  meshError: MeshError;
   rows: BenchRow[];
   /** Indices into `rows`. */
   front: number[];
@@ -26,8 +31,8 @@ export const NO_SWEEP: SweepState = {
   phase: 'none',
   progress: 0,
   message: '',
-  beganMs: 0,
-  estimatedS: null,
+  leftS: null,
+  meshError: 'unshipped',
   rows: [],
   front: [],
   scene: null,

@@ -1,9 +1,6 @@
 import { serve } from '../../shared/workers/serve';
 import createSweep from '../../wasm/sweep.mjs';
-import { runSweep } from './sweep-core';
+import { SweepCore } from './sweep-core';
 import type { FromSweep, ToSweep } from './sweep-protocol';
 
-serve<ToSweep, FromSweep>(self, async (post) => {
-  const module = await createSweep();
-  return { receive: (message) => runSweep(module, message, post) };
-});
+serve<ToSweep, FromSweep>(self, async (post) => new SweepCore(await createSweep(), post));

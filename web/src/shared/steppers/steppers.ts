@@ -23,6 +23,10 @@ export interface StepperRow {
   settings: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
   /** The counts with which a sweep measures it at every level. */
   sweep: readonly { substeps?: Substeps; iterations?: number }[];
+  /** Each substep is one system of all vertices. */
+  solves_whole_substeps: boolean;
+  /** Rough cost of a substep of one iteration, in the same units for all steppers. */
+  substep_work: number;
   /** The models whose sweeps it takes part in. */
   models: readonly Model[];
   /** At finer levels a sweep leaves it out. */

@@ -1,0 +1,60 @@
+// What a sweep is expected to take on this device, from what steps were measured to cost.
+import { stepperRow } from '../../shared/steppers/steppers';
+import { presetSetting, type Setting } from './setting';
+import { type StepCosts, stepCostAt } from './step-cost';
+import { durationS, methodsAt, REPEATS, type SweepWish, settingOf } from './sweep-plan';
+
+/** Substeps that stand for as many as the stability bound asks for. */
+const STABLE_SUBSTEPS = 100;
+
+/** The first round is dearer than a timed one: it looks at the parts of each step and at the energy. */
+const FIRST_ROUND = 1.5;
+
+/** Rough cost of a step, in the same units for all steppers. */
+function workOf({ stepper, substeps, iterations }: Setting): number {
+  const { settings, substep_work } = stepperRow(stepper);
+  const rounds = settings.iterations ? iterations : 1;
+  return substep_work * rounds * (substeps === 0 ? STABLE_SUBSTEPS : substeps);
+}
+
+/** What a step of a planned setting takes [ms], in proportion to the shown one where it was never run. */
+function stepMs(costs: StepCosts, planned: Setting, shown: Setting): number | null {
+  const own = stepCostAt(costs, planned, planned.level);
+  if (own) return own.ms;
+  const known = stepCostAt(costs, shown, planned.level);
+  return known && (known.ms * workOf(planned)) / workOf(shown);
+}
+
+/** Exact motion on a setting's own mesh, in the steps of a reference and then in twice as long ones. */
+const REFERENCE_STEPS_PER_S = 960 * 1.5;
+
+/** Every level's own reference, where none is shipped [ms]. */
+function referencesMs(costs: StepCosts, shown: Setting, finest: number): number | null {
+  const own = presetSetting(shown.preset);
+  const isShipped =
+    shown.preset !== 'obj' && shown.fabric === own.fabric && shown.model === own.model;
+  if (isShipped) return 0;
+  const exact = { ...shown, stepper: 'newton', stepS: 1 / 960, substeps: 1 };
+  let sum = 0;
+  for (let level = 0; level <= finest; ++level) {
+    const ms = stepMs(costs, { ...exact, level }, shown);
+    if (ms === null) return null;
+    sum += ms * REFERENCE_STEPS_PER_S * durationS(shown);
+  }
+  return sum;
+}
+
+/** Seconds for a sweep of the shown scene; null while no step of it was timed. */
+export function expectedSweepS(costs: StepCosts, shown: Setting, wish: SweepWish): number | null {
+  const references = referencesMs(costs, shown, wish.finest);
+  if (references === null) return null;
+  let sum = references;
+  for (let level = 0; level <= wish.finest; ++level) {
+    for (const method of methodsAt(level, shown.model, wish.withSlow)) {
+      const ms = stepMs(costs, settingOf(level, method, shown), shown);
+      if (ms === null) return null;
+      sum += (ms * durationS(shown) * (FIRST_ROUND + REPEATS)) / method.step_s;
+    }
+  }
+  return sum / 1000;
+}

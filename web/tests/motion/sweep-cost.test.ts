@@ -1,0 +1,44 @@
+import { describe, expect, it } from 'vitest';
+import { presetSetting, type Setting } from '../../src/motion/state/setting';
+import { type StepCosts, withCost } from '../../src/motion/state/step-cost';
+import { expectedSweepS } from '../../src/motion/state/sweep-cost';
+import { methodsAt, settingOf } from '../../src/motion/state/sweep-plan';
+
+const shown: Setting = { ...presetSetting('curtain'), level: 1 };
+const wish = { finest: 1, withSlow: false };
+const measured = withCost({}, shown, 4);
+
+function expected(costs: StepCosts, setting = shown, asked = wish): number {
+  const seconds = expectedSweepS(costs, setting, asked);
+  if (seconds === null) throw new Error('an expectation was expected');
+  return seconds;
+}
+
+describe('what a sweep would take', () => {
+  it('is not known before a step was timed', () => {
+    expect(expectedSweepS({}, shown, wish)).toBeNull();
+    expect(expectedSweepS(measured, { ...shown, preset: 'tablecloth' }, wish)).toBeNull();
+  });
+
+  it('follows from the shown method, and grows with the levels and with what takes part', () => {
+    const seconds = expected(measured);
+    expect(seconds).toBeGreaterThan(0);
+    expect(expected(withCost({}, shown, 8))).toBeCloseTo(2 * seconds);
+    expect(expected(measured, shown, { ...wish, finest: 2 })).toBeGreaterThan(3 * seconds);
+    expect(expected(measured, shown, { ...wish, withSlow: true })).toBeGreaterThan(seconds);
+  });
+
+  it('is what the planned methods took themselves, where they were measured', () => {
+    const methods = [0, 1].flatMap((level) =>
+      methodsAt(level, shown.model, false).map((method) => settingOf(level, method, shown)),
+    );
+    const costs = methods.reduce((known, one) => withCost(known, one, 2), measured);
+    // Sixty steps, five times and one and a half.
+    expect(expected(costs)).toBeCloseTo((methods.length * 60 * 6.5 * 2) / 1000);
+  });
+
+  it('has the references in it where none are shipped', () => {
+    const silk = { ...shown, fabric: 'silk' };
+    expect(expected(measured, silk)).toBeGreaterThan(2 * expected(measured));
+  });
+});
