@@ -20,7 +20,6 @@ import { motionSentence } from './panels/motion-sentence';
 import { createNumbersStrip } from './panels/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
-import { createSpeedErrorView } from './panels/speed-error-view';
 import { createSweepPanel } from './panels/sweep-panel';
 import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
@@ -100,6 +99,22 @@ function createPicture(
   }
 }
 
+/** Chart and table come when the first sweep is asked for; whoever asks again tries again. */
+function createSweepTray(parent: HTMLElement, store: Store<MotionState>, run: MotionRun): void {
+  let isAsked = false;
+  watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
+    if (!sweepOpen || isAsked) return;
+    isAsked = true;
+    try {
+      const { createSpeedErrorView } = await import('./panels/speed-error-view');
+      createSpeedErrorView(parent, store, run);
+    } catch {
+      isAsked = false;
+      store.set({ sweepOpen: false });
+    }
+  });
+}
+
 function createPanels(
   place: Place,
   store: Store<MotionState>,
@@ -126,7 +141,7 @@ function createPanels(
   createDrawingPanel(place('panel'), store);
   createSweepPanel(place('panel'), store, createSweep(store));
   createKeysPanel(place('panel'));
-  createSpeedErrorView(place('tray'), store, run);
+  createSweepTray(place('tray'), store, run);
 }
 
 /** Has the picture follow what the state says of it. */
