@@ -344,6 +344,26 @@ TEST_CASE("sweep: a finer reference that is there needs no coarser one", "[sweep
   CHECK(sweep.progress() == Approx(1));
 }
 
+TEST_CASE("sweep: a reference on a finer mesh is its own mesh's, doubted further", "[sweep]") {
+  const SweepPlan plan = plan_of(small_plan());
+  const std::vector<double> times = sweep_sample_times(plan.duration);
+  const auto made = [&](const ReferenceRecipe& recipe, const Reference* coarser) {
+    const auto maker = make_reference_maker(recipe, times, coarser);
+    while (!maker->done()) maker->advance(kLongSlice);
+    return maker->reference();
+  };
+  const std::vector<ReferenceRecipe> recipes = sweep_references(plan).recipes;
+  const ReferenceRecipe& finer = recipes.at(1);
+  REQUIRE(finer.kind == ReferenceKind::converged);
+  const Reference coarser = made(recipes.at(*finer.coarser), nullptr);
+  ReferenceRecipe own = finer;
+  own.kind = ReferenceKind::same_mesh;
+  own.coarser.reset();
+  const Reference expected = made(finer, &coarser);
+  const Reference found = checked_on_coarser(finer, made(own, nullptr), coarser);
+  CHECK(write_reference(found) == write_reference(expected));
+}
+
 TEST_CASE("sweep: a reference of fewer vertices tells the same of what it has", "[sweep]") {
   const SweepPlan plan = plan_of(small_plan());
   MemoryReferenceStore whole;
