@@ -7,6 +7,9 @@ import { durationS, methodsAt, REPEATS, type SweepWish, settingOf } from './swee
 /** Substeps that stand for as many as the stability bound asks for. */
 const STABLE_SUBSTEPS = 100;
 
+/** Until the module is there and has its references [s]. */
+const START_S = 1.5;
+
 /** The first round is dearer than a timed one: it looks at the parts of each step and at the energy. */
 const FIRST_ROUND = 1.5;
 
@@ -56,5 +59,5 @@ export function expectedSweepS(costs: StepCosts, shown: Setting, wish: SweepWish
       sum += (ms * durationS(shown) * (FIRST_ROUND + REPEATS)) / method.step_s;
     }
   }
-  return sum / 1000;
+  return START_S + sum / 1000;
 }
