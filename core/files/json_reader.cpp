@@ -87,6 +87,12 @@ double JsonReader::number(const NumberRange& range) const {
   return number;
 }
 
+double JsonReader::number_or(double missing) const {
+  if (is_null()) return missing;
+  if (!json_->is_number()) fail("a number or null");
+  return json_->get<double>();
+}
+
 std::int64_t JsonReader::integer(std::int64_t low, std::int64_t high) const {
   const std::string expected =
       "a whole number from " + std::to_string(low) + " to " + std::to_string(high);

@@ -67,6 +67,8 @@ class JsonReader {
   }
 
   double number(const NumberRange& range = kAnyNumber) const;
+  /// What was computed may be of any size. JSON has neither NaN nor infinity: null is `missing`.
+  double number_or(double missing) const;
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;
   const std::string& text() const;

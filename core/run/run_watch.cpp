@@ -1,8 +1,10 @@
 #include "core/run/run_watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <variant>
 
 #include "core/dynamics/stepper_table.h"
@@ -94,6 +96,10 @@ Vec3 middle_of(const SolidShape& shape) {
   return (cone.centre_a + cone.centre_b) / 2;
 }
 
+double largest_speed(const State& state) {
+  return state.velocities.cols() > 0 ? state.velocities.colwise().norm().maxCoeff() : 0;
+}
+
 double driven_speed(const Simulation& simulation) {
   double speed = 0;
   for (const Pin& pin : simulation.model().pins)
@@ -118,6 +124,11 @@ std::vector<SettingHint> hints_for(const Scene& scene) {
   return hints;
 }
 
+constexpr std::array<Word<RunWarning::Kind>, 3> kKinds = {
+    {{"stretch", RunWarning::Kind::stretch},
+     {"speed", RunWarning::Kind::speed},
+     {"unsolved", RunWarning::Kind::unsolved}}};
+
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -125,18 +136,6 @@ std::string number(double value) {
 }
 
 }  // namespace
-
-const char* name(RunWarning::Kind kind) {
-  switch (kind) {
-    case RunWarning::Kind::stretch:
-      return "stretch";
-    case RunWarning::Kind::speed:
-      return "speed";
-    case RunWarning::Kind::unsolved:
-      return "unsolved";
-  }
-  return "";
-}
 
 std::string sentence(const RunWarning& warning) {
   const std::string since = "from " + number(warning.time) + " s";
@@ -152,8 +151,10 @@ std::string sentence(const RunWarning& warning) {
              " m/s; falling and pulling explain " + number(warning.bound) + " m/s";
       break;
     case RunWarning::Kind::unsolved:
-      text = since + " on, steps left " + number(100 * warning.value) +
-             " % of their equations unsolved";
+      text =
+          since +
+          (warning.is_nonsense() ? " on, steps left " : " on, steps did not converge and left ") +
+          number(100 * warning.value) + " % of their equations unsolved";
       break;
   }
   return text;
@@ -170,10 +171,36 @@ std::string advice(const RunWarning& warning) {
 Json json_warning(const RunWarning& warning) {
   Json hints = Json::object();
   for (const SettingHint& hint : warning.hints) hints[hint.pointer] = hint.value;
-  return {{"kind", name(warning.kind)},     {"time_s", warning.time},
-          {"vertex", warning.vertex.value}, {"value", warning.value},
-          {"bound", warning.bound},         {"hints", hints},
+  return {{"kind", word_for(kKinds, warning.kind)},
+          {"time_s", warning.time},
+          {"vertex", warning.vertex.value},
+          {"value", warning.value},
+          {"bound", warning.bound},
+          {"hints", hints},
           {"sentence", sentence(warning)}};
+}
+
+Json json_warnings(std::span<const RunWarning> warnings) {
+  Json json = Json::array();
+  for (const RunWarning& warning : warnings) json.push_back(json_warning(warning));
+  return json;
+}
+
+std::vector<RunWarning> read_warnings(const JsonReader& reader) {
+  constexpr double kBeyond = std::numeric_limits<double>::infinity();
+  std::vector<RunWarning> warnings;
+  for (const JsonReader& element : reader.elements()) {
+    RunWarning warning{element.at("kind").word(kKinds),
+                       element.at("time_s").number(kNotNegative),
+                       VertexId(static_cast<int>(element.at("vertex").integer(0, kMaxVertices))),
+                       element.at("value").number_or(kBeyond),
+                       element.at("bound").number_or(kBeyond),
+                       {}};
+    for (const auto& [pointer, value] : element.at("hints").members())
+      warning.hints.push_back({pointer, value.json()});
+    warnings.push_back(std::move(warning));
+  }
+  return warnings;
 }
 
 RunWatch::RunWatch(const Simulation& simulation) {
@@ -189,7 +216,7 @@ RunWatch::RunWatch(const Simulation& simulation) {
   start_height_ = height(up_of(model), state.positions, true);
   const double mass = model.masses.sum();
   const double stored = elastic_energy(model, state.positions);
-  start_speed_ = mass > 0 ? std::sqrt(2 * stored / mass) : 0;
+  start_speed_ = largest_speed(state) + (mass > 0 ? std::sqrt(2 * stored / mass) : 0);
 }
 
 void RunWatch::look(const Simulation& simulation, const SolveReport& step) {

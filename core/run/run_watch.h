@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct RunWarning {
   enum class Kind {
     stretch,   ///< cloth is longer than its load explains
     speed,     ///< a vertex is faster than falling and pulling explain
-    unsolved,  ///< a step's equations were left unsolved
+    unsolved,  ///< a step's equations were left unsolved, or it did not converge
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
@@ -27,10 +28,10 @@ struct RunWarning {
   double value;     ///< at its worst: |l/L - 1|, [m/s], or the relative residual
   double bound;     ///< that the first one was beyond, in the same unit
   std::vector<SettingHint> hints;
-};
 
-/// "stretch", "speed" or "unsolved".
-const char* name(RunWarning::Kind kind);
+  /// Else all that is told is that a step did not converge, by however little.
+  bool is_nonsense() const { return value > bound; }
+};
 
 /// What was seen, where and since when, and what the scene explains.
 std::string sentence(const RunWarning& warning);
@@ -38,6 +39,10 @@ std::string sentence(const RunWarning& warning);
 std::string advice(const RunWarning& warning);
 
 Json json_warning(const RunWarning& warning);
+/// Of each.
+Json json_warnings(std::span<const RunWarning> warnings);
+/// What json_warnings wrote. Throws InputError with the JSON pointer.
+std::vector<RunWarning> read_warnings(const JsonReader& reader);
 
 /// Looks at a running simulation now and then and tells when it shows what the scene cannot
 /// explain. Costs nothing between looks.
@@ -61,7 +66,7 @@ class RunWatch {
   double load_stretch_;      // of what the cloth's whole weight pulls at, with room for motion [1]
   double start_stretch_;     // [1]
   double start_height_;      // of the highest vertex against gravity [m]
-  double start_speed_;       // that the energy stored at the start can give [m/s]
+  double start_speed_;       // at the start, with what the energy stored there can give [m/s]
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
   std::vector<RunWarning> warnings_;
 };

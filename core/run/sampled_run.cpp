@@ -26,15 +26,20 @@ Positions interpolated(const State& begin, const State& end, double step, double
 SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts parts)
     : simulation_(scene),
       run_(simulation_,
-           parts == Parts::untimed ? TimedRun::Parts::untimed : TimedRun::Parts::timed),
+           parts == Parts::timed_with_ledger ? TimedRun::Parts::timed : TimedRun::Parts::untimed),
       times_(std::move(times)) {
   PLEAT_CHECK(!times_.empty() && times_.front() > 0 && std::is_sorted(times_.begin(), times_.end()),
               "sample times are positive and ascend");
   if (parts == Parts::timed_with_ledger) ledger_.emplace(simulation_.model(), simulation_.state());
+  if (parts != Parts::untimed) watch_.emplace(simulation_);
 }
 
 double SampledRun::relative_drift() const {
   return ledger_ ? ledger_->relative_drift() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<RunWarning> SampledRun::warnings() const {
+  return watch_ ? watch_->warnings() : std::vector<RunWarning>();
 }
 
 double SampledRun::timed_duration() const {
@@ -66,7 +71,9 @@ void SampledRun::step() {
   const double time_begin = simulation_.time();
   const bool sampling = sample_is_due();
   if (sampling || ledger_) begin_ = simulation_.state();
-  if (run_.step().ends_run()) return;
+  const SolveReport report = run_.step();
+  if (report.ends_run()) return;
+  if (watch_) watch_->look(simulation_, report);
   if (sampling) take_samples(begin_, time_begin);
   if (ledger_)
     ledger_->record(begin_, simulation_.state(), simulation_.time(),

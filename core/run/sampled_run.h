@@ -7,6 +7,7 @@
 
 #include "core/model/energy_ledger.h"
 #include "core/model/stretch.h"
+#include "core/run/run_watch.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
 
@@ -28,8 +29,13 @@ struct Sample {
 /// clock, and so is the first step, in which steppers build what they keep.
 class SampledRun {
  public:
-  /// Timing the parts of a step costs time itself, accounting for the energy memory and caches.
-  enum class Parts { untimed, timed_with_ledger };
+  /// What a run keeps beside its samples. All of it costs time, or memory and caches: the clock's
+  /// seconds are those of the method alone where the run is `untimed`.
+  enum class Parts {
+    untimed,            ///< nothing
+    watched,            ///< warnings
+    timed_with_ledger,  ///< the time of a step's parts, the account of its energy, and warnings
+  };
 
   /// times  [s], positive, ascending, at least one.
   /// Throws InputError when the scene's method cannot run on it.
@@ -55,9 +61,11 @@ class SampledRun {
   double timed_duration() const;                           ///< simulated meanwhile [s]
   const StageTimer& parts() const {
     return run_.parts();
-  }  ///< over the same steps; zero when untimed
-  /// See EnergyLedger; NaN when untimed.
+  }  ///< over the same steps; zero unless timed
+  /// See EnergyLedger; NaN without it.
   double relative_drift() const;
+  /// See RunWatch, which looks at each step; none when untimed.
+  std::vector<RunWarning> warnings() const;
 
  private:
   void step();
@@ -70,6 +78,7 @@ class SampledRun {
   std::vector<Sample> samples_;
   State begin_;
   std::optional<EnergyLedger> ledger_;
+  std::optional<RunWatch> watch_;
 };
 
 }  // namespace pleat

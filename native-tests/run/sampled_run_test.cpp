@@ -111,6 +111,21 @@ TEST_CASE("sampled_run: a run that the numbers end has a status and no more samp
   CHECK(run.samples().empty());
 }
 
+TEST_CASE("sampled_run: nonsense is seen by who looks, and a run on the clock does not look",
+          "[run]") {
+  Scene scene = swinging_scene();
+  scene.gravity = Vec3(0, -1e6, 0);
+  const auto n_warnings = [&](SampledRun::Parts parts) {
+    SampledRun run(scene, {0.2}, parts);
+    run.advance(kForever);
+    CHECK_FALSE(run.failed());
+    return run.warnings().size();
+  };
+  CHECK(n_warnings(SampledRun::Parts::timed_with_ledger) > 0);
+  CHECK(n_warnings(SampledRun::Parts::watched) > 0);
+  CHECK(n_warnings(SampledRun::Parts::untimed) == 0);
+}
+
 TEST_CASE("sampled_run: times have to ascend", "[run]") {
   CHECK_THROWS_AS(SampledRun(swinging_scene(), {}, SampledRun::Parts::untimed), ContractError);
   CHECK_THROWS_AS(SampledRun(swinging_scene(), {0.2, 0.1}, SampledRun::Parts::untimed),
