@@ -9,6 +9,7 @@
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
+#include "cli/run_warnings.h"
 #include "cli/shipped_references.h"
 #include "cli/sweep_folder.h"
 #include "cli/sweep_input.h"
@@ -58,6 +59,18 @@ Outcome judged(const std::vector<BenchRow>& rows) {
   return all_well ? Outcome::ok : Outcome::check_failed;
 }
 
+/// Says what the first row with warnings shows, and how many more have some.
+void tell_first_warned(const std::vector<BenchRow>& rows) {
+  const auto is_warned = [](const BenchRow& row) { return !row.warnings.empty(); };
+  const auto first = std::find_if(rows.begin(), rows.end(), is_warned);
+  if (first == rows.end()) return;
+  tell_warnings(first->warnings, setting_phrase(*first));
+  const auto n_more = std::count_if(first + 1, rows.end(), is_warned);
+  if (n_more > 0)
+    std::fprintf(stderr, "pleat: warning: %lld more rows have warnings\n",
+                 static_cast<long long>(n_more));
+}
+
 }  // namespace
 
 Outcome sweep_command(Arguments arguments) {
@@ -93,6 +106,7 @@ Outcome sweep_command(Arguments arguments) {
   Sweep sweep(input.plan, *store, commit);
   work_through(sweep, input, folder ? &*folder : nullptr);
   std::fputs((for_machines ? json_lines(sweep.rows()) : sweep_table(sweep)).c_str(), stdout);
+  tell_first_warned(sweep.rows());
   return judged(sweep.rows());
 }
 

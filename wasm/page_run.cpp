@@ -54,9 +54,7 @@ void PageRun::put_status(val& envelope) const {
 
 void PageRun::put_warnings(val& envelope) const {
   running();
-  Json warnings = Json::array();
-  for (const RunWarning& warning : watch_->warnings()) warnings.push_back(json_warning(warning));
-  envelope.set("warnings", json_value(warnings.dump()));
+  envelope.set("warnings", json_value(json_warnings(watch_->warnings()).dump()));
 }
 
 void PageRun::put_costs(val& envelope) const {

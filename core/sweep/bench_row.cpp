@@ -176,8 +176,13 @@ std::string table_head(const VaryingColumns& varying) {
   return head + "\n";
 }
 
+const char* mark_of(const BenchRow& row, bool is_on_front) {
+  if (is_on_front) return "*";
+  return row.is_plausible() ? "" : "!";
+}
+
 std::string table_line(const BenchRow& row, bool is_on_front, const VaryingColumns& varying) {
-  std::string line = "| " + cell(is_on_front ? "*" : "") + cell(method_phrase(row)) +
+  std::string line = "| " + cell(mark_of(row, is_on_front)) + cell(method_phrase(row)) +
                      cell(std::to_string(row.level));
   for (const std::string& pointer : varying.pointers) line += value_cell(row, pointer);
   line += cell(std::to_string(row.n_vertices));
@@ -199,13 +204,33 @@ std::string remarks_on(const BenchRow& row) {
   if (row.n_unresolved_contacts > 0)
     remarks += which + std::to_string(row.n_unresolved_contacts) +
                " times solids left a vertex no place outside of them\n";
+  for (const RunWarning& warning : row.warnings)
+    remarks += which + sentence(warning) + "; " + advice(warning) + "\n";
   return remarks;
+}
+
+/// What signs and gaps in the table mean, where there are any.
+std::string meaning_of_signs(std::span<const BenchRow> rows) {
+  const auto has = [&](auto&& is) { return std::any_of(rows.begin(), rows.end(), is); };
+  std::string text;
+  if (has([](const BenchRow& row) { return !row.is_plausible(); }))
+    text +=
+        "!: the run shows what its scene cannot explain, or hardly solved its equations; such a "
+        "row is on no front\n";
+  if (has([](const BenchRow& row) { return row.finished() && !std::isfinite(row.residual); }))
+    text += "residual -: not measured; a direct solver does not compute it\n";
+  return text;
 }
 
 }  // namespace
 
 BenchRow::BenchRow(ReferenceLabel against) : reference(std::move(against)) {
   PLEAT_CHECK(!reference.id.empty(), "no error, no row: a row names what it is measured against");
+}
+
+bool BenchRow::is_plausible() const {
+  return std::none_of(warnings.begin(), warnings.end(),
+                      [](const RunWarning& warning) { return warning.is_nonsense(); });
 }
 
 Json json_parts(const std::array<double, kStageCount>& parts_ms) {
@@ -227,6 +252,7 @@ Json json_bench_row(const BenchRow& row) {
   json["reference"] = json_label(row.reference);
   json["process_peak_memory_bytes"] =
       row.process_peak_memory ? Json(*row.process_peak_memory) : Json(nullptr);
+  json["warnings"] = json_warnings(row.warnings);
   return json;
 }
 
@@ -242,24 +268,24 @@ BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers) {
   for (const CountField& field : kCountFields)
     row.*field.value = static_cast<int>(reader.at(field.key).integer(0, kMostCounted));
   row.method = read_method(reader.at("method"), steppers);
-  for (const NumberField& field : kNumberFields) {
-    const JsonReader value = reader.at(field.key);
-    row.*field.value = value.is_null() ? BenchRow::kUnknown : value.number();
-  }
+  for (const NumberField& field : kNumberFields)
+    row.*field.value = reader.at(field.key).number_or(BenchRow::kUnknown);
   const JsonReader parts = reader.at("parts_ms");
   for (int s = 0; s < kStageCount; ++s)
     row.parts_ms[static_cast<std::size_t>(s)] =
         parts.at(name(static_cast<Stage>(s))).number(kNotNegative);
   const JsonReader memory = reader.at("process_peak_memory_bytes");
   if (!memory.is_null()) row.process_peak_memory = memory.integer(0, std::int64_t{1} << 53);
+  row.warnings = read_warnings(reader.at("warnings"));
   return row;
 }
 
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows) {
   std::vector<CostAndError> points;
   for (const BenchRow& row : rows)
-    points.push_back(row.finished() ? CostAndError{row.ms_per_frame, row.position_error}
-                                    : CostAndError{BenchRow::kUnknown, BenchRow::kUnknown});
+    points.push_back(row.finished() && row.is_plausible()
+                         ? CostAndError{row.ms_per_frame, row.position_error}
+                         : CostAndError{BenchRow::kUnknown, BenchRow::kUnknown});
   return pareto_front(points);
 }
 
@@ -280,7 +306,8 @@ std::string markdown_table(std::span<const BenchRow> rows) {
     table += table_line(rows[i], on_front[i], varying);
     remarks += remarks_on(rows[i]);
   }
-  return remarks.empty() ? table : table + "\n" + remarks;
+  const std::string below = meaning_of_signs(rows) + remarks;
+  return below.empty() ? table : table + "\n" + below;
 }
 
 }  // namespace pleat

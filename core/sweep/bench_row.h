@@ -10,6 +10,7 @@
 
 #include "core/dynamics/stepper_table.h"
 #include "core/reference/reference.h"
+#include "core/run/run_watch.h"
 
 namespace pleat {
 
@@ -63,11 +64,16 @@ struct BenchRow {
   std::string message;
   std::string target;  ///< "native" or "wasm"
   std::string commit;  ///< what was measured
+  /// What the run shows that its scene cannot explain, looked for while parts were timed.
+  std::vector<RunWarning> warnings;
   /// Of the whole process, with what earlier rows needed [bytes], where the platform tells.
   std::optional<std::int64_t> process_peak_memory;
 
   /// False for a run that was refused or ended early: such a row is on no front.
   bool finished() const { return status == "ok" || status == "not_converged"; }
+  /// False for a run that shows nonsense: such a row is on no front either, as an explosion is
+  /// never the cheapest good point.
+  bool is_plausible() const;
   double ms_per_simulated_second() const { return 60 * ms_per_frame; }
 };
 
@@ -79,14 +85,16 @@ Json json_bench_row(const BenchRow& row);
 /// Throws InputError with the JSON pointer; a row without a reference id is refused.
 BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers = standard_steppers());
 
-/// Indices of the rows on the front of milliseconds and position error, from cheap to dear.
+/// Indices of the rows on the front of milliseconds and position error, from cheap to dear. One
+/// that ended early or shows nonsense is not among them.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
 
 /// A row's setting for people: method, level, and what else it changes.
 std::string setting_phrase(const BenchRow& row);
 
-/// Rows as a Markdown table, those on the front marked, with a column for each pointer that varies
-/// and for each part of a step that took time; below it, what a row's status means.
+/// Rows as a Markdown table, those on the front and those of nonsense marked, with a column for
+/// each pointer that varies and for each part of a step that took time; below it, what marks, gaps
+/// and a row's status mean.
 std::string markdown_table(std::span<const BenchRow> rows);
 
 }  // namespace pleat

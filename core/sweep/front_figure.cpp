@@ -235,6 +235,7 @@ void append_listed(const std::vector<std::string>& items, std::vector<std::strin
 std::vector<std::string> notes(std::span<const BenchRow> rows) {
   std::vector<std::string> references;
   std::vector<std::string> without_place;
+  std::vector<std::string> warned;
   std::set<std::string> known;
   for (const BenchRow& row : rows) {
     const ReferenceLabel& label = row.reference;
@@ -244,12 +245,18 @@ std::vector<std::string> notes(std::span<const BenchRow> rows) {
                            label.description + " (" + label.id + ")");
     if (!place_of(row))
       without_place.push_back(setting_phrase(row) + ": " + reason_for_no_place(row));
+    if (!row.is_plausible())
+      warned.push_back(setting_phrase(row) + ": " + sentence(row.warnings.front()));
   }
   std::vector<std::string> lines;
   append_listed(references, lines);
   if (!without_place.empty())
     lines.push_back("Without a place here: " + std::to_string(without_place.size()));
   append_listed(without_place, lines);
+  if (!warned.empty())
+    lines.push_back("On no front, as the run shows what its scene cannot explain: " +
+                    std::to_string(warned.size()));
+  append_listed(warned, lines);
   return lines;
 }
 

@@ -169,6 +169,7 @@ BenchRow Sweep::measured_row() const {
     row.parts_ms = run_->parts().mean_ms(run_->timed_duration() / kFrame);
   }
   if (!run_->failed()) put_errors(row);
+  row.warnings = run_->warnings();
   row.process_peak_memory = process_peak_memory();
   return row;
 }

@@ -46,6 +46,15 @@ BenchRow measured_row() {
   return row;
 }
 
+/// A row whose run stretched cloth by a million million times and ended ok.
+BenchRow exploded_row() {
+  BenchRow row = measured_row();
+  row.largest_stretch = 1e15;
+  row.warnings = {
+      {RunWarning::Kind::stretch, 0.4, VertexId(12), 1e15, 0.35, {{"/method/substeps", 4}}}};
+  return row;
+}
+
 }  // namespace
 
 TEST_CASE("bench_row: a row reads back to what was written", "[sweep]") {
@@ -101,6 +110,37 @@ TEST_CASE("bench_row: failed rows are on no front", "[sweep]") {
   CHECK(front_of(rows) == std::vector<std::size_t>{1});
   const std::string table = markdown_table(rows);
   CHECK(std::count(table.begin(), table.end(), '*') == 1);
+}
+
+TEST_CASE("bench_row: a row with a warning reads back with it and with numbers of any size",
+          "[sweep]") {
+  const std::string line = json_bench_row(exploded_row()).dump();
+  const Json parsed = parse_json(line);
+  CHECK(json_bench_row(read_bench_row(JsonReader(parsed))).dump() == line);
+}
+
+TEST_CASE("bench_row: a row with a warning is on no front, and the table says why", "[sweep]") {
+  std::vector<BenchRow> rows = {exploded_row(), measured_row(), measured_row()};
+  rows[0].ms_per_frame = 1;
+  rows[1].ms_per_frame = 2;
+  rows[2].ms_per_frame = 3;
+  CHECK(front_of(rows) == std::vector<std::size_t>{1});
+  const std::string table = markdown_table(rows);
+  CHECK(table.find("| ! | projective") != std::string::npos);
+  CHECK(table.find("!: the run shows what its scene cannot explain") != std::string::npos);
+  CHECK(table.find(sentence(rows[0].warnings.front()) + "; try /method/substeps = 4") !=
+        std::string::npos);
+  rows[0].warnings = {{RunWarning::Kind::unsolved, 0.1, VertexId(0), 1e-5, 0.5, {}}};
+  CHECK(front_of(rows) == std::vector<std::size_t>{0});
+  CHECK(markdown_table(rows).find("| ! |") == std::string::npos);
+}
+
+TEST_CASE("bench_row: a residual that was not measured is a dash, and the table says so",
+          "[sweep]") {
+  std::vector<BenchRow> rows(1, measured_row());
+  CHECK(markdown_table(rows).find("residual -") == std::string::npos);
+  rows[0].residual = BenchRow::kUnknown;
+  CHECK(markdown_table(rows).find("residual -: not measured") != std::string::npos);
 }
 
 TEST_CASE("bench_row: the table tells surface, bend, parts and the process's memory", "[sweep]") {

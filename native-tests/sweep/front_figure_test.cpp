@@ -76,6 +76,18 @@ std::vector<double> front_corners(const std::string& svg) {
 
 }  // namespace
 
+TEST_CASE("front figure: a row with a warning has its place off the front, and a line", "[sweep]") {
+  std::vector<BenchRow> rows = {point(&steppers::implicit_euler, 1, 0.1),
+                                point(&steppers::xpbd, 2, 0.01)};
+  rows[0].warnings = {{RunWarning::Kind::stretch, 0.4, VertexId(12), 5, 1, {}}};
+  const std::string svg = front_figure(rows);
+  CHECK(xml_fault(svg).empty());
+  CHECK(count_of(svg, "class=\"mark\"") == 2);
+  CHECK(front_corners(svg).size() == 2);
+  CHECK(svg.find("cannot explain: 1<") != std::string::npos);
+  CHECK(svg.find("stretched by up to 500 %") != std::string::npos);
+}
+
 TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]") {
   std::vector<BenchRow> rows = {point(&steppers::implicit_euler, 1, 0.1),
                                 point(&steppers::xpbd, 0.1, 0.2),
