@@ -61,6 +61,7 @@ Outcome print_plans(const Scene& scene, const PlanRecipe& recipe,
                {"n_frames", cost.n_frames},
                {"frame_s", cost.frame_time},
                {"plans", plans_json(maker, options)},
+               {"warnings", json_warnings(maker.warnings().front())},
                {"core", core_version()}};
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());

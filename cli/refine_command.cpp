@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
+#include "cli/run_warnings.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/files/plan_file.h"
@@ -96,6 +97,8 @@ Outcome refine_command(Arguments arguments) {
   return with_source_named(input, [&] {
     PlanMaker maker(scenes, recipe);
     finish(maker, scenes.front().name);
+    for (std::size_t k = 0; k < scenes.size(); ++k)
+      tell_warnings(maker.warnings()[k], "example " + abbreviated(Json(scenes[k].name)));
     print_plan(maker.plan(), maker.cost(), scenes.front());
     if (out) write_file(*out, plan_text(maker.plan()));
     return Outcome::ok;

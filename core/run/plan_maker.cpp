@@ -78,7 +78,7 @@ void PlanMaker::begin_example() {
   const Scene& scene = scenes_[study_.n_examples()];
   of_example(study_.n_examples(), [&] {
     run_ = std::make_unique<SampledRun>(scene, frame_times(scene, recipe_),
-                                        SampledRun::Parts::untimed);
+                                        SampledRun::Parts::watched);
   });
 }
 
@@ -87,6 +87,7 @@ void PlanMaker::end_example() {
   if (run_->failed())
     throw InputError("", "expected an example that runs to its end, got \"" + scene.name +
                              "\": " + run_->report().message);
+  warnings_.push_back(run_->warnings());
   const std::size_t first_frame = study_.frames().size();
   for (const Sample& sample : run_->samples()) study_.add_frame(sample.positions);
   study_.add_example(scene.name, study_.features(first_frame), recipe_.patterns);

@@ -56,6 +56,8 @@ class PlanMaker {
 
   const RefinementPlan& plan() const { return plan_; }  ///< once done
   const PlanCost& cost() const { return cost_; }
+  /// What each example that has run shows that its scene cannot explain.
+  const std::vector<std::vector<RunWarning>>& warnings() const { return warnings_; }
 
   /// Another plan from the same frames, once done. Throws InputError as refinement_plan does.
   RefinementPlan plan_for(const PlanOptions& options) const;
@@ -70,6 +72,7 @@ class PlanMaker {
   std::unique_ptr<SampledRun> run_;
   RefinementPlan plan_;
   PlanCost cost_;
+  std::vector<std::vector<RunWarning>> warnings_;
   bool done_ = false;
 };
 
