@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
+#include "cli/bare_cloth.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
@@ -45,6 +47,7 @@ Json sample_json(const Sample& sample) {
 struct BenchOptions {
   bool wants_parts = false;
   bool takes_turns = false;  // with another program, by lines on stdin and stdout
+  bool is_bare = false;      // the stepper alone
   int n_frames = 60;
   std::vector<double> times;
 };
@@ -73,11 +76,11 @@ int await_turn(int n_left) {
   return std::clamp(n_frames, 1, n_left);
 }
 
-FrameSeries run_frames(Simulation& simulation, const BenchOptions& options) {
+FrameSeries run_frames(MovingCloth& cloth, const Scene& scene, const BenchOptions& options) {
   const int n_frames = options.n_frames;
   const std::vector<double>& times = options.times;
-  const std::int64_t n_steps = steps_of_frame(simulation.scene().method.step, kFrame);
-  TimedRun run(simulation, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
+  const std::int64_t n_steps = steps_of_frame(scene.method.step, kFrame);
+  TimedRun run(cloth, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
   FrameSeries series;
   Progress progress;
   std::size_t next = 0;
@@ -95,15 +98,15 @@ FrameSeries run_frames(Simulation& simulation, const BenchOptions& options) {
     } else {
       series.first_ms = 1e3 * seconds;
     }
-    const Positions& positions = simulation.state().positions;
-    const Stretch now = stretch(simulation.gauge(), positions);
+    const Positions& positions = cloth.state().positions;
+    const Stretch now = stretch(cloth.gauge(), positions);
     series.rms_stretch.push_back(now.rms);
     series.largest_stretch.push_back(now.largest);
-    if (next < times.size() && simulation.time() > times[next] - kFrame / 2) {
-      series.samples.push_back(sample_json({simulation.time(), positions, now}));
+    if (next < times.size() && cloth.time() > times[next] - kFrame / 2) {
+      series.samples.push_back(sample_json({cloth.time(), positions, now}));
       ++next;
     }
-    progress.show(static_cast<double>(series.n_frames) / n_frames, simulation.scene().name);
+    progress.show(static_cast<double>(series.n_frames) / n_frames, scene.name);
   }
   series.report = run.report();
   if (run.n_timed() > 0)
@@ -112,17 +115,18 @@ FrameSeries run_frames(Simulation& simulation, const BenchOptions& options) {
   return series;
 }
 
+template <class Cloth>
 Outcome run_bench(const Scene& scene, const BenchOptions& options) {
   steps_of_frame(scene.method.step, kFrame);
-  Simulation simulation(scene);
-  const FrameSeries series = run_frames(simulation, options);
+  Cloth cloth(scene);
+  const FrameSeries series = run_frames(cloth, scene, options);
   const int n_frames = std::max(1, series.n_frames);
-  const auto& masses = simulation.model().masses;
+  const auto& masses = cloth.model().masses;
   Json json = {{"scene", scene.name},
                {"method", json_method(scene.method)},
                {"level", scene.level},
-               {"n_vertices", simulation.model().n_vertices()},
-               {"n_substeps", simulation.substeps()},
+               {"n_vertices", cloth.model().n_vertices()},
+               {"n_substeps", cloth.substeps()},
                {"first_ms", series.first_ms},
                {"ms", series.ms},
                {"processor_ms", series.processor_ms},
@@ -140,7 +144,8 @@ Outcome run_bench(const Scene& scene, const BenchOptions& options) {
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
   if (!series.report.ends_run()) return Outcome::ok;
-  print_early_end(simulation, series.report, "");
+  const std::int64_t n_steps = std::llround(cloth.time() / scene.method.step);
+  print_early_end(n_steps, series.report, "");
   return Outcome::check_failed;
 }
 
@@ -148,6 +153,7 @@ Outcome bench_run(Arguments arguments) {
   BenchOptions options;
   options.wants_parts = arguments.flag("--parts");
   options.takes_turns = arguments.flag("--turns");
+  options.is_bare = arguments.flag("--bare");
   options.n_frames = arguments.whole_number("--frames", 2, 1'000'000).value_or(options.n_frames);
   options.times = take_times(arguments);
   if (!options.times.empty() && options.times.back() > (options.n_frames + 0.5) * kFrame)
@@ -158,7 +164,10 @@ Outcome bench_run(Arguments arguments) {
     arguments.refuse(option, "bench run does not take this option, but --frames");
   const SceneInput input = take_scene(arguments);
   arguments.finish();
-  return with_source_named(input, [&] { return run_bench(input.scene, options); });
+  return with_source_named(input, [&] {
+    return options.is_bare ? run_bench<BareCloth>(input.scene, options)
+                           : run_bench<Simulation>(input.scene, options);
+  });
 }
 
 /// The scene's own run, for taking it as a reference: its method is the one that makes it. Nothing,

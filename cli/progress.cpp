@@ -31,11 +31,9 @@ void Progress::show(double share, const std::string& message) {
   line_is_open_ = on_terminal_;
 }
 
-void print_early_end(const Simulation& simulation, const SolveReport& report,
-                     const char* consequence) {
-  std::fprintf(stderr, "pleat: stopped in step %lld: %s%s\n",
-               static_cast<long long>(simulation.n_steps() + 1), report.message.c_str(),
-               consequence);
+void print_early_end(std::int64_t n_steps, const SolveReport& report, const char* consequence) {
+  std::fprintf(stderr, "pleat: stopped in step %lld: %s%s\n", static_cast<long long>(n_steps + 1),
+               report.message.c_str(), consequence);
 }
 
 }  // namespace pleat

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
-#include "core/run/simulation.h"
+#include "core/linalg/solve_report.h"
 #include "core/run/stage_timer.h"
 
 namespace pleat {
@@ -41,7 +42,8 @@ void finish(Work& work, const std::string& message) {
 }
 
 /// Says on stderr in which step the numbers ended a run, why, and what comes of it.
-void print_early_end(const Simulation& simulation, const SolveReport& report,
-                     const char* consequence);
+///
+/// n_steps  that were done before
+void print_early_end(std::int64_t n_steps, const SolveReport& report, const char* consequence);
 
 }  // namespace pleat

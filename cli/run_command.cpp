@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
+#include "cli/run_warnings.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
@@ -15,7 +16,6 @@
 #include "core/model/energy_ledger.h"
 #include "core/model/stretch.h"
 #include "core/model/system_matrix.h"
-#include "core/run/run_watch.h"
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
@@ -187,9 +187,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                {"largest_stretch_at_end", summary.last_stretch.largest},
                {"mean_rms_stretch", summary.rms_stretch_sum / n_steps},
                {"largest_stretch", summary.largest_stretch}};
-  json["warnings"] = Json::array();
-  for (const RunWarning& warning : summary.warnings)
-    json["warnings"].push_back(json_warning(warning));
+  json["warnings"] = json_warnings(summary.warnings);
   if (watchers.crossings != nullptr) {
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
@@ -289,12 +287,11 @@ Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriti
   if (out) write_file(out->metrics, format_json(metrics));
   if (dump) write_stiffness(simulation, dump->stiffness_end);
   if (!summary.report.ends_run()) {
-    for (const RunWarning& warning : summary.warnings)
-      std::fprintf(stderr, "pleat: warning: %s; %s\n", sentence(warning).c_str(),
-                   advice(warning).c_str());
+    tell_warnings(summary.warnings);
     return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
   }
-  print_early_end(simulation, summary.report, frames ? "; the last finite frame is kept" : "");
+  print_early_end(simulation.n_steps(), summary.report,
+                  frames ? "; the last finite frame is kept" : "");
   return Outcome::check_failed;
 }
 

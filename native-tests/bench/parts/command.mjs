@@ -80,9 +80,9 @@ export function nativeRun(scene, frames, times = [], options = []) {
 }
 
 /** The same in turns: its state is built and its first frame has been run. */
-export function nativeTurns(scene, frames, times) {
+export function nativeTurns(scene, frames, times, options = []) {
   const wanted = times.length ? ['--times', times] : [];
-  const words = ['bench', 'run', scene, '--frames', frames, '--turns', ...wanted];
+  const words = ['bench', 'run', scene, '--frames', frames, '--turns', ...wanted, ...options];
   return new Promise((begin, fail) => {
     const ended = withFiles(
       words,

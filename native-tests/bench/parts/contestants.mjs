@@ -108,9 +108,14 @@ async function wasmTurns(scene, frames, times) {
   return turnsOf(program, frames, times);
 }
 
-/** A scene's contestant, natively or in WebAssembly. */
+/** The stepper alone, natively. */
+const bareTurns = (scene, frames, times) => nativeTurns(scene, frames, times, ['--bare']);
+
+const kTurns = { wasm: wasmTurns, native: nativeTurns, bare: bareTurns };
+
+/** A scene's contestant: in WebAssembly, natively, or its stepper alone. */
 export function contestant(target, label, scene, vertices, frames) {
-  const turns = target === 'wasm' ? wasmTurns : nativeTurns;
+  const turns = kTurns[target];
   return {
     label: `${scene.name}, ${label}`,
     scene: scene.name,
