@@ -23,7 +23,8 @@ constexpr const char* kHelp =
   --out DIR              write frames and metrics.json into this folder, which holds none yet
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
                          into this folder, which holds none yet
-  --check                exit status 1 when a warning says that the run shows nonsense
+  --check                exit status 1 when there is a warning: the run shows nonsense, or a step
+                         did not converge
   --overwrite            remove or replace those of an earlier run
   --drift                account for the energy: what no force explains is the method's own
   --steps N | --duration S    the latter rounded to whole steps
@@ -48,6 +49,8 @@ pleat sweep PLAN.json    the same with the settings that a plan lists
   --ship-references DIR  no rows: make what they are compared with and keep it here, with 32-bit
                          positions; --keep-level N  of finer meshes the vertices of this one alone
   --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
+                         A row marked ! shows nonsense and is on no front. A residual is that of a
+                         stepper's own equations; of direct solvers it is not measured, "-" or null.
 pleat reference SCENE.json    make one by newton and tell how well it is known
   --kind same_mesh       (default) halve its step; converged: halve its step and its mesh
   --keep-level N         keep the vertices of this coarser mesh alone
@@ -75,9 +78,12 @@ pleat deform MESH.obj    the same of any mesh
   --form published       sums over vertices and edges; consistent (default): integrals over cloth
   --terms A,B            leave out those of recovery, stretch and bending that are not named
   --out FILE.obj         write the shape with the mesh's texture coordinates and groups
+  --check                exit status 1 when there is a warning: it stopped short of the least energy
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
+  --bare                 the stepper alone on masses, springs, pins and weight: what else a scene
+                         could ask for costs, where it does not, what a run takes more than this
   --turns                print "ready" after the first frame and wait for a line with the number of
                          frames of the next turn, until all have been run
 pleat bench reference SCENE.json  positions that are taken for right
