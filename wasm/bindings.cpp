@@ -106,6 +106,7 @@ class Scene {
       envelope.set("n_triangles", cloth.mesh.triangles.size());
       envelope.set("low_m", json_triple(x.rowwise().minCoeff()));
       envelope.set("high_m", json_triple(x.rowwise().maxCoeff()));
+      envelope.set("skipped", cloth.skipped);
       const auto textures = pleat::read_obj(obj_text).textures;
       envelope.set("needs_direction",
                    std::any_of(textures.begin(), textures.end(),

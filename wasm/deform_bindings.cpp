@@ -125,6 +125,7 @@ class Deformation {
       envelope.set("pins", json_ids(scene_->pins));
       envelope.set("handles", json_list(scene_->handles, json_handle));
       envelope.set("fabric", scene_->fabric);
+      envelope.set("skipped", scene_->remark);
     });
   }
 

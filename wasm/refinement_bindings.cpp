@@ -112,6 +112,11 @@ class GarmentRun {
     return guarded([&](val& envelope) { run_.put_costs(envelope); });
   }
 
+  /// What the steps since the last load or reset show that the scene cannot explain.
+  std::string warnings() const {
+    return guarded([&](val& envelope) { run_.put_warnings(envelope); });
+  }
+
   /// The shown frame is the next one that the plan's monitor sees.
   std::string look() {
     return guarded([&](val& envelope) {
@@ -298,6 +303,7 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("putSample", &GarmentRun::put_sample)
       .function("status", &GarmentRun::status)
       .function("costs", &GarmentRun::costs)
+      .function("warnings", &GarmentRun::warnings)
       .function("look", &GarmentRun::look)
       .function("compare", &GarmentRun::compare)
       .function("compareSurface", &GarmentRun::compare_surface)
