@@ -1,5 +1,6 @@
 // The view of refinement: one garment on a walking figure, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
+import firstFigure from 'virtual:pleat-figure';
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './refinement.css';
@@ -84,6 +85,8 @@ class Picture {
           else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
         },
       });
+      // Somebody stands there until the clothes have come.
+      this.stage.setSolids(firstFigure as SolidsAnswer);
     } catch {
       replaceCanvas(canvas, 'The numbers');
     }

@@ -1,8 +1,9 @@
 // What helps a setting that was refused or whose run shows nonsense, on the real module too.
 import { describe, expect, it } from 'vitest';
-import type { RunNumbers, RunWarning } from '../../src/motion/bindings/pleat-module';
+import type { RunNumbers } from '../../src/motion/bindings/pleat-module';
 import { remedyForWarning } from '../../src/motion/run/remedy';
 import { presetSetting, type Setting, sceneOf } from '../../src/motion/state/setting';
+import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { isBuilt, loadModule } from '../support/built-module';
 

@@ -1,6 +1,8 @@
 // The three panes with the real module and the frames that come with the page.
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import { warningWords } from '../../src/refinement/panels/garment-words';
+import type { GarmentClient } from '../../src/refinement/run/garment-client';
 import type { ShownFrame } from '../../src/refinement/run/pane-set';
 import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
 import { exampleUrls } from '../../src/refinement/run/records';
@@ -30,6 +32,20 @@ const PATIENCE_MS = 60000;
 const SEEN = { fromS: 0, toS: 0.1 };
 
 const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes, SEEN);
+
+/** Panes that are pulled down a hundred thousand times as much as on earth. */
+function heavy(): GarmentClient {
+  const client = garmentClient(module);
+  const world = { gravity_m_per_s2: [0, -1e6, 0] };
+  return {
+    ...client,
+    ask: (question, transfer) => {
+      if (question.type !== 'load') return client.ask(question, transfer);
+      const sceneText = JSON.stringify({ ...JSON.parse(question.sceneText), world });
+      return client.ask({ ...question, sceneText }, transfer);
+    },
+  };
+}
 
 interface Stand {
   store: Store<RefinementState>;
@@ -350,6 +366,21 @@ describe('trio', () => {
         (asked) => asked.type === 'advance' && asked.how === 'stepped',
       );
       expect(steps.length).toBe(2);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    'says in a pane what its steps show that no cloth does, until it starts anew',
+    async () => {
+      const { trio, settled } = stand({ motion: 'squat', computeFine: false }, { start: heavy });
+      await settled(isReady);
+      trio.step();
+      const { panes } = await settled((state) => state.panes.coarse.warnings.length > 0);
+      expect(warningWords(panes.coarse)).toMatch(/^This is not how cloth moves: from 0\.03/);
+      expect(warningWords(panes.fine)).toBe('');
+      trio.reset();
+      await settled((state) => state.timeS === 0 && warningWords(state.panes.coarse) === '');
     },
     PATIENCE_MS,
   );

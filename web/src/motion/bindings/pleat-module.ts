@@ -1,6 +1,7 @@
 // The classes bound by the module of cloth in motion, and the shape of the texts they answer with.
 import type { Triple } from '../../shared/bindings/geometry';
 import { methodsOf } from '../../shared/bindings/methods';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 
 export interface SceneSummary {
   n_vertices: number;
@@ -24,17 +25,6 @@ export interface ReferenceNumbers {
   description: string;
   /** A hand or another scene moved the cloth since its start. */
   disturbed: boolean;
-}
-
-/** What a run shows that its scene cannot explain. */
-export interface RunWarning {
-  kind: 'stretch' | 'speed' | 'unsolved';
-  /** When it was first seen. */
-  time_s: number;
-  vertex: number;
-  sentence: string;
-  /** Values that may help, by their JSON pointers into the scene. */
-  hints: Record<string, number>;
 }
 
 export interface RunNumbers {

@@ -1,5 +1,6 @@
 // The class bound by the module that measures, and the shape of the texts it answers with.
 import { methodsOf } from '../../shared/bindings/methods';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 
 export interface BenchMethod {
   stepper: string;
@@ -43,6 +44,8 @@ export interface BenchRow {
   /** "ok", "not_converged" (it ran to its end), or why it failed. */
   status: string;
   message: string;
+  /** What its run shows that the scene cannot explain; such a row is on no front. */
+  warnings?: RunWarning[];
   target: 'wasm' | 'native';
   [detail: string]: unknown;
 }

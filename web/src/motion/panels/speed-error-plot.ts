@@ -1,4 +1,5 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
+import { warningSentence } from '../../shared/bindings/run-warning';
 import { logScale } from '../../shared/chart/log-scale';
 import { svg } from '../../shared/panels/element';
 import { digits, milliseconds, smallLength } from '../../shared/panels/quantity';
@@ -59,6 +60,13 @@ function errorText(row: BenchRow): string {
     : `error ${smallLength(metres)}`;
 }
 
+/** A row's numbers in words, and what is wrong with them. */
+function labelOf(row: BenchRow): string {
+  const numbers = `${milliseconds(row.ms_per_frame)} a frame, ${errorText(row)}`;
+  const [warning] = row.warnings ?? [];
+  return `${titleOf(row)}: ${numbers}${warning ? `. ${warningSentence(warning)}` : ''}`;
+}
+
 function axisTitles(): SVGElement[] {
   const middle = TOP + (HEIGHT - TOP - BOTTOM) / 2;
   return [
@@ -89,7 +97,7 @@ export function createSpeedErrorPlot(
   parent.append(root);
 
   function point(row: BenchRow, index: number, x: number, y: number, isCurrent: boolean) {
-    const label = `${titleOf(row)}: ${milliseconds(row.ms_per_frame)} a frame, ${errorText(row)}`;
+    const label = labelOf(row);
     const { path, style } = markOf(row.method.stepper);
     const group = svg('g', {
       transform: `translate(${x} ${y})`,

@@ -1,4 +1,5 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
+import { warningSentence } from '../../shared/bindings/run-warning';
 import { element } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import type { BenchRow } from '../bindings/sweep-module';
@@ -86,6 +87,8 @@ export function createSpeedErrorTable(
     const heading = element('th', { scope: 'row' }, use);
     if (row.n_vertices > 0) heading.append(element('small', {}, `${row.n_vertices} vertices`));
     if (row.status === 'not_converged') heading.append(' (solve cut short)');
+    for (const warning of row.warnings?.slice(0, 1) ?? [])
+      heading.append(element('small', {}, warningSentence(warning)));
     if (front.includes(index)) heading.append(' ', element('span', { class: 'badge' }, 'front'));
     const data = hasFinished(row)
       ? cells(row, meshError).map(([value, detail]) =>

@@ -1,7 +1,7 @@
 // What helps a setting that was refused, or whose run shows nonsense.
 import type { Failure } from '../../shared/bindings/answers';
+import { type RunWarning, warningSentence } from '../../shared/bindings/run-warning';
 import { stepperRow } from '../../shared/steppers/steppers';
-import type { RunWarning } from '../bindings/pleat-module';
 import type { Remedy } from '../state/motion-state';
 import { MOST_ITERATIONS, MOST_SUBSTEPS, type Setting, withStepper } from '../state/setting';
 
@@ -38,13 +38,15 @@ const HINTS: Record<string, (value: number) => { title: string; change: Partial<
 
 /** The sentence for a run that shows what its scene cannot explain, and what may help. */
 export function remedyForWarning(
-  { sentence, hints }: RunWarning,
+  warning: RunWarning,
   setting: Setting,
 ): { sentence: string; remedy: Remedy } {
-  const known = Object.entries(hints).flatMap(([pointer, value]) => HINTS[pointer]?.(value) ?? []);
+  const known = Object.entries(warning.hints).flatMap(
+    ([pointer, value]) => HINTS[pointer]?.(value) ?? [],
+  );
   const [first] = known;
   const remedy = first
     ? { title: first.title, setting: { ...setting, ...first.change } }
     : { title: 'Take Implicit', setting: withStepper(setting, 'implicit') };
-  return { sentence: `This is not how cloth moves: ${sentence}.`, remedy };
+  return { sentence: warningSentence(warning), remedy };
 }

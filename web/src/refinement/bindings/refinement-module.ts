@@ -1,6 +1,7 @@
 // The classes bound by the WebAssembly module of garments, and the shape of the texts it answers with.
 import type { Triple } from '../../shared/bindings/geometry';
 import { methodsOf } from '../../shared/bindings/methods';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 
 /** The answer of `GarmentRun.load`. */
 export interface GarmentSummary {
@@ -23,6 +24,11 @@ export interface GarmentCosts {
   parts_ms: Record<string, number>;
   steps_ms: number;
   steps_timed: number;
+}
+
+/** At most one of each kind since the last load or reset. */
+export interface WarningsAnswer {
+  warnings: RunWarning[];
 }
 
 /** How a motion fits a plan's example. */
@@ -77,6 +83,8 @@ export interface GarmentRunHandle {
   putSample(finePlaces: Float32Array, fineLevel: number, timeS: number): string;
   status(): string;
   costs(): string;
+  /** A WarningsAnswer. */
+  warnings(): string;
   /** The monitor sees the shown frame. */
   look(): string;
   /** `rms_m` over the material points of a uniform, finer mesh; fills `distances`. */
@@ -133,6 +141,7 @@ export const REFINEMENT_METHODS: Record<keyof RefinementModule, string[]> = {
     putSample: true,
     status: true,
     costs: true,
+    warnings: true,
     look: true,
     compare: true,
     compareSurface: true,

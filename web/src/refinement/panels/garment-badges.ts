@@ -3,7 +3,7 @@
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { PANE_TITLES, PANES, type RefinementState, shownPanes } from '../state/refinement-state';
-import { costWords, errorWords, vertices } from './garment-words';
+import { costWords, errorWords, vertices, warningWords } from './garment-words';
 
 function createChoiceBeside(store: Store<RefinementState>) {
   const options = (['coarse', 'planned'] as const).map((id) => {
@@ -49,21 +49,23 @@ export function createGarmentBadges(
       cost,
       error,
     );
-    const cell = element('div', { class: 'pane' }, badge);
+    const warning = element('p', { class: 'pane-warning', role: 'status' });
+    const cell = element('div', { class: 'pane' }, badge, warning);
     grid.append(cell);
-    return { id, cell, count, cost, error };
+    return { id, cell, count, cost, error, warning };
   });
   return watch(store, ['panes', 'phase', 'isNarrow', 'beside', 'computeFine'], (state) => {
     const shown = shownPanes(state);
     grid.style.setProperty('--columns', String(shown.length));
     showChoice(state, shown.includes('fine') ? shown.length : 0);
-    for (const { id, cell, count, cost, error } of badges) {
+    for (const { id, cell, count, cost, error, warning } of badges) {
       const pane = state.panes[id];
       cell.hidden = !shown.includes(id);
       const isKnown = pane.nVertices > 0;
       setText(count, isKnown ? vertices(pane.nVertices) : 'opening');
       setText(cost, isKnown ? costWords(pane) : '');
       setText(error, isKnown ? errorWords(id, pane) : '');
+      setText(warning, warningWords(pane));
     }
   });
 }

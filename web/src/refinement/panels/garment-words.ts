@@ -1,4 +1,5 @@
 // The words of the view of refinement.
+import { warningSentence } from '../../shared/bindings/run-warning';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import type { FitAnswer } from '../bindings/refinement-module';
 import { exampleName, GARMENTS } from '../state/garments';
@@ -43,6 +44,11 @@ export function costWords({ source, msPerFrame }: GarmentPane): string {
 export function errorWords(pane: PaneId, { errorM, source }: GarmentPane): string {
   if (pane === 'fine') return source === 'resting' ? '' : 'what the others are held against';
   return errorM === null ? '' : `${smallLength(errorM)} off fine`;
+}
+
+/** What the steps of a pane show that is no cloth: the first that was seen. */
+export function warningWords({ warnings: [first] }: GarmentPane): string {
+  return first ? warningSentence(first) : '';
 }
 
 /** "skirt_fast_walk in silk" → "fast walk in silk". */

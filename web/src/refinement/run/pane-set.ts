@@ -253,13 +253,14 @@ export class PaneSet {
   }
 
   /** Puts the numbers of one pane into the state. */
-  private tell(pane: PaneRun, { errorM, surfaceM, faults, costs }: Described): void {
+  private tell(pane: PaneRun, { errorM, surfaceM, faults, costs, warnings }: Described): void {
     const isSampled = this.isSampled(pane);
     const patch: Partial<GarmentPane> = {
       errorM: isSampled ? null : errorM,
       surfaceM: isSampled ? null : surfaceM,
       faults: isSampled ? null : faults,
       source: this.shownSource(pane),
+      warnings,
     };
     if (pane.source === 'computed' && costs) Object.assign(patch, pane.costs(costs));
     this.set(pane.id, patch);

@@ -1,5 +1,8 @@
 // Numbers that the view of refinement and the program that makes its records agree on.
 
+/** The time at which the view starts [s]. */
+export const START_S = 3;
+
 /** Level of the mesh that all others are compared with, and the finest level of a plan. */
 export const FINE_LEVEL = 2;
 

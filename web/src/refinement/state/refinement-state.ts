@@ -1,7 +1,8 @@
 // The state of the view of refinement.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
-import { USUAL_DEMAND } from './garment-frames';
+import { START_S, USUAL_DEMAND } from './garment-frames';
 import { type GarmentId, MOTIONS, type MotionId, usualFabric } from './garments';
 import type { PlanFile } from './plan-file';
 
@@ -36,6 +37,8 @@ export interface GarmentPane {
   errorM: number | null;
   surfaceM: number | null;
   faults: FaultsAnswer | null;
+  /** What the steps computed here show that the scene cannot explain. */
+  warnings: readonly RunWarning[];
 }
 
 export const EMPTY_PANE: GarmentPane = {
@@ -46,6 +49,7 @@ export const EMPTY_PANE: GarmentPane = {
   errorM: null,
   surfaceM: null,
   faults: null,
+  warnings: [],
 };
 
 /** The state that a link carries. */
@@ -115,7 +119,7 @@ export const DEFAULT_LINK: RefinementLink = {
   edges: false,
   hanging: false,
   speed: 1,
-  startS: 3,
+  startS: START_S,
 };
 
 /** The panes on the stage, from left to right. A fine mesh that rests while the others move has none. */

@@ -18,6 +18,7 @@ import type {
   GarmentSummary,
   RefinementModule,
   SolidsAnswer,
+  WarningsAnswer,
 } from '../bindings/refinement-module';
 import type { Described, FromGarment, ToGarment } from './garment-protocol';
 import { type Recording, readRecording } from './recording';
@@ -129,6 +130,7 @@ export class GarmentCore {
     const surfaceM = isSought ? of(owner.compareSurface(reference, fineLevel)) : null;
     const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
     const costs = payloadOf<GarmentCosts>(owner.costs());
+    const warnings = payloadOf<WarningsAnswer>(owner.warnings())?.warnings ?? [];
     const solids = payloadOf<SolidsAnswer>(owner.solids());
     const answer: Described = {
       type: 'described',
@@ -139,6 +141,7 @@ export class GarmentCore {
       surfaceM,
       faults,
       costs,
+      warnings,
       solids,
     };
     this.post(answer satisfies FromGarment, [buffer]);

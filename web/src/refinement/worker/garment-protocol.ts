@@ -1,6 +1,7 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
 import type { Failure } from '../../shared/bindings/answers';
+import type { RunWarning } from '../../shared/bindings/run-warning';
 import type {
   FaultsAnswer,
   FitAnswer,
@@ -70,6 +71,8 @@ export interface Described {
   surfaceM: number | null;
   faults: FaultsAnswer | null;
   costs: GarmentCosts | null;
+  /** What the steps of this pane show that its scene cannot explain. */
+  warnings: RunWarning[];
   solids: SolidsAnswer | null;
 }
 

@@ -1,0 +1,43 @@
+// The figure as the view of refinement starts with it, which stands there before anything of the view could be
+// fetched: asked of the module that was built for the page.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import type { Plugin } from 'vite';
+import type { GarmentRunHandle } from '../src/refinement/bindings/refinement-module.ts';
+import { START_S } from '../src/refinement/state/garment-frames.ts';
+
+const NAME = 'virtual:pleat-figure';
+const BUILT = new URL('../src/wasm/refinement.mjs', import.meta.url);
+const ASSETS = new URL('../../assets/', import.meta.url);
+const SCENE = 'scenes/garments/skirt_fast_walk.json';
+const MOTION = 'motions/walk_fast.json';
+
+/** Digits of a length [m] that can be seen. */
+const DIGITS = 4;
+
+const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
+
+async function figure(): Promise<unknown> {
+  const { default: create } = await import(BUILT.href);
+  const binary = new URL('refinement.wasm', BUILT);
+  const { GarmentRun } = await create({ wasmBinary: readFileSync(fileURLToPath(binary)) });
+  const run: GarmentRunHandle = new GarmentRun(textOf('fabrics/fabrics.json'));
+  const scene = { ...JSON.parse(textOf(SCENE)), refinement: { level: 0 } };
+  run.load(JSON.stringify(scene), { [scene.figure.motion]: textOf(MOTION) });
+  run.put(run.positions().slice(), START_S);
+  const { cones, pelvis_m } = JSON.parse(run.solids());
+  run.delete();
+  return { cones, pelvis_m };
+}
+
+const rounded = (_: string, value: unknown) =>
+  typeof value === 'number' ? Number(value.toFixed(DIGITS)) : value;
+
+export function firstFigure(): Plugin {
+  return {
+    name: 'pleat-figure',
+    resolveId: (id) => (id === NAME ? `\0${NAME}` : null),
+    load: async (id) =>
+      id === `\0${NAME}` ? `export default ${JSON.stringify(await figure(), rounded)}` : null,
+  };
+}
