@@ -61,6 +61,18 @@ export async function checkRefinement(harness) {
     }),
   );
 
+  await check('refinement: the figure stands there before its clothes have come', async () => {
+    const { page, close } = await open('#view=refinement', {
+      prepare: (fresh) => fresh.context().route('**/*.wasm', () => undefined), // never answered
+    });
+    await eventually(
+      async () => (await countColours(await picture(page))) > 300,
+      'somebody is in the picture',
+    );
+    expectThat((await stateOf(page)).phase === 'loading', 'the clothes are there');
+    await close();
+  });
+
   await check('refinement: plays three panes in step, in positions and in pixels', () =>
     visit('#view=refinement&colour=material&edges=off', async (page) => {
       const before = [];
