@@ -1,7 +1,7 @@
 // The three panes with the real module and the frames that come with the page.
 import { beforeAll, describe, expect, it } from 'vitest';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
-import { warningWords } from '../../src/refinement/panels/garment-words';
+import { hintedSubsteps, warningWords } from '../../src/refinement/panels/garment-words';
 import type { GarmentClient } from '../../src/refinement/run/garment-client';
 import type { ShownFrame } from '../../src/refinement/run/pane-set';
 import { createPlanner, type Progress, type Wish } from '../../src/refinement/run/planner';
@@ -34,8 +34,8 @@ const SEEN = { fromS: 0, toS: 0.1 };
 const plannerParts = () => createPlanner(() => exampleClient(module), recordBytes, SEEN);
 
 /** Panes that are pulled down a hundred thousand times as much as on earth. */
-function heavy(): GarmentClient {
-  const client = garmentClient(module);
+function heavy(questions: ToGarment[]): GarmentClient {
+  const client = garmentClient(module, questions);
   const world = { gravity_m_per_s2: [0, -1e6, 0] };
   return {
     ...client,
@@ -373,7 +373,9 @@ describe('trio', () => {
   it(
     'says in a pane what its steps show that no cloth does, until it starts anew',
     async () => {
-      const { trio, settled } = stand({ motion: 'squat', computeFine: false }, { start: heavy });
+      const questions: ToGarment[] = [];
+      const link = { motion: 'squat' as const, computeFine: false };
+      const { store, trio, settled } = stand(link, { start: () => heavy(questions) });
       await settled(isReady);
       trio.step();
       const { panes } = await settled((state) => state.panes.coarse.warnings.length > 0);
@@ -381,6 +383,16 @@ describe('trio', () => {
       expect(warningWords(panes.fine)).toBe('');
       trio.reset();
       await settled((state) => state.timeS === 0 && warningWords(state.panes.coarse) === '');
+      // The skirt's two substeps, four times.
+      const substeps = hintedSubsteps(panes.coarse);
+      expect(substeps).toBe(8);
+      const before = questions.length;
+      store.set({ substeps });
+      await settled(isReady);
+      const loads = questions.slice(before).filter((asked) => asked.type === 'load');
+      expect(loads.map(({ sceneText }) => JSON.parse(sceneText).method.substeps)).toEqual([
+        8, 8, 8,
+      ]);
     },
     PATIENCE_MS,
   );

@@ -19,6 +19,7 @@ describe('refinement-link', () => {
       rule: 'budget',
       demand: DEFAULT_LINK.demand,
       budget: 2500,
+      substeps: 8,
       useRecords: false,
       computeFine: false,
       colour: 'distance',

@@ -2,8 +2,14 @@
 // for all three, what stands beside fine can be chosen.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import { PANE_TITLES, PANES, type RefinementState, shownPanes } from '../state/refinement-state';
-import { costWords, errorWords, vertices, warningWords } from './garment-words';
+import {
+  type GarmentPane,
+  PANE_TITLES,
+  PANES,
+  type RefinementState,
+  shownPanes,
+} from '../state/refinement-state';
+import { costWords, errorWords, hintedSubsteps, vertices, warningWords } from './garment-words';
 
 function createChoiceBeside(store: Store<RefinementState>) {
   const options = (['coarse', 'planned'] as const).map((id) => {
@@ -30,6 +36,24 @@ function createChoiceBeside(store: Store<RefinementState>) {
   };
 }
 
+/** What a pane shows that no cloth does, and what may help. */
+function createWarning(store: Store<RefinementState>) {
+  const sentence = element('p', { role: 'status' });
+  let substeps: number | null = null;
+  const remedy = element('button', { type: 'button', click: () => store.set({ substeps }) });
+  const warning = element('div', { class: 'pane-warning' }, sentence, remedy);
+  return {
+    warning,
+    show(pane: GarmentPane) {
+      substeps = hintedSubsteps(pane);
+      warning.hidden = pane.warnings.length === 0;
+      remedy.hidden = substeps === null;
+      setText(sentence, warningWords(pane));
+      setText(remedy, `Take ${substeps} substeps`);
+    },
+  };
+}
+
 export function createGarmentBadges(
   parent: HTMLElement,
   store: Store<RefinementState>,
@@ -49,23 +73,23 @@ export function createGarmentBadges(
       cost,
       error,
     );
-    const warning = element('p', { class: 'pane-warning', role: 'status' });
+    const { warning, show: showWarning } = createWarning(store);
     const cell = element('div', { class: 'pane' }, badge, warning);
     grid.append(cell);
-    return { id, cell, count, cost, error, warning };
+    return { id, cell, count, cost, error, showWarning };
   });
   return watch(store, ['panes', 'phase', 'isNarrow', 'beside', 'computeFine'], (state) => {
     const shown = shownPanes(state);
     grid.style.setProperty('--columns', String(shown.length));
     showChoice(state, shown.includes('fine') ? shown.length : 0);
-    for (const { id, cell, count, cost, error, warning } of badges) {
+    for (const { id, cell, count, cost, error, showWarning } of badges) {
       const pane = state.panes[id];
       cell.hidden = !shown.includes(id);
       const isKnown = pane.nVertices > 0;
       setText(count, isKnown ? vertices(pane.nVertices) : 'opening');
       setText(cost, isKnown ? costWords(pane) : '');
       setText(error, isKnown ? errorWords(id, pane) : '');
-      setText(warning, warningWords(pane));
+      showWarning(pane);
     }
   });
 }

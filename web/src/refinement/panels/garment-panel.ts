@@ -22,12 +22,12 @@ function check(title: string, change: (isOn: boolean) => void) {
 export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
   const notice = element('p', { class: 'caption' });
   const garment = choice(GARMENTS, (value) =>
-    store.set({ garment: value, fabric: usualFabric(value), further: [] }),
+    store.set({ garment: value, fabric: usualFabric(value), further: [], substeps: null }),
   );
-  const motion = choice(MOTIONS, (value) => store.set({ motion: value }));
+  const motion = choice(MOTIONS, (value) => store.set({ motion: value, substeps: null }));
   const fabric = choice(
     fabrics.map(({ name_en: name }) => ({ value: name, title: name })),
-    (value) => store.set({ fabric: value, further: [] }),
+    (value) => store.set({ fabric: value, further: [], substeps: null }),
   );
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
   const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));

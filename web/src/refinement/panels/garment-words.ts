@@ -9,6 +9,7 @@ import {
   type FrameSource,
   type GarmentPane,
   isExample,
+  MOST_SUBSTEPS,
   PANE_TITLES,
   PANES,
   type PaneId,
@@ -49,6 +50,12 @@ export function errorWords(pane: PaneId, { errorM, source }: GarmentPane): strin
 /** What the steps of a pane show that is no cloth: the first that was seen. */
 export function warningWords({ warnings: [first] }: GarmentPane): string {
   return first ? warningSentence(first) : '';
+}
+
+/** The substeps that may help a pane that shows it, as far as the page goes; else null. */
+export function hintedSubsteps({ warnings: [first] }: GarmentPane): number | null {
+  const substeps = first?.hints['/method/substeps'];
+  return substeps !== undefined && substeps <= MOST_SUBSTEPS ? substeps : null;
 }
 
 /** "skirt_fast_walk in silk" → "fast walk in silk". */
@@ -180,7 +187,7 @@ export function anewSentence(state: RefinementState): string {
 }
 
 /** Says where the frames come from, and which panes wait. */
-export function sourceSentence({ panes }: RefinementState): string {
+export function sourceSentence({ panes, substeps }: RefinementState): string {
   const named = (...sources: FrameSource[]) =>
     PANES.filter((id) => sources.includes(panes[id].source)).map((id) =>
       PANE_TITLES[id].toLowerCase(),
@@ -193,6 +200,8 @@ export function sourceSentence({ panes }: RefinementState): string {
       `Frames that come with the page: ${recorded.join(', ')}. They were computed beforehand by the native build of the same program; their milliseconds are that machine’s, not this one’s.`,
     );
   if (here.length > 0) sentences.push(`Computed on this device: ${here.join(', ')}.`);
+  if (substeps !== null && here.length > 0)
+    sentences.push(`Each of their steps is made in ${substeps} substeps, until another motion.`);
   if (panes.fine.source === 'computed') sentences.push('The others wait for the fine mesh.');
   if (panes.fine.source === 'resting')
     sentences.push('The fine mesh rests: there is nothing to hold the others against.');

@@ -14,18 +14,18 @@ function refinementOf(id: PaneId, plan: PlanFile): { level: number } | { plan: P
 
 /** Address of the record that a pane shows; null when it computes. */
 function recordOf(id: PaneId, state: RefinementState): string | null {
-  const { garment, motion, fabric, useRecords } = state;
+  const { garment, motion, fabric, useRecords, substeps } = state;
   if (fabric !== usualFabric(garment)) return null;
   // The fine mesh takes longest and is the same whatever is asked of the others.
-  if (id !== 'fine' && !useRecords) return null;
+  if (id !== 'fine' && (!useRecords || substeps !== null)) return null;
   if (id === 'planned' && !isUsual(state)) return null;
   return recordUrl(garment, motion, id);
 }
 
 export function contentOf(id: PaneId, state: RefinementState, plan: PlanFile): GarmentContent {
-  const { garment, motion, fabric } = state;
+  const { garment, motion, fabric, substeps } = state;
   return {
-    sceneText: sceneText(garment, motion, fabric, refinementOf(id, plan)),
+    sceneText: sceneText(garment, motion, fabric, refinementOf(id, plan), substeps),
     recordUrl: recordOf(id, state),
   };
 }

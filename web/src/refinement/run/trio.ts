@@ -121,7 +121,7 @@ export class Trio {
     const differs = (...keys: (keyof RefinementState)[]) =>
       keys.some((key) => !Object.is(state[key], previous[key]));
     if (state.phase === 'broken' || this.isTakingBack) return;
-    if (differs('garment', 'motion', 'fabric', 'useRecords', 'computeFine', 'startS'))
+    if (differs('garment', 'motion', 'fabric', 'substeps', 'useRecords', 'computeFine', 'startS'))
       void this.load('all');
     else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
     else if (differs('colour')) this.recolour();

@@ -51,6 +51,7 @@ interface GarmentScene {
   caption: string;
   fabric: { name: string };
   refinement: { level: number } | { plan: PlanFile };
+  method: object;
   duration_s: number;
 }
 
@@ -73,13 +74,15 @@ export function exampleName(garment: GarmentId, motion: MotionId, fabric: string
   return fabric === usualFabric(garment) ? name : `${name} in ${fabric}`;
 }
 
-/** The text of a scene, refined uniformly or by a plan. */
+/** The text of a scene, refined uniformly or by a plan, with its own substeps or so many. */
 export function sceneText(
   garment: GarmentId,
   motion: MotionId,
   fabric: string,
   refinement: { level: number } | { plan: PlanFile },
+  substeps: number | null = null,
 ): string {
   const scene = sceneOf(garment, motion);
-  return JSON.stringify({ ...scene, fabric: { name: fabric }, refinement });
+  const method = substeps === null ? scene.method : { ...scene.method, substeps };
+  return JSON.stringify({ ...scene, fabric: { name: fabric }, refinement, method });
 }

@@ -4,7 +4,13 @@ import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { SPEEDS } from '../../shared/state/speeds';
 import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';
-import { COLOURS, DEFAULT_LINK, DEMANDS, type RefinementLink } from './refinement-state';
+import {
+  COLOURS,
+  DEFAULT_LINK,
+  DEMANDS,
+  MOST_SUBSTEPS,
+  type RefinementLink,
+} from './refinement-state';
 
 const ON_OFF = ['on', 'off'] as const;
 const LARGEST_BUDGET = 100000;
@@ -18,6 +24,11 @@ function demandIn(text: string): number | undefined {
 function budgetIn(text: string): number | undefined {
   const value = /^\d{1,6}$/.test(text) ? Number(text) : 0;
   return value > 0 && value <= LARGEST_BUDGET ? value : undefined;
+}
+
+function substepsIn(text: string): number | undefined {
+  const value = /^\d{1,2}$/.test(text) ? Number(text) : 0;
+  return value > 0 && value <= MOST_SUBSTEPS ? value : undefined;
 }
 
 function startIn(text: string): number | undefined {
@@ -50,6 +61,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
     ['speed', String(link.speed)],
     ['start', String(Number(link.startS.toFixed(3)))],
   ];
+  if (link.substeps !== null) parts.push(['substeps', String(link.substeps)]);
   if (link.further.length > 0) parts.push(['examples', link.further.join(',')]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
 }
@@ -81,6 +93,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     rule: budget === null ? 'demand' : 'budget',
     demand,
     budget,
+    substeps: take<number | null>('substeps', null, `1 to ${MOST_SUBSTEPS}`, substepsIn),
     useRecords: isOn('records', usual.useRecords),
     computeFine: isOn('fine', usual.computeFine),
     colour: take('colour', usual.colour, COLOURS.join(', '), oneOf(COLOURS)),

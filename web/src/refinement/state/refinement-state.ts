@@ -16,6 +16,9 @@ export const PANE_TITLES: Record<PaneId, string> = {
 };
 
 export const COLOURS = ['material', 'level', 'pattern', 'curvature', 'distance'] as const;
+/** More would take minutes for a second of motion. */
+export const MOST_SUBSTEPS = 64;
+
 export type ColourId = (typeof COLOURS)[number];
 
 /** A sum of four corners' patterns: with three patterns it ends below 8. */
@@ -64,6 +67,8 @@ export interface RefinementLink {
   demand: number;
   /** Vertices; null until it was first moved. */
   budget: number | null;
+  /** Of a step, where a warning asked for more than the scene's own; else null. */
+  substeps: number | null;
   /** Frames that come with the page are shown where there are some. */
   useRecords: boolean;
   /** When no frames of the fine mesh come with the page, the other panes wait for it. */
@@ -113,6 +118,7 @@ export const DEFAULT_LINK: RefinementLink = {
   rule: 'demand',
   demand: DEMANDS.usual,
   budget: null,
+  substeps: null,
   useRecords: true,
   computeFine: true,
   colour: 'level',
