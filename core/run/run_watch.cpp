@@ -13,8 +13,8 @@
 namespace pleat {
 namespace {
 
-/// Below this the stretch of one edge is no nonsense, whatever its load: trousers on a fast walk
-/// reach a third at the fork for a moment.
+/// Below this the stretch of one edge is no nonsense, whatever its load: trousers on a walk reach a
+/// quarter at the fork for a moment, where legs wedge them.
 constexpr double kLeastStretch = 0.35;
 /// A fall that is stopped, and a load that one thread of many bears, pull so many times as much as
 /// the weight at rest.
