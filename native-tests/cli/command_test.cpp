@@ -747,6 +747,26 @@ TEST_CASE("command: a bench that the numbers end says so, with the frames that r
   CHECK(reference.error.find("ended early") != std::string::npos);
 }
 
+TEST_CASE("command: a bare bench moves as the run does, and refuses what is more than springs",
+          "[cli]") {
+  const SmallScene scene;
+  const auto bench = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"bench",    "run", "--step",  "0.016666666666666666",
+                                      "--frames", "12",  "--times", "0.1,0.2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return scene.run(words);
+  };
+  CHECK(bench({"--bare"}).status == 2);
+  CHECK(bench({"--bare"}).error.find("--bare: expected a scene of springs") != std::string::npos);
+  Json limp = parse_json(text_of(scene.file));
+  limp["model"] = {{"bending", "none"}};
+  write(scene.file, limp.dump());
+  const Json whole = parse_json(bench({}).out);
+  const Json bare = parse_json(bench({"--bare"}).out);
+  REQUIRE(whole.at("samples").size() == 2);
+  CHECK(bare.at("samples") == whole.at("samples"));
+}
+
 TEST_CASE("command: bench rows have speed, error and reference of every run", "[cli]") {
   const SmallScene scene(scene_with("0.02", "0.016666666666666666"));
   const auto ask = [&](const char* kind, std::vector<std::string> words) {
