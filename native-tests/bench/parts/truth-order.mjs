@@ -1,0 +1,110 @@
+// Whether a sweep puts settings into the order that they have against the truth: a run that the
+// sweep knows nothing of, on twice the mesh and with a quarter of the step, compared here.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { tell } from './bench-parts.mjs';
+import { goal, hasFinished, markdown, short } from './bench-rows.mjs';
+import { askRows, cacheFolder, nativeRun, reference, root } from './command.mjs';
+
+const kScenes = ['curtain', 'swinging_sheet', 'tablecloth'];
+const kDuration = 1; // [s], the page's; later on motions of folding cloth are chance
+const kTimes = Array.from({ length: 10 }, (_, k) => ((k + 1) * kDuration) / 10); // the sweep's
+const kFrames = 60 * kDuration;
+const kTruthStep = 1 / 3840; // [s], a quarter of that of the sweep's own reference
+
+/** Places in ascending order; equal values share the mean of theirs. */
+function ranks(values) {
+  return values.map((value) => {
+    const smaller = values.filter((other) => other < value).length;
+    const equal = values.filter((other) => other === value).length;
+    return smaller + (equal + 1) / 2;
+  });
+}
+
+/** Spearman's rank correlation, in [-1, 1]; NaN where there is nothing to rank. */
+export function rankCorrelation(a, b) {
+  const [x, y] = [ranks(a), ranks(b)];
+  const mean = (a.length + 1) / 2;
+  const product = (p, q) => p.reduce((sum, value, k) => sum + (value - mean) * (q[k] - mean), 0);
+  return product(x, y) / Math.sqrt(product(x, x) * product(y, y));
+}
+
+/**
+ * RMS distance over samples and cloth [m], at the vertices that both have: those of a coarser mesh
+ * come first in a finer one.
+ */
+export function distance(samples, truth, masses) {
+  const total = masses.reduce((sum, mass) => sum + mass) * samples.length;
+  let squares = 0;
+  for (const [s, { positions_m: ours }] of samples.entries())
+    for (const [v, mass] of masses.entries())
+      for (let k = 3 * v; k < 3 * v + 3; ++k)
+        squares += mass * (ours[k] - truth[s].positions_m[k]) ** 2;
+  return Math.sqrt(squares / total);
+}
+
+function withChanges(scene, changes) {
+  const changed = structuredClone(scene);
+  for (const [pointer, value] of Object.entries(changes)) {
+    const keys = pointer.split('/').slice(1);
+    const last = keys.pop();
+    keys.reduce((at, key) => at[key], changed)[last] = value;
+  }
+  return changed;
+}
+
+function truthOf(scene) {
+  const method = { stepper: 'newton', rule: 'midpoint', step_s: kTruthStep };
+  const finer = { level: scene.refinement.level + 1 };
+  return reference({ ...scene, refinement: finer, method }, 'run', kTimes);
+}
+
+/** The sweep's rows with their distances from the truth. */
+function judged(scene) {
+  const sweep = ['--duration', kDuration, '--repeat', 1, '--cache', cacheFolder, '--json'];
+  tell(`${scene.name}: the sweep`);
+  const rows = askRows('sweep', scene, ...sweep);
+  tell(`${scene.name}: the truth`);
+  const truth = truthOf(scene);
+  return rows.map((row) => {
+    tell(`${scene.name}: ${row.method.stepper} against the truth`);
+    const run = nativeRun(withChanges(scene, row.setting), kFrames, kTimes);
+    const ended = hasFinished(run) && run.samples.length === kTimes.length;
+    const truth_m = ended ? distance(run.samples, truth.samples, run.masses_kg) : Number.NaN;
+    return { ...row, truth_m, truth: truth.reference };
+  });
+}
+
+function describe({ method }) {
+  const iterations = method.iterations > 1 ? ` x ${method.iterations}` : '';
+  return `${method.stepper}, ${method.substeps ?? 1} substeps${iterations}`;
+}
+
+export async function order() {
+  const rows = [];
+  const correlations = [];
+  for (const name of kScenes) {
+    const scene = JSON.parse(readFileSync(join(root, 'assets', 'scenes', `${name}.json`), 'utf8'));
+    const found = judged(scene);
+    const ranked = found.filter((row) => row.position_error_m > 0 && row.truth_m > 0);
+    const errors = (key) => ranked.map((row) => row[key]);
+    correlations.push(rankCorrelation(errors('position_error_m'), errors('truth_m')));
+    rows.push(...found);
+  }
+  const lines = rows.map((row) => [
+    row.scene,
+    describe(row),
+    short(row.ms_per_frame),
+    short(1e3 * row.position_error_m),
+    short(1e3 * row.truth_m),
+    row.status,
+  ]);
+  const head = ['scene', 'method', 'ms/frame', 'sweep: mm', 'truth: mm', 'status'];
+  const truths = [...new Set(rows.map((row) => row.truth.description))];
+  const text = `the order of a sweep against ${truths.join('; ')}\n\n${markdown(head, lines)}`;
+  const goals = kScenes.map((name, k) =>
+    goal(`truth.order_${name}`, correlations[k], 'at-least', 0.95, rows),
+  );
+  return { rows, goals, text };
+}
