@@ -25,8 +25,10 @@ constexpr double kMostStretch = 1;
 /// The free end of a whip is so many times as fast as its handle.
 constexpr double kWhip = 4;
 constexpr double kLeastSpeed = 1;  // [m/s]
-/// Half of what a step had to solve for is left.
+/// Half of what a step had to solve for is left. The next step begins there and makes it good,
+/// unless so many looks in a row find the same: then the run falls behind its equations.
 constexpr double kUnsolved = 0.5;
+constexpr int kUnsolvedLooks = 5;
 
 /// Force per strain of a gauge's edge [N].
 double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
@@ -265,7 +267,8 @@ void RunWatch::look_at_speed(const Simulation& simulation) {
 void RunWatch::look_at_report(const Simulation& simulation, const SolveReport& step) {
   const bool is_unsolved =
       simulation.scene().method.stepper->solves_equations && step.relative_residual > kUnsolved;
-  if (!is_unsolved && step.status != SolveStatus::not_converged) return;
+  n_unsolved_ = is_unsolved ? n_unsolved_ + 1 : 0;
+  if (n_unsolved_ < kUnsolvedLooks && step.status != SolveStatus::not_converged) return;
   warn(simulation, {RunWarning::Kind::unsolved,
                     simulation.time(),
                     VertexId(0),

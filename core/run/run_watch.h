@@ -20,7 +20,7 @@ struct RunWarning {
   enum class Kind {
     stretch,   ///< cloth is longer than its load explains
     speed,     ///< a vertex is faster than falling and pulling explain
-    unsolved,  ///< a step's equations were left unsolved, or it did not converge
+    unsolved,  ///< steps' equations were left unsolved, or one did not converge
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
@@ -68,6 +68,7 @@ class RunWatch {
   double start_height_;      // of the highest vertex against gravity [m]
   double start_speed_;       // at the start, with what the energy stored there can give [m/s]
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
+  int n_unsolved_ = 0;       // looks in a row that saw a step left unsolved
   std::vector<RunWarning> warnings_;
 };
 

@@ -117,6 +117,14 @@ TEST_CASE("run_watch: cloth that is thrown is fast from the start", "[run]") {
   CHECK(warnings_of(thrown, 0.2).empty());
 }
 
+// Cloth that falls freely has next to nothing to solve for, and leaves half of that.
+TEST_CASE("run_watch: what one step leaves unsolved the next makes good", "[run]") {
+  const Scene falling = changed(
+      "tablecloth", {{"/refinement/level", 0},
+                     {"/method", {{"stepper", "projective"}, {"substeps", 4}, {"iterations", 5}}}});
+  CHECK(warnings_of(falling, 1).empty());
+}
+
 TEST_CASE("run_watch: warnings read back to what was written", "[run]") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::vector<RunWarning> warnings = {
