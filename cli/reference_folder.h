@@ -17,9 +17,10 @@ class ReferenceFolder : public ReferenceStore {
   std::optional<Reference> find(const std::string& id) override;
   void keep(const Reference& reference) override;
 
- private:
+  /// Of the file that one is kept in.
   std::filesystem::path path(const std::string& id) const;
 
+ private:
   std::filesystem::path folder_;
   Precision precision_;
 };

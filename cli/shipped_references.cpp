@@ -58,9 +58,12 @@ class MadeReferences {
 }  // namespace
 
 bool ship_references(const SweepPlan& plan, ReferenceStore& store,
-                     const std::filesystem::path& folder, std::optional<int> kept_level) {
+                     const std::filesystem::path& folder, std::optional<int> kept_level,
+                     const Overwriting& overwriting) {
   const SweepReferences references = sweep_references(plan);
   ReferenceFolder shipped(folder, Precision::float32);
+  for (const std::size_t index : references.compared())
+    overwriting.check(shipped.path(references.recipes[index].id));
   MadeReferences made(plan, references, store);
   bool all_made = true;
   for (const std::size_t index : references.compared()) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cli/overwriting.h"
 #include "core/reference/reference.h"
 #include "core/sweep/sweep_plan.h"
 
@@ -13,7 +14,9 @@ namespace pleat {
 ///
 /// store       of whole references: what it has is not made again
 /// kept_level  of finer ones only the vertices of this level are kept
+/// Throws FileError, before anything is made, where one stands that may not be written over.
 bool ship_references(const SweepPlan& plan, ReferenceStore& store,
-                     const std::filesystem::path& folder, std::optional<int> kept_level);
+                     const std::filesystem::path& folder, std::optional<int> kept_level,
+                     const Overwriting& overwriting);
 
 }  // namespace pleat

@@ -87,7 +87,7 @@ Outcome sweep_command(Arguments arguments) {
       text_value(arguments.text("--commit").value_or(core_version())).get<std::string>();
   const SweepInput input = take_sweep(arguments);
   arguments.finish();
-  overwriting.need(out.has_value(), "--out");
+  overwriting.need(out || ship, "--out and --ship-references");
   overwriting.spare(input.files_read());
 
   const std::string identity =
@@ -100,7 +100,7 @@ Outcome sweep_command(Arguments arguments) {
                                                     : folder->references());
   if (ship) {
     const bool all_made = with_source_named(
-        input, [&] { return ship_references(input.plan, *store, *ship, kept_level); });
+        input, [&] { return ship_references(input.plan, *store, *ship, kept_level, overwriting); });
     return all_made ? Outcome::ok : Outcome::check_failed;
   }
   Sweep sweep(input.plan, *store, commit);

@@ -37,8 +37,10 @@ Simulation& PageRun::running() const {
 int PageRun::step(int n, const std::function<void()>& show) {
   try {
     running();
-    for (int i = 0; i < n && !report_.ends_run(); ++i) report_ = steps_->step();
-    if (!report_.ends_run()) watch_->look(running(), report_);
+    for (int i = 0; i < n && !report_.ends_run(); ++i) {
+      report_ = steps_->step();
+      if (!report_.ends_run()) watch_->look(running(), report_);
+    }
     show();
   } catch (const std::exception& error) {
     report_.status = SolveStatus::not_finite;

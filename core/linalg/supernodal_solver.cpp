@@ -56,6 +56,7 @@ class SupernodalSolver final : public LinearSolver {
     for (std::size_t k = 0; k < supernodes_.nodes.size(); ++k) solve_lower(k);
     for (std::size_t k = supernodes_.nodes.size(); k-- > 0;) solve_upper(k);
     for (Index k = 0; k < n; ++k) solution.row(supernodes_.order[k]) = ordered_.row(k);
+    if (!solution.allFinite()) return {SolveStatus::not_finite, 0, 0, "the solution is not finite"};
     SolveReport report;
     report.relative_residual = residual(rhs, solution);
     return report;

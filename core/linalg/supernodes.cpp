@@ -2,6 +2,7 @@
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -164,11 +165,19 @@ struct Group {
   double area() const { return n_columns * n_rows - n_columns * (n_columns - 1) / 2; }
 };
 
-/// Zeros are worth it where they save small products: of a few columns always, of many hardly.
+/// Zeros are worth it where they save small products: of a few columns always, of many hardly. The
+/// bounds are about those of CHOLMOD's supernodes, its columns being a vertex's three.
 bool is_worthwhile(const Group& group) {
+  struct Bound {
+    double n_columns;  // up to so many
+    double share;      // of zeros, less than this
+  };
+  constexpr std::array<Bound, 3> kBounds = {{{12, 2}, {48, 0.5}, {144, 0.15}}};
+  constexpr double kShareOfMany = 0.05;
   const double share = group.n_zeros / group.area();
-  return group.n_columns <= 12 || (group.n_columns <= 48 && share < 0.5) ||
-         (group.n_columns <= 144 && share < 0.15) || share < 0.05;
+  for (const Bound& bound : kBounds)
+    if (group.n_columns <= bound.n_columns) return share < bound.share;
+  return share < kShareOfMany;
 }
 
 Group joined(const Group& child, const Group& parent) {

@@ -10,15 +10,13 @@ const harness = await createHarness();
 for (const scene of ['curtain', 'swinging-sheet', 'tablecloth']) {
   const { page, close } = await harness.open(`#scene=${scene}`);
   await isReady(page);
+  const begin = performance.now();
+  const since = () => performance.now() - begin;
   await button(page, 'Measure speed and error').click();
-  const since = async () => {
-    const { sweep } = await stateOf(page);
-    return (await page.evaluate(() => performance.now())) - sweep.beganMs;
-  };
   await until(page, ({ sweep }) => sweep.rows.length >= kFirstRows, kLongestMs);
-  const first_rows_ms = await since();
+  const first_rows_ms = since();
   await until(page, ({ sweep }) => sweep.phase !== 'running', kLongestMs);
-  const all_ms = await since();
+  const all_ms = since();
   const { sweep } = await stateOf(page);
   const known = sweep.rows.filter((row) => row.position_error_m !== null).length;
   console.log(
