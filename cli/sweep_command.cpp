@@ -87,7 +87,7 @@ Outcome sweep_command(Arguments arguments) {
       text_value(arguments.text("--commit").value_or(core_version())).get<std::string>();
   const SweepInput input = take_sweep(arguments);
   arguments.finish();
-  overwriting.need(out || ship, "--out and --ship-references");
+  overwriting.need(out || ship, "--out or --ship-references");
   overwriting.spare(input.files_read());
 
   const std::string identity =

@@ -246,7 +246,7 @@ TEST_CASE("command: the references of a sweep are made alone, and found by anoth
   CHECK(sizes == std::set<Eigen::Index>{9, 25});  // which has the vertices of level 1 alone
   const Ending again = sweep({"--ship-references", shipped});
   CHECK(again.status == 2);
-  CHECK(again.err.find("--overwrite") != std::string::npos);
+  CHECK(again.error.find("--overwrite") != std::string::npos);
   CHECK(contents(shipped) == files);
   const Ending measured = sweep({"--json", "--repeat", "1", "--cache", shipped});
   REQUIRE(measured.status == 0);
