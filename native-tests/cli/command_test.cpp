@@ -755,10 +755,10 @@ TEST_CASE("command: a bare bench moves as the run does, and refuses what is more
           "[cli]") {
   const SmallScene scene;
   const auto bench = [&](std::vector<std::string> more) {
-    std::vector<std::string> words = {"bench",    "run", "--step",  "0.016666666666666666",
-                                      "--frames", "12",  "--times", "0.1,0.2"};
+    std::vector<std::string> words = {"bench", "run", scene.file, "--frames", "12"};
+    words.insert(words.end(), {"--times", "0.1,0.2", "--step", "0.016666666666666666"});
     words.insert(words.end(), more.begin(), more.end());
-    return scene.run(words);
+    return pleat_command(scene.folder, words);
   };
   CHECK(bench({"--bare"}).status == 2);
   CHECK(bench({"--bare"}).error.find("--bare: expected a scene of springs") != std::string::npos);

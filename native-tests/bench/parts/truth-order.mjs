@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { tell } from './bench-parts.mjs';
 import { goal, hasFinished, markdown, short } from './bench-rows.mjs';
 import { askRows, cacheFolder, nativeRun, reference, root } from './command.mjs';
+import { changed } from './truth-warnings.mjs';
 
 const kFewestRanked = 5; // of fewer settings an order says little
 
@@ -44,16 +45,6 @@ export function distance(samples, truth, masses) {
   return Math.sqrt(squares / total);
 }
 
-function withChanges(scene, changes) {
-  const changed = structuredClone(scene);
-  for (const [pointer, value] of Object.entries(changes)) {
-    const keys = pointer.split('/').slice(1);
-    const last = keys.pop();
-    keys.reduce((at, key) => at[key], changed)[last] = value;
-  }
-  return changed;
-}
-
 /** The times at which a sweep compares, in whole frames. */
 const timesOf = (duration) => Array.from({ length: 10 }, (_, k) => ((k + 1) * duration) / 10);
 
@@ -73,7 +64,7 @@ function judged(scene, duration) {
   const truth = truthOf(scene, times);
   return rows.map((row) => {
     tell(`${scene.name}: ${row.method.stepper} against the truth`);
-    const run = nativeRun(withChanges(scene, row.setting), 60 * duration, times);
+    const run = nativeRun(changed(scene, row.setting), 60 * duration, times);
     const ended = hasFinished(run) && run.samples.length === times.length;
     const truth_m = ended ? distance(run.samples, truth.samples, run.masses_kg) : Number.NaN;
     return { ...row, truth_m, truth: truth.reference };

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { crumpledDress } from '../../../native-tests/bench/parts/crumpled-dress.mjs';
 import { distance, rankCorrelation } from '../../../native-tests/bench/parts/truth-order.mjs';
+import { changed, isTold } from '../../../native-tests/bench/parts/truth-warnings.mjs';
 
 describe('rank correlation', () => {
   const errors = [3, 1, 4, 1.5, 9, 2.6];
@@ -68,5 +69,32 @@ describe('the crumpled dress', () => {
     const edges = triangles.flatMap(([a, b, c]) => [length(a, b), length(b, c), length(c, a)]);
     expect(Math.max(...edges) / Math.min(...edges)).toBeGreaterThan(50);
     expect(crumpledDress(12, 6, 3)).toBe(text);
+  });
+});
+
+describe('warnings that are held to the truth', () => {
+  it('changes values of a scene at their pointers, and not the scene', () => {
+    const scene = { method: { stepper: 'implicit' }, pins: [{ vertices: [0] }] };
+    const result = changed(scene, {
+      '/method/stepper': 'xpbd',
+      '/world/air/density_kg_per_m3': 1,
+      '/pins/0/vertices': [1],
+    });
+    expect(result).toEqual({
+      method: { stepper: 'xpbd' },
+      world: { air: { density_kg_per_m3: 1 } },
+      pins: [{ vertices: [1] }],
+    });
+    expect(scene.method.stepper).toBe('implicit');
+    expect(scene.pins[0].vertices).toEqual([0]);
+  });
+
+  it('counts an explosion as told by a warning and the exit status, and only if it was silent', () => {
+    const told = { status: 'ok', warnings: [{ kind: 'stretch' }], exit: 1 };
+    expect(isTold(told)).toBe(true);
+    expect(isTold({ ...told, status: 'not_converged' })).toBe(true);
+    expect(isTold({ ...told, warnings: [] })).toBe(false);
+    expect(isTold({ ...told, exit: 0 })).toBe(false);
+    expect(isTold({ ...told, status: 'not_finite' })).toBe(false);
   });
 });
