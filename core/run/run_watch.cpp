@@ -114,10 +114,16 @@ double driven_speed(const Simulation& simulation) {
   return speed;
 }
 
-/// Four times as many of what the stepper takes more of, else a step of a quarter.
-std::vector<SettingHint> hints_for(const Scene& scene) {
+/// A factor where cg gives up; four times as many of what the stepper takes more of, else a step of
+/// a quarter.
+std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   const MethodOptions& method = scene.method;
   std::vector<SettingHint> hints;
+  const bool is_unsolved =
+      kind == RunWarning::Kind::unsolved || kind == RunWarning::Kind::not_converged;
+  if (is_unsolved && method.stepper->reads(MethodSetting::solver) &&
+      method.solver == SolverKind::cg)
+    hints.push_back({"/method/solver", name(SolverKind::supernodal)});
   if (method.stepper->reads(MethodSetting::iterations) && method.iterations < 10)
     hints.push_back({"/method/iterations", 4 * method.iterations});
   if (method.stepper->reads(MethodSetting::substeps) && method.substeps > 0)
@@ -126,10 +132,11 @@ std::vector<SettingHint> hints_for(const Scene& scene) {
   return hints;
 }
 
-constexpr std::array<Word<RunWarning::Kind>, 3> kKinds = {
+constexpr std::array<Word<RunWarning::Kind>, 4> kKinds = {
     {{"stretch", RunWarning::Kind::stretch},
      {"speed", RunWarning::Kind::speed},
-     {"unsolved", RunWarning::Kind::unsolved}}};
+     {"unsolved", RunWarning::Kind::unsolved},
+     {"not_converged", RunWarning::Kind::not_converged}}};
 
 std::string number(double value) {
   char text[32];
@@ -153,10 +160,12 @@ std::string sentence(const RunWarning& warning) {
              " m/s; falling and pulling explain " + number(warning.bound) + " m/s";
       break;
     case RunWarning::Kind::unsolved:
-      text =
-          since +
-          (warning.is_nonsense() ? " on, steps left " : " on, steps did not converge and left ") +
-          number(100 * warning.value) + " % of their equations unsolved";
+      text = since + " on, steps left " + number(100 * warning.value) +
+             " % of their equations unsolved";
+      break;
+    case RunWarning::Kind::not_converged:
+      text = since + " on, steps did not converge and left " + number(100 * warning.value) +
+             " % of their equations unsolved";
       break;
   }
   return text;
@@ -178,6 +187,7 @@ Json json_warning(const RunWarning& warning) {
           {"vertex", warning.vertex.value},
           {"value", warning.value},
           {"bound", warning.bound},
+          {"is_nonsense", warning.is_nonsense()},
           {"hints", hints},
           {"sentence", sentence(warning)}};
 }
@@ -268,13 +278,14 @@ void RunWatch::look_at_report(const Simulation& simulation, const SolveReport& s
   const bool is_unsolved =
       simulation.scene().method.stepper->solves_equations && step.relative_residual > kUnsolved;
   n_unsolved_ = is_unsolved ? n_unsolved_ + 1 : 0;
-  if (n_unsolved_ < kUnsolvedLooks && step.status != SolveStatus::not_converged) return;
-  warn(simulation, {RunWarning::Kind::unsolved,
-                    simulation.time(),
-                    VertexId(0),
-                    step.relative_residual,
-                    kUnsolved,
-                    {}});
+  if (n_unsolved_ == 1) unsolved_since_ = simulation.time();
+  const auto told = [&](RunWarning::Kind kind, double since, double bound) {
+    warn(simulation, {kind, since, VertexId(0), step.relative_residual, bound, {}});
+  };
+  if (n_unsolved_ >= kUnsolvedLooks)
+    told(RunWarning::Kind::unsolved, unsolved_since_, kUnsolved);
+  else if (step.status == SolveStatus::not_converged)
+    told(RunWarning::Kind::not_converged, simulation.time(), 0);
 }
 
 /// Keeps the first time and the worst value.
@@ -287,8 +298,10 @@ void RunWatch::warn(const Simulation& simulation, RunWarning warning) {
     }
     return;
   }
-  warning.hints = hints_for(simulation.scene());
+  warning.hints = hints_for(warning.kind, simulation.scene());
   warnings_.push_back(std::move(warning));
+  std::stable_partition(warnings_.begin(), warnings_.end(),
+                        [](const RunWarning& known) { return known.is_nonsense(); });
 }
 
 }  // namespace pleat

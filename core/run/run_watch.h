@@ -18,9 +18,10 @@ struct SettingHint {
 /// A sign that a run's numbers are finite nonsense (docs/methods/plausibility.md).
 struct RunWarning {
   enum class Kind {
-    stretch,   ///< cloth is longer than its load explains
-    speed,     ///< a vertex is faster than falling and pulling explain
-    unsolved,  ///< steps' equations were left unsolved, or one did not converge
+    stretch,        ///< cloth is longer than its load explains
+    speed,          ///< a vertex is faster than falling and pulling explain
+    unsolved,       ///< step after step left most of its equations unsolved
+    not_converged,  ///< a step reported it, by however little: the one that is not nonsense
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
@@ -29,8 +30,7 @@ struct RunWarning {
   double bound;     ///< that the first one was beyond, in the same unit
   std::vector<SettingHint> hints;
 
-  /// Else all that is told is that a step did not converge, by however little.
-  bool is_nonsense() const { return value > bound; }
+  bool is_nonsense() const { return kind != Kind::not_converged; }
 };
 
 /// What was seen, where and since when, and what the scene explains.
@@ -54,7 +54,7 @@ class RunWatch {
   /// step  the report of the steps since the last look
   void look(const Simulation& simulation, const SolveReport& step);
 
-  /// At most one of each kind, in the order in which they were first seen.
+  /// At most one of each kind, as they were seen, but that which is not nonsense last.
   const std::vector<RunWarning>& warnings() const { return warnings_; }
 
  private:
@@ -69,6 +69,7 @@ class RunWatch {
   double start_speed_;       // at the start, with what the energy stored there can give [m/s]
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
   int n_unsolved_ = 0;       // looks in a row that saw a step left unsolved
+  double unsolved_since_ = 0;  // the first of them [s]
   std::vector<RunWarning> warnings_;
 };
 

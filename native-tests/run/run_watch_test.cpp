@@ -96,6 +96,22 @@ TEST_CASE("run_watch: a hint taken again and again ends the warning", "[run]") {
   CHECK(n_hints > 0);
 }
 
+TEST_CASE("run_watch: nonsense is told before what did not converge, which takes a factor",
+          "[run]") {
+  // Falls for long, and no residual is as small as asked; only then it meets the table.
+  const Scene scene =
+      changed("tablecloth", {{"/method", {{"stepper", "implicit"}, {"tolerance", 1e-16}}},
+                             {"/refinement/level", 0},
+                             {"/cloth/sheet/origin_m/1", 12},
+                             {"/world/gravity_m_per_s2", {0, -600, 0}}});
+  const std::vector<RunWarning> warnings = warnings_of(scene, 0.5);
+  REQUIRE(warnings.size() >= 2);
+  CHECK(warnings.front().is_nonsense());
+  CHECK_FALSE(warnings.back().is_nonsense());
+  CHECK(warnings.back().time < warnings.front().time);
+  CHECK(advice(warnings.back()).rfind("try /method/solver = \"supernodal\"", 0) == 0);
+}
+
 TEST_CASE("run_watch: pins that pull cloth apart explain its stretch", "[run]") {
   Json json = parse_json(scene_text("swinging_sheet"));
   json["world"]["gravity_m_per_s2"] = {0, 0, 0};
@@ -115,6 +131,26 @@ TEST_CASE("run_watch: cloth that is thrown is fast from the start", "[run]") {
       changed("falling_sheet",
               {{"/refinement/level", 0}, {"/cloth/sheet/initial_velocity_m_per_s", {0, 30, 0}}});
   CHECK(warnings_of(thrown, 0.2).empty());
+}
+
+TEST_CASE("run_watch: what is left unsolved is told from the first of its steps on", "[run]") {
+  Simulation simulation(changed("swinging_sheet", {{"/refinement/level", 0}}));
+  RunWatch watch(simulation);
+  SolveReport unsolved;
+  unsolved.status = SolveStatus::not_converged;
+  unsolved.relative_residual = 0.9;
+  double since = 0;
+  for (int look = 1; look <= 5; ++look) {
+    simulation.step();
+    if (look == 1) since = simulation.time();
+    watch.look(simulation, unsolved);
+    CAPTURE(look);
+    // One such step is no nonsense, however much it left.
+    CHECK(watch.warnings().front().is_nonsense() == (look == 5));
+  }
+  REQUIRE(watch.warnings().size() == 2);
+  CHECK(watch.warnings().front().kind == RunWarning::Kind::unsolved);
+  CHECK(watch.warnings().front().time == since);
 }
 
 // Cloth that falls freely has next to nothing to solve for, and leaves half of that.
@@ -145,7 +181,7 @@ TEST_CASE("run_watch: warnings read back to what was written", "[run]") {
 }
 
 TEST_CASE("run_watch: what did not converge is told as that, however little is left", "[run]") {
-  const RunWarning warning{RunWarning::Kind::unsolved, 0.1, VertexId(0), 1e-5, 0.5, {}};
+  const RunWarning warning{RunWarning::Kind::not_converged, 0.1, VertexId(0), 1e-5, 0, {}};
   CHECK(sentence(warning) ==
         "from 0.1 s on, steps did not converge and left 0.001 % of their equations unsolved");
 }

@@ -16,7 +16,7 @@ BenchRow measured_row() {
   row.setting = {{"/refinement/level", 3}, {"/fabric/name", "silk"}};
   row.fabric = {{"name", "silk"}};
   row.model = {{"bending", "none"}};
-  row.method.stepper = &steppers::projective;
+  row.method.stepper = &steppers::kProjective;
   row.method.step = 1.0 / 120;
   row.method.iterations = 7;
   row.method.solver = SolverKind::eigen;
@@ -67,7 +67,7 @@ TEST_CASE("bench_row: a row reads back to what was written", "[sweep]") {
   CHECK(read.setting == row.setting);
   CHECK(read.fabric == row.fabric);
   CHECK(read.model == row.model);
-  CHECK(read.method.stepper == &steppers::projective);
+  CHECK(read.method.stepper == &steppers::kProjective);
   CHECK(read.rms_stretch == row.rms_stretch);
   CHECK(read.position_error_95 == row.position_error_95);
   CHECK(read.energy_drift == row.energy_drift);
@@ -130,7 +130,7 @@ TEST_CASE("bench_row: a row with a warning is on no front, and the table says wh
   CHECK(table.find("!: the run shows what its scene cannot explain") != std::string::npos);
   CHECK(table.find(sentence(rows[0].warnings.front()) + "; try /method/substeps = 4") !=
         std::string::npos);
-  rows[0].warnings = {{RunWarning::Kind::unsolved, 0.1, VertexId(0), 1e-5, 0.5, {}}};
+  rows[0].warnings = {{RunWarning::Kind::not_converged, 0.1, VertexId(0), 1e-5, 0, {}}};
   CHECK(front_of(rows) == std::vector<std::size_t>{0});
   CHECK(markdown_table(rows).find("| ! |") == std::string::npos);
 }

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import type { RunNumbers } from '../../src/motion/bindings/pleat-module';
 import { remedyForWarning } from '../../src/motion/run/remedy';
 import { presetSetting, type Setting, sceneOf } from '../../src/motion/state/setting';
-import type { RunWarning } from '../../src/shared/bindings/run-warning';
+import { type RunWarning, warningSentence } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { isBuilt, loadModule } from '../support/built-module';
 
@@ -12,6 +12,7 @@ const warning = (hints: Record<string, number>): RunWarning => ({
   time_s: 0.4,
   vertex: 12,
   sentence: 'from 0.4 s at vertex 12 on, the cloth stretched by up to 98 %',
+  is_nonsense: true,
   hints,
 });
 
@@ -37,6 +38,17 @@ describe('the remedy for nonsense', () => {
     const { sentence, remedy } = remedyForWarning(warning({ '/method/substeps': 4 }), exploding);
     expect(sentence).toContain('stretched by up to 98 %');
     expect(remedy).toEqual({ title: 'Take 4 substeps', setting: { ...exploding, substeps: 4 } });
+  });
+
+  it('says that cloth does not move so only of nonsense', () => {
+    const nonsense = warning({});
+    expect(warningSentence(nonsense)).toMatch(/^This is not how cloth moves: from 0.4 s/);
+    const mild = {
+      ...nonsense,
+      is_nonsense: false,
+      sentence: 'from 1 s on, steps did not converge',
+    };
+    expect(warningSentence(mild)).toBe('From 1 s on, steps did not converge.');
   });
 
   it('is Implicit where the hint is none that the page sets', () => {

@@ -44,7 +44,7 @@ export interface BenchRow {
   /** "ok", "not_converged" (it ran to its end), or why it failed. */
   status: string;
   message: string;
-  /** What its run shows that the scene cannot explain; such a row is on no front. */
+  /** What its run warns of, nonsense first; a row of nonsense is on no front. */
   warnings?: RunWarning[];
   target: 'wasm' | 'native';
   [detail: string]: unknown;

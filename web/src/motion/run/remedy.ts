@@ -42,7 +42,7 @@ export function remedyForWarning(
   setting: Setting,
 ): { sentence: string; remedy: Remedy } {
   const known = Object.entries(warning.hints).flatMap(
-    ([pointer, value]) => HINTS[pointer]?.(value) ?? [],
+    ([pointer, value]) => HINTS[pointer]?.(Number(value)) ?? [],
   );
   const [first] = known;
   const remedy = first

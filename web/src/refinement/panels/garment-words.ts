@@ -54,8 +54,8 @@ export function warningWords({ warnings: [first] }: GarmentPane): string {
 
 /** The substeps that may help a pane that shows it, as far as the page goes; else null. */
 export function hintedSubsteps({ warnings: [first] }: GarmentPane): number | null {
-  const substeps = first?.hints['/method/substeps'];
-  return substeps !== undefined && substeps <= MOST_SUBSTEPS ? substeps : null;
+  const substeps = Number(first?.hints['/method/substeps']);
+  return substeps <= MOST_SUBSTEPS ? substeps : null;
 }
 
 /** "skirt_fast_walk in silk" → "fast walk in silk". */

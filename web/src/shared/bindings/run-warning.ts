@@ -1,14 +1,18 @@
-/** What a run shows that its scene cannot explain (docs/methods/plausibility.md). */
+/** What a run shows that its scene cannot explain, or that a step of it did not converge (docs/methods/plausibility.md). */
 export interface RunWarning {
-  kind: 'stretch' | 'speed' | 'unsolved';
+  kind: 'stretch' | 'speed' | 'unsolved' | 'not_converged';
   /** When it was first seen. */
   time_s: number;
   vertex: number;
   sentence: string;
+  /** Else all that is told is that a step did not converge. */
+  is_nonsense: boolean;
   /** Values that may help, by their JSON pointers into the scene. */
-  hints: Record<string, number>;
+  hints: Record<string, number | string>;
 }
 
-export function warningSentence({ sentence }: RunWarning): string {
-  return `This is not how cloth moves: ${sentence}.`;
+export function warningSentence({ sentence, is_nonsense }: RunWarning): string {
+  return is_nonsense
+    ? `This is not how cloth moves: ${sentence}.`
+    : `${sentence.charAt(0).toUpperCase()}${sentence.slice(1)}.`;
 }
