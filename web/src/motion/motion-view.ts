@@ -110,7 +110,8 @@ function createSweepTray(parent: HTMLElement, store: Store<MotionState>, run: Mo
       createSpeedErrorView(parent, store, run);
     } catch {
       isAsked = false;
-      store.set({ sweepOpen: false });
+      const sentence = 'The chart of the sweep could not be fetched. Try again with a network.';
+      store.set({ sweepOpen: false, problem: { source: 'link', sentence } });
     }
   });
 }

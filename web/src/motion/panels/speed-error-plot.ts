@@ -1,13 +1,13 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
 import { warningSentence } from '../../shared/bindings/run-warning';
-import { logScale } from '../../shared/chart/log-scale';
+import { type LogScale, logScale } from '../../shared/chart/log-scale';
 import { svg } from '../../shared/panels/element';
 import { digits, milliseconds, smallLength } from '../../shared/panels/quantity';
 import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
-import { boundOf, floorMarks, floorsOf } from './mesh-floors';
+import { boundOf, type Floor, floorMarks, floorsOf } from './mesh-floors';
 
 export interface PlotContent {
   rows: BenchRow[];
@@ -83,6 +83,53 @@ function axisTitles(): SVGElement[] {
   ];
 }
 
+/** Where numbers lie in the chart. */
+interface Axes {
+  across: LogScale;
+  upward: LogScale;
+  xOf(ms: number): number;
+  yOf(mm: number): number;
+}
+
+/** Axes that reach over all these points and floors. */
+function axesOf(places: readonly [number, number][], floors: readonly Floor[]): Axes {
+  const across = logScale([...places.map(([ms]) => ms), ...floors.flatMap(({ ms }) => ms)]);
+  const upward = logScale([...places.map(([, mm]) => mm), ...floors.map(({ mm }) => mm)]);
+  return {
+    across,
+    upward,
+    xOf: (ms) => LEFT + across.part(ms) * (WIDTH - LEFT - RIGHT),
+    yOf: (mm) => HEIGHT - BOTTOM - upward.part(mm) * (HEIGHT - TOP - BOTTOM),
+  };
+}
+
+function gridMarks({ across, upward, xOf, yOf }: Axes): SVGElement[] {
+  const upright = (ms: number, kind: string) =>
+    svg('line', { x1: xOf(ms), y1: TOP, x2: xOf(ms), y2: HEIGHT - BOTTOM, class: kind });
+  const level = (mm: number, kind: string) =>
+    svg('line', { x1: LEFT, y1: yOf(mm), x2: WIDTH - RIGHT, y2: yOf(mm), class: kind });
+  const tick = (x: number, y: number, kind: string, value: number) =>
+    svg('text', { x, y, class: `tick ${kind}` }, digits(value, 1));
+  return [
+    ...across.minorTicks.map((ms) => upright(ms, 'grid-minor')),
+    ...upward.minorTicks.map((mm) => level(mm, 'grid-minor')),
+    ...across.ticks.flatMap((ms) => [
+      upright(ms, 'grid'),
+      tick(xOf(ms), HEIGHT - BOTTOM + 17, 'tick-x', ms),
+    ]),
+    ...upward.ticks.flatMap((mm) => [level(mm, 'grid'), tick(LEFT - 8, yOf(mm) + 4, 'tick-y', mm)]),
+  ];
+}
+
+/** The line through the places of the front, from the quickest on. */
+function frontMark(places: readonly ([number, number] | null)[], { xOf, yOf }: Axes): SVGElement {
+  const corners = places
+    .filter((place) => place !== null)
+    .sort((a, b) => a[0] - b[0])
+    .map(([ms, mm]) => `${xOf(ms)},${yOf(mm)}`);
+  return svg('polyline', { points: corners.join(' '), class: 'front' });
+}
+
 /** A chart that `update` draws anew; `onChoice` gets the index of a chosen row. */
 export function createSpeedErrorPlot(
   parent: HTMLElement,
@@ -128,35 +175,15 @@ export function createSpeedErrorPlot(
     const focused = document.activeElement?.getAttribute('data-row') ?? null;
     const hadFocus = focused !== null && root.contains(document.activeElement);
     const places = rows.map(placeOf);
-    const placed = places.filter((place) => place !== null);
     const floors = floorsOf(rows);
-    const across = logScale([...placed.map(([ms]) => ms), ...floors.flatMap(({ ms }) => ms)]);
-    const upward = logScale([...placed.map(([, mm]) => mm), ...floors.map(({ mm }) => mm)]);
-    const xOf = (ms: number) => LEFT + across.part(ms) * (WIDTH - LEFT - RIGHT);
-    const yOf = (mm: number) => HEIGHT - BOTTOM - upward.part(mm) * (HEIGHT - TOP - BOTTOM);
-    const parts: SVGElement[] = [];
-    const line = (x1: number, y1: number, x2: number, y2: number, kind: string) =>
-      parts.push(svg('line', { x1, y1, x2, y2, class: kind }));
-    for (const ms of across.minorTicks) line(xOf(ms), TOP, xOf(ms), HEIGHT - BOTTOM, 'grid-minor');
-    for (const mm of upward.minorTicks) line(LEFT, yOf(mm), WIDTH - RIGHT, yOf(mm), 'grid-minor');
-    for (const ms of across.ticks) {
-      line(xOf(ms), TOP, xOf(ms), HEIGHT - BOTTOM, 'grid');
-      parts.push(
-        svg('text', { x: xOf(ms), y: HEIGHT - BOTTOM + 17, class: 'tick tick-x' }, digits(ms, 1)),
-      );
-    }
-    for (const mm of upward.ticks) {
-      line(LEFT, yOf(mm), WIDTH - RIGHT, yOf(mm), 'grid');
-      parts.push(svg('text', { x: LEFT - 8, y: yOf(mm) + 4, class: 'tick tick-y' }, digits(mm, 1)));
-    }
-    parts.push(...axisTitles());
-    parts.push(...floorMarks(floors, xOf, yOf));
-    const corners = front
-      .map((index) => places[index] ?? null)
-      .filter((place) => place !== null)
-      .sort((a, b) => a[0] - b[0])
-      .map(([ms, mm]) => `${xOf(ms)},${yOf(mm)}`);
-    parts.push(svg('polyline', { points: corners.join(' '), class: 'front' }));
+    const axes = axesOf(
+      places.filter((place) => place !== null),
+      floors,
+    );
+    const { xOf, yOf } = axes;
+    const parts = [...gridMarks(axes), ...axisTitles(), ...floorMarks(floors, xOf, yOf)];
+    const fronted = front.map((index) => places[index] ?? null);
+    parts.push(frontMark(fronted, axes));
     rows.forEach((row, index) => {
       const place = places[index];
       if (!place) return;
