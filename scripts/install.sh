@@ -24,6 +24,8 @@ npm npm
 ca-certificates /etc/ssl/certs/ca-certificates.crt'
 test_tools='
 catch2 <catch2/catch.hpp>
+clang clang++
+libclang-rt-dev /usr/share/doc/libclang-rt-dev
 clang-format clang-format
 clang-tidy clang-tidy
 python3 python3

@@ -214,9 +214,9 @@ TEST_CASE("measure fit: each error stands beside its own measure", "[deform]") {
 }
 
 TEST_CASE("measure fit: measurements that are none are refused by name", "[deform]") {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
   const BadMeasures bad_measures[] = {
-      {{kNaN, 1, 1}, "/recovery", "expected a finite number > 0, got nan"},
+      {{kNotANumber, 1, 1}, "/recovery", "expected a finite number > 0, got nan"},
       {{0.9, 0, 1}, "/stretch", "expected a finite number > 0, got 0"},
       {{0.9, 1, -0.5}, "/bending", "expected a finite number > 0, got -0.5"},
       {{HUGE_VAL, 1, 1}, "/recovery", "expected a finite number > 0, got inf"}};

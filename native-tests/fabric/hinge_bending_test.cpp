@@ -169,12 +169,12 @@ TEST_CASE("hinge_bending: the stiffness of each mesh depends on direction in clo
   const double angle = degrees * kPi / 180;
   const double s = std::sin(2 * angle);
   const double c = std::cos(2 * angle);
-  constexpr double kTolerance = 1e-3;  // what a turn of 0.01 rad over an edge leaves
-  CHECK(cylinder_ratio(Triangulation::equilateral, angle) == Approx(1).epsilon(kTolerance));
-  CHECK(cylinder_ratio(Triangulation::one_way, angle) == Approx(1 - s + s * s).epsilon(kTolerance));
+  constexpr double kTurnError = 1e-3;  // what a turn of 0.01 rad over an edge leaves
+  CHECK(cylinder_ratio(Triangulation::equilateral, angle) == Approx(1).epsilon(kTurnError));
+  CHECK(cylinder_ratio(Triangulation::one_way, angle) == Approx(1 - s + s * s).epsilon(kTurnError));
   CHECK(cylinder_ratio(Triangulation::alternating, angle) ==
-        Approx(1 + s * s / 2).epsilon(kTolerance));
-  CHECK(cylinder_ratio(Triangulation::crossed, angle) == Approx(1 + c * c / 2).epsilon(kTolerance));
+        Approx(1 + s * s / 2).epsilon(kTurnError));
+  CHECK(cylinder_ratio(Triangulation::crossed, angle) == Approx(1 + c * c / 2).epsilon(kTurnError));
 }
 
 TEST_CASE("hinge_bending: bad rigidities and triangles are refused", "[fabric]") {

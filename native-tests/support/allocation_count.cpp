@@ -5,12 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define PLEAT_OTHER_MALLOC
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
+#if defined(PLEAT_SANITIZED) || !defined(__GLIBC__)
 #define PLEAT_OTHER_MALLOC
 #endif
 
