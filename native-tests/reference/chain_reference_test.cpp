@@ -52,7 +52,7 @@ TEST_CASE("chain_reference: fine cotton swings as a chain of rigid links, within
           "[reference][long]") {
   Scene scene = swinging_scene(GENERATE(8, 16));
   scene.model.bending = BendingModel::none;
-  scene.method.stepper = &steppers::explicit_euler;
+  scene.method.stepper = &steppers::kExplicitEuler;
   scene.method.substeps = 0;
   const Reference reference = chain_reference(scene, kTimes);
   SampledRun run(scene, kTimes, SampledRun::Parts::untimed);

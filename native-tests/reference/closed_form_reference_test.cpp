@@ -138,7 +138,7 @@ TEST_CASE("closed_form_reference: a strip held by two rows is an elastica from b
 TEST_CASE("closed_form_reference: a static shape does not depend on the method", "[reference]") {
   Scene scene = hanging_scene(3);
   const std::string id = closed_form_reference(scene, kRestTimes).label.id;
-  scene.method.stepper = &steppers::xpbd;
+  scene.method.stepper = &steppers::kXpbd;
   CHECK(closed_form_reference(scene, kRestTimes).label.id == id);
   scene.fabric.areal_density *= 1.01;
   CHECK(closed_form_reference(scene, kRestTimes).label.id != id);

@@ -123,7 +123,7 @@ TEST_CASE("reference_track: level, method, name and duration are not its content
   const Scene scene = swinging_sheet_scene(1);
   Scene other = scene;
   other.level = 3;
-  other.method.stepper = &steppers::xpbd;
+  other.method.stepper = &steppers::kXpbd;
   other.name = "renamed";
   other.duration = 77;
   CHECK(ReferenceTrack(run_of(scene, 1)).is_of(other));

@@ -11,7 +11,7 @@ namespace {
 /// Positions at rest, found by newton from the rest shape.
 Positions at_rest(Scene scene) {
   scene.method = MethodOptions{};
-  scene.method.stepper = &steppers::newton;
+  scene.method.stepper = &steppers::kNewton;
   scene.method.rule = NewtonRule::equilibrium;
   scene.method.solver = SolverKind::eigen;
   scene.method.tolerance = kNewtonTolerance;

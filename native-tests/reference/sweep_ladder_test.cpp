@@ -22,7 +22,7 @@ struct Ladder {
 };
 constexpr Ladder kLadders[] = {{"swinging_sheet", 0.4, 3, "converged"},
                                {"curtain", 1, 2, "same_mesh"},
-                               {"tablecloth", 1, 2, "same_mesh"}};
+                               {"tablecloth", 0.4, 2, "same_mesh"}};
 constexpr int kReferenceLevel = 3;
 
 SweepPlan page_plan(const Ladder& ladder) {

@@ -77,8 +77,8 @@ std::vector<double> front_corners(const std::string& svg) {
 }  // namespace
 
 TEST_CASE("front figure: a row with a warning has its place off the front, and a line", "[sweep]") {
-  std::vector<BenchRow> rows = {point(&steppers::implicit_euler, 1, 0.1),
-                                point(&steppers::xpbd, 2, 0.01)};
+  std::vector<BenchRow> rows = {point(&steppers::kImplicitEuler, 1, 0.1),
+                                point(&steppers::kXpbd, 2, 0.01)};
   rows[0].warnings = {{RunWarning::Kind::stretch, 0.4, VertexId(12), 5, 1, {}}};
   const std::string svg = front_figure(rows);
   CHECK(xml_fault(svg).empty());
@@ -89,14 +89,14 @@ TEST_CASE("front figure: a row with a warning has its place off the front, and a
 }
 
 TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]") {
-  std::vector<BenchRow> rows = {point(&steppers::implicit_euler, 1, 0.1),
-                                point(&steppers::xpbd, 0.1, 0.2),
-                                point(&steppers::xpbd, 0.2, 0.01),
-                                point(&steppers::projective, 3, 0.05),
-                                point(&steppers::explicit_euler, 10, 0),
-                                point(&steppers::xpbd, BenchRow::kUnknown, 1),
-                                point(&steppers::xpbd, 1, BenchRow::kUnknown)};
-  rows.push_back(point(&steppers::projective, 1, 1));
+  std::vector<BenchRow> rows = {point(&steppers::kImplicitEuler, 1, 0.1),
+                                point(&steppers::kXpbd, 0.1, 0.2),
+                                point(&steppers::kXpbd, 0.2, 0.01),
+                                point(&steppers::kProjective, 3, 0.05),
+                                point(&steppers::kExplicitEuler, 10, 0),
+                                point(&steppers::kXpbd, BenchRow::kUnknown, 1),
+                                point(&steppers::kXpbd, 1, BenchRow::kUnknown)};
+  rows.push_back(point(&steppers::kProjective, 1, 1));
   rows.back().status = "refused";
   rows.back().message = "beyond <its> \"bound\" & \x01more";
   const std::string svg = front_figure(rows);
@@ -127,9 +127,9 @@ TEST_CASE("front figure: each stepper is drawn and named by its row of the table
 }
 
 TEST_CASE("front figure: a decade is as far everywhere, in time as in error", "[sweep]") {
-  const std::vector<BenchRow> rows = {point(&steppers::xpbd, 0.1, 1),
-                                      point(&steppers::xpbd, 1, 0.1),
-                                      point(&steppers::xpbd, 10, 0.01)};
+  const std::vector<BenchRow> rows = {point(&steppers::kXpbd, 0.1, 1),
+                                      point(&steppers::kXpbd, 1, 0.1),
+                                      point(&steppers::kXpbd, 10, 0.01)};
   const std::vector<double> corners = front_corners(front_figure(rows));
   REQUIRE(corners.size() == 6);
   CHECK(corners[2] - corners[0] == Approx(corners[4] - corners[2]).margin(0.02));
@@ -142,9 +142,9 @@ TEST_CASE("front figure: any numbers give a figure of bounded size", "[sweep]") 
   std::vector<BenchRow> rows;
   CHECK(xml_fault(front_figure(rows)).empty());
   const double scale = GENERATE(1e-300, 1.0, 1e300);
-  rows.push_back(point(&steppers::xpbd, scale, 1e-3 * scale));
+  rows.push_back(point(&steppers::kXpbd, scale, 1e-3 * scale));
   CHECK(xml_fault(front_figure(rows)).empty());
-  rows.push_back(point(&steppers::xpbd, 1, 1));
+  rows.push_back(point(&steppers::kXpbd, 1, 1));
   const std::string svg = front_figure(rows);
   CHECK(xml_fault(svg).empty());
   CHECK(svg.find("nan") == std::string::npos);
@@ -153,7 +153,7 @@ TEST_CASE("front figure: any numbers give a figure of bounded size", "[sweep]") 
 }
 
 TEST_CASE("front figure: long lists and names are cut, and the cut is told", "[sweep]") {
-  std::vector<BenchRow> rows(100, point(&steppers::xpbd, 1, BenchRow::kUnknown));
+  std::vector<BenchRow> rows(100, point(&steppers::kXpbd, 1, BenchRow::kUnknown));
   for (BenchRow& row : rows) row.message = row.scene = std::string(5000, 'x');
   const std::string svg = front_figure(rows);
   CHECK(xml_fault(svg).empty());

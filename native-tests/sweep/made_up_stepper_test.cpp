@@ -22,7 +22,7 @@ constexpr std::array kSettings = {MethodSetting::substeps, MethodSetting::iterat
 constexpr std::array<MethodCounts, 2> kCounts = {{{3, 2}, {7, 2}}};
 
 StepperType made_up() {
-  StepperType type = steppers::implicit_euler;
+  StepperType type = steppers::kImplicitEuler;
   type.name = "made_up";
   type.title = "Made up";
   type.meaning = "Nobody has heard of it.";
@@ -34,8 +34,8 @@ StepperType made_up() {
 }
 
 const StepperType kMadeUp = made_up();
-const std::array<const StepperType*, 3> kTable = {&steppers::implicit_euler, &kMadeUp,
-                                                  &steppers::xpbd};
+const std::array<const StepperType*, 3> kTable = {&steppers::kImplicitEuler, &kMadeUp,
+                                                  &steppers::kXpbd};
 
 const std::string kScene =
     R"({"cloth": {"sheet": {"columns": 2, "rows": 2}}, "pins": [{"part": "upper_edge"}],

@@ -138,7 +138,7 @@ TEST_CASE("sweep: any value of the scene can be a setting", "[sweep]") {
     CHECK(scene.gravity.y() == (s < 3 ? -9.81 : -1.6));
     CHECK((scene.model.bending == BendingModel::none) == (s % 3 == 0));
     CHECK(scene.fabric.name == (s % 3 == 1 ? "silk" : "fine cotton"));
-    CHECK((scene.method.stepper == &steppers::xpbd) == (s % 3 == 1));
+    CHECK((scene.method.stepper == &steppers::kXpbd) == (s % 3 == 1));
     CHECK(scene.duration == 0.5);
   }
 }

@@ -11,7 +11,7 @@ import { changed } from './truth-warnings.mjs';
 const kFewestRanked = 5; // of fewer settings an order says little
 
 // How long each is compared [s], as on the page: later on their motions are chance.
-const kScenes = { curtain: 1, swinging_sheet: 0.4, tablecloth: 1 };
+const kScenes = { curtain: 1, swinging_sheet: 0.4, tablecloth: 0.4 };
 const kTruthStep = 1 / 960; // [s], a quarter of the smallest substep of implicit
 
 /** Places in ascending order; equal values share the mean of theirs. */
@@ -45,8 +45,9 @@ export function distance(samples, truth, masses) {
   return Math.sqrt(squares / total);
 }
 
-/** The times at which a sweep compares, in whole frames. */
-const timesOf = (duration) => Array.from({ length: 10 }, (_, k) => ((k + 1) * duration) / 10);
+/** The ends of frames nearest to the times at which a sweep compares [s]. */
+const timesOf = (duration) =>
+  Array.from({ length: 10 }, (_, k) => Math.round((k + 1) * 6 * duration) / 60);
 
 function truthOf(scene, times) {
   const method = { stepper: 'newton', rule: 'midpoint', step_s: kTruthStep, solver: 'supernodal' };

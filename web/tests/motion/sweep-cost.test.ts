@@ -43,4 +43,12 @@ describe('what a sweep would take', () => {
     const silk = { ...shown, fabric: 'silk' };
     expect(expected(measured, silk)).toBeGreaterThan(2 * expected(measured));
   });
+
+  it('has those of levels in it that are finer than what is shipped', () => {
+    const sheet: Setting = { ...presetSetting('swinging-sheet'), level: 1 };
+    const shipped = expected(withCost({}, sheet, 4), sheet, { ...wish, finest: 3 });
+    const finer = expected(measured, shown, { ...wish, finest: 3 });
+    // Of as many steps: the curtain is compared 1 s long, the sheet 0.4 s.
+    expect(finer).toBeGreaterThan(1.5 * (shipped / 0.4));
+  });
 });

@@ -2,7 +2,12 @@
 import { readdirSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { type PresetId, presetSetting, withModel } from '../../src/motion/state/setting';
-import { FINEST_SWEEP, type ReferenceKind, sweepPlan } from '../../src/motion/state/sweep-plan';
+import {
+  FINEST_SHIPPED,
+  FINEST_SWEEP,
+  type ReferenceKind,
+  sweepPlan,
+} from '../../src/motion/state/sweep-plan';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { loadModule } from '../support/built-module';
 
@@ -40,12 +45,13 @@ describe('the references of sweeps', () => {
     const wanted = await wantedUpTo('swinging-sheet', FINEST_SWEEP, 'converged');
     expect(shippedFor('swinging-sheet').sort()).toEqual(wanted);
     expect(wanted.filter((id) => id.startsWith('converged-'))).toHaveLength(1);
+    expect(FINEST_SHIPPED['swinging-sheet']).toBe(FINEST_SWEEP);
   });
 
   it.each(['curtain', 'tablecloth'] as const)(
     'are those of the own meshes for the %s',
     async (preset) => {
-      const wanted = await wantedUpTo(preset, 2, 'same_mesh');
+      const wanted = await wantedUpTo(preset, FINEST_SHIPPED[preset] ?? -1, 'same_mesh');
       expect(shippedFor(preset).sort()).toEqual(wanted);
     },
   );

@@ -2,7 +2,14 @@
 import { stepperRow } from '../../shared/steppers/steppers';
 import { presetSetting, type Setting } from './setting';
 import { type StepCosts, stepCostAt } from './step-cost';
-import { durationS, methodsAt, REPEATS, type SweepWish, settingOf } from './sweep-plan';
+import {
+  durationS,
+  FINEST_SHIPPED,
+  methodsAt,
+  REPEATS,
+  type SweepWish,
+  settingOf,
+} from './sweep-plan';
 
 /** Substeps that stand for as many as the stability bound asks for. */
 const STABLE_SUBSTEPS = 100;
@@ -31,15 +38,17 @@ function stepMs(costs: StepCosts, planned: Setting, shown: Setting): number | nu
 /** Exact motion on a setting's own mesh, in the steps of a reference and then in twice as long ones. */
 const REFERENCE_STEPS_PER_S = 960 * 1.5;
 
+/** The finest level whose own reference is shipped for the shown cloth; -1 for none. */
+function finestShipped({ preset, fabric, model }: Setting): number {
+  const own = presetSetting(preset);
+  return fabric === own.fabric && model === own.model ? (FINEST_SHIPPED[preset] ?? -1) : -1;
+}
+
 /** Every level's own reference, where none is shipped [ms]. */
 function referencesMs(costs: StepCosts, shown: Setting, finest: number): number | null {
-  const own = presetSetting(shown.preset);
-  const isShipped =
-    shown.preset !== 'obj' && shown.fabric === own.fabric && shown.model === own.model;
-  if (isShipped) return 0;
   const exact = { ...shown, stepper: 'newton', stepS: 1 / 960, substeps: 1 };
   let sum = 0;
-  for (let level = 0; level <= finest; ++level) {
+  for (let level = finestShipped(shown) + 1; level <= finest; ++level) {
     const ms = stepMs(costs, { ...exact, level }, shown);
     if (ms === null) return null;
     sum += ms * REFERENCE_STEPS_PER_S * durationS(shown);

@@ -9,7 +9,7 @@ import {
 } from '../../shared/steppers/steppers';
 import type { BenchMethod, BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
-import { type Setting, sceneOf } from './setting';
+import { type PresetId, type Setting, sceneOf } from './setting';
 
 export interface PlannedMethod {
   stepper: string;
@@ -21,12 +21,15 @@ export interface PlannedMethod {
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
 const DURATION_S = 1;
 
-/** Until the free end of the sheet whips round: from then on its motion is another on every mesh [s]. */
-const SWING_S = 0.4;
+/** Until the motion is another on every mesh: the free end of the sheet whips round, the cloth over the ball folds [s]. */
+const BEFORE_CHANCE_S: Partial<Record<PresetId, number>> = {
+  'swinging-sheet': 0.4,
+  tablecloth: 0.4,
+};
 
 /** What a sweep compares the motion of a scene over [s]. */
 export function durationS({ preset }: Pick<Setting, 'preset'>): number {
-  return preset === 'swinging-sheet' ? SWING_S : DURATION_S;
+  return BEFORE_CHANCE_S[preset] ?? DURATION_S;
 }
 
 /** Timed runs of each setting. */
@@ -55,6 +58,13 @@ export type ReferenceKind = 'converged' | 'same_mesh';
 
 /** Level of the finer mesh: runs on it are shipped, since they take from minutes to hours. */
 const REFERENCE_LEVEL = 3;
+
+/** The finest level of whose own mesh the exact motion is shipped, of a preset as it is. */
+export const FINEST_SHIPPED: Partial<Record<PresetId, number>> = {
+  curtain: 2,
+  tablecloth: 2,
+  'swinging-sheet': 3,
+};
 
 /** The finest level that a sweep is offered for. */
 export const FINEST_SWEEP = 3;
