@@ -8,7 +8,7 @@ struct StepperType;
 
 /// The rows of the table of steppers (stepper_table.h).
 namespace steppers {
-extern const StepperType implicit_euler, projective, xpbd, explicit_euler, rk4, newton;
+extern const StepperType kImplicitEuler, kProjective, kXpbd, kExplicitEuler, kRk4, kNewton;
 }  // namespace steppers
 
 /// The most substeps of a step: with steps of 1/60 s, 17 ns each.
@@ -32,7 +32,7 @@ constexpr double kNewtonTolerance = 1e-10;
 /// A stepper with its settings. Each stepper reads its step and the settings that its row of the
 /// table names.
 struct MethodOptions {
-  const StepperType* stepper = &steppers::implicit_euler;  ///< not null
+  const StepperType* stepper = &steppers::kImplicitEuler;  ///< not null
   double step = 1.0 / 60;                                  ///< [s], positive
   int substeps = 1;  ///< at least 1; 0, where the stepper has a stability bound: as many as it asks
   int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1

@@ -39,7 +39,7 @@ constexpr const char* kStableSubsteps = "0: as many as its stability bound asks 
 
 }  // namespace
 
-constinit const StepperType steppers::implicit_euler = {
+constinit const StepperType steppers::kImplicitEuler = {
     .name = "implicit",
     .title = "Implicit",
     .meaning =
@@ -61,7 +61,7 @@ constinit const StepperType steppers::implicit_euler = {
     .make = make<StepperImplicit>,
 };
 
-constinit const StepperType steppers::projective = {
+constinit const StepperType steppers::kProjective = {
     .name = "projective",
     .title = "Projective",
     .meaning = "Gives each spring its length alone, then solves one constant system; and repeats.",
@@ -81,7 +81,7 @@ constinit const StepperType steppers::projective = {
     .make = make<StepperProjective>,
 };
 
-constinit const StepperType steppers::xpbd = {
+constinit const StepperType steppers::kXpbd = {
     .name = "xpbd",
     .title = "XPBD",
     .meaning = "Moves the two ends of each spring in turn, in many small substeps.",
@@ -99,7 +99,7 @@ constinit const StepperType steppers::xpbd = {
     .make = make<StepperXpbd>,
 };
 
-constinit const StepperType steppers::explicit_euler = {
+constinit const StepperType steppers::kExplicitEuler = {
     .name = "explicit",
     .title = "Explicit",
     .meaning = "Forces give velocities, velocities give positions. Only stable in tiny substeps.",
@@ -117,7 +117,7 @@ constinit const StepperType steppers::explicit_euler = {
     .make = make<StepperExplicit>,
 };
 
-constinit const StepperType steppers::rk4 = {
+constinit const StepperType steppers::kRk4 = {
     .name = "rk4",
     .title = "Runge-Kutta 4",
     .meaning = "Explicit, with four looks at the forces a substep. Very exact, and slow.",
@@ -132,7 +132,7 @@ constinit const StepperType steppers::rk4 = {
     .make = make<StepperRk4>,
 };
 
-constinit const StepperType steppers::newton = {
+constinit const StepperType steppers::kNewton = {
     .name = "newton",
     .title = "Newton (exact, slow)",
     .meaning =
@@ -156,8 +156,8 @@ constinit const StepperType steppers::newton = {
 
 StepperTable standard_steppers() {
   static constexpr std::array<const StepperType*, 6> kTable = {
-      &steppers::implicit_euler, &steppers::projective, &steppers::xpbd,
-      &steppers::explicit_euler, &steppers::rk4,        &steppers::newton};
+      &steppers::kImplicitEuler, &steppers::kProjective, &steppers::kXpbd,
+      &steppers::kExplicitEuler, &steppers::kRk4,        &steppers::kNewton};
   return kTable;
 }
 

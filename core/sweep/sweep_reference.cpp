@@ -77,7 +77,7 @@ const char* id_prefix(ReferenceKind kind) {
 
 MethodOptions exact_method(double step) {
   MethodOptions method;
-  method.stepper = &steppers::newton;
+  method.stepper = &steppers::kNewton;
   method.rule = NewtonRule::midpoint;
   method.step = step;
   method.solver = best_direct_solver();

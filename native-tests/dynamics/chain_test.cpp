@@ -35,7 +35,7 @@ Swing fitted_swing(const std::vector<double>& q, double h) {
 
 /// The swing that a first-order method makes of an undamped one of omega at steps of h.
 Swing expected_swing(const StepperType* stepper, double omega, double h) {
-  if (stepper == &steppers::explicit_euler) return {2 / h * std::asin(omega * h / 2), 0};
+  if (stepper == &steppers::kExplicitEuler) return {2 / h * std::asin(omega * h / 2), 0};
   // Backward Euler: root 1/(1 - i omega h).
   return {std::atan(omega * h) / h, std::log1p(omega * omega * h * h) / (2 * h)};
 }
@@ -103,7 +103,7 @@ void check_swing(const Swing& found, const StepperType* stepper, double omega, d
                  double tolerance) {
   const Swing expected = expected_swing(stepper, omega, h);
   CAPTURE(stepper->name, omega, h, found.omega, found.decay, expected.omega, expected.decay);
-  if (stepper == &steppers::xpbd) {
+  if (stepper == &steppers::kXpbd) {
     constexpr double kNoise = 1e-3;
     CHECK(found.omega == Approx(omega).epsilon(omega * omega * h * h + kNoise));
     CHECK(found.decay < expected.decay + kNoise * omega);
@@ -156,7 +156,7 @@ TEST_CASE("chain: it hangs still where every spring carries the weight below it"
     State state = hanging;
     const auto stepper = make_stepper(model, options);
     for (int s = 0; s < 100; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
-    const double rounding = options.stepper == &steppers::xpbd ? 1e-6 : 1e-12;  // float32
+    const double rounding = options.stepper == &steppers::kXpbd ? 1e-6 : 1e-12;  // float32
     CHECK((state.positions - hanging.positions).norm() < rounding * chain.n_springs);
   }
 }
@@ -172,7 +172,7 @@ TEST_CASE("chain: damped, it comes to rest at the elongation under its own weigh
   const double elongation = n * n * chain.mass * chain.gravity / (2 * chain.stiffness);
   for (MethodOptions options : converged_methods(0.01)) {
     CAPTURE(options.stepper->name, chain.n_springs);
-    if (options.stepper == &steppers::explicit_euler) options.substeps = 0;
+    if (options.stepper == &steppers::kExplicitEuler) options.substeps = 0;
     ClothModel model = chain_model(chain);
     State state{Positions::Zero(3, chain.n_springs + 1), Positions::Zero(3, chain.n_springs + 1)};
     for (int i = 0; i <= chain.n_springs; ++i) state.positions(1, i) = -i * chain.length;
@@ -181,7 +181,7 @@ TEST_CASE("chain: damped, it comes to rest at the elongation under its own weigh
     const int n_steps = static_cast<int>(40 / std::log1p(slowest * options.step));
     for (int s = 0; s < n_steps; ++s) REQUIRE(stepper->advance(state, s * options.step).ok());
     const double found = -state.positions(1, chain.n_springs) - n * chain.length;
-    CHECK(found == Approx(elongation).epsilon(options.stepper == &steppers::xpbd ? 1e-4 : 1e-9));
+    CHECK(found == Approx(elongation).epsilon(options.stepper == &steppers::kXpbd ? 1e-4 : 1e-9));
   }
 }
 

@@ -201,18 +201,18 @@ TEST_CASE("graded: implicit solves the dense equations of the free vertices", "[
   const Eigen::VectorXd dv = S * bordered.fullPivLu().solve(rhs).head(n);
   const Positions expected = sheet.state.velocities + columns(dv);
 
-  const State end = after_steps(model, method(&steppers::implicit_euler, h), sheet.state, 1);
+  const State end = after_steps(model, method(&steppers::kImplicitEuler, h), sheet.state, 1);
   CHECK(relative_error(end.velocities, expected) < 1e-10);
   CHECK(relative_error(end.positions, Positions(sheet.state.positions + h * expected)) < 1e-10);
 }
 
 TEST_CASE("graded: implicit with cg reports the residual of the free vertices", "[dynamics]") {
   Graded sheet = graded(1);
-  MethodOptions options = method(&steppers::implicit_euler, 0.01);
+  MethodOptions options = method(&steppers::kImplicitEuler, 0.01);
   options.solver = SolverKind::cg;
   options.tolerance = 1e-10;
   const State exact =
-      after_steps(sheet.model, method(&steppers::implicit_euler, 0.01), sheet.state, 3);
+      after_steps(sheet.model, method(&steppers::kImplicitEuler, 0.01), sheet.state, 3);
   const State found = after_steps(sheet.model, options, sheet.state, 3);
   CHECK(relative_error(found.positions, exact.positions) < 1e-9);
 }
@@ -225,8 +225,8 @@ TEST_CASE("graded: projective with many rounds solves newton's equations", "[dyn
   sheet.model.gravity = {0, -9.81, 0};
   pin_some_parents(sheet, {});
   const double h = 0.01;
-  const State newton = after_steps(sheet.model, method(&steppers::newton, h), sheet.state, 1);
-  const auto projective = make_stepper(sheet.model, method(&steppers::projective, h));
+  const State newton = after_steps(sheet.model, method(&steppers::kNewton, h), sheet.state, 1);
+  const auto projective = make_stepper(sheet.model, method(&steppers::kProjective, h));
   State found = sheet.state;
   const SolveReport report = projective->advance(found, 0);
   CHECK(relative_error(found.positions, newton.positions) < 1e-8);
@@ -240,7 +240,7 @@ TEST_CASE("graded: every stepper keeps the momentum of a sheet in flight", "[dyn
   for (const MethodOptions& options : all_methods(0.001)) {
     CAPTURE(seed, options.stepper->name);
     // 20 steps; xpbd rounds to float32.
-    const double tolerance = options.stepper == &steppers::xpbd ? 1e-4 : 1e-11;
+    const double tolerance = options.stepper == &steppers::kXpbd ? 1e-4 : 1e-11;
     const State end = after_steps(sheet.model, options, sheet.state, 20);
     CHECK((momentum(sheet.model, end) - before).norm() < tolerance * before.norm());
   }
@@ -250,7 +250,7 @@ TEST_CASE("graded: the angular momentum is kept as on uniform sheets", "[dynamic
   Graded sheet = graded(GENERATE(1u, 2u));
   const Vec3 before = angular_momentum(sheet.model, sheet.state);
   for (const auto& [kind, tolerance] :
-       {std::pair{&steppers::explicit_euler, 1e-11}, std::pair{&steppers::rk4, 1e-6}}) {
+       {std::pair{&steppers::kExplicitEuler, 1e-11}, std::pair{&steppers::kRk4, 1e-6}}) {
     CAPTURE(kind->name);
     const State end = after_steps(sheet.model, method(kind, 0.001), sheet.state, 20);
     CHECK((angular_momentum(sheet.model, end) - before).norm() < tolerance * before.norm());
@@ -355,13 +355,13 @@ TEST_CASE("graded: xpbd with many substeps comes near to newton's small steps", 
   sheet.model.gravity = {0, -9.81, 0};
   pin_some_parents(sheet, {});
   const double duration = 0.1;
-  MethodOptions fine = method(&steppers::newton, duration / 100);
+  MethodOptions fine = method(&steppers::kNewton, duration / 100);
   fine.rule = NewtonRule::midpoint;
   const State exact = after_steps(sheet.model, fine, sheet.state, 100);
   const double moved = (exact.positions - sheet.state.positions).colwise().norm().maxCoeff();
   std::vector<double> errors;
   for (const int substeps : {100, 200, 400}) {
-    MethodOptions xpbd = method(&steppers::xpbd, duration);
+    MethodOptions xpbd = method(&steppers::kXpbd, duration);
     xpbd.substeps = substeps;
     xpbd.iterations = 1;
     const State found = after_steps(sheet.model, xpbd, sheet.state, 1);
@@ -384,7 +384,7 @@ TEST_CASE("graded: xpbd gains no energy on a stiff sheet that swings", "[dynamic
   state.positions.row(2) = -state.positions.row(1);  // horizontal, held by one edge
   state.positions.row(1).setZero();
   for (int i = 0; i <= 6; ++i) model.pins.push_back({VertexId(i), state.positions.col(i), {}});
-  MethodOptions options = method(&steppers::xpbd, 1.0 / 60);
+  MethodOptions options = method(&steppers::kXpbd, 1.0 / 60);
   options.substeps = 30;
   options.iterations = 1;
   if (rigid) options.constraints = Constraints::rigid;
@@ -407,12 +407,12 @@ TEST_CASE("graded: accurate methods agree", "[dynamics]") {
   const double duration = 0.05;
   const auto at_end = [&](const StepperType* kind, int n_steps) {
     MethodOptions options = method(kind, duration / n_steps);
-    if (kind == &steppers::newton) options.rule = NewtonRule::midpoint;
+    if (kind == &steppers::kNewton) options.rule = NewtonRule::midpoint;
     return after_steps(sheet.model, options, sheet.state, n_steps).positions;
   };
-  const Positions exact = at_end(&steppers::rk4, 200);
-  const double coarse = (at_end(&steppers::newton, 50) - exact).norm();
-  const double fine = (at_end(&steppers::newton, 100) - exact).norm();
+  const Positions exact = at_end(&steppers::kRk4, 200);
+  const double coarse = (at_end(&steppers::kNewton, 50) - exact).norm();
+  const double fine = (at_end(&steppers::kNewton, 100) - exact).norm();
   CAPTURE(coarse, fine);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.3));
 }
@@ -420,7 +420,7 @@ TEST_CASE("graded: accurate methods agree", "[dynamics]") {
 TEST_CASE("graded: newton solves the damped equations of the free vertices", "[dynamics]") {
   Graded sheet = graded(1);
   for (Spring& spring : sheet.model.springs) spring.damping *= 20;
-  const auto stepper = make_stepper(sheet.model, method(&steppers::newton, 0.01));
+  const auto stepper = make_stepper(sheet.model, method(&steppers::kNewton, 0.01));
   const SolveReport report = stepper->advance(sheet.state, 0);
   REQUIRE(report.ok());
   CHECK(report.relative_residual < 1e-10);
@@ -430,7 +430,7 @@ TEST_CASE("graded: newton finds the rest of a held sheet", "[dynamics]") {
   Graded sheet = graded(1);
   sheet.model.gravity = {0, -9.81, 0};
   pin_some_parents(sheet, {});
-  MethodOptions options = method(&steppers::newton, 1);
+  MethodOptions options = method(&steppers::kNewton, 1);
   options.rule = NewtonRule::equilibrium;
   const State end = after_steps(sheet.model, options, sheet.state, 1);
   Positions forces = columns(elastic_forces(sheet.model, end.positions));
@@ -496,8 +496,8 @@ TEST_CASE("graded: nothing is allocated per step after the first", "[dynamics]")
   if (!counts_allocations()) return;
   for (MethodOptions options : all_methods(0.001)) {
     CAPTURE(options.stepper->name);
-    if (options.stepper == &steppers::implicit_euler) options.solver = SolverKind::cg;
-    if (options.stepper == &steppers::newton) {
+    if (options.stepper == &steppers::kImplicitEuler) options.solver = SolverKind::cg;
+    if (options.stepper == &steppers::kNewton) {
       if (!is_available(SolverKind::cholmod)) continue;  // Eigen's factorisation allocates
       options.solver = SolverKind::cholmod;
     }
@@ -521,7 +521,7 @@ TEST_CASE("graded: the energy ledger closes", "[dynamics]") {
     pin_some_parents(sheet, {Motion::Kind::oscillate, {0.05, 0.02, 0.03}, 0, 0, 2});
     sheet.model.air.emplace(sheet.mesh.crossed_triangles(), AirOptions{}, sheet.model.n_vertices(),
                             0.5);
-    const auto stepper = make_stepper(sheet.model, method(&steppers::rk4, step));
+    const auto stepper = make_stepper(sheet.model, method(&steppers::kRk4, step));
     for (const Pin& pin : sheet.model.pins)
       sheet.state.velocities.col(pin.vertex) = pin.velocity(0);
     place_between_parents(sheet.model.hanging, sheet.state.velocities);

@@ -116,7 +116,8 @@ TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]
     int n_steps;
     double order;
   };
-  const Method method = GENERATE(Method{&steppers::newton, 50, 2}, Method{&steppers::rk4, 100, 4});
+  const Method method =
+      GENERATE(Method{&steppers::kNewton, 50, 2}, Method{&steppers::kRk4, 100, 4});
   std::vector<double> errors;
   for (const int refinement : {1, 2, 4}) {
     const int n_steps = refinement * method.n_steps;
@@ -139,7 +140,7 @@ TEST_CASE("steppers: midpoint is of second order and rk4 of fourth", "[dynamics]
 TEST_CASE("steppers: substeps are steps of their own length", "[dynamics]") {
   SmoothProblem problem;
   for (MethodOptions options : converged_methods(0.004)) {
-    if (options.stepper == &steppers::xpbd) continue;  // rounds to float32 between steps
+    if (options.stepper == &steppers::kXpbd) continue;  // rounds to float32 between steps
     CAPTURE(options.stepper->name);
     options.substeps = 4;
     State in_substeps = problem.start;

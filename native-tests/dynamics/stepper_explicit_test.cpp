@@ -16,7 +16,7 @@ namespace {
 
 MethodOptions explicit_method(double step, int substeps) {
   MethodOptions options;
-  options.stepper = &steppers::explicit_euler;
+  options.stepper = &steppers::kExplicitEuler;
   options.step = step;
   options.substeps = substeps;
   return options;
@@ -117,7 +117,7 @@ TEST_CASE("explicit: below the bound nothing grows on a membrane", "[dynamics]")
 TEST_CASE("explicit: hinges have no bound and are refused", "[dynamics]") {
   ClothModel model = model_of_everything(square_sheet(2), library_fabric("wool"));
   MethodOptions options = explicit_method(1e-5, 1);
-  options.stepper = GENERATE(&steppers::explicit_euler, &steppers::rk4);
+  options.stepper = GENERATE(&steppers::kExplicitEuler, &steppers::kRk4);
   CHECK_THROWS_AS(make_stepper(model, options), InputError);
 }
 

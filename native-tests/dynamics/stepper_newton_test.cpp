@@ -14,7 +14,7 @@ namespace {
 
 MethodOptions newton(NewtonRule rule, double step) {
   MethodOptions options;
-  options.stepper = &steppers::newton;
+  options.stepper = &steppers::kNewton;
   options.rule = rule;
   options.step = step;
   options.solver = SolverKind::eigen;
@@ -230,11 +230,11 @@ TEST_CASE("steppers: bending whose force jumps is refused by all but rk4", "[dyn
   ClothModel model = sheet_model(square_sheet(3), library_fabric("linen"));
   const auto law = GENERATE(ChordLaw::arc, ChordLaw::linear);
   model.chord_bends = {{VertexId(0), VertexId(2), 0.3, 1e-6, law}};
-  for (const StepperType* type :
-       {&steppers::implicit_euler, &steppers::explicit_euler, &steppers::newton, &steppers::rk4}) {
+  for (const StepperType* type : {&steppers::kImplicitEuler, &steppers::kExplicitEuler,
+                                  &steppers::kNewton, &steppers::kRk4}) {
     CAPTURE(type->name);
     const MethodOptions options = type->usual_method();
-    if (law == ChordLaw::arc && type != &steppers::rk4)
+    if (law == ChordLaw::arc && type != &steppers::kRk4)
       CHECK_THROWS_AS(make_stepper(model, options), InputError);
     else
       CHECK_NOTHROW(make_stepper(model, options));

@@ -17,7 +17,7 @@ constexpr double kStep = 0.01;  // [s]
 
 MethodOptions projective(int rounds) {
   MethodOptions options;
-  options.stepper = &steppers::projective;
+  options.stepper = &steppers::kProjective;
   options.step = kStep;
   options.solver = SolverKind::eigen;
   options.iterations = rounds;

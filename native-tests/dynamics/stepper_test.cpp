@@ -77,7 +77,7 @@ TEST_CASE("steppers: a flat sheet without weight stays where it is to rounding",
     const State start = rest_state(sheet());
     const State end = advanced(model, options, start, 60);
     // Lengths round: a spring's rest length is the square root of a sum. xpbd rounds to float32.
-    const double rounding = options.stepper == &steppers::xpbd ? 1e-4 : 1e-8;
+    const double rounding = options.stepper == &steppers::kXpbd ? 1e-4 : 1e-8;
     CHECK((end.positions - start.positions).cwiseAbs().maxCoeff() < rounding);
     CHECK(end.velocities.cwiseAbs().maxCoeff() < rounding);
   }
@@ -96,14 +96,14 @@ TEST_CASE("steppers: a sheet that hangs at rest stays so in any order of its spr
   State hanging = advanced(model, settle, rest_state(sheet()), 600);
   REQUIRE(hanging.velocities.cwiseAbs().maxCoeff() < 1e-9);
   for (MethodOptions options : everyday_methods()) {
-    if (options.stepper == &steppers::xpbd) continue;  // xpbd_test.cpp has its own
+    if (options.stepper == &steppers::kXpbd) continue;  // xpbd_test.cpp has its own
     CAPTURE(options.stepper->name);
     options.tolerance = 1e-10;
     // 10 s; explicit, which takes hundreds of substeps, 1 s.
-    const int n_steps = options.stepper == &steppers::explicit_euler ? 60 : 600;
+    const int n_steps = options.stepper == &steppers::kExplicitEuler ? 60 : 600;
     const State end = advanced(model, options, hanging, n_steps);
     // Ten rounds from where the sheet would fall in a step do not lift it all of the way back.
-    const double sag = options.stepper == &steppers::projective ? 5e-5 : 1e-7;  // [m]
+    const double sag = options.stepper == &steppers::kProjective ? 5e-5 : 1e-7;  // [m]
     CHECK((end.positions - hanging.positions).cwiseAbs().maxCoeff() < sag);
     CHECK(end.velocities.cwiseAbs().maxCoeff() < 1e-7);
     const State later = advanced(model, options, end, n_steps);
@@ -199,8 +199,8 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
   for (const MethodOptions& options : accurate_methods(1.0 / 240)) methods.push_back(options);
   for (MethodOptions options : methods) {
     CAPTURE(options.stepper->name);
-    if (options.stepper == &steppers::projective) options.solver = SolverKind::eigen;
-    if (options.stepper == &steppers::newton) {
+    if (options.stepper == &steppers::kProjective) options.solver = SolverKind::eigen;
+    if (options.stepper == &steppers::kNewton) {
       if (!is_available(SolverKind::cholmod)) continue;  // Eigen's factorisation allocates
       options.solver = SolverKind::cholmod;
     }
@@ -209,7 +209,8 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
       const std::vector<Pin> pins = model.pins;
       model = membrane_model(sheet(), library_fabric("fine cotton"));
       model.pins = pins;
-      if (options.stepper == &steppers::projective || options.stepper == &steppers::xpbd) continue;
+      if (options.stepper == &steppers::kProjective || options.stepper == &steppers::kXpbd)
+        continue;
     }
     if (with_air) model.air.emplace(sheet().triangles(), AirOptions{}, model.n_vertices());
     if (with_contact) {
@@ -217,7 +218,7 @@ TEST_CASE("steppers: nothing is allocated per step after the first", "[dynamics]
       model.contact.emplace(std::vector<Collider>{floor}, ContactOptions{});
     }
     // A factorisation that newton finds impossible, in crumpled cloth, is told in a message.
-    State state = options.stepper == &steppers::newton ? rest_state(sheet()) : tossed_state();
+    State state = options.stepper == &steppers::kNewton ? rest_state(sheet()) : tossed_state();
     const auto stepper = make_stepper(model, options);
     stepper->advance(state, 0);
     CHECK(allocations_in([&] {

@@ -118,7 +118,7 @@ TEST_CASE("air_drag: cloth falling flat keeps to the tanh law with every stepper
       const int n_steps = 600 << k;
       // The stiff springs stay at rest; only their stability bound asks for substeps.
       options.step = kDuration / n_steps;
-      options.substeps = options.stepper == &steppers::explicit_euler ? 4 : 1;
+      options.substeps = options.stepper == &steppers::kExplicitEuler ? 4 : 1;
       options.iterations = std::min(options.iterations, 5);
       State state = rest_state(mesh);
       const auto stepper = make_stepper(model, options);
@@ -127,7 +127,7 @@ TEST_CASE("air_drag: cloth falling flat keeps to the tanh law with every stepper
     }
     CAPTURE(options.stepper->name, errors[0], errors[1]);
     CHECK(errors[0] < 0.005 * std::abs(exact));
-    if (options.stepper != &steppers::xpbd) CHECK(errors[0] / errors[1] > 1.8);
+    if (options.stepper != &steppers::kXpbd) CHECK(errors[0] / errors[1] > 1.8);
   }
 }
 

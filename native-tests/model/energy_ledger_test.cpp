@@ -138,7 +138,7 @@ Account account(const Case& wanted, const StepperType* stepper, double step) {
 // and what the ledger misses does too. An impact falls anywhere in its step, so a few times more or
 // less than an eighth is one case of many.
 TEST_CASE("energy_ledger: the drift falls in proportion to the step", "[model]") {
-  const auto stepper = GENERATE(&steppers::explicit_euler, &steppers::implicit_euler);
+  const auto stepper = GENERATE(&steppers::kExplicitEuler, &steppers::kImplicitEuler);
   const Case wanted = cases()[GENERATE(range(std::size_t{0}, std::size_t{6}))];
   CAPTURE(wanted.name, stepper->name);
   const Account coarse = account(wanted, stepper, 1.0 / 1000);
@@ -151,7 +151,7 @@ TEST_CASE("energy_ledger: impact and friction take all of a sliding particle's e
   Case sliding = cases()[4];
   const double speed_squared = 2 * 2 + 0.5 * 0.5;
   sliding.duration = 2;  // friction alone stops it within v / (mu g) = 1.05 s of the impact
-  const Account found = account(sliding, &steppers::explicit_euler, 1.0 / 8000);
+  const Account found = account(sliding, &steppers::kExplicitEuler, 1.0 / 8000);
   CHECK(found.works.contact == Approx(-0.3 * (9.81 * 0.3 + speed_squared / 2)).epsilon(0.001));
   CHECK(found.works.damping == 0);
   CHECK(found.works.pins == 0);
@@ -159,11 +159,11 @@ TEST_CASE("energy_ledger: impact and friction take all of a sliding particle's e
 
 TEST_CASE("energy_ledger: a pin that does not move does no work", "[model]") {
   const Case chain = cases()[GENERATE(0, 1, 2)];
-  const Account found = account(chain, &steppers::implicit_euler, 1.0 / 1000);
+  const Account found = account(chain, &steppers::kImplicitEuler, 1.0 / 1000);
   CHECK(found.works.pins == 0);
 }
 
 TEST_CASE("energy_ledger: dampers and air only take energy", "[model]") {
-  CHECK(account(cases()[2], &steppers::implicit_euler, 1.0 / 1000).works.damping < 0);
-  CHECK(account(cases()[5], &steppers::implicit_euler, 1.0 / 1000).works.air < 0);
+  CHECK(account(cases()[2], &steppers::kImplicitEuler, 1.0 / 1000).works.damping < 0);
+  CHECK(account(cases()[5], &steppers::kImplicitEuler, 1.0 / 1000).works.air < 0);
 }

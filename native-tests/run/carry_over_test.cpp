@@ -44,7 +44,7 @@ Scene moving_scene(const std::string& name, const StepperType* stepper, int leve
   scene.level = level;
   scene.fabric = constants(fabric_library().find(fabric), scene.bend_source);
   scene.method = method(stepper);
-  if (stepper == &steppers::projective) scene.method.substeps = 4;  // less sluggish
+  if (stepper == &steppers::kProjective) scene.method.substeps = 4;  // less sluggish
   return scene;
 }
 
@@ -213,7 +213,8 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
                                {"tablecloth", 24, 1, "canvas", 2, "spandex"},
                                {"tablecloth", 24, 2, "wool", 1, "silk"},
                                {"tablecloth", 24, 0, "leather", 1, "chiffon"}}));
-  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective, &steppers::xpbd);
+  const auto stepper =
+      GENERATE(&steppers::kImplicitEuler, &steppers::kProjective, &steppers::kXpbd);
   CAPTURE(change.scene, change.old_level, change.old_fabric, change.new_level, change.new_fabric,
           stepper->name);
   Simulation old(moving_scene(change.scene, stepper, change.old_level, change.old_fabric));
@@ -233,7 +234,7 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
 }
 
 TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[run]") {
-  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective);
+  const auto stepper = GENERATE(&steppers::kImplicitEuler, &steppers::kProjective);
   Simulation old(moving_scene("tablecloth", stepper, 1, "silk"));
   for (int s = 0; s < 10; ++s) old.step();
   const Scene scene = moving_scene("tablecloth", stepper, 0, "leather");
@@ -253,7 +254,7 @@ TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[
 }
 
 TEST_CASE("carry_over: the same cloth at rest on a ball goes on resting", "[run]") {
-  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective);
+  const auto stepper = GENERATE(&steppers::kImplicitEuler, &steppers::kProjective);
   CAPTURE(stepper->name);
   const Scene scene = moving_scene("tablecloth", stepper, 0, "silk");
   Simulation old(scene);
@@ -267,7 +268,7 @@ TEST_CASE("carry_over: the same cloth at rest on a ball goes on resting", "[run]
 
 TEST_CASE("carry_over: drag keeps up with the weight through two changes", "[run]") {
   const auto at = [](const char* fabric) {
-    return moving_scene("curtain", &steppers::implicit_euler, 0, fabric);
+    return moving_scene("curtain", &steppers::kImplicitEuler, 0, fabric);
   };
   Simulation silk(at("silk"));
   for (int s = 0; s < 10; ++s) silk.step();
@@ -284,9 +285,9 @@ TEST_CASE("carry_over: drag keeps up with the weight through two changes", "[run
 }
 
 TEST_CASE("carry_over: a reset on the way is the scene from its beginning, to the bit", "[run]") {
-  Simulation old(moving_scene("tablecloth", &steppers::implicit_euler, 1, "silk"));
+  Simulation old(moving_scene("tablecloth", &steppers::kImplicitEuler, 1, "silk"));
   for (int s = 0; s < 30; ++s) old.step();
-  const Scene scene = moving_scene("tablecloth", &steppers::implicit_euler, 0, "leather");
+  const Scene scene = moving_scene("tablecloth", &steppers::kImplicitEuler, 0, "leather");
   Simulation changed(scene);
   changed.carry_over(old);
   for (int s = 0; s < 10; ++s) changed.step();

@@ -27,7 +27,7 @@ Scene falling_scene(double step) {
   cloth.velocities = Positions::Zero(3, 1);
   cloth.masses = Eigen::VectorXd::Ones(1);
   scene.cloth = cloth;
-  scene.method.stepper = &steppers::explicit_euler;
+  scene.method.stepper = &steppers::kExplicitEuler;
   scene.method.step = step;
   return scene;
 }

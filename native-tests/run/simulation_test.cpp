@@ -59,14 +59,14 @@ TEST_CASE("simulation: an edge keeps its motion where it shares a corner with on
 TEST_CASE("simulation: every stepper lets a free sheet fall by the sum of its steps", "[run]") {
   // All four add g h to the velocity and then h v to the position: after n substeps of h the sheet
   // is g h^2 n (n + 1) / 2 lower, and nothing stretches.
-  const auto stepper = GENERATE(&steppers::explicit_euler, &steppers::implicit_euler,
-                                &steppers::projective, &steppers::xpbd);
+  const auto stepper = GENERATE(&steppers::kExplicitEuler, &steppers::kImplicitEuler,
+                                &steppers::kProjective, &steppers::kXpbd);
   CAPTURE(stepper->name);
   Scene scene = coarse_scene("falling_sheet");
   scene.method.stepper = stepper;
-  scene.method.substeps = stepper == &steppers::explicit_euler ? 0 : 2;
+  scene.method.substeps = stepper == &steppers::kExplicitEuler ? 0 : 2;
   Simulation simulation(scene);
-  const int n_steps = stepper == &steppers::explicit_euler ? 3 : 30;
+  const int n_steps = stepper == &steppers::kExplicitEuler ? 3 : 30;
   run(simulation, n_steps);
   const double h = scene.method.step / simulation.substeps();
   const double n = static_cast<double>(n_steps) * simulation.substeps();
@@ -74,7 +74,7 @@ TEST_CASE("simulation: every stepper lets a free sheet fall by the sum of its st
       simulation.rest_positions().colwise() - Vec3(0, kGravity * h * h * n * (n + 1) / 2, 0);
   // Rounding of the lengths times the springs' stiffness pushes light vertices about; xpbd holds
   // its positions as 32-bit floats, of 7 digits.
-  const double tolerance = stepper == &steppers::xpbd ? 1e-4 : 1e-7;
+  const double tolerance = stepper == &steppers::kXpbd ? 1e-4 : 1e-7;
   CHECK((simulation.state().positions - fallen).cwiseAbs().maxCoeff() < tolerance);
 }
 
@@ -117,7 +117,8 @@ TEST_CASE("simulation: the spring pendulum follows the cosine", "[run]") {
 
 TEST_CASE("simulation: the same scene gives the same bits, and so does a reset", "[run]") {
   const char* name = GENERATE("curtain", "tablecloth", "corners_meet");
-  const auto stepper = GENERATE(&steppers::implicit_euler, &steppers::projective, &steppers::xpbd);
+  const auto stepper =
+      GENERATE(&steppers::kImplicitEuler, &steppers::kProjective, &steppers::kXpbd);
   CAPTURE(name, stepper->name);
   Scene scene = coarse_scene(name);
   scene.method.stepper = stepper;

@@ -82,13 +82,13 @@ TEST_CASE("swinging sheet: every stepper stays as near to the chain as it is kno
     int substeps, iterations;
     double half, one;  // measured RMS distances at 0.5 s and 1 s [m]
   };
-  const auto known = GENERATE(values<Known>({{&steppers::explicit_euler, 0, 1, 0.00055, 0.00026},
-                                             {&steppers::implicit_euler, 1, 1, 0.289, 0.593},
-                                             {&steppers::implicit_euler, 16, 1, 0.0240, 0.1072},
-                                             {&steppers::projective, 1, 10, 0.535, 0.741},
-                                             {&steppers::projective, 16, 10, 0.0465, 0.0673},
-                                             {&steppers::xpbd, 30, 1, 0.0020, 0.0120},
-                                             {&steppers::xpbd, 100, 1, 0.0010, 0.0039}}));
+  const auto known = GENERATE(values<Known>({{&steppers::kExplicitEuler, 0, 1, 0.00055, 0.00026},
+                                             {&steppers::kImplicitEuler, 1, 1, 0.289, 0.593},
+                                             {&steppers::kImplicitEuler, 16, 1, 0.0240, 0.1072},
+                                             {&steppers::kProjective, 1, 10, 0.535, 0.741},
+                                             {&steppers::kProjective, 16, 10, 0.0465, 0.0673},
+                                             {&steppers::kXpbd, 30, 1, 0.0020, 0.0120},
+                                             {&steppers::kXpbd, 100, 1, 0.0010, 0.0039}}));
   MethodOptions method;
   method.stepper = known.stepper;
   method.substeps = known.substeps;

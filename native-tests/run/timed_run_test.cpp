@@ -24,7 +24,7 @@ Scene lost_scene() {
   particle.positions = particle.velocities = Positions::Zero(3, 1);
   particle.masses = Eigen::VectorXd::Ones(1);
   scene.cloth = particle;
-  scene.method.stepper = &steppers::explicit_euler;
+  scene.method.stepper = &steppers::kExplicitEuler;
   scene.method.step = 100;
   scene.gravity = Vec3(0, 1e308, 0);
   return scene;

@@ -398,7 +398,7 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.colliders[0].friction == 0.7);
   CHECK(std::get<Sphere>(scene.colliders[1].shape).radius == 0.1);
   CHECK(scene.colliders[1].motion.frequency == 2);
-  CHECK(scene.method.stepper == &steppers::explicit_euler);
+  CHECK(scene.method.stepper == &steppers::kExplicitEuler);
   CHECK(scene.method.step == 0.003);
   CHECK(scene.method.substeps == 0);
   CHECK(scene.duration == 1.7);

@@ -119,34 +119,34 @@ SparseMatrix damping_matrix(const ClothModel& model, const Eigen::Ref<const Posi
 }
 
 std::vector<MethodOptions> converged_methods(double step) {
-  MethodOptions explicit_method = method(&steppers::explicit_euler, step);
-  MethodOptions projective = method(&steppers::projective, step);
+  MethodOptions explicit_method = method(&steppers::kExplicitEuler, step);
+  MethodOptions projective = method(&steppers::kProjective, step);
   projective.iterations = 300;
-  MethodOptions xpbd = method(&steppers::xpbd, step);
+  MethodOptions xpbd = method(&steppers::kXpbd, step);
   xpbd.iterations = 100;
-  MethodOptions newton = method(&steppers::newton, step);
+  MethodOptions newton = method(&steppers::kNewton, step);
   newton.rule = NewtonRule::backward_euler;
   newton.tolerance = kNewtonTolerance;
-  return {explicit_method, method(&steppers::implicit_euler, step), projective, xpbd, newton};
+  return {explicit_method, method(&steppers::kImplicitEuler, step), projective, xpbd, newton};
 }
 
 std::vector<MethodOptions> everyday_methods() {
-  MethodOptions explicit_method = method(&steppers::explicit_euler, 1.0 / 60);
+  MethodOptions explicit_method = method(&steppers::kExplicitEuler, 1.0 / 60);
   explicit_method.substeps = 0;
-  MethodOptions implicit = method(&steppers::implicit_euler, 1.0 / 60);
+  MethodOptions implicit = method(&steppers::kImplicitEuler, 1.0 / 60);
   implicit.solver = SolverKind::cg;
-  MethodOptions projective = method(&steppers::projective, 1.0 / 60);
+  MethodOptions projective = method(&steppers::kProjective, 1.0 / 60);
   projective.iterations = 10;
-  MethodOptions xpbd = method(&steppers::xpbd, 1.0 / 60);
+  MethodOptions xpbd = method(&steppers::kXpbd, 1.0 / 60);
   xpbd.substeps = 30;
   return {explicit_method, implicit, projective, xpbd};
 }
 
 std::vector<MethodOptions> accurate_methods(double step) {
-  MethodOptions newton = method(&steppers::newton, step);
+  MethodOptions newton = method(&steppers::kNewton, step);
   newton.rule = NewtonRule::midpoint;
   newton.tolerance = kNewtonTolerance;
-  MethodOptions rk4 = method(&steppers::rk4, step);
+  MethodOptions rk4 = method(&steppers::kRk4, step);
   rk4.substeps = 0;
   return {newton, rk4};
 }

@@ -15,7 +15,7 @@ namespace {
 
 MethodOptions xpbd_options(int substeps, int iterations = 1) {
   MethodOptions options;
-  options.stepper = &steppers::xpbd;
+  options.stepper = &steppers::kXpbd;
   options.substeps = substeps;
   options.iterations = iterations;
   return options;
