@@ -1,7 +1,7 @@
 // What a sweep's errors are made of, and what refinement buys, in words.
 import { digits } from '../../shared/panels/quantity';
 import type { BenchRow } from '../bindings/sweep-module';
-import { hasFinished } from '../state/sweep-plan';
+import { hasFinished, REFERENCE_LEVEL } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
 import { meshText } from './speed-error-table';
 
@@ -9,9 +9,8 @@ const OWN_MESH =
   'is what a method does wrong on its own mesh. What the mesh does wrong is not in it, and not known here:';
 
 const WHAT_ERRORS_ARE: Record<MeshError, string> = {
-  known:
-    'is the distance from the exact motion on a much finer mesh: the method and its mesh both have their share. A line marks what each level’s mesh does wrong alone; a method gets below it by luck at most.',
-  unshipped: `${OWN_MESH} the finer motion to compare with comes with the swinging sheet as it is. Others take from minutes to hours, and cloth that folds finds other folds on every mesh.`,
+  known: `is the distance from the exact motion on the finer mesh of level ${REFERENCE_LEVEL}: the method and its mesh both have their share. A line marks what each level’s mesh does wrong alone; a method gets below it by luck at most.`,
+  unshipped: `${OWN_MESH} the finer motion to compare with comes with the swinging sheet as it is, of springs. Others take from minutes to hours, and cloth that folds finds other folds on every mesh.`,
   unfetched: `${OWN_MESH} the finer motion to compare with could not be fetched. Check the connection.`,
 };
 

@@ -57,7 +57,7 @@ export interface SweepPlan {
 export type ReferenceKind = 'converged' | 'same_mesh';
 
 /** Level of the finer mesh: runs on it are shipped, since they take from minutes to hours. */
-const REFERENCE_LEVEL = 3;
+export const REFERENCE_LEVEL = 3;
 
 /** The finest level of whose own mesh the exact motion is shipped, of a preset as it is. */
 export const FINEST_SHIPPED: Partial<Record<PresetId, number>> = {
