@@ -130,14 +130,21 @@ void StepperXpbd::predict() {
   }
 }
 
+// What holds is placed once a step, and goes on as it is: a move that is all rounded off.
 void StepperXpbd::place_pins(double time_end, double h) {
+  const bool is_first = substeps_left_ == substeps();
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     const Pin& pin = model_.pins[p];
+    const bool holds = pin.motion.kind == Motion::Kind::hold;
+    if (holds && !is_first) continue;
     const Vec3 place = pin.position(time_end);
     const int slot = slot_of(pin.vertex);
-    for (int k = 0; k < 3; ++k)
-      array(move + k)[slot] = static_cast<float>(place[k] - origin_[k] - array(begin + k)[slot]);
-    if (substeps_left_ == 1)
+    for (int k = 0; k < 3; ++k) {
+      const auto to_place = static_cast<float>(place[k] - origin_[k] - array(begin + k)[slot]);
+      array(move + k)[slot] = to_place;
+      if (holds) array(rounded_off + k)[slot] = to_place;
+    }
+    if (!holds && substeps_left_ == 1)
       pin_velocities_.col(static_cast<Eigen::Index>(p)) = (place - pin.position(time_end - h)) / h;
   }
 }
