@@ -111,21 +111,25 @@ void StepperXpbd::load(const State& state) {
 // rounded_off' is exactly what the rounding took away, and goes into the next move.
 void StepperXpbd::predict() {
   const float* const inverse_masses = array(inverse_mass);
-  for (int k = 0; k < 3; ++k) {
-    float* const begins = array(begin + k);
-    float* const moves = array(move + k);
-    float* const remainders = array(rounded_off + k);
-    const Float4 fall = Float4::all(fall_[static_cast<std::size_t>(k)]);
-    for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
-      const Float4 from = Float4::load(begins + slot);
-      const Float4 moved = Float4::load(moves + slot);
-      const Float4 goes_on = moved - Float4::load(remainders + slot) +
-                             where_positive(Float4::load(inverse_masses + slot), fall);
+  float* const first = array(begin);
+  const std::size_t pitch = pitch_;
+  const std::array<float, 3> fall = fall_;
+  const int n_slots = layout_.n_slots;
+  for (int slot = 0; slot < n_slots; slot += Float4::kLanes) {
+    const Float4 w = Float4::load(inverse_masses + slot);
+    for (std::size_t k = 0; k < 3; ++k) {
+      float* const begins = first + k * pitch + slot;
+      float* const moves = begins + move * pitch;
+      float* const remainders = begins + rounded_off * pitch;
+      const Float4 from = Float4::load(begins);
+      const Float4 moved = Float4::load(moves);
+      const Float4 goes_on =
+          moved - Float4::load(remainders) + where_positive(w, Float4::all(fall[k]));
       const Float4 to = from + moved;
       const Float4 remainder = moved - (to - from);
-      to.store(begins + slot);
-      remainder.store(remainders + slot);
-      (remainder + goes_on).store(moves + slot);
+      to.store(begins);
+      remainder.store(remainders);
+      (remainder + goes_on).store(moves);
     }
   }
 }
