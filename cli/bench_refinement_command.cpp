@@ -195,6 +195,7 @@ Outcome bench_together(Arguments arguments) {
   options.begin = begin.value_or(first.duration / 2);
   options.settled = settled_time(first);
   std::vector<Contestant> contestants;
+  contestants.reserve(inputs.size() + 1);
   for (const SceneInput& input : inputs) contestants.push_back({input.scene, {}});
   if (split_curvature)
     contestants.push_back({first, DynamicOptions{*split_curvature, first.level}});
