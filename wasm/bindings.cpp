@@ -215,9 +215,7 @@ class Simulation {
   void move_grab(double x, double y, double z) {
     if (run_.is_loaded() && running().is_grabbed()) running().move_grab({x, y, z});
   }
-  void release_grab() {
-    if (run_.is_loaded()) running().release_grab();
-  }
+  void release_grab() { run_.release_grab(); }
 
   val positions() const { return view_of(positions_); }
   val triangles() const { return view_of(triangles_); }

@@ -29,6 +29,12 @@ void PageRun::start_from(const Positions& places) {
   begin();
 }
 
+void PageRun::release_grab() {
+  if (!is_loaded() || !running().is_grabbed()) return;
+  running().release_grab();
+  watch_.emplace(running());
+}
+
 Simulation& PageRun::running() const {
   if (!simulation_) throw InputError("", "expected a loaded scene, got none");
   return *simulation_;
@@ -39,7 +45,7 @@ int PageRun::step(int n, const std::function<void()>& show) {
     running();
     for (int i = 0; i < n && !report_.ends_run(); ++i) {
       report_ = steps_->step();
-      if (!report_.ends_run()) watch_->look(running(), report_);
+      if (!report_.ends_run() && !running().is_grabbed()) watch_->look(running(), report_);
     }
     show();
   } catch (const std::exception& error) {

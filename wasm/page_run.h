@@ -23,6 +23,10 @@ class PageRun {
   /// The same from these places (Simulation::start_from).
   void start_from(const Positions& places);
 
+  /// Lets go of the grabbed vertex. What a hand does is no fault of the run: it is watched from now
+  /// on anew.
+  void release_grab();
+
   bool is_loaded() const { return simulation_ != nullptr; }
   /// Throws InputError when nothing is loaded.
   Simulation& running() const;

@@ -49,7 +49,7 @@ SolveReport LinearSolver::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
               "right-hand sides and solution must have the same size");
   if (auto report = report_not_finite(rhs, "right-hand side")) return *report;
   if (rhs.size() == 0) return {};
-  return do_solve(rhs, std::move(solution));
+  return do_solve(rhs, solution);
 }
 
 const char* name(SolverKind kind) {

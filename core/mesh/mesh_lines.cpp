@@ -192,6 +192,7 @@ std::vector<LineChord> line_chords(const QuadMesh& mesh, const ThreadEdges& edge
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.first_edge < b.first_edge; });
   std::vector<LineChord> chords;
+  chords.reserve(ranked.size());
   for (const Ranked& entry : ranked) chords.push_back(entry.chord);
   return chords;
 }

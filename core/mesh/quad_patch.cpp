@@ -92,6 +92,7 @@ std::vector<bool> chess_board(const QuadPatch& patch) {
     }
   }
   std::vector<bool> white;
+  white.reserve(colours.size());
   for (const Colour colour : colours) white.push_back(colour == Colour::white);
   return white;
 }

@@ -224,7 +224,9 @@ RunWatch::RunWatch(const Simulation& simulation) {
   const double pull = stiffness > 0 ? kRoomForMotion * weight / stiffness : 0;
   load_stretch_ =
       is_surface ? std::clamp(pull, kLeastStretch, kMostStretch) : std::max(pull, kLeastStretch);
+  // Cloth that starts as the wreck of another run does not explain more wreck.
   start_stretch_ = stretch(simulation.gauge(), state.positions).largest;
+  if (is_surface) start_stretch_ = std::min(start_stretch_, kMostStretch);
   start_height_ = height(up_of(model), state.positions, true);
   const double mass = model.masses.sum();
   const double stored = elastic_energy(model, state.positions);

@@ -280,13 +280,29 @@ BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers) {
   return row;
 }
 
-std::vector<std::size_t> front_of(std::span<const BenchRow> rows) {
-  std::vector<CostAndError> points;
+std::vector<std::vector<std::size_t>> fronts_of(std::span<const BenchRow> rows) {
+  constexpr CostAndError kNowhere{BenchRow::kUnknown, BenchRow::kUnknown};
+  std::vector<std::string> references;
   for (const BenchRow& row : rows)
-    points.push_back(row.finished() && row.is_plausible()
-                         ? CostAndError{row.ms_per_frame, row.position_error}
-                         : CostAndError{BenchRow::kUnknown, BenchRow::kUnknown});
-  return pareto_front(points);
+    if (std::find(references.begin(), references.end(), row.reference.id) == references.end())
+      references.push_back(row.reference.id);
+  std::vector<std::vector<std::size_t>> fronts;
+  for (const std::string& reference : references) {
+    std::vector<CostAndError> points;
+    for (const BenchRow& row : rows) {
+      const bool takes_part = row.reference.id == reference && row.finished() && row.is_plausible();
+      points.push_back(takes_part ? CostAndError{row.ms_per_frame, row.position_error} : kNowhere);
+    }
+    fronts.push_back(pareto_front(points));
+  }
+  return fronts;
+}
+
+std::vector<std::size_t> front_of(std::span<const BenchRow> rows) {
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& front : fronts_of(rows))
+    all.insert(all.end(), front.begin(), front.end());
+  return all;
 }
 
 std::string setting_phrase(const BenchRow& row) {

@@ -85,8 +85,12 @@ Json json_bench_row(const BenchRow& row);
 /// Throws InputError with the JSON pointer; a row without a reference id is refused.
 BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers = standard_steppers());
 
-/// Indices of the rows on the front of milliseconds and position error, from cheap to dear. One
-/// that ended early or shows nonsense is not among them.
+/// Indices of the rows on a front of milliseconds and position error, from cheap to dear. Errors
+/// against different references are not comparable: each has a front of its own. A row that ended
+/// early or shows nonsense is on none.
+std::vector<std::vector<std::size_t>> fronts_of(std::span<const BenchRow> rows);
+
+/// The same in one list, a front behind the other.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
 
 /// A row's setting for people: method, level, and what else it changes.

@@ -189,26 +189,31 @@ std::string legend(std::span<const BenchRow> rows) {
   return text + text_at(x + 28, kY + 4, "", "front") + "</g>\n";
 }
 
-/// Indices of the rows on the front that have a place.
-std::vector<std::size_t> shown_front(std::span<const BenchRow> rows) {
-  std::vector<std::size_t> front;
-  for (const std::size_t i : front_of(rows))
-    if (place_of(rows[i])) front.push_back(i);
-  return front;
+/// Indices of the rows on a front that have a place.
+std::vector<std::size_t> shown(std::span<const BenchRow> rows,
+                               const std::vector<std::size_t>& front) {
+  std::vector<std::size_t> shown;
+  for (const std::size_t i : front)
+    if (place_of(rows[i])) shown.push_back(i);
+  return shown;
 }
 
-std::string front_line(std::span<const BenchRow> rows, const Axis& across, const Axis& up) {
-  std::string points;
-  for (const std::size_t i : shown_front(rows)) {
-    const Place place = *place_of(rows[i]);
-    if (!points.empty()) points += ' ';
-    points += formatted("%.2f,%.2f", across.place(place.ms), up.place(place.error));
+std::string front_lines(std::span<const BenchRow> rows, const Axis& across, const Axis& up) {
+  std::string lines;
+  for (const std::vector<std::size_t>& front : fronts_of(rows)) {
+    std::string points;
+    for (const std::size_t i : shown(rows, front)) {
+      const Place place = *place_of(rows[i]);
+      if (!points.empty()) points += ' ';
+      points += formatted("%.2f,%.2f", across.place(place.ms), up.place(place.error));
+    }
+    if (!points.empty()) lines += dashed_line(points, " class=\"front\"");
   }
-  return points.empty() ? "" : dashed_line(points, " class=\"front\"");
+  return lines;
 }
 
 std::string marks(std::span<const BenchRow> rows, const Axis& across, const Axis& up) {
-  const std::vector<std::size_t> front = shown_front(rows);
+  const std::vector<std::size_t> front = shown(rows, front_of(rows));
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto place = place_of(rows[i]);
@@ -287,7 +292,7 @@ std::string front_figure(std::span<const BenchRow> rows) {
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   svg += text_at(kLeft, 30, " font-size=\"18\" fill=\"#111\"", title);
   svg += legend(rows) + grid(across, up) + axis_titles();
-  svg += front_line(rows, across, up) + marks(rows, across, up);
+  svg += front_lines(rows, across, up) + marks(rows, across, up);
   svg += "<g font-size=\"12\" fill=\"#333\">\n";
   for (std::size_t n = 0; n < lines.size(); ++n)
     svg += text_at(kLeft, kNotesTop + kLine * static_cast<double>(n), "",

@@ -126,6 +126,15 @@ TEST_CASE("run_watch: pins that pull cloth apart explain its stretch", "[run]") 
   CHECK(warnings_of(scene, 0.5).empty());
 }
 
+TEST_CASE("run_watch: a wreck that goes on with better settings is told as one", "[run]") {
+  Simulation simulation(changed("swinging_sheet", {{"/refinement/level", 0}}));
+  simulation.start_from(30 * simulation.state().positions);
+  RunWatch watch(simulation);
+  watch.look(simulation, simulation.step());
+  REQUIRE_FALSE(watch.warnings().empty());
+  CHECK(watch.warnings().front().kind == RunWarning::Kind::stretch);
+}
+
 TEST_CASE("run_watch: cloth that is thrown is fast from the start", "[run]") {
   const Scene thrown =
       changed("falling_sheet",

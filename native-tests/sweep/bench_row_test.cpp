@@ -101,6 +101,21 @@ TEST_CASE("bench_row: milliseconds per second are sixty frames", "[sweep]") {
   CHECK(json.at("ms_per_simulated_second").get<double>() == Approx(60 * 6.2));
 }
 
+TEST_CASE("bench_row: rows against different references are on fronts of their own", "[sweep]") {
+  std::vector<BenchRow> rows(4, measured_row());
+  rows[0].ms_per_frame = 1;
+  rows[1].ms_per_frame = 2;
+  rows[2].ms_per_frame = 3;
+  rows[3].ms_per_frame = 4;
+  for (const std::size_t i : {0, 1}) rows[i].position_error = 1e-3;
+  for (const std::size_t i : {2, 3}) {
+    rows[i].reference.id = "another";
+    rows[i].position_error = 1e-2;
+  }
+  CHECK(fronts_of(rows) == std::vector<std::vector<std::size_t>>{{0}, {2}});
+  CHECK(front_of(rows) == std::vector<std::size_t>{0, 2});
+}
+
 TEST_CASE("bench_row: failed rows are on no front", "[sweep]") {
   std::vector<BenchRow> rows(3, measured_row());
   rows[0].ms_per_frame = 1;

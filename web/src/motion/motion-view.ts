@@ -99,21 +99,35 @@ function createPicture(
   }
 }
 
-/** Chart and table come when the first sweep is asked for; whoever asks again tries again. */
-function createSweepTray(parent: HTMLElement, store: Store<MotionState>, run: MotionRun): void {
-  let isAsked = false;
-  watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
-    if (!sweepOpen || isAsked) return;
-    isAsked = true;
+/**
+ * Chart and table come when the first sweep is asked for; whoever asks again tries again. Returns what
+ * opens them and brings them into view.
+ */
+function createSweepTray(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  run: MotionRun,
+): () => void {
+  let made: Promise<void> | null = null;
+  async function make(): Promise<void> {
     try {
       const { createSpeedErrorView } = await import('./panels/speed-error-view');
       createSpeedErrorView(parent, store, run);
     } catch {
-      isAsked = false;
+      made = null;
       const sentence = 'The chart of the sweep could not be fetched. Try again with a network.';
       store.set({ sweepOpen: false, problem: { source: 'link', sentence } });
     }
+  }
+  watch(store, ['sweepOpen'], ({ sweepOpen }) => {
+    if (sweepOpen) made ??= make();
   });
+  return async () => {
+    store.set({ sweepOpen: true });
+    await made;
+    const isCalm = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    parent.scrollIntoView({ block: 'start', behavior: isCalm ? 'instant' : 'smooth' });
+  };
 }
 
 function createPanels(
@@ -129,7 +143,7 @@ function createPanels(
     reset: () => run.reset(),
     homeView,
   };
-  createProblemBanner(place('messages'), store, actions);
+  createProblemBanner(place('messages'), store, run);
   createCaption(place('messages'), store);
   createAnnouncer(place('messages'), store, motionSentence);
   createWorkBar(place('stage'), store, run);
@@ -140,9 +154,9 @@ function createPanels(
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store);
   createDrawingPanel(place('panel'), store);
-  createSweepPanel(place('panel'), store, createSweep(store));
+  const showChart = createSweepTray(place('tray'), store, run);
+  createSweepPanel(place('panel'), store, createSweep(store), showChart);
   createKeysPanel(place('panel'));
-  createSweepTray(place('tray'), store, run);
 }
 
 /** Has the picture follow what the state says of it. */

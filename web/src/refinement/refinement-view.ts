@@ -166,7 +166,7 @@ function createBoxes(root: HTMLElement) {
   const panel = element('aside', { class: 'panel', 'aria-label': 'Refinement' });
   const canvas = createStageCanvas(
     pictureBox,
-    'A walking figure in a garment, three times. Space plays, arrows turn the view, a press on a face tells why it is so fine.',
+    'A walking figure in a garment, once on each mesh. Space plays, arrows turn the view, a press on a face tells why it is so fine.',
   );
   const left = element('div', { class: 'left' }, messages, stageBox, legendBox, toolBox);
   root.replaceChildren(left, panel);

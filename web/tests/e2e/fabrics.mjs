@@ -238,6 +238,10 @@ export async function checkFabrics(harness) {
       await choice(page, 'Order').selectOption('Stiffest to bend first');
       const first = await list.getByRole('row').first().textContent();
       expectThat(/^wool.*45 µN·m/.test(first), `the first is ${first}`);
+      expectThat(
+        /do not say which of two/.test(await note.textContent()),
+        'in another order weights are unexplained',
+      );
       await button(page, 'All fifteen at once').click();
       await until(page, (state) => state.panes.length === 15);
       await isFound(page);

@@ -329,6 +329,28 @@ async function checkRefused({ check, open }) {
     },
   );
 
+  await check('a run that explodes says so and why, and starts again with what helps', async () => {
+    const { page, close } = await open('#scene=tablecloth&level=2&stepper=xpbd&substeps=1');
+    await isReady(page);
+    await button(page, 'Play').click();
+    const { problem, numbers } = await until(page, (state) => state.problem !== null);
+    expectThat(
+      /^The run has exploded\..* its weight explains \d+ %\. Its steps are too/.test(
+        problem.sentence,
+      ),
+      problem.sentence,
+    );
+    await button(page, 'Start again with 4 substeps').click();
+    const anew = await until(
+      page,
+      ({ phase, setting, numbers: now }) =>
+        phase === 'ready' && setting.substeps === 4 && now.step > 0,
+    );
+    expectThat(anew.playing, 'it stands still');
+    expectThat(anew.numbers.time_s < numbers.time_s + 0.3, `from ${anew.numbers.time_s} s on`);
+    await close();
+  });
+
   await check('no invitation where there is no picture', async () => {
     const { page, close } = await open('#scene=curtain&level=0', {
       prepare: (fresh) =>

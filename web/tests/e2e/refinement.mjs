@@ -126,6 +126,14 @@ export async function checkRefinement(harness) {
     }),
   );
 
+  await check('refinement: a link leads to the sheet whose error is known at each level', () =>
+    visit('#view=refinement', async (page) => {
+      await page.getByRole('link', { name: 'the swinging sheet' }).click();
+      await until(page, (state) => state.setting?.preset === 'swinging-sheet');
+      expectThat(await button(page, 'Measure speed and error').isVisible(), 'nothing to press');
+    }),
+  );
+
   await check('refinement: each colour has a legend with its unit', () =>
     visit('#view=refinement', async (page) => {
       const legend = page.locator('.garment-legend');
@@ -323,6 +331,29 @@ export async function checkRefinement(harness) {
             return Math.max(...badges) > edge('#refinement canvas', 'top')[0];
           });
           expectThat(!isOnPicture, 'a badge lies on the picture');
+        },
+        { width, height },
+      ),
+    );
+  }
+
+  for (const [width, height] of [
+    [720, 450],
+    [390, 844],
+    [1440, 900],
+  ]) {
+    await check(`refinement: no name of a garment or a fabric is cut at ${width} px`, () =>
+      visit(
+        '#view=refinement',
+        async (page) => {
+          for (const name of ['Garment', 'Fabric']) {
+            const [shown, whole] = await choice(page, name).evaluate((control) => {
+              const { offsetWidth } = control;
+              control.style.width = 'max-content';
+              return [offsetWidth, control.offsetWidth];
+            });
+            expectThat(shown >= whole, `${name} has ${shown} px of ${whole}`);
+          }
         },
         { width, height },
       ),

@@ -481,9 +481,15 @@ await check('the sweep fills chart and table, and a click on a point runs it to 
       .locator('.table-box')
       .evaluate((box) => box.scrollWidth - box.clientWidth);
     expectThat(cut <= 0, `the table is cut by ${cut} px`);
-    const corners = await page.locator('.front').getAttribute('points');
-    expectThat(corners.split(' ').length >= 2, 'the front is no line');
-    const caption = await page.locator('figcaption').textContent();
+    const fronts = await page
+      .locator('polyline.front')
+      .evaluateAll((lines) => lines.map((line) => line.getAttribute('points')));
+    expectThat(
+      fronts.some((corners) => corners.split(' ').length >= 2),
+      'no front is a line',
+    );
+    const caption = await page.locator('#tray').textContent();
+    expectThat(/Method’s error \[mm\]/.test(caption), 'the axis does not say whose error it is');
     expectThat(/not known here/.test(caption), 'nothing is said of the mesh');
     expectThat((await page.locator('.floor').count()) === 0, 'a mesh has an error all the same');
     const point = page.locator('[data-stepper="xpbd"]').first();
@@ -507,11 +513,46 @@ await check('a sweep of the swinging sheet as it is tells what its mesh does wro
     const { sweep } = await stateOf(page);
     expectThat(sweep.meshError === 'known', `it is ${sweep.meshError}`);
     expectThat((await page.locator('.floor').count()) >= 1, 'no mesh has a line');
-    const caption = await page.locator('figcaption').textContent();
-    expectThat(/mesh does wrong: .* level 0, .* level 1/.test(caption), `it says: ${caption}`);
+    const answer = await page.locator('#tray h2').textContent();
+    expectThat(
+      /^One level finer: .* falls from .* level 0 to .* level 1/.test(answer),
+      `it says: ${answer}`,
+    );
     await expectAccessible(page);
   }),
 );
+
+for (const [width, height] of [
+  [720, 450],
+  [390, 844],
+]) {
+  await check(`in ${width} by ${height}, a sweep brings its chart whole into view`, () =>
+    visit(
+      '#scene=swinging-sheet&level=0',
+      async (page) => {
+        const plot = page.locator('#tray .plot');
+        const isInView = async () =>
+          plot.evaluate((drawing) => {
+            const { top, bottom } = drawing.getBoundingClientRect();
+            const column = drawing.closest('.left').getBoundingClientRect();
+            return top >= Math.max(column.top, 0) && bottom <= window.innerHeight;
+          });
+        await button(page, 'Measure speed and error').click();
+        await until(page, (state) => state.sweep.phase === 'done', SWEEP_MS);
+        await eventually(isInView, 'the chart is in view', 2000);
+        const table = await page.locator('#tray .table-box').boundingBox();
+        expectThat(table.height > 100, `the table is ${table.height} px high`);
+        const isWide = (box) => box.scrollWidth > box.clientWidth;
+        expectThat(!(await page.locator('html').evaluate(isWide)), 'the page scrolls sideways');
+        expectThat(!(await page.locator('#tray .table-box').evaluate(isWide)), 'the table is cut');
+        await page.getByText(/settings measured/).waitFor();
+        await button(page, 'Show the chart').click();
+        await eventually(isInView, 'the chart is in view again', 2000);
+      },
+      { width, height },
+    ),
+  );
+}
 
 await check(
   'without its references a sweep computes its own, and says what is missing',
@@ -523,7 +564,7 @@ await check(
     await isReady(page);
     await button(page, 'Measure speed and error').click();
     await until(page, (state) => state.sweep.rows.length >= 2, SWEEP_MS);
-    const caption = await page.locator('figcaption').textContent();
+    const caption = await page.locator('#tray').textContent();
     expectThat(/could not be fetched/.test(caption), `it says: ${caption}`);
     await close();
   },

@@ -1,10 +1,11 @@
 import { describe, expect, it } from 'vitest';
 import { stiffnessSentence } from '../../src/fabrics/panels/fabric-card';
 import { markedQuantity, orderNote } from '../../src/fabrics/panels/fabric-gallery';
+import { paneNumber } from '../../src/fabrics/panels/pane-badges';
 import { ORDERS, orderedFabrics, quantityOf } from '../../src/fabrics/state/fabric-order';
 import { decodeFabricsLink } from '../../src/fabrics/state/fabrics-link';
 import { initialFabricsState } from '../../src/fabrics/state/fabrics-state';
-import { fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
+import { confidenceMeaning, fabricNamed, fabrics } from '../../src/shared/fabric/fabric-data';
 
 const names = (order: (typeof ORDERS)[number]) => orderedFabrics(order).map((one) => one.name_en);
 
@@ -30,10 +31,27 @@ describe('order of fabrics', () => {
     expect(markedQuantity(fabricNamed('wool'), 'bending')).toBe('~45 µN·m');
     expect(markedQuantity(fabricNamed('polyester'), 'bending')).toBe('5.0 µN·m');
     expect(markedQuantity(fabricNamed('wool'), 'source')).toBe('');
-    expect(orderNote('source')).toContain('do not say which of two fabrics is stiffer');
     expect(stiffnessSentence(fabricNamed('linen'))).toMatch(
       /15 µN·m \(estimated\): number 7 of 15/,
     );
+  });
+
+  it.each(ORDERS)('says by %s that shapes of weights do not tell which is stiffer', (order) => {
+    expect(orderNote(order)).toMatch(/the panes show .*shapes by (them|weights)/i);
+    expect(orderNote(order)).toContain('do not say which of two fabrics is stiffer');
+  });
+
+  it('says that neighbours marked ~ may be in another order', () => {
+    expect(markedQuantity(fabricNamed('canvas'), 'bending')).toBe('~40 µN·m');
+    expect(orderNote('bending')).toContain('Ordered by bending rigidity');
+    expect(confidenceMeaning.estimated).toContain('factor of 2');
+    expect(orderNote('bending')).toMatch(/~ .* factor of 2: neighbours .* in another order/);
+  });
+
+  it('says of the number in a pane what it is', () => {
+    const pane = { fabric: { kind: 'named', name: 'wool' } as const, energy: 3 };
+    expect(paneNumber(pane, 'bending').meaning).toMatch(/ordered by; the shape .* not show it/);
+    expect(paneNumber(pane, 'source').meaning).toContain('What the shape costs');
   });
 
   it('orders the panes of the gallery too, and stands in the link', () => {

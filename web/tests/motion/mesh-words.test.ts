@@ -1,8 +1,13 @@
 import { describe, expect, it } from 'vitest';
 import type { BenchRow } from '../../src/motion/bindings/sweep-module';
 import { floorsOf } from '../../src/motion/panels/mesh-floors';
-import { errorSentence, refinementSentence } from '../../src/motion/panels/mesh-words';
-import { meshText } from '../../src/motion/panels/speed-error-table';
+import {
+  errorName,
+  errorSentence,
+  headline,
+  meshText,
+  methodSentence,
+} from '../../src/motion/panels/mesh-words';
 
 const row = (level: number, ms: number, mesh_error_m: number | null, patch: object = {}) =>
   ({
@@ -19,16 +24,59 @@ describe('what a mesh does wrong', () => {
     expect(floorsOf([row(0, 1, 4e-3, { status: 'refused' })])).toEqual([]);
   });
 
-  it('is told from level to level, as a bound where it is below what the reference tells', () => {
-    expect(refinementSentence(rows)).toBe(
-      'What the mesh does wrong: 4.0 mm at level 0, < 1.6 mm at level 1.',
+  it('is the headline, as a bound where it is below what the reference tells', () => {
+    expect(headline(rows, 'known')).toBe(
+      'One level finer: what the mesh does wrong falls from 4.0 mm at level 0 to below 1.6 mm at level 1.',
     );
-    expect(refinementSentence(rows.slice(0, 2))).toBe('');
+    expect(headline(rows.slice(0, 2), 'known')).toBe(
+      'What the mesh does wrong: 4.0 mm at level 0.',
+    );
+    expect(headline([], 'known')).toBe('');
+  });
+
+  it('is told of every level in order, and not as a fall where it is none', () => {
+    const more = [...rows, row(2, 5, 5e-3)];
+    expect(headline(more, 'known')).toBe(
+      'Level by level: what the mesh does wrong goes from 4.0 mm at level 0 to below 1.6 mm at level 1, to 5.0 mm at level 2.',
+    );
+    expect(headline([row(0, 1, null), row(1, 1, null)], 'known')).toMatch(/goes from below 1.6 mm/);
+  });
+
+  it('makes errors of levels comparable; else they are the methods’ own', () => {
+    expect(headline(rows, 'unshipped')).toMatch(/different levels do not compare/);
+    expect(errorName('known')).toBe('Error');
+    expect(errorName('unfetched')).toBe('Method’s error');
   });
 
   it('has no bound where rows are compared with their own meshes', () => {
     expect(meshText(row(1, 1, null), 'unshipped')).toBe('–');
     expect(errorSentence('unshipped', 1)).toMatch(/over 1 s.*not known here/);
     expect(errorSentence('known', 0.4)).toMatch(/over 0.4 s.*finer mesh/);
+  });
+});
+
+describe('what a finer mesh does not mend', () => {
+  const of = (stepper: string, n_substeps: number, level: number, error: number, mesh: number) =>
+    row(level, 1, mesh, {
+      method: { stepper, step_s: 1 / 60 },
+      n_substeps,
+      position_error_m: error,
+      method_error_m: error,
+    });
+  const stuck = [of('implicit', 1, 0, 0.078, 4e-3), of('implicit', 1, 1, 0.077, 1e-3)];
+
+  it('is named with its errors from level to level, in the longest steps', () => {
+    const shorter = [of('implicit', 4, 0, 0.02, 4e-3), of('implicit', 4, 1, 0.02, 1e-3)];
+    const sentence = methodSentence([...shorter, ...stuck], 'known');
+    expect(sentence).toMatch(/shorter steps help: Implicit at 1\/60 s 78 → 77 mm[.]$/);
+  });
+
+  it.each([
+    ['compared with its own mesh', stuck, 'unshipped'],
+    ['of one level', stuck.slice(0, 1), 'known'],
+    ['as wrong as its mesh', [of('xpbd', 1, 0, 4e-3, 4e-3), of('xpbd', 1, 1, 4e-3, 4e-3)], 'known'],
+    ['less wrong on it', [of('xpbd', 1, 0, 0.1, 4e-3), of('xpbd', 1, 1, 0.05, 1e-3)], 'known'],
+  ] as const)('is nothing %s', (_, some, meshError) => {
+    expect(methodSentence(some, meshError)).toBe('');
   });
 });

@@ -2,16 +2,24 @@
 import { describe, expect, it } from 'vitest';
 import type { RunNumbers } from '../../src/motion/bindings/pleat-module';
 import { remedyForWarning } from '../../src/motion/run/remedy';
-import { presetSetting, type Setting, sceneOf } from '../../src/motion/state/setting';
-import { type RunWarning, warningSentence } from '../../src/shared/bindings/run-warning';
+import {
+  MOST_SUBSTEPS,
+  presetSetting,
+  type Setting,
+  sceneOf,
+} from '../../src/motion/state/setting';
+import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
+import { warningSentence } from '../../src/shared/panels/warning-words';
 import { isBuilt, loadModule } from '../support/built-module';
 
 const warning = (hints: Record<string, number>): RunWarning => ({
   kind: 'stretch',
   time_s: 0.4,
   vertex: 12,
-  sentence: 'from 0.4 s at vertex 12 on, the cloth stretched by up to 98 %',
+  value: 0.98,
+  bound: 0.35,
+  sentence: 'as the command says it',
   is_nonsense: true,
   hints,
 });
@@ -36,19 +44,36 @@ async function numbersOf(setting: Setting): Promise<RunNumbers> {
 describe('the remedy for nonsense', () => {
   it('is the value that the core hints at', () => {
     const { sentence, remedy } = remedyForWarning(warning({ '/method/substeps': 4 }), exploding);
-    expect(sentence).toContain('stretched by up to 98 %');
-    expect(remedy).toEqual({ title: 'Take 4 substeps', setting: { ...exploding, substeps: 4 } });
+    expect(sentence).toMatch(/^The run has exploded\..* by up to 98 %; .* Its steps are too long/);
+    expect(remedy).toEqual({
+      title: 'Start again with 4 substeps',
+      setting: { ...exploding, substeps: 4 },
+      startsAnew: true,
+    });
   });
 
-  it('says that cloth does not move so only of nonsense', () => {
+  it('is substeps before iterations, and neither where it is at its most', () => {
+    const both = warning({ '/method/iterations': 4, '/method/substeps': 4 });
+    expect(remedyForWarning(both, exploding).remedy.setting.substeps).toBe(4);
+    const most = { ...exploding, substeps: MOST_SUBSTEPS };
+    const beyond = warning({ '/method/iterations': 4, '/method/substeps': 4 * MOST_SUBSTEPS });
+    expect(remedyForWarning(beyond, most).remedy.setting).toEqual({ ...most, iterations: 4 });
+  });
+
+  it('says that a run has exploded only of nonsense', () => {
     const nonsense = warning({});
-    expect(warningSentence(nonsense)).toMatch(/^This is not how cloth moves: from 0.4 s/);
-    const mild = {
+    expect(warningSentence({ ...nonsense, value: 4e10 })).toContain('many times its length');
+    expect(warningSentence({ ...nonsense, value: null })).toContain('many times its length');
+    const mild: RunWarning = {
       ...nonsense,
+      kind: 'not_converged',
       is_nonsense: false,
-      sentence: 'from 1 s on, steps did not converge',
+      value: 1e-5,
     };
-    expect(warningSentence(mild)).toBe('From 1 s on, steps did not converge.');
+    expect(warningSentence(mild)).toBe(
+      'From 0.40 s on steps did not converge, and left 0.0010 % of their equations unsolved.',
+    );
+    expect(remedyForWarning(mild, exploding).sentence).toBe(warningSentence(mild));
   });
 
   it('is Implicit where the hint is none that the page sets', () => {

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { expectation } from '../../src/motion/panels/sweep-panel';
 import { presetSetting, type Setting } from '../../src/motion/state/setting';
 import { type StepCosts, withCost } from '../../src/motion/state/step-cost';
 import { expectedSweepS } from '../../src/motion/state/sweep-cost';
@@ -20,6 +21,12 @@ describe('what a sweep would take', () => {
   it('is not known before a step was timed', () => {
     expect(expectedSweepS({}, shown, wish)).toBeNull();
     expect(expectedSweepS(measured, { ...shown, preset: 'tablecloth' }, wish)).toBeNull();
+  });
+
+  it('is told in words, and how to learn it', () => {
+    const say = (costs: StepCosts) => expectation({ costs, setting: shown }, wish);
+    expect(say({})).toMatch(/^Play a moment/);
+    expect(say(measured)).toMatch(/^About .* s on this device[.]$/);
   });
 
   it('follows from the shown method, and grows with the levels and with what takes part', () => {

@@ -379,7 +379,9 @@ describe('trio', () => {
       await settled(isReady);
       trio.step();
       const { panes } = await settled((state) => state.panes.coarse.warnings.length > 0);
-      expect(warningWords(panes.coarse)).toMatch(/^This is not how cloth moves: from 0\.0167 s/);
+      expect(warningWords(panes.coarse)).toMatch(
+        /(exploded|not how cloth moves).*from 0\.01\d+ s/i,
+      );
       expect(warningWords(panes.fine)).toBe('');
       trio.reset();
       await settled((state) => state.timeS === 0 && warningWords(state.panes.coarse) === '');

@@ -1,19 +1,24 @@
 import { describe, expect, it } from 'vitest';
+import { decodeMotionLink } from '../../src/motion/state/motion-link';
+import { presetSetting } from '../../src/motion/state/setting';
 import type { FitAnswer } from '../../src/refinement/bindings/refinement-module';
 import { garmentSentence } from '../../src/refinement/panels/garment-sentence';
 import {
   anewSentence,
-  buysSentence,
   costWords,
+  distanceSentence,
   errorWords,
   fitReading,
   fromTo,
+  levelsSentence,
+  noticeSentence,
+  ONE_MORE_LEVEL,
   sourceSentence,
   storySentences,
 } from '../../src/refinement/panels/garment-words';
 import { NEUTRAL_COLOUR, paintOf, upperEnd } from '../../src/refinement/panels/paints';
 import { objText } from '../../src/refinement/panels/saving';
-import type { PlanStory } from '../../src/refinement/state/plan-file';
+import type { PlanFile, PlanStory } from '../../src/refinement/state/plan-file';
 import {
   canPlanAnew,
   DEFAULT_LINK,
@@ -36,6 +41,21 @@ const STORY: PlanStory = {
   nSplits: 30,
   nForBalance: 4,
   rule: { kind: 'demand', value: 3 },
+};
+
+const PLAN: PlanFile = {
+  format: 'pleat plan 1',
+  base_mesh: { vertices: 4, fingerprint: '0000000000000000' },
+  examples: [
+    { name: 'skirt_walk', centres_per_m: [[2, 1]], low_per_m: [0, 0], high_per_m: [1, 1] },
+  ],
+  patterns: 1,
+  patterns_of_vertices: [[0, 4]],
+  detail_demand: 3,
+  level_cap: 2,
+  vertices: 4,
+  curvature_limits_per_m: [5],
+  splits: [],
 };
 
 const FIT: FitAnswer = {
@@ -124,14 +144,30 @@ describe('garment-words', () => {
     const coarse = { ...EMPTY_PANE, nVertices: 700, msPerFrame: 5, source: 'recorded' as const };
     const fine = { ...coarse, nVertices: 10500, msPerFrame: 100 };
     const panes = { coarse, planned: coarse, fine };
-    expect(buysSentence({ panes })).toContain('15 times the vertices and 20 times the time');
+    expect(levelsSentence({ panes })).toContain('15 times the vertices and 20 times the time');
     const here = { ...coarse, source: 'computed' as const };
-    expect(buysSentence({ panes: { ...panes, coarse: here } })).not.toContain('the time');
+    expect(levelsSentence({ panes: { ...panes, coarse: here } })).not.toContain('the time');
     const off = { ...coarse, errorM: 0.06 };
     expect(
-      buysSentence({ panes: { coarse: off, planned: { ...off, errorM: 0.045 }, fine } }),
-    ).toMatch(/60 mm off fine on the coarse mesh and 45 mm on the planned one/);
-    expect(buysSentence({ panes: STATE.panes })).toBe('');
+      distanceSentence({ panes: { coarse: off, planned: { ...off, errorM: 0.045 }, fine } }),
+    ).toMatch(/60 mm off fine on the coarse mesh and 45 mm on the multi-resolution one/);
+    expect(levelsSentence({ panes: STATE.panes })).toBe('');
+    expect(distanceSentence({ panes: STATE.panes })).toBe('');
+  });
+
+  it('leads to the sheet whose errors are known level by level', () => {
+    const { link, problems } = decodeMotionLink(ONE_MORE_LEVEL.hash);
+    expect(problems).toEqual([]);
+    expect(link.setting).toEqual(presetSetting('swinging-sheet'));
+  });
+
+  it('names a mesh as its pane does, and not by its place', () => {
+    const pane = { ...EMPTY_PANE, nVertices: 1000 };
+    const panes = { coarse: pane, planned: pane, fine: { ...pane, nVertices: 5000 } };
+    const notice = noticeSentence({ ...STATE, panes, plan: PLAN });
+    expect(notice).toContain('The multi-resolution mesh has 20 % of the fine');
+    expect(notice).not.toContain('middle');
+    expect(noticeSentence(STATE)).toContain('a multi-resolution and a fine mesh');
   });
 
   it('gives the stage to what moves, and to two panes where it is narrow', () => {

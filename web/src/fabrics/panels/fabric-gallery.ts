@@ -1,10 +1,5 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
-import {
-  confidenceMeaning,
-  type FabricRecord,
-  fabricNamed,
-  fabrics,
-} from '../../shared/fabric/fabric-data';
+import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { choice as choiceOf, element, field, setText } from '../../shared/panels/element';
 import { quantityText } from '../../shared/panels/fabric-quantities';
@@ -33,19 +28,17 @@ const ORDER_TITLES: readonly { value: FabricOrder; title: string }[] = [
   { value: 'stretch', title: 'Hardest to stretch first' },
 ];
 
-const WEIGHTS_NOTE =
-  'The bars are weights measured in 2015: what gives way first inside one fabric. They do not say which of two fabrics is stiffer. Choose another order for that.';
-
 const MEANINGS: Record<Exclude<FabricOrder, 'source'>, string> = {
-  bending: 'Bending rigidity along the warp, for a metre of width.',
-  weight: 'Mass of one square metre.',
-  stretch: 'Force along the warp that would double the length, for a metre of width.',
+  bending: 'bending rigidity along the warp, for a metre of width',
+  weight: 'mass of one square metre',
+  stretch: 'the force along the warp that would double the length, for a metre of width',
 };
 
-/** What the numbers or bars of the list are. */
+/** What the panes show, and what the list is ordered by. */
 export function orderNote(order: FabricOrder): string {
-  if (order === 'source') return WEIGHTS_NOTE;
-  return `${MEANINGS[order]} The mark ~ is for numbers that are typical or estimated (${confidenceMeaning.estimated}).`;
+  if (order === 'source')
+    return 'The bars are weights measured in 2015, and the panes show shapes by them: what gives way first inside one fabric. They do not say which of two fabrics is stiffer. Choose another order for that.';
+  return `Ordered by ${MEANINGS[order]}. Numbers marked ~ may be off by a factor of 2: neighbours among them may be in another order. The panes show something else: shapes by weights measured in 2015, which do not say which of two fabrics is stiffer.`;
 }
 
 /** "~45 µN·m": marked where nobody measured this very kind of cloth. */

@@ -22,15 +22,22 @@ function timeWords({ status, updateMs }: Pane, isLoading: boolean): string {
 const ENERGY_MEANING =
   'What the shape costs by the weights of this fabric: a number without unit, to be compared with other shapes of the same fabric only';
 
-/** What the list is ordered by, or the energy. */
-function numberWords({ fabric, energy }: Pane, order: FabricOrder): string {
-  if (order === 'source' || fabric.kind === 'own') return `energy ${digits(energy)}`;
-  return markedQuantity(fabricNamed(fabric.name), order);
+const QUANTITY_MEANING =
+  'What the fabrics are ordered by; the shape is of the weights and does not show it';
+
+/** What the list is ordered by, or the energy; and what that is. */
+export function paneNumber(
+  { fabric, energy }: Pick<Pane, 'fabric' | 'energy'>,
+  order: FabricOrder,
+): { words: string; meaning: string } {
+  if (order === 'source' || fabric.kind === 'own')
+    return { words: `energy ${digits(energy)}`, meaning: ENERGY_MEANING };
+  return { words: markedQuantity(fabricNamed(fabric.name), order), meaning: QUANTITY_MEANING };
 }
 
 function createBadge(choose: () => void) {
   const name = element('b');
-  const number = element('span', { title: ENERGY_MEANING });
+  const number = element('span');
   const time = element('span');
   const button = element('button', { type: 'button', class: 'pane-badge', click: choose }, name);
   button.append(number, time);
@@ -40,7 +47,9 @@ function createBadge(choose: () => void) {
       const isBrief = panes.length > 4;
       const isLoading = phase === 'loading';
       setText(name, titleOf(pane.fabric));
-      setText(number, numberWords(pane, isBrief ? order : 'source'));
+      const { words, meaning } = paneNumber(pane, isBrief ? order : 'source');
+      setText(number, words);
+      number.title = meaning;
       setText(time, timeWords(pane, isLoading));
       button.classList.toggle('brief', isBrief);
       time.hidden = isBrief && !isLoading && pane.status !== 'settling';

@@ -1,22 +1,26 @@
 // A banner that says what went wrong in a sentence, with what can be done about it.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
+import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
 
 export function createProblemBanner(
   parent: HTMLElement,
   store: Store<MotionState>,
-  actions: { reset(): void },
+  actions: Pick<MotionRun, 'reset' | 'showAnew'>,
 ): () => void {
   const sentence = element('p');
   const remedy = element('button', {
     type: 'button',
     click() {
-      const { problem } = store.get();
-      if (problem?.remedy) store.set({ setting: problem.remedy.setting });
+      const remedy = store.get().problem?.remedy;
+      if (!remedy) return;
+      const { setting, startsAnew } = remedy;
+      if (startsAnew) actions.showAnew({ setting, startSteps: 0, playing: true, problem: null });
+      else store.set({ setting });
     },
   });
-  const reset = element('button', { type: 'button', click: actions.reset }, 'Reset');
+  const reset = element('button', { type: 'button', click: () => actions.reset() }, 'Reset');
   const dismiss = element(
     'button',
     { type: 'button', click: () => store.set({ problem: null }) },

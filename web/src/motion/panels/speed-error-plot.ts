@@ -1,13 +1,15 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
-import { warningSentence } from '../../shared/bindings/run-warning';
+
 import { type LogScale, logScale } from '../../shared/chart/log-scale';
 import { svg } from '../../shared/panels/element';
 import { digits, milliseconds, smallLength } from '../../shared/panels/quantity';
+import { warningSentence } from '../../shared/panels/warning-words';
 import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
 import { boundOf, type Floor, floorMarks, floorsOf } from './mesh-floors';
+import { errorName } from './mesh-words';
 
 export interface PlotContent {
   rows: BenchRow[];
@@ -26,6 +28,8 @@ const TOP = 12;
 const BOTTOM = 46;
 /** Radius that a finger or a pointer can hit. */
 const HIT_RADIUS = 12;
+/** Strikes out the point of a run of nonsense. */
+export const CROSS = 'M-7 -7L7 7M-7 7L7 -7';
 
 /** The mark of a stepper about the origin, and a style with its colours; a plus for an unknown one. */
 export function markOf(name: string): { path: string; style: string } {
@@ -34,15 +38,20 @@ export function markOf(name: string): { path: string; style: string } {
   return { path: row.mark, style: `--mark: ${row.colour}; --mark-dark: ${row.dark_colour}` };
 }
 
-/** A setting in words: "xpbd, level 2, 1/60 s, 30 substeps". */
+/** A setting in words: "xpbd, level 2, 1/60 s, 30 substeps"; no line ends before the "s". */
 export function titleOf(row: BenchRow): string {
   const { stepper, step_s, iterations } = row.method;
   const counts = [
     row.n_substeps > 1 ? `${row.n_substeps} substeps` : '',
     iterations !== undefined && iterations > 1 ? `${iterations} iterations` : '',
   ];
-  const parts = [stepper, `level ${row.level}`, `1/${Math.round(1 / step_s)} s`, ...counts];
+  const parts = [stepper, `level ${row.level}`, `1/${Math.round(1 / step_s)}\u00a0s`, ...counts];
   return parts.filter((part) => part !== '').join(', ');
+}
+
+/** Its run was not how cloth moves. */
+export function isNonsense({ warnings = [] }: BenchRow): boolean {
+  return warnings.some(({ is_nonsense }) => is_nonsense);
 }
 
 /** A row's place: [ms for a frame, position error or what it is below in mm]; null when it has none. */
@@ -60,6 +69,12 @@ function errorText(row: BenchRow): string {
     : `error ${smallLength(metres)}`;
 }
 
+/** The class of a row's point. */
+export function pointKind(row: BenchRow): string {
+  if (isNonsense(row)) return 'point nonsense';
+  return row.position_error_m === null ? 'point untold' : 'point';
+}
+
 /** A row's numbers in words, and what is wrong with them. */
 function labelOf(row: BenchRow): string {
   const numbers = `${milliseconds(row.ms_per_frame)} a frame, ${errorText(row)}`;
@@ -67,7 +82,7 @@ function labelOf(row: BenchRow): string {
   return `${titleOf(row)}: ${numbers}${warning ? `. ${warningSentence(warning)}` : ''}`;
 }
 
-function axisTitles(): SVGElement[] {
+function axisTitles(meshError: MeshError): SVGElement[] {
   const middle = TOP + (HEIGHT - TOP - BOTTOM) / 2;
   return [
     svg(
@@ -78,7 +93,7 @@ function axisTitles(): SVGElement[] {
     svg(
       'text',
       { x: 14, y: middle, class: 'axis', transform: `rotate(-90 14 ${middle})` },
-      'position error [mm]',
+      `${errorName(meshError)} [mm]`,
     ),
   ];
 }
@@ -121,7 +136,17 @@ function gridMarks({ across, upward, xOf, yOf }: Axes): SVGElement[] {
   ];
 }
 
-/** The line through the places of the front, from the quickest on. */
+/** The rows of `front`, those that are compared with the same motion together. */
+export function frontsOf(rows: readonly BenchRow[], front: readonly number[]): number[][] {
+  const fronts = new Map<string, number[]>();
+  for (const index of front) {
+    const id = rows[index]?.reference.id ?? '';
+    fronts.set(id, [...(fronts.get(id) ?? []), index]);
+  }
+  return [...fronts.values()];
+}
+
+/** The line through the places of a front, from the quickest on. */
 function frontMark(places: readonly ([number, number] | null)[], { xOf, yOf }: Axes): SVGElement {
   const corners = places
     .filter((place) => place !== null)
@@ -148,7 +173,7 @@ export function createSpeedErrorPlot(
     const { path, style } = markOf(row.method.stepper);
     const group = svg('g', {
       transform: `translate(${x} ${y})`,
-      class: row.position_error_m === null ? 'point untold' : 'point',
+      class: pointKind(row),
       style,
       'data-stepper': row.method.stepper,
       role: 'button',
@@ -161,6 +186,7 @@ export function createSpeedErrorPlot(
       svg('circle', { r: HIT_RADIUS, class: 'point-hit' }),
       svg('path', { d: path, class: 'point-mark' }),
     );
+    if (isNonsense(row)) group.append(svg('path', { d: CROSS, class: 'point-cross' }));
     if (isCurrent) group.append(svg('circle', { r: 9, class: 'point-ring' }));
     group.addEventListener('click', () => onChoice(index));
     group.addEventListener('keydown', (event) => {
@@ -171,7 +197,7 @@ export function createSpeedErrorPlot(
     return group;
   }
 
-  function update({ rows, front, current }: PlotContent): void {
+  function update({ rows, front, current, meshError }: PlotContent): void {
     const focused = document.activeElement?.getAttribute('data-row') ?? null;
     const hadFocus = focused !== null && root.contains(document.activeElement);
     const places = rows.map(placeOf);
@@ -181,9 +207,11 @@ export function createSpeedErrorPlot(
       floors,
     );
     const { xOf, yOf } = axes;
-    const parts = [...gridMarks(axes), ...axisTitles(), ...floorMarks(floors, xOf, yOf)];
-    const fronted = front.map((index) => places[index] ?? null);
-    parts.push(frontMark(fronted, axes));
+    const parts = [...gridMarks(axes), ...axisTitles(meshError), ...floorMarks(floors, xOf, yOf)];
+    for (const indices of frontsOf(rows, front)) {
+      const fronted = indices.map((index) => places[index] ?? null);
+      parts.push(frontMark(fronted, axes));
+    }
     rows.forEach((row, index) => {
       const place = places[index];
       if (!place) return;

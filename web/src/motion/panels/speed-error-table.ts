@@ -1,24 +1,29 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
-import { warningSentence } from '../../shared/bindings/run-warning';
+
 import { element } from '../../shared/panels/element';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import { warningSentence } from '../../shared/panels/warning-words';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
 import { boundOf } from './mesh-floors';
+import { errorName, meshText } from './mesh-words';
 import { type PlotContent, titleOf } from './speed-error-plot';
 
 /** What the two lines of a cell say. */
 type Cell = [string, string];
 
 /** Each column's title, and what its second line is. */
-const HEADS: readonly Cell[] = [
-  ['Setting', ''],
-  ['A frame', 'spread'],
-  ['Error', 'of diagonal'],
-  ['Method', 'mesh'],
-  ['RMS stretch', 'largest'],
-];
+function heads(meshError: MeshError): Cell[] {
+  const shares: Cell[] = meshError === 'known' ? [['Method', 'mesh']] : [];
+  return [
+    ['Setting', ''],
+    ['A frame', 'spread'],
+    [errorName(meshError), 'of diagonal'],
+    ...shares,
+    ['RMS stretch', 'largest'],
+  ];
+}
 
 /** An error, or the bound below which the reference tells none. */
 function errorCell(row: BenchRow): Cell {
@@ -29,20 +34,14 @@ function errorCell(row: BenchRow): Cell {
   return bound === null ? ['–', 'no reference'] : [`< ${smallLength(bound)}`, 'not told'];
 }
 
-/** What the mesh of a row does wrong, as far as its reference tells. */
-export function meshText(row: BenchRow, meshError: MeshError): string {
-  const bound = boundOf(row);
-  if (meshError !== 'known' || row.mesh_error_m !== null || bound === null)
-    return smallLength(row.mesh_error_m);
-  return `< ${smallLength(bound)}`;
-}
-
 /** Both lines of each column after the first. */
 function cells(row: BenchRow, meshError: MeshError): Cell[] {
+  const shares: Cell[] =
+    meshError === 'known' ? [[smallLength(row.method_error_m), meshText(row, meshError)]] : [];
   return [
     [milliseconds(row.ms_per_frame), milliseconds(row.spread_ms)],
     errorCell(row),
-    [smallLength(row.method_error_m), meshText(row, meshError)],
+    ...shares,
     [percent(row.rms_stretch), percent(row.largest_stretch)],
   ];
 }
@@ -51,23 +50,14 @@ export function createSpeedErrorTable(
   parent: HTMLElement,
   onChoice: (index: number) => void,
 ): { update(content: PlotContent): void } {
+  const head = element('tr');
   const body = element('tbody');
   parent.append(
     element(
       'table',
       { class: 'rows' },
       element('caption', { class: 'unseen' }, 'Speed and error of each setting'),
-      element(
-        'thead',
-        {},
-        element(
-          'tr',
-          {},
-          ...HEADS.map(([title, detail]) =>
-            element('th', { scope: 'col' }, title, ' ', element('small', {}, detail)),
-          ),
-        ),
-      ),
+      element('thead', {}, head),
       body,
     ),
   );
@@ -97,7 +87,7 @@ export function createSpeedErrorTable(
       : [
           element(
             'td',
-            { colspan: HEADS.length - 1, class: 'failed' },
+            { colspan: head.children.length - 1, class: 'failed' },
             `${row.status}: ${row.message}`,
           ),
         ];
@@ -110,6 +100,11 @@ export function createSpeedErrorTable(
       const focused = body.contains(document.activeElement)
         ? document.activeElement?.getAttribute('data-row')
         : null;
+      head.replaceChildren(
+        ...heads(content.meshError).map(([title, detail]) =>
+          element('th', { scope: 'col' }, title, ' ', element('small', {}, detail)),
+        ),
+      );
       body.replaceChildren(...content.rows.map((row, index) => line(row, index, content)));
       if (focused) body.querySelector<HTMLElement>(`[data-row="${focused}"]`)?.focus();
     },

@@ -7,30 +7,65 @@ import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
 import { PRESETS } from '../state/setting';
 import { durationS, hasFinished, settingOfRow } from '../state/sweep-plan';
-import { rowOfSetting } from '../state/sweep-state';
-import { errorSentence, refinementSentence } from './mesh-words';
-import { createSpeedErrorPlot, markOf } from './speed-error-plot';
+import { rowOfSetting, type SweepState } from '../state/sweep-state';
+import { errorSentence, headline, methodSentence } from './mesh-words';
+import {
+  CROSS,
+  createSpeedErrorPlot,
+  isNonsense,
+  markOf,
+  type PlotContent,
+} from './speed-error-plot';
 import { createSpeedErrorTable } from './speed-error-table';
 
-/** The marks of the steppers that have a row. */
+/** A line of the legend: a mark, and what it means. */
+function legendItem(path: string, kind: string, words: string, style = ''): HTMLElement {
+  const picture = svg('svg', { viewBox: '-8 -8 16 16', 'aria-hidden': 'true' });
+  picture.append(svg('path', { class: kind, d: path }));
+  return element('li', { style }, picture, words);
+}
+
+const NONSENSE = 'crossed out: not how cloth moves';
+
+/** What the front is: rows of different references have one each. */
+function frontWords({ rows, meshError }: PlotContent): string {
+  const isOfLevel = meshError !== 'known' && new Set(rows.map(({ level }) => level)).size > 1;
+  return `front: no other setting${isOfLevel ? ' of its level' : ''} is both faster and nearer`;
+}
+
+/** The marks of the steppers that have a row, and what else is drawn. */
 function createLegend() {
   const list = element('ul', { class: 'marks' });
   const items = STEPPERS.map(({ name, title }) => {
     const { path, style } = markOf(name);
-    const picture = svg('svg', { viewBox: '-7 -7 14 14', 'aria-hidden': 'true' });
-    picture.append(svg('path', { class: 'point-mark', d: path }));
-    return element('li', { style }, picture, title);
+    return legendItem(path, 'point-mark', title, style);
   });
-  list.append(...items);
+  const nonsense = legendItem(CROSS, 'point-cross', NONSENSE);
+  const front = legendItem('M-8 0H8', 'front', '');
+  const frontTitle = element('span');
+  front.append(frontTitle);
+  list.append(...items, nonsense, front);
   return {
     list,
-    update(rows: BenchRow[]) {
+    update(content: PlotContent) {
+      const { rows } = content;
+      nonsense.hidden = !rows.some(isNonsense);
+      front.hidden = content.front.length === 0;
+      setText(frontTitle, frontWords(content));
       STEPPERS.forEach(({ name }, index) => {
         const item = items[index];
         if (item) item.hidden = !rows.some((row) => row.method.stepper === name);
       });
     },
   };
+}
+
+/** What was measured, how far that is, and whose errors no mesh mends. */
+function besideHeadline({ scene, phase, progress, rows, meshError }: SweepState): string {
+  const cloth = scene ? `${scene.mesh?.name ?? PRESETS[scene.preset].title}, ${scene.fabric}.` : '';
+  const soFar = phase === 'running' ? `Measured so far: ${Math.floor(100 * progress)} %.` : '';
+  const parts = [cloth, soFar, methodSentence(rows, meshError)];
+  return parts.filter((part) => part !== '').join(' ');
 }
 
 /** Says what the numbers are, and how far to trust them. */
@@ -48,7 +83,6 @@ function footnote({ sweep }: MotionState): string {
     rows.some((row) => hasFinished(row) && !isTold(row))
       ? 'An empty mark is below what its reference tells.'
       : '',
-    ...(meshError === 'known' ? [refinementSentence(rows)] : []),
     `Reference${isConverged ? '' : ' (not converged)'}: ${last.reference.description.replace(/[.]$/, '')}.`,
   ];
   if (disturbed) parts.push('The cloth was playing meanwhile: the times are too long.');
@@ -71,7 +105,8 @@ export function createSpeedErrorView(
     actions.showAnew(mesh ? { ...content, mesh } : content);
   }
 
-  const heading = element('h2', {}, 'Speed and error');
+  const heading = element('h2');
+  const beside = element('p', { class: 'note' });
   const close = element(
     'button',
     { type: 'button', click: () => store.set({ sweepOpen: false }) },
@@ -79,9 +114,9 @@ export function createSpeedErrorView(
   );
   const figure = element('figure', { class: 'chart' });
   const plot = createSpeedErrorPlot(figure, use);
-  const note = element('figcaption');
+  const note = element('p', { class: 'note' });
   const legend = createLegend();
-  figure.append(legend.list, note);
+  figure.append(legend.list);
   const tableBox = element('div', {
     class: 'table-box',
     tabindex: 0,
@@ -91,18 +126,17 @@ export function createSpeedErrorView(
   const table = createSpeedErrorTable(tableBox, use);
   parent.append(
     element('div', { class: 'tray-head' }, heading, close),
+    beside,
     element('div', { class: 'tray-body' }, figure, tableBox),
+    note,
   );
   let drawn = '';
   return watch(store, ['sweep', 'sweepOpen', 'setting'], (state) => {
     parent.hidden = !state.sweepOpen;
     if (!state.sweepOpen) return;
     const { sweep } = state;
-    const { scene: swept } = sweep;
-    const scene = swept
-      ? `: ${swept.mesh?.name ?? PRESETS[swept.preset].title}, ${swept.fabric}`
-      : '';
-    setText(heading, `Speed and error${scene}`);
+    setText(heading, headline(sweep.rows, sweep.meshError) || 'Measuring the first setting.');
+    setText(beside, besideHeadline(sweep));
     const row = rowOfSetting(state);
     const content = {
       rows: sweep.rows,
@@ -115,7 +149,7 @@ export function createSpeedErrorView(
     const text = JSON.stringify(content);
     if (text === drawn) return;
     drawn = text;
-    legend.update(sweep.rows);
+    legend.update(content);
     plot.update(content);
     table.update(content);
   });

@@ -9,14 +9,14 @@ import { expectedSweepS } from '../state/sweep-cost';
 import { FINEST_SWEEP, type SweepWish, slowSteppers } from '../state/sweep-plan';
 import type { SweepState } from '../state/sweep-state';
 
-/** Finest level of a sweep to begin with: some seconds. */
+/** Finest level of a sweep to begin with: the quickest. */
 const FIRST_FINEST = 1;
 
 /** Finest level of a sweep. */
 const FINEST = [
-  { value: 1, title: '0 to 1, seconds' },
-  { value: 2, title: '0 to 2, a minute or more' },
-  { value: FINEST_SWEEP, title: `0 to ${FINEST_SWEEP}, many minutes` },
+  { value: 1, title: '0 to 1' },
+  { value: 2, title: '0 to 2' },
+  { value: FINEST_SWEEP, title: `0 to ${FINEST_SWEEP}` },
 ];
 
 /** What takes part only when it is asked for. */
@@ -30,7 +30,7 @@ function slowPicker(onChange: (withSlow: boolean) => void) {
       const slow = slowSteppers(model);
       line.hidden = slow.length === 0;
       const names = slow.map((row) => `${row.title} up to level ${row.finest_sweep_level}`);
-      setText(title, `Also ${names.join(' and ')}, which takes minutes`);
+      setText(title, `Also ${names.join(' and ')}, which is slow`);
     },
   };
 }
@@ -42,23 +42,30 @@ function timeLeft({ phase, leftS }: SweepState): string {
 }
 
 /** What a sweep would take, as far as steps that were timed tell. */
-function expectation({ costs, setting }: MotionState, wish: SweepWish): string {
+export function expectation(
+  { costs, setting }: Pick<MotionState, 'costs' | 'setting'>,
+  wish: SweepWish,
+): string {
   const seconds = expectedSweepS(costs, setting, wish);
   return seconds === null
-    ? ''
+    ? 'Play a moment to learn how long it takes.'
     : `About ${shortTime(1000 * Math.max(seconds, 1), 1)} on this device.`;
 }
 
 /** How the last sweep went, or how far this one is. */
 function messageOf({ sweep }: MotionState): string {
-  const failed = sweep.phase === 'failed' ? 'The sweep failed: ' : '';
-  return `${failed}${sweep.message}${timeLeft(sweep)}`;
+  const { phase, message, rows } = sweep;
+  if (phase === 'done' && message === '') return `Done: ${rows.length} settings measured.`;
+  const failed = phase === 'failed' ? 'The sweep failed: ' : '';
+  return `${failed}${message}${timeLeft(sweep)}`;
 }
 
+/** `showChart` opens the chart and brings it into view. */
 export function createSweepPanel(
   parent: HTMLElement,
   store: Store<MotionState>,
   sweep: Sweep,
+  showChart: () => void,
 ): () => void {
   const wish: SweepWish = { finest: FIRST_FINEST, withSlow: false };
   const levels = choice(FINEST, (level) => {
@@ -72,7 +79,14 @@ export function createSweepPanel(
   });
   const start = element(
     'button',
-    { type: 'button', class: 'wide', click: () => sweep.start({ ...wish }) },
+    {
+      type: 'button',
+      class: 'wide',
+      click() {
+        sweep.start({ ...wish });
+        showChart();
+      },
+    },
     'Measure speed and error',
   );
   const cancel = element(
@@ -85,7 +99,7 @@ export function createSweepPanel(
   const expected = element('p', { class: 'note' });
   const open = element(
     'button',
-    { type: 'button', class: 'wide', click: () => store.set({ sweepOpen: true }) },
+    { type: 'button', class: 'wide', click: showChart },
     'Show the chart',
   );
   parent.append(
@@ -111,7 +125,7 @@ export function createSweepPanel(
     expected.hidden = state.sweep.phase === 'running';
     setText(expected, expectation(state, wish));
   }
-  return watch(store, ['sweep', 'sweepOpen', 'phase', 'setting', 'costs'], (state) => {
+  return watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
     slow.show(state.setting.model);
     showExpectation(state);
     const { phase } = state.sweep;
@@ -121,7 +135,7 @@ export function createSweepPanel(
     cancel.hidden = !isRunning;
     progress.hidden = !isRunning;
     progress.value = state.sweep.progress;
-    open.hidden = state.sweepOpen || state.sweep.rows.length === 0;
+    open.hidden = state.sweep.rows.length === 0;
     setText(message, messageOf(state));
   });
 }

@@ -1,6 +1,7 @@
 // What helps a setting that was refused, or whose run shows nonsense.
 import type { Failure } from '../../shared/bindings/answers';
-import { type RunWarning, warningSentence } from '../../shared/bindings/run-warning';
+import type { RunWarning } from '../../shared/bindings/run-warning';
+import { warningSentence } from '../../shared/panels/warning-words';
 import { stepperRow } from '../../shared/steppers/steppers';
 import type { Remedy } from '../state/motion-state';
 import { MOST_ITERATIONS, MOST_SUBSTEPS, type Setting, withStepper } from '../state/setting';
@@ -24,29 +25,53 @@ export function remedyFor(
   };
 }
 
-/** How a value that may help is set, and the words for it. */
-const HINTS: Record<string, (value: number) => { title: string; change: Partial<Setting> }> = {
+/** How a value that may help is set, why, and the words for it; what helps most is first. */
+const HINTS: Record<
+  string,
+  (value: number) => { why: string; title: string; change: Partial<Setting> }
+> = {
   '/method/substeps': (value) => ({
-    title: `Take ${value} substeps`,
+    why: 'Its steps are too long for so stiff a cloth on so fine a mesh.',
+    title: `Start again with ${Math.min(value, MOST_SUBSTEPS)} substeps`,
     change: { substeps: Math.min(value, MOST_SUBSTEPS) },
   }),
   '/method/iterations': (value) => ({
-    title: `Take ${value} rounds`,
+    why: 'Too few iterations solve each of its steps.',
+    title: `Start again with ${Math.min(value, MOST_ITERATIONS)} iterations`,
     change: { iterations: Math.min(value, MOST_ITERATIONS) },
   }),
 };
 
-/** The sentence for a run that shows what its scene cannot explain, and what may help. */
+/** The sentence for a run that shows what its scene cannot explain, and what may help: from the start, not from the wreck. */
 export function remedyForWarning(
   warning: RunWarning,
   setting: Setting,
 ): { sentence: string; remedy: Remedy } {
-  const known = Object.entries(warning.hints).flatMap(
-    ([pointer, value]) => HINTS[pointer]?.(Number(value)) ?? [],
+  const known = Object.entries(HINTS).flatMap(([pointer, hint]) => {
+    const value = warning.hints[pointer];
+    return value === undefined ? [] : hint(Number(value));
+  });
+  const helps = known.find(({ change }) => !isSame(change, setting));
+  const sentence = warningSentence(warning);
+  if (!helps)
+    return {
+      sentence,
+      remedy: {
+        title: 'Start again with Implicit',
+        setting: withStepper(setting, 'implicit'),
+        startsAnew: true,
+      },
+    };
+  const { why, title, change } = helps;
+  return {
+    sentence: warning.is_nonsense ? `${sentence} ${why}` : sentence,
+    remedy: { title, setting: { ...setting, ...change }, startsAnew: true },
+  };
+}
+
+/** True where a change is none: what may help is at its most already. */
+function isSame(change: Partial<Setting>, { substeps, iterations }: Setting): boolean {
+  return (
+    (change.substeps ?? substeps) === substeps && (change.iterations ?? iterations) === iterations
   );
-  const [first] = known;
-  const remedy = first
-    ? { title: first.title, setting: { ...setting, ...first.change } }
-    : { title: 'Take Implicit', setting: withStepper(setting, 'implicit') };
-  return { sentence: warningSentence(warning), remedy };
 }

@@ -14,6 +14,8 @@ export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
 export interface Remedy {
   title: string;
   setting: Setting;
+  /** From the start of the run, which then plays; else the motion goes on. */
+  startsAnew?: boolean;
 }
 
 export interface Problem {

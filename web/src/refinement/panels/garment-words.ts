@@ -1,6 +1,7 @@
 // The words of the view of refinement.
-import { warningSentence } from '../../shared/bindings/run-warning';
+
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
+import { warningSentence } from '../../shared/panels/warning-words';
 import type { FitAnswer } from '../bindings/refinement-module';
 import { exampleName, GARMENTS } from '../state/garments';
 import { type PlanFile, type PlanStory, planStory } from '../state/plan-file';
@@ -87,37 +88,48 @@ function whatToDo({ garment, motion, fabric }: RefinementState, plan: PlanFile):
   return 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.';
 }
 
+const PLANNED = PANE_TITLES.planned.toLowerCase();
+
 /** One sentence: what to notice. */
 export function noticeSentence(state: RefinementState): string {
   const { panes, plan } = state;
   const { planned, fine } = panes;
   if (planned.nVertices === 0 || fine.nVertices === 0 || !plan)
-    return 'One garment on one walking figure, on a coarse, a planned and a fine mesh.';
+    return `One garment on one walking figure, on a coarse, a ${PLANNED} and a fine mesh.`;
   const share = planned.nVertices / fine.nVertices;
-  return `The middle mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
+  return `The ${PLANNED} mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
 }
 
 function times(more: number, less: number): string {
   return `${digits(more / less, 2)} times`;
 }
 
-/** What the finer meshes cost, and how much nearer they are. */
-export function buysSentence({ panes }: Pick<RefinementState, 'panes'>): string {
-  const { coarse, planned, fine } = panes;
+/** What the finer meshes cost. */
+export function levelsSentence({ panes }: Pick<RefinementState, 'panes'>): string {
+  const { coarse, fine } = panes;
   if (coarse.nVertices === 0 || fine.nVertices === 0) return '';
   const isTimed = coarse.msPerFrame !== null && fine.msPerFrame !== null;
   const isTimedAlike = isTimed && coarse.source === fine.source;
   const time = isTimedAlike
     ? ` and ${times(fine.msPerFrame ?? 0, coarse.msPerFrame ?? 1)} the time of a frame`
     : '';
-  const sentences = [
-    `A level splits each face into four. The two from coarse to fine cost ${times(fine.nVertices, coarse.nVertices)} the vertices${time}.`,
-  ];
-  if (coarse.errorM !== null && planned.errorM !== null)
-    sentences.push(
-      `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the planned one. Not all of that is the mesh’s: folds fall as they may, and the surfaces of two fine runs, one in air heavier by a millionth, are at least two thirds as far apart.`,
-    );
-  return sentences.join(' ');
+  return `A level splits each face into four. The two from coarse to fine cost ${times(fine.nVertices, coarse.nVertices)} the vertices${time}.`;
+}
+
+/** Where to read what one more level buys: words before the link, the link, and words after it. */
+export const ONE_MORE_LEVEL = {
+  before: 'How much nearer one more level comes, folds do not tell: for that open ',
+  link: 'the swinging sheet',
+  hash: '#scene=swinging-sheet',
+  after:
+    ' and press “Measure speed and error”. It says what the mesh does wrong at each level of that sheet.',
+};
+
+/** How far the shown meshes are from fine, and why that is no measure of a level. */
+export function distanceSentence({ panes }: Pick<RefinementState, 'panes'>): string {
+  const { coarse, planned } = panes;
+  if (coarse.errorM === null || planned.errorM === null) return '';
+  return `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the ${PLANNED} one. Not all of that is the mesh’s: folds fall as they may, and the surfaces of two fine runs, one in air heavier by a millionth, are at least two thirds as far apart.`;
 }
 
 export function ruleWords({ rule }: PlanStory): string {

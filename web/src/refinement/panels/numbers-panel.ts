@@ -3,7 +3,7 @@ import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { PANES, type PaneId, type RefinementState } from '../state/refinement-state';
-import { buysSentence } from './garment-words';
+import { distanceSentence, levelsSentence, ONE_MORE_LEVEL } from './garment-words';
 import { heading, numberCell } from './table-parts';
 
 function count(number: number | undefined): string {
@@ -72,14 +72,18 @@ const MEANING =
   'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s. An even mesh of as many vertices as the plan is not shown here; the skirt’s is nearer to fine than the plan, whose small faces lie where the cloth bends most sharply and not where coarse ones miss most.';
 
 export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
-  const buys = element('p');
+  const levels = element('p');
+  const distance = element('p');
+  const { before, link, hash, after } = ONE_MORE_LEVEL;
   const table = element('div');
   parent.append(
     element(
       'section',
       { 'aria-label': 'Numbers' },
       element('h2', {}, 'What it buys'),
-      buys,
+      levels,
+      element('p', { class: 'one-more-level' }, before, element('a', { href: hash }, link), after),
+      distance,
       element(
         'details',
         {},
@@ -90,7 +94,8 @@ export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementS
     ),
   );
   return watch(store, ['panes'], (state) => {
-    setText(buys, buysSentence(state));
+    setText(levels, levelsSentence(state));
+    setText(distance, distanceSentence(state));
     table.replaceChildren(numberTable(state));
   });
 }

@@ -4,15 +4,13 @@ export interface RunWarning {
   /** When it was first seen. */
   time_s: number;
   vertex: number;
+  /** At its worst: a strain, a speed [m/s] or a share of the equations; null beyond all numbers. */
+  value: number | null;
+  /** What the scene explains. */
+  bound: number | null;
   sentence: string;
   /** Else all that is told is that a step did not converge. */
   is_nonsense: boolean;
   /** Values that may help, by their JSON pointers into the scene. */
   hints: Record<string, number | string>;
-}
-
-export function warningSentence({ sentence, is_nonsense }: RunWarning): string {
-  return is_nonsense
-    ? `This is not how cloth moves: ${sentence}.`
-    : `${sentence.charAt(0).toUpperCase()}${sentence.slice(1)}.`;
 }

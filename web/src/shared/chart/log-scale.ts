@@ -12,7 +12,7 @@ export interface LogScale {
 }
 
 /** An axis of fewer decades than this has labels at 2 and 5 too. */
-const FEW_DECADES = 2.3;
+const FEW_DECADES = 3;
 
 function multiples(factors: readonly number[], low: number, high: number): number[] {
   const found: number[] = [];

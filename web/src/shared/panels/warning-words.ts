@@ -1,0 +1,24 @@
+// What a run shows that its scene cannot explain, in words.
+import type { RunWarning } from '../bindings/run-warning';
+import { digits, percent } from './quantity';
+
+/** From here on a stretch is many lengths, however many. */
+const MANY = 10;
+
+function stretchText(strain: number | null): string {
+  return strain === null || strain > MANY ? 'many times its length' : `by up to ${percent(strain)}`;
+}
+
+export function warningSentence({ kind, time_s, value, bound }: RunWarning): string {
+  const since = `From ${digits(time_s, 2)} s on`;
+  switch (kind) {
+    case 'stretch':
+      return `The run has exploded. ${since} the cloth is stretched ${stretchText(value)}; its weight explains ${percent(bound)}.`;
+    case 'speed':
+      return `The run has exploded. ${since} the cloth is as fast as ${digits(value, 2)} m/s; falling and pulling explain ${digits(bound, 2)} m/s.`;
+    case 'unsolved':
+      return `This is not how cloth moves. ${since} steps leave ${percent(value)} of their equations unsolved.`;
+    case 'not_converged':
+      return `${since} steps did not converge, and left ${percent(value)} of their equations unsolved.`;
+  }
+}
