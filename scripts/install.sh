@@ -10,7 +10,8 @@ cmake cmake
 ninja-build ninja
 libeigen3-dev <eigen3/Eigen/Core>
 libsuitesparse-dev <suitesparse/cholmod.h>
-nlohmann-json3-dev <nlohmann/json.hpp>'
+nlohmann-json3-dev <nlohmann/json.hpp>
+libspectra-dev <Spectra/SymEigsShiftSolver.h>'
 wasm_tools='
 cmake cmake
 ninja-build ninja
@@ -18,6 +19,7 @@ emscripten emcc
 node-acorn /usr/share/nodejs/acorn
 libeigen3-dev <eigen3/Eigen/Core>
 nlohmann-json3-dev <nlohmann/json.hpp>
+libspectra-dev <Spectra/SymEigsShiftSolver.h>
 xz-utils xz'
 node_tools='
 npm npm

@@ -1,0 +1,186 @@
+#include "core/modal/modes.h"
+
+#include <Spectra/SymEigsShiftSolver.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/linalg/linear_solver.h"
+
+namespace pleat {
+namespace {
+
+/// Below the stiffness of what resists at all, as a share of the stiffest row over its mass: the
+/// factor then is positive definite, and loses as many digits of its sixteen.
+constexpr double kShift = 1e-8;
+/// Relative, of the eigenvalues that the iteration tells.
+constexpr double kTolerance = 1e-12;
+constexpr int kMostRestarts = 300;
+
+Eigen::VectorXd row_sums(const SparseMatrix& lower) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(lower.rows());
+  for (int column = 0; column < lower.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+      sums[entry.row()] += std::abs(entry.value());
+      if (entry.row() != column) sums[column] += std::abs(entry.value());
+    }
+  return sums;
+}
+
+/// y = P M^1/2 (K - sigma M)^-1 M^1/2 P x, with P the projection to what is perpendicular to
+/// M^1/2 times the null space. Its eigenvectors are M^1/2 phi, its largest eigenvalues
+/// 1/(lambda - sigma) of the softest modes.
+class ShiftInverse {
+ public:
+  using Scalar = double;
+
+  ShiftInverse(LinearSolver& solver, const Eigen::VectorXd& root_masses,
+               const Eigen::MatrixXd& null_space)
+      : solver_(solver), root_masses_(root_masses), null_space_(null_space) {}
+
+  Eigen::Index rows() const { return root_masses_.size(); }
+  Eigen::Index cols() const { return root_masses_.size(); }
+  void set_shift(double) {}  // the factor has it already
+
+  void perform_op(const double* x_in, double* y_out) const {
+    const Eigen::Map<const Eigen::VectorXd> x(x_in, rows());
+    Eigen::Map<Eigen::VectorXd> y(y_out, rows());
+    rhs_ = x;
+    project(rhs_);
+    rhs_.array() *= root_masses_.array();
+    solution_.setZero(rows());
+    const SolveReport report = solver_.solve(rhs_, solution_);
+    if (report.ends_run()) report_ = report;
+    solution_.array() *= root_masses_.array();
+    project(solution_);
+    y = solution_;
+  }
+
+  const SolveReport& report() const { return report_; }
+
+ private:
+  void project(Eigen::VectorXd& x) const {
+    if (null_space_.cols() > 0) x -= null_space_ * (null_space_.transpose() * x);
+  }
+
+  LinearSolver& solver_;
+  const Eigen::VectorXd& root_masses_;
+  const Eigen::MatrixXd& null_space_;  // orthonormal columns
+  mutable Eigen::VectorXd rhs_, solution_;
+  mutable SolveReport report_;
+};
+
+/// Columns that span the same, orthonormal.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
+SparseMatrix shifted(const SparseMatrix& stiffness, const Eigen::VectorXd& masses, double shift) {
+  std::vector<Eigen::Triplet<double, int>> diagonal;
+  diagonal.reserve(static_cast<std::size_t>(masses.size()));
+  for (int i = 0; i < masses.size(); ++i) diagonal.emplace_back(i, i, shift * masses[i]);
+  SparseMatrix sum(stiffness.rows(), stiffness.cols());
+  sum.setFromTriplets(diagonal.begin(), diagonal.end());
+  sum += stiffness;
+  sum.makeCompressed();
+  return sum;
+}
+
+void set_residuals(const SparseMatrix& stiffness, const Eigen::VectorXd& masses, double norm,
+                   Modes& modes) {
+  modes.residuals.resize(modes.size());
+  for (Eigen::Index m = 0; m < modes.size(); ++m) {
+    const Eigen::VectorXd phi = modes.shapes.col(m);
+    const Eigen::VectorXd pull = stiffness.selfadjointView<Eigen::Lower>() * phi;
+    const double rest = (pull - modes.stiffness[m] * masses.cwiseProduct(phi)).norm();
+    modes.residuals[m] = norm > 0 ? rest / (norm * phi.norm()) : 0;
+  }
+}
+
+}  // namespace
+
+SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& masses,
+                         const Eigen::MatrixXd& null_space, int count, Modes& modes) {
+  const Eigen::Index n = stiffness.rows();
+  const Eigen::Index n_null = null_space.cols();
+  PLEAT_CHECK(stiffness.cols() == n && masses.size() == n &&
+                  null_space.rows() == (n_null ? n : null_space.rows()),
+              "stiffness, masses and null space are of the same unknowns");
+  PLEAT_CHECK(masses.size() > 0 && masses.minCoeff() > 0, "every unknown has mass");
+  PLEAT_CHECK(count > 0 && count <= n - n_null, "no more modes than there are");
+
+  const Eigen::VectorXd root_masses = masses.cwiseSqrt();
+  const Eigen::VectorXd sums = row_sums(stiffness);
+  const double shift = kShift * sums.cwiseQuotient(masses).maxCoeff();
+  auto solver = make_linear_solver(SolverKind::supernodal);
+  const SparseMatrix lower = shifted(stiffness, masses, shift);
+  solver->analyze(lower);
+  if (SolveReport report = solver->factorize(lower); report.ends_run()) return report;
+
+  const Eigen::MatrixXd rigid = orthonormal(root_masses.asDiagonal() * null_space);
+  ShiftInverse inverse(*solver, root_masses, rigid);
+  // A Krylov space of twice the wanted size, as ARPACK's guide has it, but never more than there
+  // is.
+  const Eigen::Index wanted = std::min<Eigen::Index>(count, n - 1);
+  const Eigen::Index space = std::min<Eigen::Index>(n, std::max<Eigen::Index>(2 * wanted + 1, 20));
+  Spectra::SymEigsShiftSolver<ShiftInverse> eigen(inverse, wanted, space, -shift);
+  eigen.init();
+  const Eigen::Index found = eigen.compute(Spectra::SortRule::LargestMagn, kMostRestarts,
+                                           kTolerance, Spectra::SortRule::LargestMagn);
+  if (inverse.report().ends_run()) return inverse.report();
+
+  const Eigen::VectorXd values = eigen.eigenvalues();
+  const Eigen::MatrixXd vectors = eigen.eigenvectors();
+  modes.n_rigid = static_cast<int>(n_null);
+  modes.stiffness = Eigen::VectorXd::Zero(n_null + values.size());
+  modes.shapes.resize(n, n_null + values.size());
+  modes.shapes.leftCols(n_null) = rigid;
+  // Softest first.
+  for (Eigen::Index m = 0; m < values.size(); ++m) {
+    const Eigen::Index from = values.size() - 1 - m;
+    const bool ascends = values.size() < 2 || values[0] < values[values.size() - 1];
+    modes.stiffness[n_null + m] = values[ascends ? m : from];
+    modes.shapes.col(n_null + m) = vectors.col(ascends ? m : from);
+  }
+  modes.shapes = root_masses.cwiseInverse().asDiagonal() * modes.shapes;
+  set_residuals(stiffness, masses, sums.maxCoeff(), modes);
+
+  SolveReport report;
+  report.iterations = static_cast<int>(eigen.num_operations());
+  report.relative_residual = modes.residuals.size() ? modes.residuals.maxCoeff() : 0;
+  if (found < wanted) {
+    report.status = SolveStatus::not_converged;
+    report.message = "fewer modes converged than were asked for";
+  }
+  return report;
+}
+
+Eigen::MatrixXd rigid_motions(const Positions& positions, const std::vector<int>& part_of_vertex) {
+  PLEAT_CHECK(static_cast<Eigen::Index>(part_of_vertex.size()) == positions.cols(),
+              "every vertex is of a part");
+  const int n_parts = part_of_vertex.empty()
+                          ? 0
+                          : *std::max_element(part_of_vertex.begin(), part_of_vertex.end()) + 1;
+  Positions centres = Positions::Zero(3, n_parts);
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(n_parts);
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    const int part = part_of_vertex[static_cast<std::size_t>(v)];
+    centres.col(part) += positions.col(v);
+    ++counts[part];
+  }
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * positions.cols(), 6 * n_parts);
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    const int part = part_of_vertex[static_cast<std::size_t>(v)];
+    const Vec3 arm = positions.col(v) - centres.col(part) / counts[part];
+    motions.block<3, 3>(3 * v, 6 * part) = Mat3::Identity();
+    for (int axis = 0; axis < 3; ++axis)
+      motions.block<3, 1>(3 * v, 6 * part + 3 + axis) = Vec3::Unit(axis).cross(arm);
+  }
+  return motions;
+}
+
+}  // namespace pleat

@@ -1,0 +1,104 @@
+#include "core/modal/tet_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace pleat {
+namespace {
+
+/// Sets that are joined two by two; each is known by its smallest member.
+class JoinedSets {
+ public:
+  explicit JoinedSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  void join(int a, int b) {
+    a = root(a);
+    b = root(b);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+  /// The number of each member's set, in the order of their smallest members.
+  std::vector<int> numbers() {
+    std::vector<int> numbers(parent_.size(), -1);
+    int n_sets = 0;
+    for (std::size_t i = 0; i < parent_.size(); ++i) {
+      const auto first = static_cast<std::size_t>(root(static_cast<int>(i)));
+      if (numbers[first] < 0) numbers[first] = n_sets++;
+      numbers[i] = numbers[first];
+    }
+    return numbers;
+  }
+
+ private:
+  int root(int i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) {
+      int& up = parent_[static_cast<std::size_t>(i)];
+      up = parent_[static_cast<std::size_t>(up)];
+      i = up;
+    }
+    return i;
+  }
+
+  std::vector<int> parent_;
+};
+
+struct TetFace {
+  std::array<int, 3> corners;  // ascending
+  int tet;
+  bool operator<(const TetFace& other) const { return corners < other.corners; }
+};
+
+}  // namespace
+
+Mat3 tet_edges(const Positions& positions, const Tet& tet) {
+  Mat3 edges;
+  for (int k = 0; k < 3; ++k)
+    edges.col(k) = positions.col(tet[static_cast<std::size_t>(k) + 1]) - positions.col(tet[0]);
+  return edges;
+}
+
+double tet_volume(const Positions& positions, const Tet& tet) {
+  return tet_edges(positions, tet).determinant() / 6;
+}
+
+double total_volume(const TetMesh& mesh, const Positions& positions) {
+  double volume = 0;
+  for (const Tet& tet : mesh.tets) volume += tet_volume(positions, tet);
+  return volume;
+}
+
+Eigen::VectorXd vertex_volumes(const TetMesh& mesh) {
+  Eigen::VectorXd volumes = Eigen::VectorXd::Zero(mesh.n_vertices());
+  for (const Tet& tet : mesh.tets) {
+    const double quarter = tet_volume(mesh.rest_positions, tet) / 4;
+    for (const VertexId corner : tet) volumes[corner] += quarter;
+  }
+  return volumes;
+}
+
+std::vector<int> parts_by_faces(const TetMesh& mesh) {
+  std::vector<TetFace> faces;
+  faces.reserve(4 * mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      TetFace face{{}, static_cast<int>(t)};
+      for (std::size_t k = 0; k < 3; ++k) face.corners[k] = mesh.tets[t][(left_out + 1 + k) % 4];
+      std::sort(face.corners.begin(), face.corners.end());
+      faces.push_back(face);
+    }
+  std::sort(faces.begin(), faces.end());
+  JoinedSets sets(mesh.tets.size());
+  for (std::size_t f = 1; f < faces.size(); ++f)
+    if (faces[f].corners == faces[f - 1].corners) sets.join(faces[f].tet, faces[f - 1].tet);
+  return sets.numbers();
+}
+
+std::vector<int> parts_by_vertices(const TetMesh& mesh) {
+  JoinedSets sets(static_cast<std::size_t>(mesh.n_vertices()));
+  for (const Tet& tet : mesh.tets)
+    for (std::size_t k = 1; k < 4; ++k) sets.join(tet[0], tet[k]);
+  return sets.numbers();
+}
+
+}  // namespace pleat

@@ -1,0 +1,123 @@
+#include "core/modal/carrying_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "core/base/check.h"
+#include "core/base/random.h"
+#include "native-tests/support/bars.h"
+#include "native-tests/support/meshes.h"
+
+using namespace pleat;
+
+namespace {
+
+int n_parts(const std::vector<int>& parts) {
+  return 1 + *std::max_element(parts.begin(), parts.end());
+}
+
+/// A sphere of radius 1 m: a box whose sides are cut and pushed outward.
+struct Sphere {
+  Positions positions;
+  std::vector<Triangle> triangles;
+
+  explicit Sphere(int levels) {
+    TriangleMesh mesh;
+    mesh.rest_positions = box_corners({2, 2, 2});
+    mesh.triangles = box_triangles();
+    mesh.warp_directions.assign(mesh.triangles.size(), Vec3(1, 0, 0));
+    mesh = subdivided(std::move(mesh), levels);
+    positions = mesh.rest_positions.colwise().normalized();
+    triangles = mesh.triangles;
+  }
+};
+
+/// Its tetrahedra have volume, its embedding puts the surface where it is.
+void check(const CarryingVolume& carrying, const Positions& surface) {
+  for (const Tet& tet : carrying.volume.tets)
+    CHECK(tet_volume(carrying.volume.rest_positions, tet) > 0);
+  CHECK((carrying.surface(carrying.volume.rest_positions) - surface).norm() <
+        1e-12 * surface.norm());
+  CHECK(carrying.embedding.nonZeros() <= 4 * surface.cols());
+}
+
+}  // namespace
+
+TEST_CASE("lattice_volume: a box is filled to its sides", "[modal]") {
+  const Positions corners = box_corners({0.4, 0.2, 0.1});
+  const CarryingVolume bar = lattice_volume(corners, box_triangles(), 0.05);
+  check(bar, corners);
+  CHECK(bar.volume.tets.size() == 8u * 4 * 2 * 6);
+  CHECK(bar.volume.n_vertices() == 9 * 5 * 3);
+  CHECK(total_volume(bar.volume, bar.volume.rest_positions) == Approx(0.4 * 0.2 * 0.1));
+}
+
+TEST_CASE("lattice_volume: a sphere is covered, in one part, by little more than itself",
+          "[modal]") {
+  const Sphere sphere(3);
+  const double edge = GENERATE(0.5, 0.21, 0.1);
+  CAPTURE(edge);
+  const CarryingVolume ball = lattice_volume(sphere.positions, sphere.triangles, edge);
+  check(ball, sphere.positions);
+  const double volume = total_volume(ball.volume, ball.volume.rest_positions);
+  CHECK(volume > 4.0 / 3 * 3.14159 * 0.98);
+  // No cube outside reaches farther than its diagonal.
+  CHECK(volume < 4.0 / 3 * 3.14160 * std::pow(1 + std::sqrt(3.0) * edge, 3));
+  CHECK(n_parts(parts_by_faces(ball.volume)) == 1);
+  // Turned inside out it covers the same.
+  std::vector<Triangle> turned = sphere.triangles;
+  for (Triangle& triangle : turned) std::swap(triangle[1], triangle[2]);
+  CHECK(lattice_volume(sphere.positions, turned, edge).volume.tets.size() ==
+        ball.volume.tets.size());
+}
+
+TEST_CASE("lattice_volume: tetrahedra meet face to face", "[modal]") {
+  const CarryingVolume bar = bar_volume({0.2, 0.2, 0.2}, 0.1);
+  // Of 8 cubes: each has 18 faces, 12 of them on its sides; 4 x 6 of 24 sides are outer ones.
+  std::map<std::array<int, 3>, int> faces;
+  for (const Tet& tet : bar.volume.tets)
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      std::array<int, 3> face{};
+      for (std::size_t k = 0; k < 3; ++k) face[k] = tet[(left_out + 1 + k) % 4];
+      std::sort(face.begin(), face.end());
+      ++faces[face];
+    }
+  const auto n_outer =
+      std::count_if(faces.begin(), faces.end(), [](const auto& face) { return face.second == 1; });
+  CHECK(n_outer == 24 * 2);
+  CHECK(std::all_of(faces.begin(), faces.end(), [](const auto& face) { return face.second <= 2; }));
+}
+
+TEST_CASE("lattice_volume: an open or badly wound surface is refused", "[modal]") {
+  const Positions corners = box_corners({1, 1, 1});
+  std::vector<Triangle> open = box_triangles();
+  open.pop_back();
+  CHECK_THROWS_AS(lattice_volume(corners, open, 0.25), InputError);
+  std::vector<Triangle> turned = box_triangles();
+  std::swap(turned[0][1], turned[0][2]);
+  CHECK_THROWS_AS(lattice_volume(corners, turned, 0.25), InputError);
+  CHECK_THROWS_AS(lattice_volume(corners, box_triangles(), 1e-4), InputError);
+}
+
+TEST_CASE("shell_volume: a sheet is thickened by half to each side", "[modal]") {
+  const TriangleMesh sheet = triangulated_sheet(
+      GENERATE(from_range(std::begin(kTriangulations), std::end(kTriangulations))), 4, 5, 0.1);
+  const CarryingVolume shell = shell_volume(sheet.rest_positions, sheet.triangles, 0.02);
+  check(shell, sheet.rest_positions);
+  double area = 0;
+  for (std::size_t f = 0; f < sheet.triangles.size(); ++f) area += rest_area(sheet, FaceId(f));
+  CHECK(total_volume(shell.volume, shell.volume.rest_positions) == Approx(0.02 * area));
+  CHECK(n_parts(parts_by_faces(shell.volume)) == 1);
+}
+
+TEST_CASE("shell_volume: a closed surface is a hollow one, a crease is refused", "[modal]") {
+  const Sphere sphere(2);
+  check(shell_volume(sphere.positions, sphere.triangles, 0.1), sphere.positions);
+  CHECK_THROWS_AS(shell_volume(sphere.positions, sphere.triangles, 4), InputError);
+  std::vector<Triangle> turned = sphere.triangles;
+  std::swap(turned[0][1], turned[0][2]);
+  CHECK_THROWS_AS(shell_volume(sphere.positions, turned, 0.1), InputError);
+}

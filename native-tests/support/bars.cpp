@@ -1,0 +1,27 @@
+#include "native-tests/support/bars.h"
+
+namespace pleat {
+
+Positions box_corners(const Vec3& sides) {
+  Positions corners(3, 8);
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < 3; ++k) corners(k, i) = ((i >> k & 1) - 0.5) * sides[k];
+  return corners;
+}
+
+std::vector<Triangle> box_triangles() {
+  constexpr int kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  std::vector<Triangle> triangles;
+  for (const auto& side : kSides) {
+    triangles.push_back({VertexId(side[0]), VertexId(side[1]), VertexId(side[2])});
+    triangles.push_back({VertexId(side[0]), VertexId(side[2]), VertexId(side[3])});
+  }
+  return triangles;
+}
+
+CarryingVolume bar_volume(const Vec3& sides, double edge) {
+  return lattice_volume(box_corners(sides), box_triangles(), edge);
+}
+
+}  // namespace pleat
