@@ -1,6 +1,5 @@
 #include "core/modal/arap_energy.h"
 
-#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -60,32 +59,16 @@ Mat3 nearest_rotation(const Mat3& F) {
   return svd.U * svd.V.transpose();
 }
 
-ArapEnergy::ArapEnergy(const TetMesh& rest, double stiffness) : n_vertices_(rest.n_vertices()) {
+ArapEnergy::ArapEnergy(const TetMesh& rest, double stiffness)
+    : n_vertices_(rest.n_vertices()), stiffness_(stiffness), elements_(tet_elements(rest)) {
   PLEAT_CHECK(stiffness > 0, "a stiffness is positive");
-  elements_.reserve(rest.tets.size());
-  for (const Tet& tet : rest.tets) {
-    const double volume = tet_volume(rest.rest_positions, tet);
-    PLEAT_CHECK(volume > 0, "a tetrahedron at rest has volume");
-    const Mat3 inverse = tet_edges(rest.rest_positions, tet).inverse();
-    Element element{tet, {}, stiffness * volume};
-    element.to_gradient.bottomRows<3>() = inverse;
-    element.to_gradient.row(0) = -inverse.colwise().sum();
-    elements_.push_back(element);
-  }
-}
-
-Mat3 ArapEnergy::deformation_gradient(const Element& element, const Positions& positions) const {
-  Mat3 F = Mat3::Zero();
-  for (int k = 0; k < 4; ++k)
-    F += positions.col(element.tet[static_cast<std::size_t>(k)]) * element.to_gradient.row(k);
-  return F;
 }
 
 double ArapEnergy::energy(const Positions& positions) const {
   double energy = 0;
-  for (const Element& element : elements_) {
-    const Mat3 F = deformation_gradient(element, positions);
-    energy += element.weight * (F - nearest_rotation(F)).squaredNorm();
+  for (const TetElement& element : elements_) {
+    const Mat3 F = element.deformation_gradient(positions);
+    energy += stiffness_ * element.volume * (F - nearest_rotation(F)).squaredNorm();
   }
   return energy;
 }
@@ -94,12 +77,12 @@ double ArapEnergy::energy(const Positions& positions) const {
 double ArapEnergy::energy_and_gradient(const Positions& positions, Positions& gradient) const {
   gradient.setZero(3, n_vertices_);
   double energy = 0;
-  for (const Element& element : elements_) {
-    const Mat3 F = deformation_gradient(element, positions);
+  for (const TetElement& element : elements_) {
+    const Mat3 F = element.deformation_gradient(positions);
     const Mat3 from_rotation = F - nearest_rotation(F);
-    energy += element.weight * from_rotation.squaredNorm();
+    energy += stiffness_ * element.volume * from_rotation.squaredNorm();
     const Eigen::Matrix<double, 3, 4> forces =
-        2 * element.weight * from_rotation * element.to_gradient.transpose();
+        2 * stiffness_ * element.volume * from_rotation * element.to_gradient.transpose();
     for (int k = 0; k < 4; ++k)
       gradient.col(element.tet[static_cast<std::size_t>(k)]) += forces.col(k);
   }
@@ -109,9 +92,9 @@ double ArapEnergy::energy_and_gradient(const Positions& positions, Positions& gr
 SparseMatrix ArapEnergy::hessian(const Positions& positions) const {
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(elements_.size() * 78);  // the lower triangle of 12 x 12
-  for (const Element& element : elements_) {
+  for (const TetElement& element : elements_) {
     const Mat9 of_gradient =
-        element.weight * distance_hessian(deformation_gradient(element, positions));
+        stiffness_ * element.volume * distance_hessian(element.deformation_gradient(positions));
     // Row 3 c + r of `columns` is F(r, c): it takes the corner's coordinate r by to_gradient(k, c).
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b) {

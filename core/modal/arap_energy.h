@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/linalg/sparse.h"
-#include "core/modal/tet_mesh.h"
+#include "core/modal/tet_element.h"
 
 namespace pleat {
 
@@ -36,16 +36,9 @@ class ArapEnergy {
   SparseMatrix hessian(const Positions& positions) const;
 
  private:
-  struct Element {
-    Tet tet;
-    Eigen::Matrix<double, 4, 3> to_gradient;  ///< F = corner positions (3 x 4) times this [1/m]
-    double weight;                            ///< w V [J]
-  };
-
-  Mat3 deformation_gradient(const Element& element, const Positions& positions) const;
-
   int n_vertices_;
-  std::vector<Element> elements_;
+  double stiffness_;
+  std::vector<TetElement> elements_;
 };
 
 }  // namespace pleat

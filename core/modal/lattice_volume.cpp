@@ -111,14 +111,17 @@ void use_passed_cells(Lattice& lattice, const Positions& surface,
   }
 }
 
-/// Twice the area of a, b, p in the plane of y and z, of the same size and opposite sign for b, a,
-/// p; where p lies on the line, that of the smaller vertex first counts as positive.
+/// Whether a place p in the plane of y and z is to the left of the line from a to b, and not to
+/// that of the line from b to a. One on the line counts as moved by a little along z and by far
+/// less along y: of triangles around a vertex just one then holds it. Source: Edelsbrunner &
+/// Muecke, Simulation of simplicity, ACM Transactions on Graphics 9, 1990.
 bool is_left(const Positions& surface, VertexId a, VertexId b, double y, double z) {
   const bool is_turned = b < a;
   const Vec3 from = surface.col(is_turned ? b : a);
-  const Vec3 to = surface.col(is_turned ? a : b);
-  const double area = (to.y() - from.y()) * (z - from.z()) - (to.z() - from.z()) * (y - from.y());
-  return (area >= 0) != is_turned;
+  const Vec3 way = surface.col(is_turned ? a : b) - from;
+  const double area = way.y() * (z - from.z()) - way.z() * (y - from.y());
+  const bool left = area != 0 ? area > 0 : way.y() != 0 ? way.y() > 0 : way.z() < 0;
+  return left != is_turned;
 }
 
 /// Where a line along x through the centres of cells meets the surface: in front or behind.

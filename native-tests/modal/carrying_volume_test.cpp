@@ -55,6 +55,22 @@ TEST_CASE("lattice_volume: a box is filled to its sides", "[modal]") {
   CHECK(total_volume(bar.volume, bar.volume.rest_positions) == Approx(0.4 * 0.2 * 0.1));
 }
 
+// Lines through the cubes' middles meet edges and vertices of such a surface.
+TEST_CASE("lattice_volume: a box is filled however its sides are cut", "[modal]") {
+  TriangleMesh box;
+  box.rest_positions = box_corners({0.4, 0.2, 0.2});
+  box.triangles = box_triangles();
+  box.warp_directions.assign(box.triangles.size(), Vec3(1, 0, 0));
+  const int levels = GENERATE(1, 2, 3, 4);
+  CAPTURE(levels);
+  box = subdivided(std::move(box), levels);
+  for (const double edge : {0.1, 0.05, 0.025}) {
+    const CarryingVolume bar = lattice_volume(box.rest_positions, box.triangles, edge);
+    check(bar, box.rest_positions);
+    CHECK(total_volume(bar.volume, bar.volume.rest_positions) == Approx(0.4 * 0.2 * 0.2));
+  }
+}
+
 TEST_CASE("lattice_volume: a sphere is covered, in one part, by little more than itself",
           "[modal]") {
   const Sphere sphere(3);
