@@ -160,8 +160,8 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   model_.air->add_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
                          forces_);
   for (int i = 0; i < model_.n_vertices(); ++i) {
-    if (model_.hangs(VertexId(i))) continue;
     const int slot = slot_of(VertexId(i));
+    if (array(inverse_mass)[slot] == 0) continue;  // it hangs or is held
     for (int k = 0; k < 3; ++k)
       array(rounded_off + k)[slot] -= static_cast<float>(h * h / model_.masses[i] * forces_(k, i));
   }

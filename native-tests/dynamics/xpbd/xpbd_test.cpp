@@ -284,6 +284,28 @@ TEST_CASE("xpbd: pins are where their motion puts them, to the bit", "[dynamics]
   }
 }
 
+// What holds is placed once a step, what moves in every substep.
+TEST_CASE("xpbd: a pin that holds is one that moves nowhere, in air too, to the bit",
+          "[dynamics]") {
+  const auto after = [](Motion::Kind kind) {
+    System system = particles((Positions(3, 3) << 0, 1, 0, 0, 0, 0, 0, 0, 1).finished());
+    for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {0, 2}})
+      system.model.springs.push_back(spring_between(system.state.positions, a, b, 50, 0.01));
+    const std::vector<Triangle> triangles{{VertexId(0), VertexId(1), VertexId(2)}};
+    AirOptions thick;
+    thick.density = 100;
+    system.model.air.emplace(triangles, thick, system.model.n_vertices());
+    pin(system, 0);
+    system.model.pins[0].motion.kind = kind;
+    StepperXpbd stepper(system.model, xpbd_options(20));
+    advance(stepper, system.state, 30);
+    return system.state.positions;
+  };
+  const Positions held = after(Motion::Kind::hold);
+  CHECK((held.col(1) - Vec3(1, 0, 0)).norm() > 1e-3);
+  CHECK(held == after(Motion::Kind::oscillate));
+}
+
 TEST_CASE("xpbd: the same input gives the same bits", "[dynamics]") {
   const int n = GENERATE(5, 17, 22);
   CAPTURE(n);
