@@ -1,6 +1,5 @@
 // Bad input, case by case: the exit status, one sentence that names the place, and not a byte lost.
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <map>
@@ -10,7 +9,7 @@
 
 #include "core/files/json_text.h"
 #include "native-tests/support/assets.h"
-#include "native-tests/support/pleat_command.h"
+#include "native-tests/support/small_scene.h"
 
 using namespace pleat;
 namespace fs = std::filesystem;
@@ -20,26 +19,10 @@ namespace {
 using Words = std::vector<std::string>;
 using Files = std::vector<std::pair<std::string, std::string>>;  // names and texts
 
-constexpr const char* kDeskScene = R"({
-  "name": "small sheet",
-  "cloth": {"sheet": {"columns": 2, "rows": 2, "warp_direction": [0, 0, 1]}},
-  "fabric": {"name": "fine cotton"},
-  "pins": [{"part": "upper_edge"}],
-  "method": {"step_s": 0.02, "solver": "eigen"},
-  "record": {"every_s": 0.02, "format": "binary"},
-  "duration_s": 0.2
-})";
-
 // Two triangles over a square, and their texture twice as large.
 const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string kTextures = "vt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\n";
 const std::string kSquare = kCorners + kTextures + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
-
-/// The scene with a part of its text replaced.
-std::string changed_scene(const std::string& from, const std::string& to) {
-  std::string text = kDeskScene;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 /// A scene of a mesh, with further keys of the mesh.
 std::string mesh_scene(const std::string& name, const std::string& keys = "") {
@@ -63,7 +46,7 @@ struct Desk {
   ScratchFolder folder;
 
   explicit Desk(const Files& files = {}) {
-    put({{"scene.json", kDeskScene},
+    put({{"scene.json", kSmallScene},
          {"mesh.obj", kSquare},
          {"mesh.json", mesh_scene("mesh.obj")},
          {"deform.json", deform_scene(R"("obj": "mesh.obj")")}});
@@ -88,10 +71,6 @@ struct Desk {
   }
 };
 
-std::ptrdiff_t lines_in(const std::string& text) {
-  return std::count(text.begin(), text.end(), '\n');
-}
-
 struct Bad {
   Words words;
   std::string sentence;  // how what is told begins, after "pleat: "
@@ -106,7 +85,7 @@ void check_refused(const Bad& bad) {
   CHECK(ending.status == 2);
   CHECK(ending.out.empty());
   CHECK(ending.error.rfind("pleat: " + bad.sentence, 0) == 0);
-  CHECK(lines_in(ending.error) == 1);
+  CHECK(n_lines(ending.error) == 1);
   CHECK(desk.contents() == before);
 }
 
@@ -217,20 +196,19 @@ TEST_CASE("bad input: a name that is none, and a key far from all, are told wher
        {{"bad.json", nameless.dump()}}},
       {{"run", "bad.json"},
        "nope.json: expected a file, got none of this name",
-       {{"bad.json", changed_scene("\"pins\"", R"("refinement": {"plan": "nope.json"}, "pins")")}}},
+       {{"bad.json", scene_with("\"pins\"", R"("refinement": {"plan": "nope.json"}, "pins")")}}},
       {{"run", "bad.json"},
        "bad.json: /refinement/plan: expected the name of a file, got \"\"",
-       {{"bad.json", changed_scene("\"pins\"", R"("refinement": {"plan": ""}, "pins")")}}},
+       {{"bad.json", scene_with("\"pins\"", R"("refinement": {"plan": ""}, "pins")")}}},
       {{"run", "bad.json"},
        "bad.json: scene.json: /name: expected ",
-       {{"bad.json",
-         changed_scene("\"pins\"", R"("refinement": {"plan": "scene.json"}, "pins")")}}},
+       {{"bad.json", scene_with("\"pins\"", R"("refinement": {"plan": "scene.json"}, "pins")")}}},
       {{"run", "bad.json"},
        "bad.json: /colour: expected one of the keys ",
-       {{"bad.json", changed_scene("\"pins\"", R"("colour": "red", "pins")")}}},
+       {{"bad.json", scene_with("\"pins\"", R"("colour": "red", "pins")")}}},
       {{"run", "bad.json"},
        "bad.json: /pnis: expected ",
-       {{"bad.json", changed_scene("pins", "pnis")}}},
+       {{"bad.json", scene_with("pins", "pnis")}}},
       {{"run", "bad.json"},
        "bad.json: mesh.bad: line 1: expected a number, got \"x\"",
        {{"bad.json", mesh_scene("mesh.bad")}, {"mesh.bad", "v 0 0 x\n"}}},
@@ -260,7 +238,7 @@ TEST_CASE("bad input: what no cloth can be made of is told with its line", "[cli
        {{"bad.obj", "seam 1 2\nseam 2 3\n"}}},
       {{"deform", "bad.obj", "--fabric=silk"},
        "bad.obj: expected vertices (v), got none",
-       {{"bad.obj", kDeskScene}}},
+       {{"bad.obj", kSmallScene}}},
       {{"deform", "bad.obj", "--fabric=silk"},
        "bad.obj: line 1: expected triangles or polygons (f)",
        {{"bad.obj", "cstype bezier\n"}}},
@@ -309,7 +287,7 @@ TEST_CASE("bad input: what no cloth can be made of is told with its line", "[cli
 
 TEST_CASE("bad input: settings that a method does not read are refused", "[cli]") {
   const auto method = [](const std::string& keys) {
-    return Files{{"bad.json", changed_scene("\"step_s\": 0.02, \"solver\": \"eigen\"", keys)}};
+    return Files{{"bad.json", scene_with("\"step_s\": 0.02, \"solver\": \"eigen\"", keys)}};
   };
   const Bad cases[] = {
       {{"run", "bad.json"},
@@ -359,26 +337,25 @@ TEST_CASE("bad input: what stands there is written over only when asked, and wha
       {{"refine", "scene.json", "--out=scene.json", "--overwrite"}, "scene.json" + read, {}},
       {{"refine", "scene.json", "--merge=b.json", "--out=b.json", "--overwrite"},
        "b.json" + read,
-       {{"b.json", kDeskScene}}},
+       {{"b.json", kSmallScene}}},
       {{"run", "o/metrics.json", "--out=o", "--overwrite"},
        "o/metrics.json" + read,
-       {{"o/metrics.json", kDeskScene}}},
+       {{"o/metrics.json", kSmallScene}}},
       {{"run", "mesh.json", "--out=o", "--overwrite"},
        "o/frame_000001.obj" + read,
        {{"mesh.json", mesh_scene("o/frame_000001.obj")}, {"o/frame_000001.obj", kSquare}}},
       {{"run", "d/mass.mtx", "--dump=d", "--overwrite"},
        "d/mass.mtx" + read,
-       {{"d/mass.mtx", kDeskScene}}},
+       {{"d/mass.mtx", kSmallScene}}},
       {{"sweep", "o/plan.json", "--out=o", "--overwrite"},
        "o/plan.json" + read,
-       {{"o/plan.json", std::string(R"({"scene": )") + kDeskScene + "}"}}},
+       {{"o/plan.json", std::string(R"({"scene": )") + kSmallScene + "}"}}},
   };
   for (const Bad& bad : cases) check_refused(bad);
 }
 
 TEST_CASE("bad input: of several examples the one at fault is named", "[cli]") {
-  const std::string wild =
-      changed_scene("\"pins\"", R"("world": {"air": {"density_kg_per_m3": 1e5}},
+  const std::string wild = scene_with("\"pins\"", R"("world": {"air": {"density_kg_per_m3": 1e5}},
       "pins")");
   Json explosive = parse_json(wild);
   explosive["cloth"]["sheet"]["initial_velocity_m_per_s"] = {0, 30, 0};
@@ -386,13 +363,13 @@ TEST_CASE("bad input: of several examples the one at fault is named", "[cli]") {
   const Bad cases[] = {
       {{"refine", "scene.json", "--merge", "b.json"},
        "b.json: /cloth: expected examples of one cloth at one level",
-       {{"b.json", changed_scene("\"columns\": 2", "\"columns\": 3")}}},
+       {{"b.json", scene_with("\"columns\": 2", "\"columns\": 3")}}},
       {{"refine", "scene.json", "--merge", "b.json"},
        "b.json: /cloth: expected a sheet or",
        {{"b.json", mesh_scene("mesh.obj")}}},
       {{"refine", "scene.json", "--merge", "b.json"},
        "b.json: /duration_s: expected at least two",
-       {{"b.json", changed_scene("\"duration_s\": 0.2", "\"duration_s\": 0.03")}}},
+       {{"b.json", scene_with("\"duration_s\": 0.2", "\"duration_s\": 0.03")}}},
       {{"refine", "scene.json", "--merge", "b.json"},
        "b.json: expected an example that runs to",
        {{"b.json", explosive.dump()}}},
@@ -410,7 +387,7 @@ TEST_CASE("input: an option and its value may be one word", "[cli]") {
   const Ending set =
       desk.call({"sweep", "scene.json", "--json", "--repeat=1", "--set=/method/substeps=1,2"});
   CHECK(set.status == 0);
-  CHECK(lines_in(set.out) == 2);
+  CHECK(n_lines(set.out) == 2);
 }
 
 TEST_CASE("input: bytes that are no text stand in for a commit, and are told as such", "[cli]") {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
@@ -7,7 +6,7 @@
 #include "core/files/json_text.h"
 #include "core/files/obj_file.h"
 #include "native-tests/support/assets.h"
-#include "native-tests/support/pleat_command.h"
+#include "native-tests/support/small_scene.h"
 
 namespace pleat {
 namespace {
@@ -206,7 +205,7 @@ TEST_CASE("deform command: bad input is one sentence that names its source, and 
     CHECK(ending.status == 2);
     CHECK(ending.error.find(bad.sentence) != std::string::npos);
     CHECK(ending.error.rfind("pleat: ", 0) == 0);
-    CHECK(std::count(ending.error.begin(), ending.error.end(), '\n') == 1);
+    CHECK(n_lines(ending.error) == 1);
     CHECK(ending.out.empty());
   }
   CHECK_FALSE(std::filesystem::exists(place.out));

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "native-tests/support/assets.h"
-
 namespace pleat {
 namespace fs = std::filesystem;
 

@@ -312,11 +312,12 @@ export async function checkRefinement(harness) {
       ),
   );
 
-  for (const [width, height] of [
+  const WINDOWS = [
     [720, 450],
     [390, 844],
     [1440, 900],
-  ]) {
+  ];
+  for (const [width, height] of WINDOWS) {
     await check(`refinement: Play is in sight and badges lie on no picture at ${width} px`, () =>
       visit(
         '#view=refinement',
@@ -337,11 +338,7 @@ export async function checkRefinement(harness) {
     );
   }
 
-  for (const [width, height] of [
-    [720, 450],
-    [390, 844],
-    [1440, 900],
-  ]) {
+  for (const [width, height] of WINDOWS) {
     await check(`refinement: no name of a garment or a fabric is cut at ${width} px`, () =>
       visit(
         '#view=refinement',
