@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/base/rigid_motion.h"
 #include "core/deform/cloth_extent.h"
 #include "core/deform/deform_settling.h"
-#include "core/deform/rigid_motion.h"
 
 namespace pleat {
 namespace {
 
-constexpr std::size_t kMaxCorrections = 20;   // each costs four products of two columns
 constexpr int kMaxHalvings = 12;              // then the direction is at fault, not its length
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's: share of what the slope promises
 constexpr double kFirstDamping = 1e-4;
@@ -244,33 +243,16 @@ void DeformSolver::restart(const Eigen::Ref<const Positions>& places) {
 }
 
 void DeformSolver::remember(const Positions& gradient) {
-  if (last_change_.cols() == 0) return;
-  Correction c{last_change_, gradient - last_gradient_, 0};
-  c.product = dot(c.change, c.gradient_change);
-  // A metric stays positive only by what curves upward.
-  constexpr double kLeastCosine = 1e-10;
-  if (c.product <= kLeastCosine * c.change.norm() * c.gradient_change.norm()) return;
-  corrections_.push_back(std::move(c));
-  if (corrections_.size() > kMaxCorrections) corrections_.pop_front();
+  if (last_change_.cols() > 0) corrections_.remember(last_change_, gradient - last_gradient_);
 }
 
-/// -H g by the two-loop recursion.
 Positions DeformSolver::descent(const Positions& gradient) {
   const StageScope stage(observer_, Stage::solve);
-  Positions q = -gradient;
-  std::vector<double> shares(corrections_.size());
-  for (std::size_t k = corrections_.size(); k-- > 0;) {
-    shares[k] = dot(corrections_[k].change, q) / corrections_[k].product;
-    q -= shares[k] * corrections_[k].gradient_change;
-  }
-  Eigen::MatrixXd solution(q.cols(), 3);
-  solver_->solve(q.transpose(), solution);
-  Positions direction = solution.transpose();
-  for (std::size_t k = 0; k < corrections_.size(); ++k) {
-    const Correction& c = corrections_[k];
-    direction += (shares[k] - dot(c.gradient_change, direction) / c.product) * c.change;
-  }
-  return direction;
+  return corrections_.descent(gradient, [this](const Positions& q) {
+    Eigen::MatrixXd solution(q.cols(), 3);
+    solver_->solve(q.transpose(), solution);
+    return Positions(solution.transpose());
+  });
 }
 
 /// Moves along the direction until the energy has fallen enough from what it was before; false, and

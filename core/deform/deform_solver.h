@@ -1,11 +1,11 @@
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <vector>
 
 #include "core/base/stage_observer.h"
 #include "core/deform/deform_energy.h"
+#include "core/linalg/lbfgs.h"
 #include "core/linalg/linear_solver.h"
 
 namespace pleat {
@@ -112,11 +112,7 @@ class DeformSolver {
   void observe(StageObserver* observer) { observer_ = observer; }
 
  private:
-  /// How the gradient changed along with the positions.
-  struct Correction {
-    Positions change, gradient_change;
-    double product = 0;  // of the two
-  };
+  static constexpr std::size_t kMaxCorrections = 20;
 
   void begin_anew();
   bool dampen();
@@ -149,8 +145,8 @@ class DeformSolver {
   int n_linearisations_ = 0;
   int n_before_ = 0;  // of them, before something was last moved, held or weighted
   double damping_ = 0;
-  std::deque<Correction> corrections_;  // to the factor
-  Positions last_change_;               // empty where there is no step to learn from
+  LbfgsCorrections corrections_{kMaxCorrections};  // to the factor
+  Positions last_change_;                          // empty where there is no step to learn from
   Positions last_gradient_;
 
   std::vector<DeformStep> steps_;

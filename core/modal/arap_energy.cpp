@@ -1,32 +1,12 @@
 #include "core/modal/arap_energy.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/modal/nearest_rotation.h"
 
 namespace pleat {
 namespace {
-
-/// F = U diag(s) V' with rotations U and V; the last of s is negative where F turns inside out.
-struct RotationSvd {
-  Mat3 U, V;
-  Vec3 s;
-};
-
-RotationSvd rotation_svd(const Mat3& F) {
-  const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  RotationSvd result{svd.matrixU(), svd.matrixV(), svd.singularValues()};
-  if (result.U.determinant() < 0) {
-    result.U.col(2) *= -1;
-    result.s[2] *= -1;
-  }
-  if (result.V.determinant() < 0) {
-    result.V.col(2) *= -1;
-    result.s[2] *= -1;
-  }
-  return result;
-}
 
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 using Vec9 = Eigen::Matrix<double, 9, 1>;
@@ -54,11 +34,6 @@ Mat9 distance_hessian(const Mat3& F) {
 
 }  // namespace
 
-Mat3 nearest_rotation(const Mat3& F) {
-  const RotationSvd svd = rotation_svd(F);
-  return svd.U * svd.V.transpose();
-}
-
 ArapEnergy::ArapEnergy(const TetMesh& rest, double stiffness)
     : n_vertices_(rest.n_vertices()), stiffness_(stiffness), elements_(tet_elements(rest)) {
   PLEAT_CHECK(stiffness > 0, "a stiffness is positive");
@@ -81,10 +56,7 @@ double ArapEnergy::energy_and_gradient(const Positions& positions, Positions& gr
     const Mat3 F = element.deformation_gradient(positions);
     const Mat3 from_rotation = F - nearest_rotation(F);
     energy += stiffness_ * element.volume * from_rotation.squaredNorm();
-    const Eigen::Matrix<double, 3, 4> forces =
-        2 * stiffness_ * element.volume * from_rotation * element.to_gradient.transpose();
-    for (int k = 0; k < 4; ++k)
-      gradient.col(element.tet[static_cast<std::size_t>(k)]) += forces.col(k);
+    element.add_pulls(2 * stiffness_ * from_rotation, gradient);
   }
   return energy;
 }

@@ -5,9 +5,6 @@
 
 namespace pleat {
 
-/// The rotation nearest to F, without reflection even where F turns inside out.
-Mat3 nearest_rotation(const Mat3& F);
-
 /// As-rigid-as-possible energy of a volume:
 ///
 ///     E(x) = sum_t w V_t min_R |F_t - R|^2      [J]

@@ -13,6 +13,11 @@ Mat3 TetElement::deformation_gradient(const Positions& positions) const {
   return F;
 }
 
+void TetElement::add_pulls(const Mat3& stress, Positions& pulls) const {
+  const Eigen::Matrix<double, 3, 4> own = volume * stress * to_gradient.transpose();
+  for (int k = 0; k < 4; ++k) pulls.col(tet[static_cast<std::size_t>(k)]) += own.col(k);
+}
+
 std::vector<TetElement> tet_elements(const TetMesh& rest) {
   std::vector<TetElement> elements;
   elements.reserve(rest.tets.size());
@@ -26,6 +31,24 @@ std::vector<TetElement> tet_elements(const TetMesh& rest) {
     elements.push_back(element);
   }
   return elements;
+}
+
+SparseMatrix laplacian(int n_vertices, const std::vector<TetElement>& elements) {
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(10 * elements.size());
+  for (const TetElement& element : elements) {
+    const Eigen::Matrix4d block =
+        element.volume * element.to_gradient * element.to_gradient.transpose();
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < 4; ++b) {
+        const int row = element.tet[static_cast<std::size_t>(a)];
+        const int column = element.tet[static_cast<std::size_t>(b)];
+        if (row >= column) entries.emplace_back(row, column, block(a, b));
+      }
+  }
+  SparseMatrix lower(n_vertices, n_vertices);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
 }
 
 }  // namespace pleat

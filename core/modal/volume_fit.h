@@ -13,8 +13,7 @@ namespace pleat {
 ///
 ///     sum_t V_t min_R |F_t - R|^2  +  attachment V / n sum_v |s_v - wanted_v|^2
 ///
-/// with the places s of the n surface vertices and the whole volume V at rest, by turns of
-/// rotations and places.
+/// with the places s of the n surface vertices and the whole volume V at rest, by L-BFGS.
 ///
 /// Source: Sorkine & Alexa, As-rigid-as-possible surface modeling, SGP 2007.
 class VolumeFit {
@@ -27,8 +26,8 @@ class VolumeFit {
   /// wanted            of the surface [m]
   /// volume_positions  where to start from; becomes the deformed volume [m]
   ///
-  /// Ends where a turn moves no vertex farther than 1e-8 of the volume's extent, else reports
-  /// not_converged with the places so far. Its residual is that way.
+  /// Ends where all that a step gains is what the surface would have 1e-8 of its extent away, else
+  /// reports not_converged with the places so far.
   SolveReport fit(const Positions& wanted, Positions& volume_positions) const;
 
  private:

@@ -1,46 +1,11 @@
 #include "core/modal/volume_fit.h"
 
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "core/modal/arap_energy.h"
 #include "native-tests/support/bars.h"
-#include "native-tests/support/meshes.h"
 
 using namespace pleat;
-
-namespace {
-
-/// A bar along x bent to an arc of so many radians, its middle line keeping its length.
-Positions bent(const Positions& straight, double angle) {
-  const double length = straight.row(0).maxCoeff() - straight.row(0).minCoeff();
-  const double radius = length / angle;
-  Positions result = straight;
-  for (Eigen::Index v = 0; v < straight.cols(); ++v) {
-    const double turn = straight(0, v) / radius;
-    result(0, v) = (radius - straight(1, v)) * std::sin(turn);
-    result(1, v) = radius - (radius - straight(1, v)) * std::cos(turn);
-  }
-  return result;
-}
-
-/// The box's sides cut into so fine triangles that its surface can bend.
-struct FineBox {
-  Positions positions;
-  std::vector<Triangle> triangles;
-
-  explicit FineBox(const Vec3& sides) {
-    TriangleMesh mesh;
-    mesh.rest_positions = box_corners(sides);
-    mesh.triangles = box_triangles();
-    mesh.warp_directions.assign(mesh.triangles.size(), Vec3(1, 0, 0));
-    mesh = subdivided(std::move(mesh), 4);
-    positions = mesh.rest_positions;
-    triangles = mesh.triangles;
-  }
-};
-
-}  // namespace
 
 TEST_CASE("volume_fit: a rigid motion of the surface is one of the volume", "[modal]") {
   const FineBox box({1, 0.2, 0.2});

@@ -1,5 +1,9 @@
 #include "native-tests/support/bars.h"
 
+#include <cmath>
+
+#include "core/mesh/triangle_mesh.h"
+
 namespace pleat {
 
 Positions box_corners(const Vec3& sides) {
@@ -18,6 +22,28 @@ std::vector<Triangle> box_triangles() {
     triangles.push_back({VertexId(side[0]), VertexId(side[2]), VertexId(side[3])});
   }
   return triangles;
+}
+
+FineBox::FineBox(const Vec3& sides, int levels) {
+  TriangleMesh mesh;
+  mesh.rest_positions = box_corners(sides);
+  mesh.triangles = box_triangles();
+  mesh.warp_directions.assign(mesh.triangles.size(), Vec3(1, 0, 0));
+  mesh = subdivided(std::move(mesh), levels);
+  positions = mesh.rest_positions;
+  triangles = mesh.triangles;
+}
+
+Positions bent(const Positions& straight, double angle) {
+  const double length = straight.row(0).maxCoeff() - straight.row(0).minCoeff();
+  const double radius = length / angle;
+  Positions result = straight;
+  for (Eigen::Index v = 0; v < straight.cols(); ++v) {
+    const double turn = straight(0, v) / radius;
+    result(0, v) = (radius - straight(1, v)) * std::sin(turn);
+    result(1, v) = radius - (radius - straight(1, v)) * std::cos(turn);
+  }
+  return result;
 }
 
 CarryingVolume bar_volume(const Vec3& sides, double edge) {

@@ -1,4 +1,4 @@
-#include "core/deform/rigid_motion.h"
+#include "core/base/rigid_motion.h"
 
 #include <catch2/catch.hpp>
 
@@ -26,7 +26,7 @@ Positions places(int n_dimensions) {
 
 }  // namespace
 
-TEST_CASE("rigid motion: a motion of places that are not on a line is found", "[deform]") {
+TEST_CASE("rigid motion: a motion of places that are not on a line is found", "[base]") {
   const int n_dimensions = GENERATE(2, 3);
   const double degrees = GENERATE(0.0, 20.0, 150.0, 180.0);
   CAPTURE(n_dimensions, degrees);
@@ -37,7 +37,7 @@ TEST_CASE("rigid motion: a motion of places that are not on a line is found", "[
   CHECK((motion.of(before) - after).norm() < 1e-5 * before.norm());
 }
 
-TEST_CASE("rigid motion: a reflection is answered by a rotation", "[deform]") {
+TEST_CASE("rigid motion: a reflection is answered by a rotation", "[base]") {
   const Positions before = places(3);
   const Positions after = Vec3(1, 1, -1).asDiagonal() * before;
   const RigidMotion motion = nearest_rigid_motion(before, after);
@@ -45,7 +45,7 @@ TEST_CASE("rigid motion: a reflection is answered by a rotation", "[deform]") {
   CHECK((motion.rotation * motion.rotation.transpose()).isIdentity(1e-12));
 }
 
-TEST_CASE("rigid motion: what a line leaves free does not turn", "[deform]") {
+TEST_CASE("rigid motion: what a line leaves free does not turn", "[base]") {
   const Positions before = places(1);
   const Vec3 along = (before.col(0) - before.col(1)).normalized();
   const Vec3 across = along.unitOrthogonal();

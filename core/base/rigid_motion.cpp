@@ -1,4 +1,4 @@
-#include "core/deform/rigid_motion.h"
+#include "core/base/rigid_motion.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -10,6 +10,10 @@ double RigidMotion::angle() const { return Eigen::AngleAxisd(rotation).angle(); 
 
 Positions RigidMotion::of(const Positions& places) const {
   return (rotation * (places.colwise() - centre)).colwise() + moved_centre;
+}
+
+Mat3 half_turn(const Mat3& rotation) {
+  return Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(rotation)).toRotationMatrix();
 }
 
 /// With S = sum a b^T of the places about their means, a before and b after, and the rotation R of

@@ -14,6 +14,9 @@ struct RigidMotion {
   Positions of(const Positions& places) const;
 };
 
+/// The rotation that done twice is this one, which turns by less than pi.
+Mat3 half_turn(const Mat3& rotation);
+
 /// The motion, without reflection, that takes places as near to others as squares tell. Where
 /// several do alike, as for places on a line, about the one that turns least.
 ///

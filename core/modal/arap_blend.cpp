@@ -1,0 +1,50 @@
+#include "core/modal/arap_blend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/linalg/lbfgs.h"
+
+namespace pleat {
+namespace {
+
+/// Halves then differ by less than one in a hundred, from a tenth without.
+constexpr double kEqualHalves = 20;
+/// D of a stretch by 1e-7: less is the rounding of a rigid motion.
+constexpr double kRigid = 1e-14;
+/// The energy has so nearly ended to fall that x is known to a thousandth of its way: the square.
+constexpr double kEnoughGain = 1e-6;
+
+}  // namespace
+
+double MiddleShape::unequal_halves() const {
+  const double larger = std::max(distances.from_a, distances.from_b);
+  return larger > 0 ? std::abs(distances.from_a - distances.from_b) / larger : 0;
+}
+
+MiddleShape middle_shape(const ArapBlend& blend, double scale) {
+  MiddleShape middle;
+  ShapeCoordinates gradient_a, gradient_b;
+  DescentProblem problem;
+  problem.value = [&](const ShapeCoordinates& x, ShapeCoordinates& gradient) {
+    middle.distances = blend.distances(x, gradient_a, gradient_b);
+    const auto [a, b] = middle.distances;
+    const double sum = a + b;
+    const double excess = sum > 0 ? (a - b) / sum : 0;
+    const double shared = 1 - kEqualHalves * excess * excess;
+    gradient = (shared + 2 * kEqualHalves * excess) * gradient_a +
+               (shared - 2 * kEqualHalves * excess) * gradient_b;
+    return sum * (1 + kEqualHalves * excess * excess);
+  };
+  problem.solve = [&](const ShapeCoordinates& gradient) { return blend.answer(gradient); };
+  problem.least_share = kEnoughGain;
+  problem.least_gain = kRigid * scale;
+  middle.shape = blend.half_turned();
+  const DescentEnd end = descend(problem, middle.shape);
+  middle.steps = end.steps;
+  middle.converged = end.converged;
+  middle.distances = blend.distances(middle.shape, gradient_a, gradient_b);
+  return middle;
+}
+
+}  // namespace pleat

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "core/modal/shape_space.h"
+
+namespace pleat {
+
+/// How far a shape x is from two others, a and b, all three of the same volume:
+///
+///     D(a -> x) = sum_c min_R sum_{t in c} V_t |F_t(x) - R F_t(a)|^2      [m^3]
+///
+/// tells how far x is from a turned copy of a, piece by piece: the pieces c, of one tetrahedron t
+/// or more, have a rotation R each. V and F are those of the reference volume, alike for all pairs.
+///
+/// Source: Sorkine & Alexa, As-rigid-as-possible surface modeling, SGP 2007.
+class ArapBlend {
+ public:
+  virtual ~ArapBlend() = default;
+
+  struct Distances {
+    double from_a, from_b;  ///< D(a -> x), D(b -> x)
+  };
+
+  /// Sets the gradients of both distances as well [m^2].
+  virtual Distances distances(const ShapeCoordinates& x, ShapeCoordinates& gradient_a,
+                              ShapeCoordinates& gradient_b) const = 0;
+  /// Where the sum of both would be least if every piece turned half way from a to b, about the
+  /// origin.
+  virtual ShapeCoordinates half_turned() const = 0;
+  /// The move that takes this gradient away from D(a -> x) + D(b -> x) while no piece turns.
+  virtual ShapeCoordinates answer(const ShapeCoordinates& gradient) const = 0;
+};
+
+/// A shape half way between two others.
+struct MiddleShape {
+  ShapeCoordinates shape;  ///< its place and its turn as a whole are nobody's choice
+  ArapBlend::Distances distances{0, 0};
+  int steps = 0;          ///< of the descent
+  bool converged = true;  ///< false where the cap on steps ended it
+
+  /// |D(a -> x) - D(b -> x)| over the larger one; 0 where a and b are rigid motions of each other.
+  double unequal_halves() const;
+};
+
+/// Where
+///
+///     D(a -> x) + D(b -> x) + kEqualHalves (D(a -> x) - D(b -> x))^2 / (D(a -> x) + D(b -> x))
+///
+/// is least, by L-BFGS.
+///
+/// scale  three times the volume: D of what shrinks to nothing
+MiddleShape middle_shape(const ArapBlend& blend, double scale);
+
+}  // namespace pleat

@@ -1,0 +1,162 @@
+#include "core/modal/modal_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/check.h"
+#include "core/base/rigid_motion.h"
+#include "core/modal/arap_energy.h"
+#include "core/modal/nearest_rotation.h"
+#include "core/modal/shape_clusters.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kCubes = 4000;
+/// Of the fit of a volume to a key, times the square of the body's size over the volume's: the
+/// surface is met to a hundredth of what the volume resists.
+constexpr double kAttachment = 1e4;
+
+double enclosed_volume(const Positions& surface, const std::vector<Triangle>& triangles) {
+  const Vec3 origin = surface.rowwise().mean();
+  double six_volumes = 0;
+  for (const auto& [a, b, c] : triangles)
+    six_volumes +=
+        (surface.col(a) - origin).dot((surface.col(b) - origin).cross(surface.col(c) - origin));
+  return std::abs(six_volumes) / 6;
+}
+
+double attachment(const Positions& surface) {
+  const double extent = box_diagonal(surface);
+  return kAttachment / (extent * extent);
+}
+
+Eigen::VectorXd of_each_coordinate(const Eigen::VectorXd& of_vertex) {
+  return of_vertex.replicate(1, 3).transpose().reshaped();
+}
+
+bool has_turned_inside_out(const TetMesh& mesh) {
+  return std::any_of(mesh.tets.begin(), mesh.tets.end(),
+                     [&](const Tet& tet) { return tet_volume(mesh.rest_positions, tet) <= 0; });
+}
+
+}  // namespace
+
+bool is_closed(const std::vector<Triangle>& triangles) {
+  const std::vector<MeshEdge> edges = mesh_edges(triangles);
+  return std::none_of(edges.begin(), edges.end(), [](const MeshEdge& e) { return e.is_border(); });
+}
+
+CarryingVolume carrying_volume(const Positions& surface, const std::vector<Triangle>& triangles,
+                               const ModalOptions& options) {
+  const VolumeKind kind =
+      options.volume.value_or(is_closed(triangles) ? VolumeKind::lattice : VolumeKind::shell);
+  if (kind == VolumeKind::lattice) {
+    const double usual = std::cbrt(enclosed_volume(surface, triangles) / kCubes);
+    return lattice_volume(surface, triangles, options.size > 0 ? options.size : usual);
+  }
+  const double usual = mean_edge_length(surface, triangles);
+  return shell_volume(surface, triangles, options.size > 0 ? options.size : usual);
+}
+
+SolveReport volume_modes(const TetMesh& rest, int count, Modes& modes) {
+  const Eigen::MatrixXd rigid = rigid_motions(rest.rest_positions, parts_by_vertices(rest));
+  const Eigen::Index most = 3 * rest.n_vertices() - rigid.cols();
+  if (count < 1 || count > most)
+    throw InputError("", "expected 1 to " + std::to_string(most) + " modes, all that " +
+                             std::to_string(rest.n_vertices()) +
+                             " vertices of a volume have, found " + std::to_string(count));
+  constexpr double kYoung = 1;
+  return lowest_modes(ArapEnergy(rest, kYoung / 2).hessian(rest.rest_positions),
+                      of_each_coordinate(vertex_volumes(rest)), rigid, count, modes);
+}
+
+ModalBody::ModalBody(const std::vector<Positions>& keys, const std::vector<Triangle>& triangles,
+                     const ModalOptions& options)
+    : carrying_(carrying_volume(keys.front(), triangles, options)),
+      detail_beyond_(options.detail_beyond),
+      fit_(carrying_, attachment(keys.front())),
+      keys_(keys.size()) {
+  Positions volume = carrying_.volume.rest_positions;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (k > 0) {
+      // Whatever turns as a whole need not be found by turns of the fit.
+      volume = nearest_rigid_motion(keys[k - 1], keys[k]).of(volume);
+      const SolveReport fitted = fit_.fit(keys[k], volume);
+      if (fitted.ends_run())
+        throw InputError("", "the volume of key " + std::to_string(k) + ": " + fitted.message);
+    }
+    const TetMesh as_rest{volume, carrying_.volume.tets};
+    if (!has_turned_inside_out(as_rest)) {
+      Modes modes;
+      const SolveReport report = volume_modes(as_rest, options.n_modes, modes);
+      if (report.ends_run())
+        throw InputError("", "the modes of key " + std::to_string(k) + ": " + report.message);
+      modes_.push_back(std::move(modes));
+    }
+    keys_[k].volume = volume;
+  }
+  std::vector<Positions> exact;
+  if (options.exact_keys)
+    for (const Key& key : keys_) exact.push_back(key.volume);
+  space_ = shape_space(carrying_.volume.rest_positions, vertex_volumes(carrying_.volume), modes_,
+                       exact, options.n_functions);
+  cluster_of_tet_ = shape_clusters(carrying_.volume, space_, options.n_clusters);
+  arap_ = std::make_unique<ReducedArap>(carrying_.volume, space_, cluster_of_tet_);
+  detail_ = std::make_unique<SurfaceDetail>(carrying_, cluster_of_tet_);
+  surface_functions_ = space_.functions * carrying_.embedding;
+  for (std::size_t k = 0; k < keys.size(); ++k) take(keys_[k], keys[k]);
+}
+
+void ModalBody::take(Key& key, const Positions& surface) const {
+  key.shape.key = arap_->key(space_.coordinates(key.volume));
+  key.residual = surface - key.shape.key.shape * surface_functions_;
+  detail_->keep_beyond(detail_beyond_, key.residual);
+}
+
+SolveReport ModalBody::replace_key(int index, const Positions& surface) {
+  Key& key = keys_[static_cast<std::size_t>(index)];
+  const Positions before = carrying_.surface(key.volume);
+  key.volume = nearest_rigid_motion(before, surface).of(key.volume);
+  SolveReport report = fit_.fit(surface, key.volume);
+  if (!report.ends_run()) take(key, surface);
+  return report;
+}
+
+// Coordinates beside the constant function are about the centroid, and orthonormal functions make
+// sums over the volume sums over coordinates: a b' is the moment whose nearest rotation fits best.
+ModalBody::Shape ModalBody::middle(const Shape& a, const Shape& b) const {
+  const auto about_centroid = [](const Shape& shape) -> ShapeCoordinates {
+    ShapeCoordinates coordinates = shape.key.shape;
+    coordinates.col(0).setZero();
+    return coordinates;
+  };
+  const ShapeCoordinates from = about_centroid(a);
+  const ShapeCoordinates to = about_centroid(b);
+  MiddleShape middle = middle_shape(*arap_->blend(a.key, b.key), arap_->scale());
+  const Mat3 turn = half_turn(nearest_rotation(to * from.transpose()));
+  const ShapeCoordinates between = turn * from + turn.transpose() * to;
+  middle.shape = nearest_rotation(between * middle.shape.transpose()) * middle.shape;
+  middle.shape.col(0) = (a.key.shape.col(0) + b.key.shape.col(0)) / 2;
+  return {arap_->key(middle.shape), middle.distances, middle.converged};
+}
+
+double ModalBody::distance(const Shape& a, const Shape& b) const {
+  return (a.key.shape - b.key.shape).norm() / std::sqrt(space_.masses.sum());
+}
+
+Positions ModalBody::surface(const Shape& shape, int left, double share_of_next) const {
+  Positions surface = shape.key.shape * surface_functions_;
+  const auto carry = [&](int index, double share) {
+    if (share == 0) return;
+    const Key& key = keys_[static_cast<std::size_t>(index)];
+    detail_->add(key.residual, ReducedArap::rotations(key.shape.key, shape.key.shape), share,
+                 surface);
+  };
+  carry(left, 1 - share_of_next);
+  carry(left + 1, share_of_next);
+  return surface;
+}
+
+}  // namespace pleat
