@@ -13,8 +13,10 @@ namespace pleat {
 namespace {
 
 /// Below the stiffness of what resists at all, as a share of the stiffest row over its mass: the
-/// factor then is positive definite, and loses as many digits of its sixteen.
+/// factor then is positive definite, and loses as many digits of its sixteen. Where something
+/// resists less than nothing, ten times as much is tried, and so on.
 constexpr double kShift = 1e-8;
+constexpr double kShiftGrowth = 10;
 /// Relative, of the eigenvalues that the iteration tells.
 constexpr double kTolerance = 1e-12;
 constexpr int kMostRestarts = 300;
@@ -115,11 +117,18 @@ SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& m
 
   const Eigen::VectorXd root_masses = masses.cwiseSqrt();
   const Eigen::VectorXd sums = row_sums(stiffness);
-  const double shift = kShift * sums.cwiseQuotient(masses).maxCoeff();
+  const double largest = sums.cwiseQuotient(masses).maxCoeff();
+  double shift = kShift * largest;
   auto solver = make_linear_solver(SolverKind::supernodal);
-  const SparseMatrix lower = shifted(stiffness, masses, shift);
+  SparseMatrix lower = shifted(stiffness, masses, shift);
   solver->analyze(lower);
-  if (SolveReport report = solver->factorize(lower); report.ends_run()) return report;
+  SolveReport factored = solver->factorize(lower);
+  while (factored.ends_run() && shift < largest) {
+    shift *= kShiftGrowth;
+    lower = shifted(stiffness, masses, shift);
+    factored = solver->factorize(lower);
+  }
+  if (factored.ends_run()) return factored;
 
   const Eigen::MatrixXd rigid = orthonormal(root_masses.asDiagonal() * null_space);
   ShiftInverse inverse(*solver, root_masses, rigid);

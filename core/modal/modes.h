@@ -19,7 +19,8 @@ struct Modes {
 
 /// The lowest modes of a system of n unknowns.
 ///
-/// stiffness   n x n, positive semidefinite, by its lower triangle [N/m]
+/// stiffness   n x n, by its lower triangle [N/m]; where it is indefinite, the lowest lambda are
+///             negative
 /// masses      of each unknown [kg], positive
 /// null_space  n x k, independent columns that span all that the stiffness does not resist
 /// count       modes beside these, at most n - k
