@@ -134,6 +134,12 @@ std::string Arguments::first_word(const char* what) {
   return word;
 }
 
+bool Arguments::has_word_ending(std::string_view ending) const {
+  return std::any_of(words_.begin(), words_.end(), [&](std::string_view word) {
+    return word.size() >= ending.size() && word.substr(word.size() - ending.size()) == ending;
+  });
+}
+
 std::string Arguments::word(const char* what) {
   refuse_options();
   return first_word(what);

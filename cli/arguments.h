@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pleat {
@@ -25,6 +26,10 @@ class Arguments {
   std::string first_word(const char* what);
   /// The next word, once no option is left; `what` names it when it is missing.
   std::string word(const char* what);
+
+  bool has_words() const { return !words_.empty(); }
+  /// Of any word that is left.
+  bool has_word_ending(std::string_view ending) const;
 
   /// Refuses words that are left over.
   void finish() const;

@@ -16,10 +16,13 @@ Outcome reference_command(Arguments arguments);
 Outcome refine_command(Arguments arguments);
 Outcome bench_command(Arguments arguments);
 Outcome deform_command(Arguments arguments);
-Outcome bench_deform(Arguments arguments);    ///< bench deform
-Outcome bench_plans(Arguments arguments);     ///< bench plans
-Outcome bench_together(Arguments arguments);  ///< bench together
-Outcome bench_rows(Arguments arguments);      ///< bench rows
-Outcome bench_limit(Arguments arguments);     ///< bench limit
+Outcome modes_command(Arguments arguments);
+Outcome inbetween_command(Arguments arguments);
+Outcome bench_deform(Arguments arguments);     ///< bench deform
+Outcome bench_inbetween(Arguments arguments);  ///< bench inbetween
+Outcome bench_plans(Arguments arguments);      ///< bench plans
+Outcome bench_together(Arguments arguments);   ///< bench together
+Outcome bench_rows(Arguments arguments);       ///< bench rows
+Outcome bench_limit(Arguments arguments);      ///< bench limit
 
 }  // namespace pleat

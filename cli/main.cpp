@@ -124,6 +124,8 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "refine") return refine_command(std::move(arguments));
   if (command == "bench") return bench_command(std::move(arguments));
   if (command == "deform") return deform_command(std::move(arguments));
+  if (command == "modes") return modes_command(std::move(arguments));
+  if (command == "inbetween") return inbetween_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
     std::fputs(kHelp, stdout);
@@ -135,9 +137,9 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
     std::printf("pleat %s\n", core_version());
     return Outcome::ok;
   }
-  throw InputError(
-      cut(command),
-      "unknown command; the commands are run, sweep, reference, refine, deform, bench and help");
+  throw InputError(cut(command),
+                   "unknown command; the commands are run, sweep, reference, refine, deform, "
+                   "modes, inbetween, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {

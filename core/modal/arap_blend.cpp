@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rigid_motion.h"
 #include "core/linalg/lbfgs.h"
+#include "core/modal/nearest_rotation.h"
 
 namespace pleat {
 namespace {
@@ -45,6 +47,26 @@ MiddleShape middle_shape(const ArapBlend& blend, double scale) {
   middle.converged = end.converged;
   middle.distances = blend.distances(middle.shape, gradient_a, gradient_b);
   return middle;
+}
+
+// Each turned by half towards the other, a and b fit best as they are; x is turned to fit their
+// sum.
+void turn_half_way(const ShapeCoordinates& a, const ShapeCoordinates& b,
+                   const Eigen::VectorXd& weights, ShapeCoordinates& x) {
+  const auto fit = [&](const ShapeCoordinates& from, const ShapeCoordinates& to) {
+    return nearest_rotation(to * weights.asDiagonal() * from.transpose());
+  };
+  const Mat3 half = half_turn(fit(a, b));
+  x = fit(x, half * a + half.transpose() * b) * x;
+}
+
+Vec3 shift_half_way(const Positions& a, const Positions& b, const Positions& x) {
+  constexpr double kStill =
+      1e-2;  // of the extent: moves so short do not count more than each other
+  const double still = kStill * std::max(box_diagonal(a), box_diagonal(b));
+  const Eigen::VectorXd weights =
+      ((a - b).colwise().squaredNorm().array() + still * still).inverse().matrix().transpose();
+  return ((a + b) / 2 - x) * weights / weights.sum();
 }
 
 }  // namespace pleat

@@ -52,4 +52,14 @@ struct MiddleShape {
 /// scale  three times the volume: D of what shrinks to nothing
 MiddleShape middle_shape(const ArapBlend& blend, double scale);
 
+/// Turns x, about the origin, to where it is half way from a to b as a whole: best fits to both
+/// have turned by half of the best fit of a to b. Columns count by their weights.
+void turn_half_way(const ShapeCoordinates& a, const ShapeCoordinates& b,
+                   const Eigen::VectorXd& weights, ShapeCoordinates& x);
+
+/// The shift that brings points of x half way between those of a and b: the mean over all, those
+/// counting most that move least from a to b. So what stays where it is in both stays, as the held
+/// edge of a swinging cloth does; all moving alike, it is the shift of the centroid.
+Vec3 shift_half_way(const Positions& a, const Positions& b, const Positions& x);
+
 }  // namespace pleat

@@ -43,6 +43,9 @@ CarryingVolume lattice_volume(const Positions& surface, const std::vector<Triang
 CarryingVolume shell_volume(const Positions& surface, const std::vector<Triangle>& triangles,
                             double thickness);
 
+/// The part that each vertex belongs to, from 0: those of a part hang together by edges.
+std::vector<int> surface_parts(Eigen::Index n_vertices, const std::vector<Triangle>& triangles);
+
 /// Of all edges of the triangles, each once [m].
 double mean_edge_length(const Positions& surface, const std::vector<Triangle>& triangles);
 

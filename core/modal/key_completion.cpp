@@ -1,11 +1,10 @@
 #include "core/modal/key_completion.h"
 
 #include <algorithm>
-#include <functional>
 #include <string>
 
 #include "core/base/check.h"
-#include "core/base/joined_sets.h"
+#include "core/modal/fill_in.h"
 
 namespace pleat {
 namespace {
@@ -30,16 +29,12 @@ void check_keys(const std::vector<Positions>& keys, const std::vector<Triangle>&
 }
 
 /// The vertices of each part of a surface.
-std::vector<std::vector<VertexId>> surface_parts(Eigen::Index n_vertices,
+std::vector<std::vector<VertexId>> part_vertices(Eigen::Index n_vertices,
                                                  const std::vector<Triangle>& triangles) {
-  JoinedSets sets(static_cast<std::size_t>(n_vertices));
   std::vector<bool> is_used(static_cast<std::size_t>(n_vertices), false);
-  for (const Triangle& triangle : triangles) {
+  for (const Triangle& triangle : triangles)
     for (const VertexId v : triangle) is_used[static_cast<std::size_t>(v)] = true;
-    sets.join(triangle[0], triangle[1]);
-    sets.join(triangle[0], triangle[2]);
-  }
-  const std::vector<int> numbers = sets.numbers();
+  const std::vector<int> numbers = surface_parts(n_vertices, triangles);
   std::vector<std::vector<VertexId>> parts;
   for (std::size_t v = 0; v < numbers.size(); ++v) {
     if (!is_used[v])
@@ -87,7 +82,7 @@ KeyCompletion::KeyCompletion(const std::vector<Positions>& keys,
                              const std::vector<Triangle>& triangles, const ModalOptions& options) {
   check_keys(keys, triangles);
   n_vertices_ = keys.front().cols();
-  vertices_ = surface_parts(n_vertices_, triangles);
+  vertices_ = part_vertices(n_vertices_, triangles);
   bodies_.reserve(vertices_.size());
   for (const std::vector<VertexId>& vertices : vertices_) {
     std::vector<Positions> own;
@@ -113,30 +108,6 @@ Frame KeyCompletion::middle(const Frame& a, const Frame& b) const {
     frame.bodies.push_back(bodies_[i].middle(a.bodies[i], b.bodies[i]));
   return frame;
 }
-
-namespace {
-
-/// Puts middles between neighbours, where their distance is largest first, while `goes_on`.
-void fill_in(std::vector<Frame>& frames,
-             const std::function<double(const Frame&, const Frame&)>& distance,
-             const std::function<Frame(const Frame&, const Frame&)>& middle,
-             const std::function<bool(std::size_t, double)>& goes_on) {
-  std::vector<double> gaps;
-  for (std::size_t f = 1; f < frames.size(); ++f)
-    gaps.push_back(distance(frames[f - 1], frames[f]));
-  for (;;) {
-    const auto widest = std::max_element(gaps.begin(), gaps.end());
-    if (!goes_on(frames.size(), *widest)) return;
-    const auto gap = widest - gaps.begin();
-    const auto left = frames.begin() + gap;
-    frames.insert(left + 1, middle(*left, *(left + 1)));
-    const auto at = static_cast<std::size_t>(gap);
-    gaps[at] = distance(frames[at], frames[at + 1]);
-    gaps.insert(gaps.begin() + gap + 1, distance(frames[at + 1], frames[at + 2]));
-  }
-}
-
-}  // namespace
 
 std::vector<Frame> KeyCompletion::frames(int count) const {
   std::vector<Frame> frames = key_frames();

@@ -14,10 +14,7 @@ namespace pleat {
 namespace {
 
 constexpr double kCubes = 4000;
-/// Of the fit of a volume to a key, times the square of the body's size over the volume's: the
-/// surface is met to a hundredth of what the volume resists.
-constexpr double kAttachment = 1e4;
-
+constexpr int kPoints = 256;  // that tell what stays; as many for any mesh
 double enclosed_volume(const Positions& surface, const std::vector<Triangle>& triangles) {
   const Vec3 origin = surface.rowwise().mean();
   double six_volumes = 0;
@@ -27,9 +24,17 @@ double enclosed_volume(const Positions& surface, const std::vector<Triangle>& tr
   return std::abs(six_volumes) / 6;
 }
 
-double attachment(const Positions& surface) {
-  const double extent = box_diagonal(surface);
-  return kAttachment / (extent * extent);
+/// Vertices far from each other, each next one the farthest from all before.
+std::vector<VertexId> spread_points(const Positions& surface, int count) {
+  std::vector<VertexId> points{VertexId(0)};
+  Eigen::RowVectorXd squares = (surface.colwise() - surface.col(0)).colwise().squaredNorm();
+  while (static_cast<int>(points.size()) < std::min<Eigen::Index>(count, surface.cols())) {
+    Eigen::Index farthest = 0;
+    squares.maxCoeff(&farthest);
+    points.emplace_back(static_cast<int>(farthest));
+    squares = squares.cwiseMin((surface.colwise() - surface.col(farthest)).colwise().squaredNorm());
+  }
+  return points;
 }
 
 Eigen::VectorXd of_each_coordinate(const Eigen::VectorXd& of_vertex) {
@@ -53,8 +58,11 @@ CarryingVolume carrying_volume(const Positions& surface, const std::vector<Trian
   const VolumeKind kind =
       options.volume.value_or(is_closed(triangles) ? VolumeKind::lattice : VolumeKind::shell);
   if (kind == VolumeKind::lattice) {
-    const double usual = std::cbrt(enclosed_volume(surface, triangles) / kCubes);
-    return lattice_volume(surface, triangles, options.size > 0 ? options.size : usual);
+    if (options.size > 0 || !is_closed(triangles))  // which the lattice refuses
+      return lattice_volume(surface, triangles, options.size > 0 ? options.size : 1);
+    const double volume = enclosed_volume(surface, triangles);
+    if (!(volume > 0)) throw InputError("", "expected a surface that encloses a volume");
+    return lattice_volume(surface, triangles, std::cbrt(volume / kCubes));
   }
   const double usual = mean_edge_length(surface, triangles);
   return shell_volume(surface, triangles, options.size > 0 ? options.size : usual);
@@ -72,40 +80,54 @@ SolveReport volume_modes(const TetMesh& rest, int count, Modes& modes) {
                       of_each_coordinate(vertex_volumes(rest)), rigid, count, modes);
 }
 
+VolumeFit usual_fit(const CarryingVolume& carrying) {
+  constexpr double kAttachment = 1e4;  // over the square of the body's size
+  const double extent = box_diagonal(carrying.volume.rest_positions);
+  return {carrying, kAttachment / (extent * extent)};
+}
+
+std::vector<Positions> key_volumes(const CarryingVolume& carrying, const VolumeFit& fit,
+                                   const std::vector<Positions>& keys) {
+  std::vector<Positions> volumes{carrying.volume.rest_positions};
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    // Whatever turns as a whole need not be found step by step.
+    volumes.push_back(nearest_rigid_motion(keys[k - 1], keys[k]).of(volumes.back()));
+    const SolveReport fitted = fit.fit(keys[k], volumes.back());
+    if (fitted.ends_run())
+      throw InputError("", "the volume of key " + std::to_string(k) + ": " + fitted.message);
+  }
+  return volumes;
+}
+
 ModalBody::ModalBody(const std::vector<Positions>& keys, const std::vector<Triangle>& triangles,
                      const ModalOptions& options)
     : carrying_(carrying_volume(keys.front(), triangles, options)),
       detail_beyond_(options.detail_beyond),
-      fit_(carrying_, attachment(keys.front())),
+      fit_(usual_fit(carrying_)),
       keys_(keys.size()) {
-  Positions volume = carrying_.volume.rest_positions;
+  const std::vector<Positions> volumes = key_volumes(carrying_, fit_, keys);
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (k > 0) {
-      // Whatever turns as a whole need not be found by turns of the fit.
-      volume = nearest_rigid_motion(keys[k - 1], keys[k]).of(volume);
-      const SolveReport fitted = fit_.fit(keys[k], volume);
-      if (fitted.ends_run())
-        throw InputError("", "the volume of key " + std::to_string(k) + ": " + fitted.message);
-    }
-    const TetMesh as_rest{volume, carrying_.volume.tets};
-    if (!has_turned_inside_out(as_rest)) {
-      Modes modes;
-      const SolveReport report = volume_modes(as_rest, options.n_modes, modes);
-      if (report.ends_run())
-        throw InputError("", "the modes of key " + std::to_string(k) + ": " + report.message);
-      modes_.push_back(std::move(modes));
-    }
-    keys_[k].volume = volume;
+    keys_[k].volume = volumes[k];
+    const TetMesh as_rest{volumes[k], carrying_.volume.tets};
+    if (has_turned_inside_out(as_rest)) continue;
+    Modes modes;
+    const SolveReport report = volume_modes(as_rest, options.n_modes, modes);
+    if (report.ends_run())
+      throw InputError("", "the modes of key " + std::to_string(k) + ": " + report.message);
+    modes_.push_back(std::move(modes));
   }
   std::vector<Positions> exact;
-  if (options.exact_keys)
-    for (const Key& key : keys_) exact.push_back(key.volume);
+  if (options.exact_keys) exact = volumes;
   space_ = shape_space(carrying_.volume.rest_positions, vertex_volumes(carrying_.volume), modes_,
                        exact, options.n_functions);
   cluster_of_tet_ = shape_clusters(carrying_.volume, space_, options.n_clusters);
   arap_ = std::make_unique<ReducedArap>(carrying_.volume, space_, cluster_of_tet_);
   detail_ = std::make_unique<SurfaceDetail>(carrying_, cluster_of_tet_);
   surface_functions_ = space_.functions * carrying_.embedding;
+  const std::vector<VertexId> points = spread_points(keys.front(), kPoints);
+  points_.resize(space_.size(), static_cast<Eigen::Index>(points.size()));
+  for (std::size_t p = 0; p < points.size(); ++p)
+    points_.col(static_cast<Eigen::Index>(p)) = surface_functions_.col(points[p]);
   for (std::size_t k = 0; k < keys.size(); ++k) take(keys_[k], keys[k]);
 }
 
@@ -124,21 +146,19 @@ SolveReport ModalBody::replace_key(int index, const Positions& surface) {
   return report;
 }
 
-// Coordinates beside the constant function are about the centroid, and orthonormal functions make
-// sums over the volume sums over coordinates: a b' is the moment whose nearest rotation fits best.
+// Coordinates beside the constant function are about the centroid; the functions are orthonormal.
 ModalBody::Shape ModalBody::middle(const Shape& a, const Shape& b) const {
   const auto about_centroid = [](const Shape& shape) -> ShapeCoordinates {
     ShapeCoordinates coordinates = shape.key.shape;
     coordinates.col(0).setZero();
     return coordinates;
   };
-  const ShapeCoordinates from = about_centroid(a);
-  const ShapeCoordinates to = about_centroid(b);
   MiddleShape middle = middle_shape(*arap_->blend(a.key, b.key), arap_->scale());
-  const Mat3 turn = half_turn(nearest_rotation(to * from.transpose()));
-  const ShapeCoordinates between = turn * from + turn.transpose() * to;
-  middle.shape = nearest_rotation(between * middle.shape.transpose()) * middle.shape;
-  middle.shape.col(0) = (a.key.shape.col(0) + b.key.shape.col(0)) / 2;
+  turn_half_way(about_centroid(a), about_centroid(b), Eigen::VectorXd::Ones(space_.size()),
+                middle.shape);
+  const Vec3 shift =
+      shift_half_way(a.key.shape * points_, b.key.shape * points_, middle.shape * points_);
+  middle.shape.col(0) += shift / space_.functions(0, 0);
   return {arap_->key(middle.shape), middle.distances, middle.converged};
 }
 

@@ -27,6 +27,13 @@ struct ModalOptions {
 CarryingVolume carrying_volume(const Positions& surface, const std::vector<Triangle>& triangles,
                                const ModalOptions& options);
 
+/// The volume at each key: the first one's as it is, then fitted to the others one after another,
+/// so that surface and volume may go far. Throws InputError where a fit fails.
+std::vector<Positions> key_volumes(const CarryingVolume& carrying, const VolumeFit& fit,
+                                   const std::vector<Positions>& keys);
+/// A fit that brings the surface to a hundredth of what the volume resists.
+VolumeFit usual_fit(const CarryingVolume& carrying);
+
 /// True where every edge has two triangles.
 bool is_closed(const std::vector<Triangle>& triangles);
 
@@ -57,10 +64,14 @@ class ModalBody {
 
   int n_keys() const { return static_cast<int>(keys_.size()); }
   const Shape& key(int index) const { return keys_[static_cast<std::size_t>(index)].shape; }
+  /// The volume fitted to a key, before it is taken into the space [m].
+  const Positions& key_volume(int index) const {
+    return keys_[static_cast<std::size_t>(index)].volume;
+  }
   /// Another surface for a key; modes and space stay.
   SolveReport replace_key(int index, const Positions& surface);
 
-  /// Half way, as a whole too: turned by half and with the mean centroid.
+  /// Half way, as a whole too (turn_half_way, shift_half_way).
   Shape middle(const Shape& a, const Shape& b) const;
   /// How far apart two shapes are, as the root of the mean square over the volume [m].
   double distance(const Shape& a, const Shape& b) const;
@@ -93,6 +104,7 @@ class ModalBody {
   std::unique_ptr<ReducedArap> arap_;
   std::unique_ptr<SurfaceDetail> detail_;
   Eigen::MatrixXd surface_functions_;  // k x vertices of the surface
+  Eigen::MatrixXd points_;             // those of some that are spread over it
   std::vector<Key> keys_;
 };
 

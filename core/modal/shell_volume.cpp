@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/joined_sets.h"
 #include "core/modal/carrying_volume.h"
 
 namespace pleat {
@@ -36,6 +37,15 @@ Positions vertex_normals(const Positions& surface, const std::vector<Triangle>& 
 }
 
 }  // namespace
+
+std::vector<int> surface_parts(Eigen::Index n_vertices, const std::vector<Triangle>& triangles) {
+  JoinedSets sets(static_cast<std::size_t>(n_vertices));
+  for (const auto& [a, b, c] : triangles) {
+    sets.join(a, b);
+    sets.join(a, c);
+  }
+  return sets.numbers();
+}
 
 double mean_edge_length(const Positions& surface, const std::vector<Triangle>& triangles) {
   const std::vector<MeshEdge> edges = mesh_edges(triangles);

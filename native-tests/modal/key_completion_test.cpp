@@ -68,7 +68,23 @@ TEST_CASE("key_completion: between rigid motions all frames are rigid, half way 
     // 1e-8 of a stretch by 1 %.
     CHECK(frames[f].bodies[0].distances.from_a <= 1e-8 * 1e-4 * whole);
   }
-  CHECK((completion.surface(frames[2]).rowwise().mean() - Vec3(1, 0, -0.5)).norm() < 1e-9);
+}
+
+TEST_CASE("key_completion: what stays in both keys stays between them", "[modal]") {
+  // A door: turned by 100 degrees about one of its edges.
+  const double edge = bar().positions.row(0).minCoeff();
+  const Mat3 turn = Eigen::AngleAxisd(100 * kPi / 180, Vec3::UnitZ()).toRotationMatrix();
+  const Vec3 hinge(edge, 0, 0);
+  const Positions open = moved(bar().positions, turn, hinge - turn * hinge);
+  const KeyCompletion completion({bar().positions, open}, bar().triangles, few_modes());
+  const Positions half = completion.surface(completion.frames(3)[1]);
+  const Mat3 half_turned = Eigen::AngleAxisd(50 * kPi / 180, Vec3::UnitZ()).toRotationMatrix();
+  CHECK(farthest(half, moved(bar().positions, half_turned, hinge - half_turned * hinge)) < 0.05);
+  // Shifted alone, all is shifted by half.
+  const Positions aside = moved(bar().positions, Mat3::Identity(), {1, 2, 3});
+  const KeyCompletion shift({bar().positions, aside}, bar().triangles, few_modes());
+  CHECK(farthest(shift.surface(shift.frames(3)[1]),
+                 moved(bar().positions, Mat3::Identity(), {0.5, 1, 1.5})) < 1e-9);
 }
 
 TEST_CASE("key_completion: a bar that bends by 180 degrees keeps its volume", "[modal]") {

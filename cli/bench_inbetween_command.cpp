@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/modal_input.h"
+#include "core/base/check.h"
+#include "core/base/core_version.h"
+#include "core/files/frame_file.h"
+#include "core/files/json_text.h"
+#include "core/files/whole_file.h"
+#include "core/sweep/completion_cost.h"
+#include "core/sweep/platform.h"
+
+namespace pleat {
+namespace {
+
+/// Of all frames, the largest and the sums.
+Json figures_json(const std::vector<FrameFigures>& figures) {
+  double change = 0, unequal = 0;
+  int n_inverted = 0;
+  for (const FrameFigures& of : figures) {
+    change = std::max(change, std::abs(of.volume / figures.front().volume - 1));
+    unequal = std::max(unequal, of.unequal_halves);
+    n_inverted += of.n_inverted;
+  }
+  return {{"volume_change", change}, {"inverted", n_inverted}, {"unequal_halves", unequal}};
+}
+
+std::vector<Positions> read_frames(const std::string& folder) {
+  std::vector<Positions> frames;
+  for (const std::filesystem::path& file : frame_files(folder))
+    frames.push_back(read_obj(read_file(file)).positions);
+  if (frames.empty()) throw FileError(folder, "expected a run's frames as OBJ files, got none");
+  return frames;
+}
+
+}  // namespace
+
+Outcome bench_inbetween(Arguments arguments) {
+  const int n_frames = arguments.whole_number("--frames", 2, kMaxFrames).value_or(60);
+  const auto against = arguments.text("--against");
+  const bool wants_unreduced = arguments.flag("--unreduced");
+  const ModalOptions options = take_completion_options(arguments);
+  const KeySurfaces keys = take_keys(arguments);
+  arguments.finish();
+  const CompletionCost cost =
+      completion_cost(keys.positions, keys.mesh.triangles, options, n_frames);
+  Json json = {{"n_vertices", keys.mesh.positions.cols()},
+               {"n_volume_vertices", cost.n_volume_vertices},
+               {"n_tets", cost.n_tets},
+               {"n_keys", keys.positions.size()},
+               {"n_frames", cost.figures.size()},
+               {"precompute_ms", cost.precompute_ms},
+               {"middles_ms", cost.middles_ms},
+               {"middle_ms", cost.middles_ms / std::max(1, cost.n_middles)},
+               {"surfaces_ms", cost.surfaces_ms},
+               {"unconverged", cost.n_unconverged},
+               {"figures", figures_json(cost.figures)},
+               {"linear", figures_json(cost.linear_figures)},
+               {"target", build_target()},
+               {"core", core_version()}};
+  std::optional<UnreducedCost> unreduced;
+  if (wants_unreduced) {
+    unreduced = unreduced_cost(keys.positions, keys.mesh.triangles, options, n_frames);
+    json["unreduced"] = {{"middles_ms", unreduced->middles_ms}};
+  }
+  if (against) {
+    const std::vector<Positions> others = read_frames(*against);
+    json["distance_m"] = mean_distance_to_nearest(cost.middles, others);
+    json["linear"]["distance_m"] = mean_distance_to_nearest(cost.linear_middles, others);
+    if (unreduced)
+      json["unreduced"]["distance_m"] = mean_distance_to_nearest(unreduced->middles, others);
+  }
+  std::printf("%s\n", json.dump().c_str());
+  return Outcome::ok;
+}
+
+}  // namespace pleat

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/modal_input.h"
+#include "cli/overwriting.h"
+#include "core/base/check.h"
+#include "core/base/core_version.h"
+#include "core/files/frame_file.h"
+#include "core/files/json_text.h"
+#include "core/modal/frame_figures.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kUsualFrames = 60;
+constexpr int kMostFrames = 10'000;
+
+struct InbetweenOptions {
+  bool for_machines = false;
+  bool checks = false;
+  std::optional<int> n_frames;
+  std::optional<double> step;  // [m]
+  std::optional<std::string> out;
+};
+
+std::vector<KeyCompletion::Frame> frames_of(const KeyCompletion& completion,
+                                            const InbetweenOptions& options) {
+  if (options.step)
+    return completion.frames_by_step(*options.step, options.n_frames.value_or(kMostFrames));
+  return completion.frames(options.n_frames.value_or(kUsualFrames));
+}
+
+bool has_converged(const KeyCompletion::Frame& frame) {
+  return std::all_of(frame.bodies.begin(), frame.bodies.end(),
+                     [](const ModalBody::Shape& shape) { return shape.converged; });
+}
+
+void write_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames,
+                  const std::vector<Triangle>& triangles, const std::string& folder) {
+  FrameWriter writer(folder, FrameFormat::obj, {{}, triangles});
+  for (const KeyCompletion::Frame& frame : frames)
+    writer.write(completion.surface(frame), frame.time);
+  writer.finish();
+}
+
+Json json_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames) {
+  const std::vector<FrameFigures> figures = frame_figures(completion, frames);
+  const std::vector<FrameFigures> linear = linear_figures(completion, frames);
+  Json json = Json::array();
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    json.push_back({{"time", frames[f].time},
+                    {"is_key", frames[f].is_key()},
+                    {"volume_m3", figures[f].volume},
+                    {"linear_volume_m3", linear[f].volume},
+                    {"energy_j_per_pa", figures[f].energy},
+                    {"linear_energy_j_per_pa", linear[f].energy},
+                    {"inverted", figures[f].n_inverted},
+                    {"linear_inverted", linear[f].n_inverted},
+                    {"unequal_halves", figures[f].unequal_halves},
+                    {"converged", has_converged(frames[f])}});
+  return json;
+}
+
+/// Volumes and modes are those of the bodies together.
+Json json_inbetween(const KeyCompletion& completion, Json frames) {
+  int n_volume_vertices = 0, n_tets = 0, n_functions = 0, n_clusters = 0, n_with_modes = 0;
+  for (const ModalBody& body : completion.bodies()) {
+    n_volume_vertices += body.carrying().volume.n_vertices();
+    n_tets += static_cast<int>(body.carrying().volume.tets.size());
+    n_functions += body.space().size();
+    n_clusters += body.arap().n_clusters();
+    n_with_modes += static_cast<int>(body.modes().size());
+  }
+  return {{"n_keys", completion.n_keys()},
+          {"n_bodies", completion.bodies().size()},
+          {"n_volume_vertices", n_volume_vertices},
+          {"n_tets", n_tets},
+          {"n_functions", n_functions},
+          {"n_clusters", n_clusters},
+          {"n_keys_with_modes", n_with_modes},
+          {"frames", std::move(frames)},
+          {"core", core_version()}};
+}
+
+void print_inbetween(const Json& json) {
+  std::printf(
+      "%d keys, %d part%s, volume of %d vertices and %d tetrahedra, %d functions, %d "
+      "clusters\n",
+      json["n_keys"].get<int>(), json["n_bodies"].get<int>(), json["n_bodies"] == 1 ? "" : "s",
+      json["n_volume_vertices"].get<int>(), json["n_tets"].get<int>(),
+      json["n_functions"].get<int>(), json["n_clusters"].get<int>());
+  std::printf(
+      "frame  time     volume [m3]  linear       energy [J/Pa]  linear       halves differ\n");
+  int n = 0;
+  for (const Json& frame : json["frames"])
+    std::printf(
+        "%5d  %-7.4g  %-11.5g  %-11.5g  %-13.5g  %-11.5g  %s\n", n++, frame["time"].get<double>(),
+        frame["volume_m3"].get<double>(), frame["linear_volume_m3"].get<double>(),
+        frame["energy_j_per_pa"].get<double>(), frame["linear_energy_j_per_pa"].get<double>(),
+        frame["is_key"].get<bool>()
+            ? "key"
+            : (Json(std::round(1e4 * frame["unequal_halves"].get<double>()) / 100).dump() + " %")
+                  .c_str());
+}
+
+/// What a reader should know of the frames; mostly nothing.
+std::vector<std::string> warnings(const Json& json) {
+  std::vector<std::string> all;
+  int n_inverted = 0, n_unconverged = 0;
+  for (const Json& frame : json["frames"]) {
+    n_inverted += frame["inverted"] > 0 ? 1 : 0;
+    n_unconverged += frame["converged"].get<bool>() ? 0 : 1;
+  }
+  if (n_inverted > 0)
+    all.push_back(std::to_string(n_inverted) +
+                  " frames have parts of the volume turned inside out");
+  if (n_unconverged > 0)
+    all.push_back(std::to_string(n_unconverged) + " frames stopped short of their middle");
+  const int n_without = json["n_keys"].get<int>() * json["n_bodies"].get<int>() -
+                        json["n_keys_with_modes"].get<int>();
+  if (n_without > 0)
+    all.push_back(std::to_string(n_without) +
+                  " keys turn their volume inside out and give no modes of their own; a thinner "
+                  "shell (--size) may not");
+  return all;
+}
+
+}  // namespace
+
+Outcome inbetween_command(Arguments arguments) {
+  InbetweenOptions options;
+  options.for_machines = arguments.flag("--json");
+  options.checks = arguments.flag("--check");
+  options.n_frames = arguments.whole_number("--frames", 2, kMostFrames);
+  if (const auto step = arguments.text("--step"))
+    options.step = parse_positive_number(*step, "--step");
+  options.out = arguments.text("--out");
+  const ModalOptions modal = take_completion_options(arguments);
+  Overwriting overwriting(arguments);
+  const KeySurfaces keys = take_keys(arguments);
+  overwriting.need(options.out.has_value(), "--out");
+  prepare_frame_folder(options.out, overwriting, keys.files);
+  const KeyCompletion completion(keys.positions, keys.mesh.triangles, modal);
+  const std::vector<KeyCompletion::Frame> frames = frames_of(completion, options);
+  const Json json = json_inbetween(completion, json_frames(completion, frames));
+  if (options.for_machines)
+    std::printf("%s\n", json.dump().c_str());
+  else
+    print_inbetween(json);
+  for (const std::string& warning : warnings(json))
+    std::fprintf(stderr, "pleat: warning: %s\n", warning.c_str());
+  if (options.out) write_frames(completion, frames, keys.mesh.triangles, *options.out);
+  return options.checks && !warnings(json).empty() ? Outcome::check_failed : Outcome::ok;
+}
+
+}  // namespace pleat

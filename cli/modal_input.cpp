@@ -1,0 +1,95 @@
+#include "cli/modal_input.h"
+
+#include "core/base/check.h"
+#include "core/files/frame_file.h"
+#include "core/files/json_text.h"
+#include "core/files/whole_file.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kMostModes = 1000;
+
+ObjMesh read_mesh(const std::string& file) {
+  try {
+    return read_obj(read_file(file));
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw InputError(error.where().empty() ? file : file + ": " + error.where(), error.what());
+  }
+}
+
+}  // namespace
+
+KeySurfaces take_keys(Arguments& arguments) {
+  KeySurfaces keys;
+  std::string file = arguments.word("an OBJ file");
+  keys.mesh = read_mesh(file);
+  keys.positions.push_back(keys.mesh.positions);
+  keys.files.emplace_back(file);
+  while (arguments.has_words()) {
+    file = arguments.word("an OBJ file");
+    const ObjMesh mesh = read_mesh(file);
+    if (mesh.positions.cols() != keys.mesh.positions.cols() ||
+        mesh.triangles != keys.mesh.triangles)
+      throw InputError(
+          file,
+          "expected the vertices and faces of " + keys.files.front().string() + ", " +
+              std::to_string(keys.mesh.positions.cols()) + " and " +
+              std::to_string(keys.mesh.triangles.size()) + ", got " +
+              std::to_string(mesh.positions.cols()) + " and " +
+              std::to_string(mesh.triangles.size()) +
+              (mesh.triangles.size() == keys.mesh.triangles.size() ? ", otherwise joined" : ""));
+    keys.positions.push_back(mesh.positions);
+    keys.files.emplace_back(file);
+  }
+  return keys;
+}
+
+std::optional<int> take_mode_count(Arguments& arguments) {
+  return arguments.whole_number("--modes", 1, kMostModes);
+}
+
+ModalOptions take_volume_options(Arguments& arguments) {
+  ModalOptions options;
+  if (const auto kind = arguments.text("--volume")) {
+    if (*kind == "lattice")
+      options.volume = VolumeKind::lattice;
+    else if (*kind == "shell")
+      options.volume = VolumeKind::shell;
+    else
+      throw InputError("--volume", "expected lattice or shell, got " + cut(*kind));
+  }
+  if (const auto size = arguments.text("--size"))
+    options.size = parse_positive_number(*size, "--size");
+  return options;
+}
+
+ModalOptions take_completion_options(Arguments& arguments) {
+  ModalOptions options = take_volume_options(arguments);
+  options.n_modes = take_mode_count(arguments).value_or(options.n_modes);
+  options.n_functions = arguments.whole_number("--functions", kAffineFunctions, kMostModes)
+                            .value_or(options.n_functions);
+  options.n_clusters =
+      arguments.whole_number("--clusters", 1, kMostModes).value_or(options.n_clusters);
+  options.exact_keys = arguments.flag("--exact-keys");
+  if (const auto beyond = arguments.text("--detail-beyond"))
+    options.detail_beyond = parse_number_from_zero(*beyond, "--detail-beyond");
+  return options;
+}
+
+void prepare_frame_folder(const std::optional<std::string>& folder, Overwriting& overwriting,
+                          const std::vector<std::filesystem::path>& files) {
+  overwriting.spare(files);
+  if (!folder) return;
+  const std::vector<std::filesystem::path> old = frame_files(*folder);
+  if (!old.empty() && !overwriting.is_asked())
+    throw FileError(*folder, "expected a folder without frames, got " +
+                                 old.front().filename().string() +
+                                 "; --overwrite removes those that stand there");
+  for (const std::filesystem::path& file : old) overwriting.check(file);
+  for (const std::filesystem::path& file : old) remove_file(file);
+}
+
+}  // namespace pleat

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "cli/overwriting.h"
+#include "core/files/obj_file.h"
+#include "core/modal/modal_body.h"
+
+namespace pleat {
+
+/// Surfaces with the same vertices and triangles, each from an OBJ file.
+struct KeySurfaces {
+  std::vector<std::filesystem::path> files;
+  std::vector<Positions> positions;  ///< [m]
+  ObjMesh mesh;                      ///< of the first
+};
+
+/// Of all words that are left. Throws InputError for files of different triangles.
+KeySurfaces take_keys(Arguments& arguments);
+
+/// --modes N.
+std::optional<int> take_mode_count(Arguments& arguments);
+
+/// --volume lattice|shell and --size S.
+ModalOptions take_volume_options(Arguments& arguments);
+
+/// All of these, and --functions N, --clusters N, --exact-keys and --detail-beyond D.
+ModalOptions take_completion_options(Arguments& arguments);
+
+/// Makes the folder after --out ready for frames, if there is one: none of another run is left.
+///
+/// files  that are read, and spared
+void prepare_frame_folder(const std::optional<std::string>& folder, Overwriting& overwriting,
+                          const std::vector<std::filesystem::path>& files);
+
+}  // namespace pleat

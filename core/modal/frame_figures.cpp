@@ -1,0 +1,56 @@
+#include "core/modal/frame_figures.h"
+
+#include <algorithm>
+
+#include "core/modal/arap_energy.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kYoung = 1;  // [Pa]; the energy's own stiffness is half of it
+
+/// places_of(body, frame) tells where the vertices of a body's volume are.
+template <class PlacesOf>
+std::vector<FrameFigures> figures(const KeyCompletion& completion, std::size_t n_frames,
+                                  const PlacesOf& places_of) {
+  std::vector<FrameFigures> all(n_frames);
+  for (std::size_t i = 0; i < completion.bodies().size(); ++i) {
+    const TetMesh& rest = completion.bodies()[i].carrying().volume;
+    const ArapEnergy energy(rest, kYoung / 2);
+    for (std::size_t f = 0; f < n_frames; ++f) {
+      const Positions places = places_of(i, f);
+      all[f].energy += energy.energy(places);
+      for (const Tet& tet : rest.tets) {
+        const double volume = tet_volume(places, tet);
+        all[f].volume += volume;
+        all[f].n_inverted += volume <= 0 ? 1 : 0;
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
+                                        const std::vector<KeyCompletion::Frame>& frames) {
+  std::vector<FrameFigures> all =
+      figures(completion, frames.size(), [&](std::size_t body, std::size_t f) {
+        return completion.bodies()[body].volume_positions(frames[f].bodies[body]);
+      });
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    all[f].unequal_halves = frames[f].unequal_halves();
+  return all;
+}
+
+std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
+                                         const std::vector<KeyCompletion::Frame>& frames) {
+  return figures(completion, frames.size(), [&](std::size_t body, std::size_t f) {
+    const ModalBody& of = completion.bodies()[body];
+    const int next = std::min(frames[f].left + 1, completion.n_keys() - 1);
+    const double share = frames[f].share_of_next;
+    return Positions((1 - share) * of.key_volume(frames[f].left) + share * of.key_volume(next));
+  });
+}
+
+}  // namespace pleat

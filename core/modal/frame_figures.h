@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/modal/key_completion.h"
+
+namespace pleat {
+
+/// What can be told of a frame beside its picture; of all its bodies together.
+struct FrameFigures {
+  double volume = 0;          ///< [m^3]
+  double energy = 0;          ///< ARAP energy since the first key, of a Young's modulus of 1 Pa [J]
+  int n_inverted = 0;         ///< tetrahedra turned inside out
+  double unequal_halves = 0;  ///< |D(a -> x) - D(b -> x)| over the larger one
+};
+
+/// Of frames that a completion made.
+std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
+                                        const std::vector<KeyCompletion::Frame>& frames);
+
+/// Of the frames at the same times whose vertices go straight from key to key.
+std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
+                                         const std::vector<KeyCompletion::Frame>& frames);
+
+}  // namespace pleat
