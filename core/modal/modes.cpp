@@ -17,6 +17,7 @@ namespace {
 /// resists less than nothing, ten times as much is tried, and so on.
 constexpr double kShift = 1e-8;
 constexpr double kShiftGrowth = 10;
+constexpr int kShiftHalvings = 4;
 /// Relative, of the eigenvalues that the iteration tells.
 constexpr double kTolerance = 1e-12;
 constexpr int kMostRestarts = 300;
@@ -123,12 +124,24 @@ SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& m
   SparseMatrix lower = shifted(stiffness, masses, shift);
   solver->analyze(lower);
   SolveReport factored = solver->factorize(lower);
-  while (factored.ends_run() && shift < largest) {
-    shift *= kShiftGrowth;
+  const auto factorize_with = [&](double next) {
+    shift = next;
     lower = shifted(stiffness, masses, shift);
     factored = solver->factorize(lower);
+    return !factored.ends_run();
+  };
+  if (factored.ends_run()) {
+    double too_little = shift;
+    while (shift < largest && !factorize_with(kShiftGrowth * shift)) too_little = shift;
+    if (factored.ends_run()) return factored;
+    // The nearer to the lowest, the faster the iteration tells it from the next.
+    double enough = shift;
+    for (int k = 0; k < kShiftHalvings; ++k) {
+      const double between = std::sqrt(too_little * enough);
+      (factorize_with(between) ? enough : too_little) = between;
+    }
+    if (!factorize_with(enough)) return factored;
   }
-  if (factored.ends_run()) return factored;
 
   const Eigen::MatrixXd rigid = orthonormal(root_masses.asDiagonal() * null_space);
   ShiftInverse inverse(*solver, root_masses, rigid);

@@ -215,6 +215,12 @@ TEST_CASE("key_completion: what cannot be filled in is a sentence", "[modal]") {
   ModalOptions too_many = few_modes();
   too_many.n_modes = 100000;
   CHECK_THROWS_WITH(complete({straight, straight}, bar().triangles, too_many), Contains("modes"));
+  Positions pressed = straight;
+  pressed.row(2).setZero();
+  ModalOptions usual = few_modes();
+  usual.size = 0;
+  CHECK_THROWS_WITH(complete({pressed, pressed}, bar().triangles, usual),
+                    Contains("encloses a volume"));
   ModalOptions lattice = few_modes();
   lattice.volume = VolumeKind::lattice;
   const TriangleMesh sheet = triangulated_sheet(Triangulation::alternating, 4, 4, 0.1);
