@@ -7,12 +7,11 @@
 namespace pleat {
 namespace {
 
-constexpr double kYoung = 1;  // [Pa]; the energy's own stiffness is half of it
-
 /// places_of(body, frame) tells where the vertices of a body's volume are.
 template <class PlacesOf>
 std::vector<FrameFigures> figures(const KeyCompletion& completion, std::size_t n_frames,
                                   const PlacesOf& places_of) {
+  constexpr double kYoung = 1;  // [Pa]; the energy's own stiffness is half of it
   std::vector<FrameFigures> all(n_frames);
   for (std::size_t i = 0; i < completion.bodies().size(); ++i) {
     const TetMesh& rest = completion.bodies()[i].carrying().volume;

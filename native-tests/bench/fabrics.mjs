@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { runParts, tell } from './parts/bench-parts.mjs';
-import { goal, markdown, median, short } from './parts/bench-rows.mjs';
+import { exponent, goal, markdown, median, short } from './parts/bench-rows.mjs';
 import { ask, root } from './parts/command.mjs';
 import { deformWasm } from './parts/contestants.mjs';
 
@@ -262,15 +262,6 @@ async function mesh() {
     }
   const head = ['largest distance, % of the side', 'least', 'median', 'most of 15 fabrics'];
   return { rows, goals, text: `\n\n${markdown(head, lines)}` };
-}
-
-/** The slope of a straight line through (log x, log y). */
-function exponent(points) {
-  const logs = points.map((point) => point.map(Math.log));
-  const n = logs.length;
-  const [mx, my] = [0, 1].map((k) => logs.reduce((sum, point) => sum + point[k], 0) / n);
-  const above = logs.reduce((sum, [x, y]) => sum + (x - mx) * (y - my), 0);
-  return above / logs.reduce((sum, [x]) => sum + (x - mx) ** 2, 0);
 }
 
 /** The pulled sheet of about so many vertices. */

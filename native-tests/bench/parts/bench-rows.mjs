@@ -123,3 +123,12 @@ export function goal(name, value, direction, bound, rows) {
     line: `goal ${name} ${short(value)} ${direction} ${short(bound)} ${ok ? 'ok' : 'short'}`,
   };
 }
+
+/** The slope of a straight line through (log x, log y). */
+export function exponent(points) {
+  const logs = points.map((point) => point.map(Math.log));
+  const n = logs.length;
+  const [mx, my] = [0, 1].map((k) => logs.reduce((sum, point) => sum + point[k], 0) / n);
+  const above = logs.reduce((sum, [x, y]) => sum + (x - mx) * (y - my), 0);
+  return above / logs.reduce((sum, [x]) => sum + (x - mx) ** 2, 0);
+}
