@@ -79,6 +79,22 @@ pleat deform MESH.obj    the same of any mesh
   --terms A,B            leave out those of recovery, stretch and bending that are not named
   --out FILE.obj         write the shape with the mesh's texture coordinates and groups
   --check                exit status 1 when there is a warning: it stopped short of the least energy
+pleat modes MESH.obj     the softest ways in which a body swings
+  --modes N              how many beside the rigid motions (default 20)
+  --volume lattice|shell that carries the surface (default: a lattice in a closed one, else a shell)
+  --size S               edge of the lattice or thickness of the shell [m]
+  --young E --density D  of the lattice (default 1e6 Pa and 1000 kg/m3); shells have no frequencies
+  --surface              of the surface's own energy instead
+pleat modes SCENE.json   of its cloth about the shape it has come to at its end, and how much of the
+                         motion until then they span
+  --out DIR              write the modes as OBJ files, the farthest vertex moved by a tenth
+pleat inbetween A.obj B.obj ...   frames between key shapes with the same vertices and faces
+  --frames N             with the keys (default 60);  --step D  until no vertex moves farther [m]
+  --volume, --size, --modes N  as of modes (default 40 of each key)
+  --functions N --clusters N   of the space of shapes (default 64 and 64)
+  --exact-keys           the keys themselves are in the space
+  --detail-beyond D      patches that the space meets to D [m] have no detail of their own
+  --out DIR              write the frames as OBJ files;  --check  as of run
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
@@ -94,6 +110,9 @@ pleat bench deform SCENE.json     what the shape of least energy costs
   --drag N               then of a hand that takes the handles there in N moves
   --against OTHER.json   the distance to that shape, with the same fabric and form
   --vertices             how much each vertex has of the bending
+pleat bench inbetween A.obj B.obj ...   what frames between keys cost, with the options of inbetween
+  --against DIR          the distance to the nearest of a run's frames;  --unreduced  also of frames
+                         for which no space was made
 pleat bench plans SCENE.json      plans that one example run leads to, and what they cost
   --demand X,Y --vertices N,M  a plan each;  --patterns N  --cap N  --from S  as of refine
 pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in turn
