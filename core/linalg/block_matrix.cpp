@@ -1,6 +1,7 @@
 #include "core/linalg/block_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -41,6 +42,35 @@ std::vector<std::vector<int>> block_neighbours(const SparseMatrix& lower) {
 }
 
 }  // namespace
+
+bool invert_packed(const double* S, double* inverse) {
+  if (!(S[0] > 0)) return false;
+  const double l00 = std::sqrt(S[0]);
+  const double l10 = S[1] / l00;
+  const double l20 = S[3] / l00;
+  const double pivot_1 = S[2] - l10 * l10;
+  if (!(pivot_1 > 0)) return false;
+  const double l11 = std::sqrt(pivot_1);
+  const double l21 = (S[4] - l20 * l10) / l11;
+  const double pivot_2 = S[5] - l20 * l20 - l21 * l21;
+  if (!(pivot_2 > 0)) return false;
+  const double l22 = std::sqrt(pivot_2);
+
+  // With S = C C', the inverse is V'V for V = C^-1.
+  const double v00 = 1 / l00;
+  const double v11 = 1 / l11;
+  const double v22 = 1 / l22;
+  const double v10 = -l10 * v00 * v11;
+  const double v21 = -l21 * v11 * v22;
+  const double v20 = -(l20 * v00 + l21 * v10) * v22;
+  inverse[0] = v00 * v00 + v10 * v10 + v20 * v20;
+  inverse[1] = v10 * v11 + v20 * v21;
+  inverse[2] = v11 * v11 + v21 * v21;
+  inverse[3] = v20 * v22;
+  inverse[4] = v21 * v22;
+  inverse[5] = v22 * v22;
+  return true;
+}
 
 void BlockMatrix::analyze(const SparseMatrix& lower) {
   PLEAT_CHECK(lower.rows() % 3 == 0, "the size of the matrix must be a multiple of 3");

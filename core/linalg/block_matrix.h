@@ -18,6 +18,10 @@ inline void multiply_packed(const double* S, const double* x, double* y) {
   y[2] = S[3] * x[0] + S[4] * x[1] + S[5] * x[2];
 }
 
+/// Inverse of a packed block through its Cholesky factor. False unless every Cholesky pivot is
+/// positive.
+bool invert_packed(const double* S, double* inverse);
+
 /// Symmetric matrix in 3 x 3 blocks, those below the diagonal held once, row by row. Its rows have
 /// an order of their own, in which neighbours are near each other (reverse King order).
 class BlockMatrix {

@@ -6,6 +6,7 @@
 #include "core/linalg/conjugate_gradient.h"
 #include "core/linalg/eigen_solver.h"
 #include "core/linalg/finite_check.h"
+#include "core/linalg/successive_overrelaxation.h"
 #include "core/linalg/supernodal_solver.h"
 #ifdef PLEAT_HAS_CHOLMOD
 #include "core/linalg/cholmod_solver.h"
@@ -62,13 +63,18 @@ const char* name(SolverKind kind) {
       return "eigen";
     case SolverKind::cg:
       return "cg";
+    case SolverKind::sor:
+      return "sor";
   }
   return "";
 }
 
+bool is_direct(SolverKind kind) { return kind != SolverKind::cg && kind != SolverKind::sor; }
+
 void SolverOptions::validate() const {
   PLEAT_CHECK(tolerance > 0 && tolerance < 1, "the solver's tolerance must lie in (0, 1)");
   PLEAT_CHECK(max_iterations >= 1, "the solver's iteration cap must be at least 1");
+  PLEAT_CHECK(omega >= 0 && omega < 2, "sor's omega must lie in (0, 2), or be 0 for an estimate");
 }
 
 bool is_available(SolverKind kind) {
@@ -99,6 +105,8 @@ std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, const SolverOp
       return make_eigen_solver();
     case SolverKind::cg:
       return make_conjugate_gradient(options);
+    case SolverKind::sor:
+      return make_successive_overrelaxation(options);
   }
   PLEAT_CHECK(false, "this solver is not part of this build");
   return nullptr;

@@ -43,13 +43,18 @@ class LinearSolver {
   bool factorized_ = false;
 };
 
-enum class SolverKind { cholmod, supernodal, eigen, cg };
+enum class SolverKind { cholmod, supernodal, eigen, cg, sor };
+
+/// False for those that come nearer to the solution step by step.
+bool is_direct(SolverKind kind);
 
 const char* name(SolverKind kind);
 
 struct SolverOptions {
-  double tolerance = 1e-6;    ///< cg: relative residual |b - A x| / |b| at which to stop, in (0, 1)
-  int max_iterations = 1000;  ///< cg: cap, at least 1; reaching it is reported
+  /// cg, sor: relative residual |b - A x| / |b| at which to stop, in (0, 1)
+  double tolerance = 1e-6;
+  int max_iterations = 1000;  ///< cg, sor: cap, at least 1; reaching it is reported
+  double omega = 0;           ///< sor: in (0, 2), or 0 for an estimate of the best
 
   void validate() const;  ///< throws ContractError
 };
@@ -60,7 +65,7 @@ bool is_available(SolverKind kind);
 /// The direct solver to prefer: cholmod where there is one, else eigen.
 SolverKind best_direct_solver();
 
-/// cg works on 3 x 3 blocks: n must be a multiple of 3.
+/// cg and sor work on 3 x 3 blocks: n must be a multiple of 3.
 /// Throws ContractError when the kind is not available.
 std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind,
                                                  const SolverOptions& options = {});
