@@ -10,6 +10,7 @@ void MethodOptions::validate() const {
   PLEAT_CHECK(step > 0, "a step is positive");
   PLEAT_CHECK(substeps >= (stepper->has_stability_bound ? 0 : 1), "at least one substep");
   PLEAT_CHECK(iterations >= 1, "at least one iteration");
+  PLEAT_CHECK(omega >= 0 && omega < 2, "an omega lies between 0 and 2");
   PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
 }
 

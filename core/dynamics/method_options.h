@@ -8,7 +8,7 @@ struct StepperType;
 
 /// The rows of the table of steppers (stepper_table.h).
 namespace steppers {
-extern const StepperType kImplicitEuler, kProjective, kXpbd, kExplicitEuler, kRk4, kNewton;
+extern const StepperType kImplicitEuler, kImex, kProjective, kXpbd, kExplicitEuler, kRk4, kNewton;
 }  // namespace steppers
 
 /// The most substeps of a step: with steps of 1/60 s, 17 ns each.
@@ -26,6 +26,12 @@ enum class NewtonRule {
   equilibrium,     ///< rest under the forces at the end of the substep, whatever the mass
 };
 
+/// Which springs `imex` treats implicitly.
+enum class ImplicitSplit {
+  by_stability,  ///< those that symplectic Euler would not take stably in a substep
+  structural,    ///< warp and weft, whatever the substep
+};
+
 /// The tolerance that newton, which makes references, starts from.
 constexpr double kNewtonTolerance = 1e-10;
 
@@ -37,9 +43,11 @@ struct MethodOptions {
   int substeps = 1;  ///< at least 1; 0, where the stepper has a stability bound: as many as it asks
   int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
   SolverKind solver = SolverKind::cg;
-  /// implicit with cg: relative residual at which it stops. newton: the last correction, in shares
-  /// of the cloth's extent, which then is already made. In (0, 1).
+  /// implicit and imex with cg or sor: relative residual at which it stops. newton: the last
+  /// correction, in shares of the cloth's extent, which then is already made. In (0, 1).
   double tolerance = 1e-3;
+  double omega = 0;  ///< of sor, in (0, 2), or 0 for an estimate of the best
+  ImplicitSplit split = ImplicitSplit::by_stability;
   NewtonRule rule = NewtonRule::backward_euler;
   Constraints constraints = Constraints::compliant;
 

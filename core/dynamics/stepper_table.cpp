@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_explicit.h"
+#include "core/dynamics/stepper_imex.h"
 #include "core/dynamics/stepper_implicit.h"
 #include "core/dynamics/stepper_newton.h"
 #include "core/dynamics/stepper_projective.h"
@@ -22,6 +23,9 @@ std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
 constexpr std::array kSubsteps = {MethodSetting::substeps};
 constexpr std::array kImplicitSettings = {MethodSetting::substeps, MethodSetting::solver,
                                           MethodSetting::tolerance};
+constexpr std::array kImexSettings = {MethodSetting::substeps, MethodSetting::solver,
+                                      MethodSetting::tolerance, MethodSetting::omega,
+                                      MethodSetting::split};
 constexpr std::array kProjectiveSettings = {MethodSetting::substeps, MethodSetting::iterations,
                                             MethodSetting::solver};
 constexpr std::array kXpbdSettings = {MethodSetting::substeps, MethodSetting::iterations,
@@ -54,11 +58,31 @@ constinit const StepperType steppers::kImplicitEuler = {
     .is_usual_for_membranes = true,
     // Some ten steps with a matrix of 3x3 blocks, or a factorisation.
     .substep_cost =
-        [](const MethodOptions& options) {
-          return options.solver == SolverKind::cg ? 20.0 : 150.0;
-        },
+        [](const MethodOptions& options) { return is_direct(options.solver) ? 150.0 : 20.0; },
     .mark = {"M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0Z", "#17638f", "#7cc3f0"},
     .make = make<StepperImplicit>,
+};
+
+constinit const StepperType steppers::kImex = {
+    .name = "imex",
+    .title = "Implicit-explicit",
+    .meaning =
+        "Implicit for the springs that are too stiff for the substep, explicit for the others: a "
+        "smaller system than Implicit's, and less damping.",
+    .settings = kImexSettings,
+    .substeps_meaning = "The more substeps, the fewer springs are implicit.",
+    .start = {4, 1},
+    .solver = SolverKind::sor,
+    .tolerance = 1e-4,
+    .needs_springs = true,
+    .solves_equations = true,
+    .solves_whole_substeps = true,
+    .usual_counts = kOneOrFour,
+    // All forces, and a few sweeps over the blocks of the stiff springs.
+    .substep_cost =
+        [](const MethodOptions& options) { return is_direct(options.solver) ? 80.0 : 10.0; },
+    .mark = {"M-5 0L-2.5-4.3H2.5L5 0L2.5 4.3H-2.5Z", "#0b6e5f", "#5fd0bb"},
+    .make = make<StepperImex>,
 };
 
 constinit const StepperType steppers::kProjective = {
@@ -155,9 +179,9 @@ constinit const StepperType steppers::kNewton = {
 };
 
 StepperTable standard_steppers() {
-  static constexpr std::array<const StepperType*, 6> kTable = {
-      &steppers::kImplicitEuler, &steppers::kProjective, &steppers::kXpbd,
-      &steppers::kExplicitEuler, &steppers::kRk4,        &steppers::kNewton};
+  static constexpr std::array<const StepperType*, 7> kTable = {
+      &steppers::kImplicitEuler, &steppers::kImex, &steppers::kProjective, &steppers::kXpbd,
+      &steppers::kExplicitEuler, &steppers::kRk4,  &steppers::kNewton};
   return kTable;
 }
 
@@ -171,6 +195,10 @@ const char* key(MethodSetting setting) {
       return "solver";
     case MethodSetting::tolerance:
       return "tolerance";
+    case MethodSetting::omega:
+      return "omega";
+    case MethodSetting::split:
+      return "split";
     case MethodSetting::constraints:
       return "constraints";
     case MethodSetting::rule:
@@ -185,7 +213,7 @@ MethodOptions StepperType::usual_method() const {
   method.substeps = start.substeps;
   method.iterations = start.iterations;
   method.tolerance = tolerance;
-  if (needs_factor) method.solver = best_direct_solver();
+  method.solver = needs_factor ? best_direct_solver() : solver;
   return method;
 }
 
@@ -219,9 +247,9 @@ std::string stepper_help(StepperTable table) {
 std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options) {
   PLEAT_CHECK(options.stepper != nullptr, "a method names its stepper");
   const StepperType& type = *options.stepper;
-  if (type.needs_factor && options.solver == SolverKind::cg)
+  if (type.needs_factor && !is_direct(options.solver))
     throw InputError("/method/solver", std::string("expected cholmod or eigen for ") + type.name +
-                                           ", which needs a factor, got cg");
+                                           ", which needs a factor, got " + name(options.solver));
   if (type.needs_springs && !model.is_plain_spring_lattice())
     throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
                                    type.name + ", which works on nothing else");

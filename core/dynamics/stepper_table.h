@@ -14,11 +14,21 @@
 namespace pleat {
 
 /// The settings of a scene's section "method" beside stepper and step.
-enum class MethodSetting { substeps, iterations, solver, tolerance, constraints, rule };
+enum class MethodSetting {
+  substeps,
+  iterations,
+  solver,
+  tolerance,
+  omega,
+  split,
+  constraints,
+  rule
+};
 
-constexpr std::array<MethodSetting, 6> kMethodSettings = {
-    MethodSetting::substeps,  MethodSetting::iterations,  MethodSetting::solver,
-    MethodSetting::tolerance, MethodSetting::constraints, MethodSetting::rule};
+constexpr std::array<MethodSetting, 8> kMethodSettings = {
+    MethodSetting::substeps,    MethodSetting::iterations, MethodSetting::solver,
+    MethodSetting::tolerance,   MethodSetting::omega,      MethodSetting::split,
+    MethodSetting::constraints, MethodSetting::rule};
 
 /// Spelled as in scenes.
 const char* key(MethodSetting setting);
@@ -48,6 +58,7 @@ struct StepperType {
   const char* iterations_meaning = "";  ///< the same of iterations, where it reads them
   /// Used where a scene says nothing.
   MethodCounts start = {};
+  SolverKind solver = SolverKind::cg;  ///< where it needs no factor
   double tolerance = MethodOptions{}.tolerance;
   double largest_tolerance = 1;  ///< excluded when 1
 

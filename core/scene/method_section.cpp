@@ -5,13 +5,17 @@ namespace {
 
 constexpr std::int64_t kMaxIterations = 100000;
 
-constexpr std::array<Word<SolverKind>, 4> kSolvers{{{"cholmod", SolverKind::cholmod},
+constexpr std::array<Word<SolverKind>, 5> kSolvers{{{"cholmod", SolverKind::cholmod},
                                                     {"supernodal", SolverKind::supernodal},
                                                     {"eigen", SolverKind::eigen},
-                                                    {"cg", SolverKind::cg}}};
+                                                    {"cg", SolverKind::cg},
+                                                    {"sor", SolverKind::sor}}};
 
 constexpr std::array<Word<Constraints>, 2> kConstraints{
     {{"compliant", Constraints::compliant}, {"rigid", Constraints::rigid}}};
+
+constexpr std::array<Word<ImplicitSplit>, 2> kSplits{
+    {{"by_stability", ImplicitSplit::by_stability}, {"structural", ImplicitSplit::structural}}};
 
 constexpr std::array<Word<NewtonRule>, 3> kNewtonRules{
     {{"backward_euler", NewtonRule::backward_euler},
@@ -26,11 +30,19 @@ constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::o
 constexpr const char* kStableSubsteps =
     "stable";  // as many as the explicit stability bound asks for
 
+constexpr const char* kEstimatedOmega = "estimated";
+
 int read_substeps(const JsonReader& reader, const StepperType& type) {
   if (!reader.is_text()) return static_cast<int>(reader.integer(1, kMaxSubsteps));
   if (!type.has_stability_bound)
     reader.fail("a whole number, as " + std::string(type.name) + " has no bound to be stable at");
   if (reader.text() != kStableSubsteps) reader.fail("a whole number or \"stable\"");
+  return 0;
+}
+
+double read_omega(const JsonReader& reader) {
+  if (!reader.is_text()) return reader.number({0, 2, NumberRange::Ends::excluded});
+  if (reader.text() != kEstimatedOmega) reader.fail("a number or \"estimated\"");
   return 0;
 }
 
@@ -73,6 +85,12 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
     case MethodSetting::tolerance:
       method.tolerance = reader.number(tolerances(*method.stepper));
       return;
+    case MethodSetting::omega:
+      method.omega = read_omega(reader);
+      return;
+    case MethodSetting::split:
+      method.split = reader.word(kSplits);
+      return;
     case MethodSetting::constraints:
       method.constraints = reader.word(kConstraints);
       return;
@@ -94,6 +112,10 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
       return word_for(kSolvers, method.solver);
     case MethodSetting::tolerance:
       return method.tolerance;
+    case MethodSetting::omega:
+      return method.omega > 0 ? Json(method.omega) : Json(kEstimatedOmega);
+    case MethodSetting::split:
+      return word_for(kSplits, method.split);
     case MethodSetting::constraints:
       return word_for(kConstraints, method.constraints);
     case MethodSetting::rule:

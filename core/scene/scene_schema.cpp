@@ -26,6 +26,8 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
       if (type.largest_tolerance < 1) schema["maximum"] = type.largest_tolerance;
       schema["default"] = usual.tolerance;
       break;
+    case MethodSetting::omega:
+    case MethodSetting::split:
     case MethodSetting::constraints:
     case MethodSetting::rule:
       break;

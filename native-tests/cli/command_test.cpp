@@ -147,7 +147,8 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--levels", "0", "--set", "/refinement/level=1"}, "pleat: --set: expected each "},
       {{"sweep", "--reference", "rigid_chain", "--set", "/pins=[]"}, "scene.json: /pins: expected"},
       {{"bench"},
-       "pleat: bench: expected run, reference, deform, inbetween, plans, together, rows or limit after it, "
+       "pleat: bench: expected run, reference, deform, inbetween, plans, together, rows or limit "
+       "after it, "
        "got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
       {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},

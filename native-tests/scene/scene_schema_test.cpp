@@ -28,6 +28,7 @@ const char* const kShortScenes[] = {
         "triangles": [[0, 1, 2]], "warp_direction": [1, 0, 0]}}})",
     R"({"cloth": {"garment": {"skirt": {}}}, "figure": {"motion": "turn.json"}})",
     R"({"cloth": {"garment": {"trousers": {}}}, "figure": {"motion": "turn.json"}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "imex"}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "projective"}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd"}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit"}})",

@@ -139,7 +139,11 @@ std::vector<MethodOptions> everyday_methods() {
   projective.iterations = 10;
   MethodOptions xpbd = method(&steppers::kXpbd, 1.0 / 60);
   xpbd.substeps = 30;
-  return {explicit_method, implicit, projective, xpbd};
+  MethodOptions imex = method(&steppers::kImex, 1.0 / 60);
+  imex.solver = SolverKind::sor;
+  imex.tolerance = 1e-4;
+  imex.substeps = 4;
+  return {explicit_method, implicit, imex, projective, xpbd};
 }
 
 std::vector<MethodOptions> accurate_methods(double step) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "core/dynamics/stability_split.h"
+#include "core/dynamics/stepper.h"
+#include "core/model/system_matrix.h"
+
+namespace pleat {
+
+/// Implicit for the springs that need it at this substep, explicit for the others:
+///
+///     (M + h C_I + h^2 K_I) dv = h (f_E + f_I - h K_I v),   x += h v with the new v
+///
+/// with the forces f_E of the soft elements and all others, and f_I, projected stiffness K_I and
+/// damping C_I of the stiff ones. Backward Euler with one linearisation where all are stiff,
+/// symplectic Euler where none is. First order. The matrix has blocks of the stiff elements alone;
+/// its pattern lasts until the set changes.
+///
+/// Source: docs/methods/imex.md.
+class StepperImex final : public Stepper {
+ public:
+  /// Throws InputError when the wanted solver is not available.
+  StepperImex(ClothModel& model, const MethodOptions& options);
+
+  void refresh() override { choose(); }
+  void refresh_rest_lengths() override { choose(); }
+
+  const StabilitySplit& parts() const { return parts_; }
+
+ protected:
+  SolveReport substep(State& state, double time_end, double h) override;
+
+ private:
+  void choose();
+  void assemble(const State& state, double h);
+
+  StabilitySplit parts_;
+  std::optional<SystemMatrix> matrix_;
+  std::unique_ptr<LinearSolver> solver_;
+  Positions forces_;
+  Positions velocity_changes_;  // kept as the next solve's first guess
+  Positions pin_changes_;       // prescribed, one column per pin
+  Positions positions_begin_;
+};
+
+}  // namespace pleat
