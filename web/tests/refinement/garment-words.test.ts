@@ -17,7 +17,6 @@ import {
   storySentences,
 } from '../../src/refinement/panels/garment-words';
 import { NEUTRAL_COLOUR, paintOf, upperEnd } from '../../src/refinement/panels/paints';
-import { objText } from '../../src/refinement/panels/saving';
 import type { PlanFile, PlanStory } from '../../src/refinement/state/plan-file';
 import {
   canPlanAnew,
@@ -29,6 +28,7 @@ import {
   shownPanes,
 } from '../../src/refinement/state/refinement-state';
 import type { GarmentMesh } from '../../src/refinement/worker/garment-protocol';
+import { objText } from '../../src/shared/panels/saving';
 import { linearColour } from '../../src/shared/stage/colormap';
 
 const STORY: PlanStory = {
