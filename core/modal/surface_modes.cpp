@@ -1,0 +1,95 @@
+#include "core/modal/surface_modes.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/base/check.h"
+#include "core/base/joined_sets.h"
+#include "core/modal/cloth_modes.h"
+#include "core/modal/surface_arap.h"
+
+namespace pleat {
+namespace {
+
+std::vector<int> parts_of(Eigen::Index n_vertices, const std::vector<Triangle>& triangles) {
+  JoinedSets sets(static_cast<std::size_t>(n_vertices));
+  for (const auto& [a, b, c] : triangles) {
+    sets.join(a, b);
+    sets.join(a, c);
+  }
+  return sets.numbers();
+}
+
+void check_solved(const SolveReport& report) {
+  if (report.ends_run()) throw InputError("", "the modes were not found: " + report.message);
+}
+
+void scale_to_one(Eigen::Ref<Eigen::VectorXd> move) {
+  const double farthest = move.reshaped(3, move.size() / 3).colwise().norm().maxCoeff();
+  if (farthest > 0) move /= farthest;
+}
+
+}  // namespace
+
+SurfaceModes whole_surface_modes(const Modes& modes) {
+  SurfaceModes shown;
+  const Eigen::Index n_elastic = modes.size() - modes.n_rigid;
+  shown.moves = modes.shapes.rightCols(n_elastic);
+  shown.stiffness = modes.stiffness.tail(n_elastic);
+  shown.n_rigid = modes.n_rigid;
+  for (Eigen::Index m = 0; m < n_elastic; ++m) scale_to_one(shown.moves.col(m));
+  return shown;
+}
+
+SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
+                                  const ModalOptions& options) {
+  const CarryingVolume carrying = carrying_volume(surface, triangles, options);
+  Modes modes;
+  check_solved(volume_modes(carrying.volume, options.n_modes, modes));
+  SurfaceModes shown;
+  const Eigen::Index n_elastic = modes.size() - modes.n_rigid;
+  shown.moves.resize(surface.size(), n_elastic);
+  for (Eigen::Index m = 0; m < n_elastic; ++m) {
+    const Positions moved = modes.shapes.col(modes.n_rigid + m).reshaped(3, carrying.volume.n_vertices());
+    shown.moves.col(m) = flat(Positions(carrying.surface(moved)));
+    scale_to_one(shown.moves.col(m));
+  }
+  shown.stiffness = modes.stiffness.tail(n_elastic);
+  shown.n_rigid = modes.n_rigid;
+  shown.n_tets = static_cast<int>(carrying.volume.tets.size());
+  return shown;
+}
+
+SurfaceModes surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
+                           int count) {
+  const Eigen::VectorXd areas = surface_areas(surface, triangles);
+  for (Eigen::Index v = 0; v < areas.size(); ++v)
+    if (!(areas[v] > 0))
+      throw InputError("", "expected every vertex in a triangle with an area; vertex " +
+                               std::to_string(v) + " is in none");
+  const Eigen::MatrixXd rigid = rigid_motions(surface, parts_of(surface.cols(), triangles));
+  const Eigen::Index most = surface.size() - rigid.cols();
+  if (count < 1 || count > most)
+    throw InputError("", "expected 1 to " + std::to_string(most) + " modes, all that " +
+                             std::to_string(surface.cols()) + " vertices have, found " +
+                             std::to_string(count));
+  Modes modes;
+  check_solved(lowest_modes(surface_arap_hessian(surface, triangles, 1),
+                            areas.replicate(1, 3).transpose().reshaped(), rigid, count, modes));
+  return whole_surface_modes(modes);
+}
+
+Eigen::VectorXd volume_motion_shares(const KeyCompletion& completion,
+                                     const std::vector<KeyCompletion::Frame>& frames) {
+  if (completion.bodies().size() != 1)
+    throw InputError("", "expected a surface in one part, found " +
+                             std::to_string(completion.bodies().size()));
+  const ModalBody& body = completion.bodies().front();
+  const TetMesh& rest = body.carrying().volume;
+  std::vector<Positions> shapes;
+  for (const KeyCompletion::Frame& frame : frames)
+    shapes.push_back(body.volume_positions(frame.bodies.front()));
+  return motion_shares(body.modes().front(), vertex_volumes(rest), rest.rest_positions, shapes);
+}
+
+}  // namespace pleat

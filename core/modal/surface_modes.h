@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/modal/key_completion.h"
+
+namespace pleat {
+
+/// Modes as a surface shows them, the rigid ones left out.
+struct SurfaceModes {
+  /// 3 n x modes, each as large as lets the farthest vertex move by 1.
+  Eigen::MatrixXd moves;
+  Eigen::VectorXd stiffness;  ///< of each, as in Modes
+  int n_rigid = 0;            ///< that are left out
+  int n_tets = 0;             ///< of the volume that carries the surface; 0 without
+};
+
+/// Of modes whose unknowns are the surface's own.
+SurfaceModes whole_surface_modes(const Modes& modes);
+
+/// Of the volume that carries the surface, under the energy of 1 Pa and 1 kg/m^3.
+///
+/// Throws InputError where no volume can carry it, and where it has fewer modes than are asked for.
+SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
+                                  const ModalOptions& options);
+
+/// Of the surface alone, under its own energy of 1 N/m and with 1 kg/m^2.
+///
+/// Throws InputError for a vertex in no triangle and where it has fewer modes than `count`.
+SurfaceModes surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
+                           int count);
+
+/// How much of a completed motion is in the first modes of the first key's volume, its rigid ones
+/// first (motion_shares).
+///
+/// Throws InputError for a surface of several parts.
+Eigen::VectorXd volume_motion_shares(const KeyCompletion& completion,
+                                     const std::vector<KeyCompletion::Frame>& frames);
+
+}  // namespace pleat
