@@ -53,6 +53,7 @@ const FETCHED: Record<Exclude<ViewId, 'motion'>, () => Promise<Create>> = {
     const { createFabricsView } = await import('./fabrics/fabrics-view');
     return (root, hash) => createFabricsView(root, hash, toMotion);
   },
+  modes: async () => (await import('./modes/modes-view')).createModesView,
 };
 
 async function fetchedView(id: keyof typeof FETCHED, hash: string): Promise<View> {

@@ -1,0 +1,122 @@
+// The class bound by the module that finds modes and in-betweens, and the shape of the texts it answers with.
+import { methodsOf } from '../../shared/bindings/methods';
+
+/** What measures how much a shape costs: the volume inside, the surface alone, or a cloth's own springs. */
+export type Energy = 'volume' | 'surface' | 'cloth';
+
+/** What carries a surface: as it fits, cubes inside, or the surface thickened. */
+export type VolumeChoice = 'auto' | 'lattice' | 'shell';
+
+/** What the opening calls find. */
+export interface SurfaceAnswer {
+  n_vertices: number;
+  n_triangles: number;
+  /** True where every edge has two triangles. */
+  closed: boolean;
+  /** Of a cloth: what its scene holds. */
+  pins?: number[];
+  /** Of a cloth: one step of its run. */
+  step_s?: number;
+  /** Which statements of the OBJ file were skipped, counted, in words; missing or empty when none was. */
+  skipped?: string;
+}
+
+export interface RunAnswer {
+  time_s: number;
+  /** Of the fastest vertex. */
+  speed_m_per_s: number;
+}
+
+export interface ModesAnswer {
+  /**
+   * Of each mode beside the rigid ones, ascending: the square of its angular frequency, of a cloth [1/s²], of a
+   * volume under 1 Pa and 1 kg/m³, of a surface under 1 N/m and 1 kg/m².
+   */
+  stiffness: number[];
+  /** How many rigid motions were left out. */
+  rigid: number;
+  /** Tetrahedra of the volume; 0 without one. */
+  tets: number;
+}
+
+export interface VolumeWish {
+  volume: VolumeChoice;
+  /** Edge of the cubes or thickness of the shell [m]; the usual one if missing. */
+  size_m?: number;
+  /** How many, beside the rigid ones. */
+  modes: number;
+}
+
+export interface CompletionAnswer {
+  tets: number;
+  /** Parts of the surface that move each for itself. */
+  bodies: number;
+}
+
+/** A shape between two keys, and the one that lies straight between the same keys at the same time. */
+export interface FilledFrame {
+  /** The first key is at 0, the next one at 1. */
+  time: number;
+  /** The key at its time or the last one before. */
+  left: number;
+  shareOfNext: number;
+  unequalHalves: number;
+  volume_m3: number;
+  straightVolume_m3: number;
+  /** Root of the mean square of how far each piece is from a turned copy of itself; a ratio. */
+  strain: number;
+  straightStrain: number;
+}
+
+/** One surface, or one cloth of a scene, its modes and its key shapes. */
+export interface ModalStudyHandle {
+  /** `{sides_m: [x, y, z], cells}`: a closed box. */
+  openBox(boxText: string): string;
+  openObj(objText: string): string;
+  openScene(sceneText: string): string;
+  /** So many steps of the scene; the shape is the one that it has come to. */
+  run(steps: number): string;
+  /** `{energy, ...VolumeWish}`: about the present shape. */
+  findModes(wantedText: string): string;
+  /** Keys one after the other, three numbers a vertex [m], and `{keys: n, ...VolumeWish}`. */
+  complete(places: Float64Array, wantedText: string): string;
+  replaceKey(index: number, places: Float64Array): string;
+  fillIn(count: number): string;
+  volumeShares(): string;
+  /** Frames one after the other, three numbers a vertex [m]. */
+  clothShares(places: Float64Array, count: number): string;
+  /** Views of module memory, dead after the next call. */
+  triangles(): Uint32Array;
+  /** The shape that modes are about. */
+  shape(): Float64Array;
+  /** Of each mode, where the farthest vertex moves by 1. */
+  moves(): Float32Array;
+  /** Surfaces of all frames, one after the other. */
+  filled(): Float64Array;
+  delete(): void;
+}
+
+/** A module of its own, fetched when modes are first looked at. */
+export interface ModalModule {
+  ModalStudy: new (fabricsText: string) => ModalStudyHandle;
+}
+
+export const MODAL_METHODS: Record<keyof ModalModule, string[]> = {
+  ModalStudy: methodsOf<ModalStudyHandle>({
+    openBox: true,
+    openObj: true,
+    openScene: true,
+    run: true,
+    findModes: true,
+    complete: true,
+    replaceKey: true,
+    fillIn: true,
+    volumeShares: true,
+    clothShares: true,
+    triangles: true,
+    shape: true,
+    moves: true,
+    filled: true,
+    delete: true,
+  }),
+};

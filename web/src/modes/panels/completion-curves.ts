@@ -1,0 +1,154 @@
+// Volume and energy along the timeline, of the in-betweens and of the straight way.
+import { linearScale } from '../../shared/chart/linear-scale';
+import { element, setText, svg } from '../../shared/panels/element';
+import { digits } from '../../shared/panels/quantity';
+import { type Store, watch } from '../../shared/state/store';
+import type { FilledFrame } from '../bindings/modal-module';
+import { energyOf } from '../state/material';
+import type { Completion, ModesState } from '../state/modes-state';
+import { halvesWords, storyWords } from './completion-words';
+
+const WIDTH = 330;
+const HEIGHT = 130;
+const LEFT = 46;
+const RIGHT = 8;
+const TOP = 8;
+const BOTTOM = 30;
+
+/** One of the two charts: a number of the in-betweens and the same of the straight way. */
+interface Curve {
+  title: string;
+  unit: string;
+  ours(frame: FilledFrame, rest_m3: number): number;
+  straight(frame: FilledFrame, rest_m3: number): number;
+}
+
+const CURVES: readonly Curve[] = [
+  {
+    title: 'Volume',
+    unit: '%',
+    ours: ({ volume_m3 }, rest) => (100 * volume_m3) / rest,
+    straight: ({ straightVolume_m3 }, rest) => (100 * straightVolume_m3) / rest,
+  },
+  {
+    title: 'Energy',
+    unit: 'J',
+    ours: ({ strain }, rest) => energyOf(strain, rest),
+    straight: ({ straightStrain }, rest) => energyOf(straightStrain, rest),
+  },
+];
+
+/** Room below and above for what hardly changes [%]. */
+const LEAST_SPAN = 0.1;
+
+/** The ends of an axis and the values written on it. */
+function axisFor(values: readonly number[], fromZero: boolean) {
+  const most = Math.max(...values);
+  const least = fromZero ? 0 : Math.min(...values);
+  const span = Math.max(most - least, LEAST_SPAN * (fromZero ? 1e-6 : 10));
+  const { ticks } = linearScale([span], 3);
+  const step = (ticks[1] ?? span) - (ticks[0] ?? 0);
+  const low = fromZero ? 0 : Math.floor(least / step) * step;
+  const high = low + Math.ceil((most - low) / step - 1e-9) * step || low + step;
+  const n = Math.max(1, Math.round((high - low) / step));
+  return {
+    part: (value: number) => (value - low) / (n * step),
+    ticks: Array.from({ length: n + 1 }, (_, index) => low + index * step),
+  };
+}
+
+interface Drawn {
+  root: SVGElement;
+  now: SVGElement;
+  x(time: number): number;
+}
+
+function pathOf(points: readonly (readonly [number, number])[]): string {
+  return points
+    .map(([x, y], index) => `${index === 0 ? 'M' : 'L'}${x.toFixed(1)} ${y.toFixed(1)}`)
+    .join('');
+}
+
+function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
+  const rest = frames[0]?.volume_m3 ?? 1;
+  const ours = frames.map((frame) => curve.ours(frame, rest));
+  const straight = frames.map((frame) => curve.straight(frame, rest));
+  const axis = axisFor([...ours, ...straight], curve.unit === 'J');
+  const end = frames.at(-1)?.time ?? 1;
+  const x = (time: number) => LEFT + (time / end) * (WIDTH - LEFT - RIGHT);
+  const y = (value: number) => HEIGHT - BOTTOM - axis.part(value) * (HEIGHT - TOP - BOTTOM);
+  const root = svg('svg', {
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    class: 'plot',
+    'aria-hidden': 'true',
+  });
+  for (const tick of axis.ticks)
+    root.append(
+      svg('line', { x1: LEFT, y1: y(tick), x2: WIDTH - RIGHT, y2: y(tick), class: 'grid-minor' }),
+      svg('text', { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' }, digits(tick, 3)),
+    );
+  for (let key = 0; key <= end; ++key)
+    root.append(
+      svg('line', { x1: x(key), y1: TOP, x2: x(key), y2: HEIGHT - BOTTOM, class: 'grid-minor' }),
+      svg('text', { x: x(key), y: HEIGHT - BOTTOM + 14, class: 'tick tick-x' }, String(key + 1)),
+    );
+  const points = (values: readonly number[]) =>
+    values.map((value, index) => [x(frames[index]?.time ?? 0), y(value)] as const);
+  const now = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'now' });
+  root.append(
+    svg('path', { d: pathOf(points(straight)), class: 'curve-straight' }),
+    svg('path', { d: pathOf(points(ours)), class: 'curve-ours' }),
+    now,
+    svg('text', { x: LEFT + (WIDTH - LEFT) / 2, y: HEIGHT - 3, class: 'axis' }, 'key'),
+  );
+  return { root, now, x };
+}
+
+function legendKey(kind: string, title: string): HTMLElement {
+  const line = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
+  line.append(svg('path', { d: 'M0 5H24', class: kind }));
+  return element('li', {}, line, title);
+}
+
+export function createCompletionCurves(parent: HTMLElement, store: Store<ModesState>): void {
+  const boxes = CURVES.map(({ title, unit }) => {
+    const place = element('div');
+    const figure = element(
+      'figure',
+      { class: 'curve-box' },
+      element('figcaption', {}, `${title} [${unit}]`),
+      place,
+    );
+    return { figure, place };
+  });
+  const legend = element(
+    'ul',
+    { class: 'marks curve-keys' },
+    legendKey('curve-ours', 'In-betweens'),
+    legendKey('curve-straight', 'Straight from key to key'),
+  );
+  const story = element('p', { class: 'story' });
+  const halves = element('p', { class: 'note' });
+  const box = element('div', { class: 'curves' }, ...boxes.map(({ figure }) => figure));
+  parent.append(story, box, legend, halves);
+  let drawn: Drawn[] = [];
+  let shown: Completion | null = null;
+  watch(store, ['completion', 'keys', 'model'], (state) => {
+    const { completion } = state;
+    for (const part of [box, legend, halves]) part.hidden = completion === null;
+    setText(story, storyWords(state));
+    if (!completion || completion === shown) return;
+    shown = completion;
+    drawn = CURVES.map((curve) => draw(curve, completion.frames));
+    drawn.forEach(({ root }, index) => {
+      boxes[index]?.place.replaceChildren(root);
+    });
+    setText(halves, halvesWords(completion));
+  });
+  watch(store, ['time', 'completion'], ({ time }) => {
+    for (const { now, x } of drawn) {
+      now.setAttribute('x1', String(x(time)));
+      now.setAttribute('x2', String(x(time)));
+    }
+  });
+}

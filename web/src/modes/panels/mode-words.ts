@@ -1,0 +1,70 @@
+// Modes and their energies in words.
+import { digits, percent } from '../../shared/panels/quantity';
+import type { Energy } from '../bindings/modal-module';
+import type { ModeNumbers } from '../state/material';
+import type { FoundModes, ModesState } from '../state/modes-state';
+
+export const ENERGY_TITLES: Record<Energy, string> = {
+  volume: 'Volume',
+  surface: 'Surface',
+  cloth: 'Own fabric',
+};
+
+/** "3.05 Hz", or "1.7 × the first" where no thickness is known. */
+export function frequencyText({ hz, relative, falls }: ModeNumbers): string {
+  if (falls) return 'falls';
+  if (hz !== null) return `${digits(hz)} Hz`;
+  return `${digits(relative)} ×`;
+}
+
+function rigidText(rigid: number): string {
+  if (rigid === 0) return 'Its held places leave it no rigid motion.';
+  if (rigid === 6)
+    return 'Its 6 rigid motions, 3 shifts and 3 turns, bend nothing: they are counted and left out of the list.';
+  return `Its ${rigid} rigid motions, 3 shifts and 3 turns of each of its ${rigid / 6} parts, bend nothing: they are counted and left out of the list.`;
+}
+
+function frequencyNote(energy: Energy, isClosed: boolean, falls: number): string {
+  if (energy === 'cloth') {
+    const still = 'Frequencies are of the fabric’s own stiffness and weight about this shape.';
+    return falls === 0
+      ? still
+      : `${still} Along ${falls} of them it goes on falling: it has not come to rest.`;
+  }
+  if (energy === 'surface')
+    return 'A surface alone has no thickness and so no frequency in hertz: × compares with the first mode.';
+  if (isClosed) return 'Frequencies are of soft rubber: Young’s modulus 1 MPa, 1000 kg/m³.';
+  return 'The shell’s thickness is made up, so hertz would be too: × compares with the first mode.';
+}
+
+/** What to know of the list of modes. */
+export function modesNote(found: FoundModes | null, state: ModesState): string {
+  if (!found) return '';
+  const { energy, rigid, modes, tets } = found;
+  const falls = modes.filter((mode) => mode.falls).length;
+  const volume =
+    tets > 0 ? ` ${tets.toLocaleString('en').replaceAll(',', '\u202f')} tetrahedra carry it.` : '';
+  return `${rigidText(rigid)} ${frequencyNote(energy, state.surface?.closed ?? false, falls)}${volume}`;
+}
+
+const ENERGY_MEANINGS: Record<Energy, string> = {
+  volume:
+    'Volume energy: the inside resists as well. A mode bends or twists the body and keeps what it holds.',
+  surface:
+    'Surface energy: only the skin resists, as if the body were hollow. Its modes squash what a volume keeps.',
+  cloth: 'The energy of its fabric: threads, shear and bending, as the other views let it move.',
+};
+
+/** What the chosen energy means, to a class. */
+export function energyMeaning({ energy, compares }: ModesState): string {
+  if (compares)
+    return 'The same mode by number, of the volume on one side and of the surface alone on the other: without an inside it gives way where it is hollow.';
+  return ENERGY_MEANINGS[energy];
+}
+
+/** "+1.2 %" of what it was. */
+export function changeText(now: number, before: number): string {
+  const change = now / before - 1;
+  if (Math.abs(change) < 5e-4) return '± 0 %';
+  return `${change > 0 ? '+' : '−'}${percent(Math.abs(change))}`;
+}

@@ -1,0 +1,96 @@
+// The row under the stage: what is shown, play, speed, view, ghost, edges, and the shape as a file.
+import { choice, element } from '../../shared/panels/element';
+import { toolButton } from '../../shared/panels/tool-button';
+import { SPEEDS } from '../../shared/state/speeds';
+import { type Store, watch } from '../../shared/state/store';
+import type { ModesState, Showing } from '../state/modes-state';
+
+export interface ModesToolActions {
+  togglePlaying(): void;
+  homeView(): void;
+  saveObj(): void;
+}
+
+const SHOWINGS: readonly { value: Showing; title: string; meaning: string }[] = [
+  { value: 'modes', title: 'Modes', meaning: 'The mix of modes, as the sliders have it (M)' },
+  { value: 'keys', title: 'Key frames', meaning: 'The motion through the key shapes (M)' },
+];
+
+const SPEED_TITLES: Record<number, string> = { 1: '1 ×', 0.5: '1/2 ×', 0.25: '1/4 ×' };
+
+function createShowingSwitch(choose: (showing: Showing) => void) {
+  const inputs = SHOWINGS.map(({ value }) =>
+    element('input', { type: 'radio', name: 'showing', change: () => choose(value) }),
+  );
+  const labels = SHOWINGS.map(({ title, meaning }, index) =>
+    element('label', { title: meaning }, inputs[index] ?? '', element('span', {}, title)),
+  );
+  return {
+    control: element(
+      'div',
+      { class: 'segments showing-switch', role: 'radiogroup', 'aria-label': 'What is shown' },
+      ...labels,
+    ),
+    select(showing: Showing) {
+      SHOWINGS.forEach(({ value }, index) => {
+        const input = inputs[index];
+        if (input) input.checked = value === showing;
+      });
+    },
+  };
+}
+
+function checkBox(title: string, change: (isOn: boolean) => void) {
+  const box = element('input', { type: 'checkbox', change: () => change(box.checked) });
+  return { box, label: element('label', { class: 'check' }, box, title) };
+}
+
+export function createModesTools(
+  parent: HTMLElement,
+  store: Store<ModesState>,
+  actions: ModesToolActions,
+): void {
+  const play = toolButton('play', 'Play', 'Play or pause (space)', actions.togglePlaying);
+  play.made.classList.add('primary');
+  const showing = createShowingSwitch((value) => store.set({ showing: value }));
+  const speed = choice(
+    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
+    (value) => store.set({ speed: value }),
+  );
+  speed.control.setAttribute('aria-label', 'Speed');
+  const view = toolButton(
+    'view',
+    'View',
+    'Look from the first direction again (Home)',
+    actions.homeView,
+  );
+  const ghost = checkBox('Straight ghost', (isOn) => store.set({ ghost: isOn }));
+  const edges = checkBox('Edges', (isOn) => store.set({ edges: isOn }));
+  const save = element(
+    'button',
+    { type: 'button', title: 'Saves the shape that is shown', click: actions.saveObj },
+    'OBJ',
+  );
+  parent.append(
+    play.made,
+    showing.control,
+    speed.control,
+    view.made,
+    ghost.label,
+    edges.label,
+    save,
+  );
+  const keys: (keyof ModesState)[] = ['playing', 'phase', 'showing', 'speed', 'ghost', 'edges'];
+  watch(store, keys, (state) => {
+    if (state.playing) play.show('pause', 'Pause');
+    else play.show('play', 'Play');
+    const isReady = state.phase === 'ready';
+    play.made.disabled = !isReady;
+    save.disabled = !isReady;
+    showing.select(state.showing);
+    speed.select(state.speed);
+    ghost.box.checked = state.ghost;
+    ghost.box.disabled = state.showing !== 'keys';
+    edges.box.checked = state.edges;
+  });
+}

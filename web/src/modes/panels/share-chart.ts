@@ -1,0 +1,130 @@
+// How much of a motion the first modes make up together: bars that climb to all of it.
+import { element, setText, svg } from '../../shared/panels/element';
+import { percent } from '../../shared/panels/quantity';
+import { type Store, watch } from '../../shared/state/store';
+import type { ModesState } from '../state/modes-state';
+
+const WIDTH = 320;
+const HEIGHT = 170;
+const LEFT = 40;
+const RIGHT = 6;
+const TOP = 8;
+const BOTTOM = 36;
+
+/** More bars than this are too thin to be told apart. */
+const MOST_BARS = 24;
+
+/** The rigid motions of one body. */
+const N_RIGID = 6;
+
+export interface Shares {
+  /** A motion in words: "the motion between the keys". */
+  motion: string;
+  /** Of the rigid motions together; null where the body has none. */
+  rigid: number | null;
+  /** With so many modes more, from one on. */
+  modes: readonly number[];
+}
+
+/** The motion whose shares are shown. */
+export function sharesOf({ drapeShares, completion, model, energy }: ModesState): Shares | null {
+  if (model === 'cloth' && energy === 'cloth' && drapeShares)
+    return { motion: 'the cloth’s drape', rigid: null, modes: drapeShares };
+  const shares = completion?.shares;
+  if (!shares) return null;
+  const rigid = shares[N_RIGID - 1] ?? 0;
+  return { motion: 'the motion between the keys', rigid, modes: shares.slice(N_RIGID) };
+}
+
+/** A share that is called most of a motion. */
+const MOST = 0.9;
+
+export function shareWords({ motion, rigid, modes }: Shares): string {
+  const last = modes.at(-1) ?? 0;
+  const enough = modes.findIndex((share) => share >= MOST);
+  const start =
+    rigid === null
+      ? `Of all that moves in ${motion}, measured by squares of distances and by mass,`
+      : `Of all that moves in ${motion}, measured by squares of distances and by mass, shifts and turns alone are ${percent(rigid)}, and`;
+  const reached =
+    enough >= 0
+      ? `the first ${enough + 1 === 1 ? 'mode' : `${enough + 1} modes`} bring it to ${percent(modes[enough] ?? 0)}.`
+      : `the first ${modes.length} modes bring it to ${percent(last)}: large turns are not in modes, which move every point straight.`;
+  return `${start} ${reached} That is why a few modes are enough to work with.`;
+}
+
+function draw(root: SVGElement, { rigid, modes }: Shares): void {
+  const bars = [...(rigid === null ? [] : [rigid]), ...modes.slice(0, MOST_BARS)];
+  const first = rigid === null ? 1 : 0;
+  const width = (WIDTH - LEFT - RIGHT) / bars.length;
+  const y = (share: number) => HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM);
+  const parts: SVGElement[] = [];
+  for (const tick of [0, 0.25, 0.5, 0.75, 1])
+    parts.push(
+      svg('line', { x1: LEFT, y1: y(tick), x2: WIDTH - RIGHT, y2: y(tick), class: 'grid-minor' }),
+      svg('text', { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' }, String(100 * tick)),
+    );
+  const stride = Math.ceil(bars.length / 7);
+  bars.forEach((share, index) => {
+    const x = LEFT + index * width;
+    const kind = first + index === 0 ? 'bar bar-rigid' : 'bar';
+    const bar = svg('rect', {
+      x: x + 0.1 * width,
+      y: y(share),
+      width: 0.8 * width,
+      height: HEIGHT - BOTTOM - y(share),
+      class: kind,
+    });
+    parts.push(bar);
+    if (index % stride === 0)
+      parts.push(
+        svg(
+          'text',
+          { x: x + width / 2, y: HEIGHT - BOTTOM + 14, class: 'tick tick-x' },
+          String(first + index),
+        ),
+      );
+  });
+  parts.push(
+    svg(
+      'text',
+      { x: LEFT + (WIDTH - LEFT) / 2, y: HEIGHT - 4, class: 'axis' },
+      rigid === null ? 'first modes' : 'rigid motions (0) and first modes',
+    ),
+    svg(
+      'text',
+      { x: 10, y: HEIGHT / 2 - 10, class: 'axis', transform: `rotate(-90 10 ${HEIGHT / 2 - 10})` },
+      '% of the motion',
+    ),
+  );
+  root.replaceChildren(...parts);
+}
+
+export function createShareChart(parent: HTMLElement, store: Store<ModesState>): void {
+  const root = svg('svg', {
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    class: 'plot',
+    'aria-hidden': 'true',
+  });
+  const words = element('figcaption');
+  const figure = element('figure', { class: 'chart' });
+  figure.append(root, words);
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'How much is in the first modes' },
+      element('h2', {}, 'How much is in the first modes?'),
+      figure,
+    ),
+  );
+  const keys: (keyof ModesState)[] = ['drapeShares', 'completion', 'model', 'energy'];
+  watch(store, keys, (state) => {
+    const shares = sharesOf(state);
+    root.toggleAttribute('hidden', shares === null);
+    if (shares) draw(root, shares);
+    setText(
+      words,
+      shares ? shareWords(shares) : 'It is known of surfaces in one part, once there are keys.',
+    );
+  });
+}

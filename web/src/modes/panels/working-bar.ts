@@ -1,0 +1,24 @@
+// What takes long, on the stage, and the way out of it.
+import { element, setText } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import type { ModesState } from '../state/modes-state';
+
+export function createWorkingBar(
+  parent: HTMLElement,
+  store: Store<ModesState>,
+  cancel: () => void,
+): void {
+  const what = element('p', { role: 'status' });
+  const bar = element(
+    'div',
+    { class: 'modes-working' },
+    what,
+    element('progress', { 'aria-label': 'Computing' }),
+    element('button', { type: 'button', click: cancel }, 'Cancel'),
+  );
+  parent.append(bar);
+  watch(store, ['working'], ({ working }) => {
+    bar.hidden = working === null;
+    setText(what, working ?? '');
+  });
+}

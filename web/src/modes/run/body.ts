@@ -1,0 +1,84 @@
+// The body that is shown: what the worker found of it, and the shapes that its keys and mixes stand for.
+import type { Energy, FilledFrame } from '../bindings/modal-module';
+import { bent, type KeyOrigin, type KeyShape } from '../state/key-shapes';
+import { extentOf, mixInto, REACH } from '../state/mix';
+import { shapeAt, straightAt } from '../state/timeline';
+import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';
+
+export class Body {
+  readonly triangles: Uint32Array;
+  /** What modes are about, three numbers a vertex [m]. */
+  readonly shape: Float64Array;
+  readonly drape: Float64Array;
+  /** Farthest move of a vertex at full amplitude [m]. */
+  readonly reach: number;
+  private readonly moves = new Map<Energy, Float32Array>();
+  private filled: { positions: Float32Array; frames: readonly FilledFrame[] } | null = null;
+
+  constructor({ triangles, shape, drape }: OpenedMessage) {
+    this.triangles = triangles;
+    this.shape = shape;
+    this.drape = drape;
+    this.reach = REACH * extentOf(shape);
+  }
+
+  get nVertices(): number {
+    return this.shape.length / 3;
+  }
+
+  setMoves(energy: Energy, moves: Float32Array): void {
+    this.moves.set(energy, moves);
+  }
+
+  hasMoves(energy: Energy): boolean {
+    return this.moves.has(energy);
+  }
+
+  dropMoves(): void {
+    this.moves.clear();
+  }
+
+  setFilled({ filled, frames }: Pick<CompletedMessage, 'filled' | 'frames'>): void {
+    this.filled = { positions: filled, frames };
+  }
+
+  /** Writes the mix of an energy's modes; those that are not known yet add nothing. */
+  mix(target: Float32Array | Float64Array, energy: Energy, amplitudes: readonly number[]): void {
+    mixInto(
+      target,
+      this.shape,
+      this.moves.get(energy) ?? new Float32Array(0),
+      amplitudes,
+      this.reach,
+    );
+  }
+
+  /** Writes the completed motion at a time; false where there is none yet. */
+  between(target: Float32Array, time: number): boolean {
+    if (this.filled) shapeAt(target, this.filled.positions, this.filled.frames, time);
+    return this.filled !== null;
+  }
+
+  straight(target: Float32Array, keys: readonly KeyShape[], time: number): void {
+    straightAt(target, keys, time);
+  }
+
+  /** The shape of a key that is not from a file. */
+  key(origin: Exclude<KeyOrigin, { kind: 'file' }>): KeyShape {
+    switch (origin.kind) {
+      case 'rest':
+        return { origin, positions: this.shape.slice() };
+      case 'bent':
+        return { origin, positions: bent(this.shape, origin.degrees) };
+      case 'mix': {
+        const positions = new Float64Array(this.shape.length);
+        this.mix(positions, origin.energy, origin.amplitudes);
+        return { origin, positions };
+      }
+      case 'drape': {
+        const from = origin.frame * this.shape.length;
+        return { origin, positions: this.drape.slice(from, from + this.shape.length) };
+      }
+    }
+  }
+}

@@ -1,0 +1,58 @@
+// Asks for the modes of the present body, each energy once.
+import type { Failure } from '../../shared/bindings/answers';
+import type { Store } from '../../shared/state/store';
+import { answerOf } from '../../shared/workers/asked';
+import type { Energy, VolumeWish } from '../bindings/modal-module';
+import { modeNumbers } from '../state/material';
+import { barEdge } from '../state/models';
+import type { FoundModes, ModesState } from '../state/modes-state';
+import type { ModesMessage } from '../worker/modal-protocol';
+import type { Body } from './body';
+import type { ModalClient } from './modal-client';
+import { noticed } from './slow-work';
+
+/** What carries the present model's surface. */
+export function volumeWish({ model, cells, volume, count }: ModesState): VolumeWish {
+  const isCubes = model === 'bar' && volume !== 'shell';
+  return { volume, modes: count, ...(isCubes ? { size_m: barEdge(cells) } : {}) };
+}
+
+export class ModeFinder {
+  private known = new Map<Energy, FoundModes>();
+
+  constructor(
+    private readonly store: Store<ModesState>,
+    private readonly client: () => ModalClient,
+    private readonly refuse: (failure: Failure) => void,
+  ) {}
+
+  /** Another body, count or volume: nothing is known of it. */
+  forget(body: Body): void {
+    this.known = new Map();
+    body.dropMoves();
+  }
+
+  found(energy: Energy): FoundModes | null {
+    return this.known.get(energy) ?? null;
+  }
+
+  /** True once the modes of that energy are known. */
+  async ensure(body: Body, energy: Energy): Promise<boolean> {
+    if (this.known.has(energy)) return true;
+    const { known } = this;
+    const wish = volumeWish(this.store.get());
+    const question = answerOf(this.client().ask({ type: 'modes', energy, wish }), this.refuse);
+    const answer = await noticed(this.store, 'Finding the modes', question);
+    if (!answer || known !== this.known) return false;
+    this.take(body, answer);
+    return true;
+  }
+
+  private take(body: Body, { energy, answer, moves }: ModesMessage): void {
+    body.setMoves(energy, moves);
+    const { stiffness, rigid, tets } = answer;
+    const isClosed = this.store.get().surface?.closed ?? false;
+    const modes = modeNumbers(stiffness, energy, isClosed);
+    this.known.set(energy, { energy, modes, rigid, tets });
+  }
+}

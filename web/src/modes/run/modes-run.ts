@@ -1,0 +1,224 @@
+// Runs the view of modes: turns what a visitor does into questions to the worker, and answers into state.
+import {
+  brokenSentence,
+  describe,
+  type Failure,
+  inputFailure,
+  internalFailure,
+} from '../../shared/bindings/answers';
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import { fetched } from '../../shared/page/fetched';
+import {
+  type ObjFile,
+  type ObjUnit,
+  oddSize,
+  openObjFile,
+  textInMetres,
+} from '../../shared/state/obj-file';
+import type { Store } from '../../shared/state/store';
+import { answerOf } from '../../shared/workers/asked';
+import { DRAPE_FRAMES, type KeyOrigin } from '../state/key-shapes';
+import { BAR_SIDES_M, modelOf, OWN } from '../state/models';
+import { energiesOf, type ModesLink, type ModesState, usualLink } from '../state/modes-state';
+import type { Opened } from '../worker/modal-protocol';
+import { Body } from './body';
+import { KeyWork } from './key-work';
+import { type ModalClient, type StartModal, startModalWorker } from './modal-client';
+import { ModeFinder } from './mode-finder';
+import { type ShapeView, Showing } from './showing';
+import { noticed } from './slow-work';
+
+/** Steps of the draping cloth's run between two frames that are kept. */
+const STEPS_EACH = 2;
+
+export interface ModesRunView extends ShapeView {
+  /** Another body; its shapes follow. */
+  showMesh(triangles: Uint32Array, nVertices: number, lookId: number): void;
+  /** Everything is there: the camera may look at it. */
+  framed(): void;
+}
+
+interface OwnMesh {
+  file: ObjFile;
+  unit: ObjUnit;
+}
+
+export class ModesRun {
+  readonly finder: ModeFinder;
+  readonly keyWork: KeyWork;
+  readonly shown: Showing;
+  private client: ModalClient;
+  private body: Body | null = null;
+  private own: OwnMesh | null = null;
+  private nOpened = 0; // counts what is to be opened: answers to an earlier one are dropped
+
+  constructor(
+    readonly store: Store<ModesState>,
+    private readonly view: ModesRunView,
+    private readonly start: StartModal = startModalWorker,
+  ) {
+    this.client = this.startClient();
+    const client = () => this.client;
+    const refuse = (failure: Failure) => this.refuse(failure);
+    this.finder = new ModeFinder(store, client, refuse);
+    this.keyWork = new KeyWork(store, client, refuse);
+    this.shown = new Showing(store, view);
+  }
+
+  get present(): Body | null {
+    return this.body;
+  }
+
+  /** A model by its id, as it is by itself or as a link has it. */
+  openModel(id: string, link: ModesLink = this.kept(usualLink(id))): void {
+    if (id !== OWN) return void this.open(link, null);
+    if (this.own) void this.open(link, this.own);
+  }
+
+  async openObj(file: File): Promise<void> {
+    const read = await openObjFile(file);
+    if (typeof read === 'string') return this.refuse(inputFailure(read));
+    void this.open(this.kept(usualLink(OWN)), { file: read, unit: 'm' });
+  }
+
+  setUnit(unit: ObjUnit): void {
+    if (this.own) void this.open(this.kept(usualLink(OWN)), { ...this.own, unit });
+  }
+
+  /** The same body cut otherwise, or in another volume: its modes and in-betweens are found anew. */
+  reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): void {
+    const { model, keys } = this.store.get();
+    const origins = keys.map(({ origin }) => origin).filter(({ kind }) => kind !== 'file');
+    const link = { ...usualLink(model), ...this.presentLink(), ...changes };
+    this.openModel(model, { ...link, keys: origins.length >= 2 ? origins : usualLink(model).keys });
+  }
+
+  async setEnergy(energy: ModesState['energy'], compares: boolean): Promise<void> {
+    const { body } = this;
+    if (!body || !(await this.finder.ensure(body, energy))) return;
+    if (compares && !(await this.finder.ensure(body, 'surface'))) return;
+    if (body === this.body)
+      this.store.set({ energy, compares, found: this.finder.found(energy), problem: null });
+  }
+
+  /** Gives up what takes long: the body is as it was before that. */
+  cancel(): void {
+    if (this.store.get().working === null) return;
+    this.client.terminate();
+    this.client = this.startClient();
+    this.keyWork.forget();
+    this.store.set({ working: null });
+    const link = this.presentLink();
+    void this.open({ ...link, keys: [] }, link.model === OWN ? this.own : null);
+  }
+
+  refuse(failure: Failure): void {
+    this.store.set({ problem: failure });
+  }
+
+  /** Keys that can be made again, of the present body; modes that they need are found first. */
+  async setKeys(origins: readonly KeyOrigin[]): Promise<void> {
+    const { body } = this;
+    if (!body) return;
+    for (const origin of origins)
+      if (origin.kind === 'mix' && !(await this.finder.ensure(body, origin.energy))) return;
+    if (body !== this.body) return;
+    const keys = origins.flatMap((origin) => (origin.kind === 'file' ? [] : body.key(origin)));
+    const { time } = this.store.get();
+    this.store.set({ keys, chosenKey: 0, time: Math.min(time, Math.max(0, keys.length - 1)) });
+    await this.keyWork.update(body);
+  }
+
+  private startClient(): ModalClient {
+    return this.start({
+      broken: (reason) =>
+        this.store.set({
+          phase: 'broken',
+          problem: internalFailure(brokenSentence('Modes', reason)),
+        }),
+    });
+  }
+
+  /** What stays from one model to the next. */
+  private kept(link: ModesLink): ModesLink {
+    const { count, ghost, edges, showing } = this.store.get();
+    return { ...link, count, ghost, edges, showing };
+  }
+
+  private presentLink(): ModesLink {
+    const { keys, ...state } = this.store.get();
+    return { ...state, keys: keys.map(({ origin }) => origin) };
+  }
+
+  private async wanted(link: ModesLink, own: OwnMesh | null): Promise<Opened> {
+    const source = modelOf(link.model)?.source;
+    if (!source) return { kind: 'obj', text: own ? textInMetres(own.file, own.unit) : '' };
+    switch (source.kind) {
+      case 'box':
+        return { kind: 'box', text: JSON.stringify({ sides_m: BAR_SIDES_M, cells: link.cells }) };
+      case 'obj':
+        return { kind: 'obj', text: await (await fetched(source.url)).text() };
+      case 'scene': {
+        const frames = source.drapes ? DRAPE_FRAMES : 0;
+        return { kind: 'scene', text: source.text, frames, stepsEach: STEPS_EACH };
+      }
+    }
+  }
+
+  private async open(link: ModesLink, own: OwnMesh | null): Promise<void> {
+    this.nOpened += 1;
+    const mark = this.nOpened;
+    const isCurrent = () => mark === this.nOpened;
+    this.store.set({ phase: 'loading', playing: false });
+    const refuse = (failure: Failure) => {
+      if (isCurrent()) this.store.set({ phase: 'ready', problem: failure });
+    };
+    let wanted: Opened;
+    try {
+      wanted = await this.wanted(link, own);
+    } catch (error) {
+      return refuse(inputFailure(`The mesh could not be fetched: ${describe(error)}.`));
+    }
+    if (!isCurrent()) return;
+    const question = this.client.ask({ type: 'open', fabricsText, opened: wanted });
+    const words = own ? `Reading ${own.file.name}` : 'Making the body';
+    const opened = await noticed(this.store, words, answerOf(question, refuse));
+    if (!opened || !isCurrent()) return;
+    const body = new Body(opened);
+    this.body = body;
+    if (own) this.own = own;
+    this.finder.forget(body);
+    this.keyWork.forget();
+    this.shown.take(body);
+    this.view.showMesh(opened.triangles, body.nVertices, modelOf(link.model)?.lookId ?? 3);
+    const { keys: origins, ...shown } = link;
+    this.store.set({
+      ...shown,
+      ...(own
+        ? { objName: own.file.name, objUnit: own.unit, objOdd: oddSize(own.file, own.unit) }
+        : {}),
+      surface: opened.answer,
+      found: null,
+      keys: [],
+      chosenKey: 0,
+      completion: null,
+      drapeShares: null,
+    });
+    this.shown.draw();
+    await this.fill(body, link, origins);
+    if (isCurrent() && this.store.get().phase === 'loading') this.store.set({ phase: 'ready' });
+    if (isCurrent()) this.view.framed();
+  }
+
+  private async fill(body: Body, link: ModesLink, origins: readonly KeyOrigin[]): Promise<void> {
+    const { energy, compares, count } = link;
+    const usual = energiesOf(link.model).includes(energy) ? energy : 'volume';
+    await this.setEnergy(usual, compares);
+    if (body !== this.body) return;
+    if (origins.length > 0) await this.setKeys(origins);
+    if (body !== this.body || body.drape.length === 0) return;
+    const question = this.client.ask({ type: 'drapeShares', drape: body.drape, count });
+    const answer = await answerOf(question, (failure) => this.refuse(failure));
+    if (answer && body === this.body) this.store.set({ drapeShares: answer.shares });
+  }
+}

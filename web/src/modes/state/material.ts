@@ -1,0 +1,39 @@
+// What makes seconds and joules of a mode's stiffness: a material, where the body has a thickness of its own.
+import type { Energy } from '../bindings/modal-module';
+
+/** Soft rubber: what the closed bodies are said to be made of. */
+export const RUBBER = { young_pa: 1e6, density_kg_per_m3: 1000 };
+
+/** A mode as its list shows it. */
+export interface ModeNumbers {
+  /** Null where no thickness is known, or where it falls rather than swings. */
+  hz: number | null;
+  /** Frequency over that of the first mode that swings. */
+  relative: number;
+  /** The shape is not one of rest: along this mode it goes on falling. */
+  falls: boolean;
+}
+
+/**
+ * From squared angular frequencies, under 1 Pa and 1 kg/m³ where it is a volume's: E / rho times as large under
+ * Young's modulus E and density rho.
+ */
+export function modeNumbers(
+  stiffness: readonly number[],
+  energy: Energy,
+  isClosed: boolean,
+): ModeNumbers[] {
+  const first = stiffness.find((square) => square > 0) ?? 1;
+  const scale = energy === 'cloth' ? 1 : RUBBER.young_pa / RUBBER.density_kg_per_m3;
+  const hasHz = energy === 'cloth' || (energy === 'volume' && isClosed);
+  return stiffness.map((square) => ({
+    hz: hasHz && square > 0 ? Math.sqrt(scale * square) / (2 * Math.PI) : null,
+    relative: Math.sqrt(Math.max(0, square) / first),
+    falls: square <= 0,
+  }));
+}
+
+/** E = (Young / 2) V strain², as the energy of the module has it [J]. */
+export function energyOf(strain: number, restVolume_m3: number): number {
+  return (RUBBER.young_pa / 2) * restVolume_m3 * strain ** 2;
+}

@@ -1,0 +1,66 @@
+// Shapes that modes add up to, and what a surface measures.
+
+/** At full amplitude the farthest vertex moves by this share of the body's extent. */
+export const REACH = 0.2;
+
+/** The diagonal of the box around places, three numbers each [m]. */
+export function extentOf(places: ArrayLike<number>): number {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < places.length; ++k) {
+    const axis = k % 3;
+    low[axis] = Math.min(low[axis] as number, places[k] as number);
+    high[axis] = Math.max(high[axis] as number, places[k] as number);
+  }
+  return Math.hypot(...high.map((most, axis) => most - (low[axis] as number)));
+}
+
+/** Writes shape + sum of amplitude · reach · move; `reach` in metres, moves one after the other. */
+export function mixInto(
+  target: Float32Array | Float64Array,
+  shape: Float64Array,
+  moves: Float32Array,
+  amplitudes: readonly number[],
+  reach: number,
+): void {
+  target.set(shape);
+  amplitudes.forEach((amplitude, mode) => {
+    if (amplitude === 0) return;
+    const scale = amplitude * reach;
+    const offset = mode * shape.length;
+    if (offset + shape.length > moves.length) return;
+    for (let k = 0; k < shape.length; ++k)
+      target[k] = (target[k] as number) + scale * (moves[offset + k] as number);
+  });
+}
+
+/** Largest distance between a vertex in one shape and in another [m]. */
+export function farthestMove(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  let most = 0;
+  for (let k = 0; k + 2 < a.length; k += 3) {
+    const [x, y, z] = [0, 1, 2].map((axis) => (a[k + axis] as number) - (b[k + axis] as number));
+    most = Math.max(most, Math.hypot(x as number, y as number, z as number));
+  }
+  return most;
+}
+
+/** Six times the volume that a corner's place spans with the two others about the origin. */
+function spanned(x: ArrayLike<number>, a: number, b: number, c: number): number {
+  const [ax, ay, az] = [x[a] as number, x[a + 1] as number, x[a + 2] as number];
+  const [bx, by, bz] = [x[b] as number, x[b + 1] as number, x[b + 2] as number];
+  const [cx, cy, cz] = [x[c] as number, x[c + 1] as number, x[c + 2] as number];
+  return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
+}
+
+/** What a closed surface holds [m³]. */
+export function enclosedVolume(places: ArrayLike<number>, triangles: Uint32Array): number {
+  let six = 0;
+  for (let t = 0; t < triangles.length; t += 3)
+    six += spanned(
+      places,
+      3 * (triangles[t] as number),
+      3 * (triangles[t + 1] as number),
+      3 * (triangles[t + 2] as number),
+    );
+  return Math.abs(six) / 6;
+}
