@@ -8,6 +8,7 @@ import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
+import { createInvitation } from '../shared/panels/invitation';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
@@ -26,6 +27,7 @@ import { createTimelinePanel } from './panels/timeline-panel';
 import { createWorkingBar } from './panels/working-bar';
 import { KeyEditor } from './run/key-editor';
 import { ModesRun } from './run/modes-run';
+import { Pull } from './run/pull';
 import { shownEnergies } from './run/showing';
 import { createModesStage, type ModesStage } from './stage/modes-stage';
 import { firstKeys } from './state/key-shapes';
@@ -36,15 +38,22 @@ import { initialModesState, type ModesState } from './state/modes-state';
 /** A step of the timeline by a key press, in keys. */
 const TIME_STEP = 0.05;
 
+/** Nothing moves unasked where the visitor's system says so. */
+function mayMove(): boolean {
+  return !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+}
+
 /** What a visitor does, whichever control it is done with. */
 class Hands {
   readonly editor: KeyEditor;
+  readonly pull: Pull;
 
   constructor(
     private readonly store: Store<ModesState>,
     private readonly run: ModesRun,
   ) {
     this.editor = new KeyEditor(run);
+    this.pull = new Pull(store, run, mayMove);
   }
 
   togglePlaying(): void {
@@ -61,9 +70,8 @@ class Hands {
   playAlone(mode: number): void {
     if (mode >= (this.store.get().found?.modes.length ?? 0)) return;
     const amplitudes = Array.from({ length: mode + 1 }, (_, at) => (at === mode ? 1 : 0));
-    const isStill = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
-    const playing = this.store.get().phase === 'ready' && !isStill;
-    this.store.set({ amplitudes, showing: 'modes', playing });
+    const playing = this.store.get().phase === 'ready' && mayMove();
+    this.store.set({ amplitudes, showing: 'modes', playing, invited: false });
   }
 
   setAmplitude(mode: number, amplitude: number): void {
@@ -121,12 +129,15 @@ class Hands {
 class Picture {
   stage: ModesStage | null = null;
   private badges: EnergyBadges | null = null;
+  private readonly invitation;
   private nPanes = 1;
 
   constructor(
     private readonly box: HTMLElement,
     private readonly store: Store<ModesState>,
-  ) {}
+  ) {
+    this.invitation = createInvitation(box);
+  }
 
   /** Opens the stage where the browser can draw it. */
   open(canvas: HTMLCanvasElement, hands: Hands): void {
@@ -134,6 +145,10 @@ class Picture {
     try {
       this.stage = createModesStage(box, canvas, {
         key: (name) => hands.key(name),
+        grab: (vertex, pane) => hands.pull.grab(vertex, pane),
+        moveGrab: (target) => hands.pull.move(target),
+        releaseGrab: () => hands.pull.release(),
+        drawn: ({ x, y }) => this.invitation.place(x, y),
         pictureLost(isLost) {
           if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
           else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
@@ -145,6 +160,9 @@ class Picture {
     this.badges = createEnergyBadges(box, store, shownEnergies, (energy) => hands.volumeOf(energy));
     new ResizeObserver(() => this.layOut()).observe(box);
     watch(store, ['edges'], ({ edges }) => this.stage?.setEdges(edges));
+    watch(store, ['invited', 'phase', 'playing'], ({ invited, phase, playing }) =>
+      this.invitation.setShown(invited && phase === 'ready' && !playing),
+    );
   }
 
   setPanes(count: number): void {
@@ -160,10 +178,22 @@ class Picture {
   }
 }
 
-/** All places that the camera is to see: of the body, its full swings and its keys. */
-function placesOf({ keys }: ModesState, run: ModesRun): number[] {
+/** Modes whose full swings the camera sees; higher ones go no farther. */
+const SEEN_MODES = 4;
+
+/** Has the camera see the body, its keys and its full swings. */
+function frame(stage: ModesStage, { keys, energy }: ModesState, run: ModesRun): void {
   const body = run.present;
-  return body ? [...body.shape, ...keys.flatMap(({ positions }) => [...positions])] : [];
+  if (!body) return;
+  const places: number[] = [];
+  const swing = new Float64Array(body.shape.length);
+  for (let mode = 0; mode < SEEN_MODES; ++mode)
+    for (const amplitude of [-1, 1]) {
+      body.mix(swing, energy, [...new Array<number>(mode).fill(0), amplitude]);
+      for (const place of swing) places.push(place);
+    }
+  stage.frame([...body.shape, ...keys.flatMap(({ positions }) => [...positions])], places);
+  stage.invite(body.liveliest(keys, energy));
 }
 
 function createPanels(
@@ -215,7 +245,9 @@ export function createModesView(root: HTMLElement, hash: string): View {
     setPanes: (count) => picture.setPanes(count),
     showShape: (pane, positions) => picture.stage?.showShape(pane, positions),
     showGhost: (positions) => picture.stage?.showGhost(positions),
-    framed: () => picture.stage?.frame(placesOf(store.get(), run)),
+    framed() {
+      if (picture.stage) frame(picture.stage, store.get(), run);
+    },
   });
   const hands = new Hands(store, run);
   picture.open(canvas, hands);
@@ -272,6 +304,8 @@ export function createModesView(root: HTMLElement, hash: string): View {
     probe: {
       state: () => store.get(),
       positions: (pane = 0) => Array.from(run.shown.positions(pane)),
+      project: (vertex: number, pane = 0) => picture.stage?.project(vertex, pane),
+      inviting: () => run.present?.liveliest(store.get().keys, store.get().energy) ?? 0,
     },
   };
 }

@@ -1,15 +1,14 @@
 // Volume and energy along the timeline, of the in-betweens and of the straight way.
 import { linearScale } from '../../shared/chart/linear-scale';
 import { element, setText, svg } from '../../shared/panels/element';
-import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
 import { energyOf } from '../state/material';
 import type { Completion, ModesState } from '../state/modes-state';
 import { halvesWords, storyWords } from './completion-words';
 
-const WIDTH = 330;
-const HEIGHT = 130;
+const WIDTH = 400;
+const HEIGHT = 104;
 const LEFT = 46;
 const RIGHT = 8;
 const TOP = 8;
@@ -18,25 +17,33 @@ const BOTTOM = 30;
 /** One of the two charts: a number of the in-betweens and the same of the straight way. */
 interface Curve {
   title: string;
-  unit: string;
+  /** It begins at zero. */
+  fromZero: boolean;
   ours(frame: FilledFrame, rest_m3: number): number;
   straight(frame: FilledFrame, rest_m3: number): number;
 }
 
-const CURVES: readonly Curve[] = [
-  {
-    title: 'Volume',
-    unit: '%',
-    ours: ({ volume_m3 }, rest) => (100 * volume_m3) / rest,
-    straight: ({ straightVolume_m3 }, rest) => (100 * straightVolume_m3) / rest,
-  },
-  {
-    title: 'Energy',
-    unit: 'J',
-    ours: ({ strain }, rest) => energyOf(strain, rest),
-    straight: ({ straightStrain }, rest) => energyOf(straightStrain, rest),
-  },
-];
+const VOLUME: Curve = {
+  title: 'Volume [% of the first key’s]',
+  fromZero: false,
+  ours: ({ volume_m3 }, rest) => (100 * volume_m3) / rest,
+  straight: ({ straightVolume_m3 }, rest) => (100 * straightVolume_m3) / rest,
+};
+
+const ENERGY: Curve = {
+  title: 'Energy, of soft rubber [J]',
+  fromZero: true,
+  ours: ({ strain }, rest) => energyOf(strain, rest),
+  straight: ({ straightStrain }, rest) => energyOf(straightStrain, rest),
+};
+
+/** Where the thickness is made up, joules would be too. */
+const STRAIN: Curve = {
+  title: 'Root of the energy, as mean strain [%]',
+  fromZero: true,
+  ours: ({ strain }) => 100 * strain,
+  straight: ({ straightStrain }) => 100 * straightStrain,
+};
 
 /** Room below and above for what hardly changes [%]. */
 const LEAST_SPAN = 0.1;
@@ -73,7 +80,7 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
   const rest = frames[0]?.volume_m3 ?? 1;
   const ours = frames.map((frame) => curve.ours(frame, rest));
   const straight = frames.map((frame) => curve.straight(frame, rest));
-  const axis = axisFor([...ours, ...straight], curve.unit === 'J');
+  const axis = axisFor([...ours, ...straight], curve.fromZero);
   const end = frames.at(-1)?.time ?? 1;
   const x = (time: number) => LEFT + (time / end) * (WIDTH - LEFT - RIGHT);
   const y = (value: number) => HEIGHT - BOTTOM - axis.part(value) * (HEIGHT - TOP - BOTTOM);
@@ -85,7 +92,11 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
   for (const tick of axis.ticks)
     root.append(
       svg('line', { x1: LEFT, y1: y(tick), x2: WIDTH - RIGHT, y2: y(tick), class: 'grid-minor' }),
-      svg('text', { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' }, digits(tick, 3)),
+      svg(
+        'text',
+        { x: LEFT - 5, y: y(tick) + 4, class: 'tick tick-y' },
+        String(Number(tick.toPrecision(3))),
+      ),
     );
   for (let key = 0; key <= end; ++key)
     root.append(
@@ -110,45 +121,53 @@ function legendKey(kind: string, title: string): HTMLElement {
   return element('li', {}, line, title);
 }
 
-export function createCompletionCurves(parent: HTMLElement, store: Store<ModesState>): void {
-  const boxes = CURVES.map(({ title, unit }) => {
+/** The two charts, and lines on them at the present time. */
+function createCharts() {
+  const boxes = [0, 1].map(() => {
+    const title = element('figcaption');
     const place = element('div');
-    const figure = element(
-      'figure',
-      { class: 'curve-box' },
-      element('figcaption', {}, `${title} [${unit}]`),
-      place,
-    );
-    return { figure, place };
+    return { figure: element('figure', { class: 'curve-box' }, title, place), title, place };
   });
+  let drawn: Drawn[] = [];
+  return {
+    box: element('div', { class: 'curves' }, ...boxes.map(({ figure }) => figure)),
+    show(frames: readonly FilledFrame[], isClosed: boolean) {
+      const curves = [VOLUME, isClosed ? ENERGY : STRAIN];
+      drawn = curves.map((curve) => draw(curve, frames));
+      boxes.forEach(({ title, place }, index) => {
+        setText(title, curves[index]?.title ?? '');
+        place.replaceChildren(...(drawn[index] ? [drawn[index].root] : []));
+      });
+    },
+    setTime(time: number) {
+      for (const { now, x } of drawn)
+        for (const end of ['x1', 'x2']) now.setAttribute(end, String(x(time)));
+    },
+  };
+}
+
+export function createCompletionCurves(parent: HTMLElement, store: Store<ModesState>): void {
+  const charts = createCharts();
   const legend = element(
     'ul',
     { class: 'marks curve-keys' },
     legendKey('curve-ours', 'In-betweens'),
-    legendKey('curve-straight', 'Straight from key to key'),
+    legendKey('curve-straight', 'Straight from key to key, the ghost'),
   );
   const story = element('p', { class: 'story' });
   const halves = element('p', { class: 'note' });
-  const box = element('div', { class: 'curves' }, ...boxes.map(({ figure }) => figure));
-  parent.append(story, box, legend, halves);
-  let drawn: Drawn[] = [];
+  const whole = element('div', {}, story, legend, charts.box, halves);
+  parent.append(whole);
   let shown: Completion | null = null;
-  watch(store, ['completion', 'keys', 'model'], (state) => {
-    const { completion } = state;
-    for (const part of [box, legend, halves]) part.hidden = completion === null;
+  watch(store, ['completion', 'keys', 'phase', 'working', 'showing'], (state) => {
+    const { completion, showing, surface } = state;
+    whole.hidden = showing === 'modes';
+    for (const part of [charts.box, legend, halves]) part.hidden = completion === null;
     setText(story, storyWords(state));
     if (!completion || completion === shown) return;
     shown = completion;
-    drawn = CURVES.map((curve) => draw(curve, completion.frames));
-    drawn.forEach(({ root }, index) => {
-      boxes[index]?.place.replaceChildren(root);
-    });
+    charts.show(completion.frames, surface?.closed ?? false);
     setText(halves, halvesWords(completion));
   });
-  watch(store, ['time', 'completion'], ({ time }) => {
-    for (const { now, x } of drawn) {
-      now.setAttribute('x1', String(x(time)));
-      now.setAttribute('x2', String(x(time)));
-    }
-  });
+  watch(store, ['time', 'completion'], ({ time }) => charts.setTime(time));
 }

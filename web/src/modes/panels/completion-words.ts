@@ -1,23 +1,40 @@
 // What the in-betweens show, in words.
 import { percent } from '../../shared/panels/quantity';
+import type { FilledFrame } from '../bindings/modal-module';
 import type { Completion, ModesState } from '../state/modes-state';
 
-/** Volumes over that of the first key, at their farthest from it. */
-function worstVolumes({ frames }: Completion): { ours: number; straight: number } {
-  const rest = frames[0]?.volume_m3 ?? 1;
-  const farthest = (values: number[]) =>
-    values.reduce((worst, value) =>
-      Math.abs(value / rest - 1) > Math.abs(worst / rest - 1) ? value : worst,
-    ) / rest;
+/** A frame's volume over what the keys beside it lead one to expect. */
+function ratio(frames: readonly FilledFrame[], frame: FilledFrame, volume_m3: number): number {
+  const keyVolume = (key: number) =>
+    frames.find(({ left, shareOfNext }) => left === key && shareOfNext === 0)?.volume_m3;
+  const from = keyVolume(frame.left) ?? volume_m3;
+  const to = keyVolume(frame.left + 1) ?? from;
+  return volume_m3 / (from + frame.shareOfNext * (to - from));
+}
+
+/** Those ratios farthest from 1: of the in-betweens and of the straight way. */
+export function worstVolumes({ frames }: Pick<Completion, 'frames'>): {
+  ours: number;
+  straight: number;
+} {
+  const farthest = (of: (frame: FilledFrame) => number) =>
+    frames
+      .map((frame) => ratio(frames, frame, of(frame)))
+      .reduce((worst, one) => (Math.abs(one - 1) > Math.abs(worst - 1) ? one : worst), 1);
   return {
-    ours: farthest(frames.map(({ volume_m3 }) => volume_m3)),
-    straight: farthest(frames.map(({ straightVolume_m3 }) => straightVolume_m3)),
+    ours: farthest((frame) => frame.volume_m3),
+    straight: farthest((frame) => frame.straightVolume_m3),
   };
 }
 
-function ofVolume(ratio: number): string {
-  return `${Math.round(1000 * ratio) / 10} %`;
+function changeWords(change: number): string {
+  if (Math.abs(change) < 1e-3) return 'keep their volume to a tenth of a per cent';
+  return `${change < 0 ? 'lose' : 'gain'} at most ${percent(Math.abs(change))} of the volume`;
 }
+
+/** A ghost this far off is worth pointing at, and so is one this much worse than the in-betweens. */
+const SEEN = 0.01;
+const MUCH_WORSE = 2;
 
 /** What to notice on the timeline. */
 export function storyWords({ completion, keys, phase, working }: ModesState): string {
@@ -25,10 +42,11 @@ export function storyWords({ completion, keys, phase, working }: ModesState): st
   if (keys.length < 2) return 'Two keys make a motion: mix some modes and keep them as a key.';
   if (!completion) return 'There are no in-betweens of these keys.';
   const { ours, straight } = worstVolumes(completion);
-  const kept = `At worst the in-betweens have ${ofVolume(ours)} of the volume`;
-  if (Math.abs(straight - 1) < 2 * Math.abs(ours - 1) + 0.005)
-    return `${kept}, the straight way from key to key ${ofVolume(straight)}: between these keys it does nearly as well.`;
-  return `${kept}. The ghost, which takes every point straight from key to key, is ${straight < 1 ? 'pinched' : 'swollen'} to ${ofVolume(straight)}.`;
+  const kept = `The in-betweens ${changeWords(ours - 1)}.`;
+  const change = Math.abs(straight - 1);
+  if (change < SEEN || change < MUCH_WORSE * Math.abs(ours - 1))
+    return `${kept} Between these keys the straight way does as well; try keys that turn farther.`;
+  return `${kept} The ghost, whose points go straight from key to key, ${straight < 1 ? 'is pinched' : 'swells'} by ${percent(change)}.`;
 }
 
 /** How well each in-between is half way. */

@@ -7,7 +7,7 @@ import type { FoundModes, ModesState } from '../state/modes-state';
 export const ENERGY_TITLES: Record<Energy, string> = {
   volume: 'Volume',
   surface: 'Surface',
-  cloth: 'Own fabric',
+  cloth: 'Fabric',
 };
 
 /** "3.05 Hz", or "1.7 × the first" where no thickness is known. */
@@ -49,16 +49,17 @@ export function modesNote(found: FoundModes | null, state: ModesState): string {
 
 const ENERGY_MEANINGS: Record<Energy, string> = {
   volume:
-    'Volume energy: the inside resists as well. A mode bends or twists the body and keeps what it holds.',
+    'The inside resists as well: the softest modes bend and twist the body as a whole and leave its cross-section alone.',
   surface:
-    'Surface energy: only the skin resists, as if the body were hollow. Its modes squash what a volume keeps.',
-  cloth: 'The energy of its fabric: threads, shear and bending, as the other views let it move.',
+    'Only the skin resists, as if the body were hollow: among its softest modes are some that squash the cross-section, which a volume would keep.',
+  cloth:
+    'Threads, shear and bending of its own fabric resist, as in the other views; its corners stay held.',
 };
 
 /** What the chosen energy means, to a class. */
 export function energyMeaning({ energy, compares }: ModesState): string {
   if (compares)
-    return 'The same mode by number, of the volume on one side and of the surface alone on the other: without an inside it gives way where it is hollow.';
+    return 'The same mode by number, of the volume and of the surface alone. Compare the last ones of the list: without an inside the body gives way where it is hollow.';
   return ENERGY_MEANINGS[energy];
 }
 

@@ -80,10 +80,12 @@ const OF_KEYS: readonly Item[] = [
   },
   {
     title: 'Energy',
-    meaning: 'That soft rubber of this volume would need to get here from the first key.',
-    text: ({ completion, time }) => {
+    meaning:
+      'That soft rubber of this volume needs to get here from the first key; of an open surface, whose thickness is made up, the mean strain instead.',
+    text: ({ completion, time, surface }) => {
       if (!completion) return '–';
       const strain = valueAt(completion.frames, time, (frame) => frame.strain);
+      if (!surface?.closed) return `${digits(100 * strain, 2)} % strain`;
       return `${digits(energyOf(strain, completion.frames[0]?.volume_m3 ?? 0), 2)} J`;
     },
   },

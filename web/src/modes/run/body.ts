@@ -1,7 +1,10 @@
 // The body that is shown: what the worker found of it, and the shapes that its keys and mixes stand for.
+import type { Triple } from '../../shared/bindings/geometry';
 import type { Energy, FilledFrame } from '../bindings/modal-module';
 import { bent, type KeyOrigin, type KeyShape } from '../state/key-shapes';
+import type { ModeNumbers } from '../state/material';
 import { extentOf, mixInto, REACH } from '../state/mix';
+import { pulledMix, timeNearest } from '../state/pull';
 import { shapeAt, straightAt } from '../state/timeline';
 import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';
 
@@ -61,6 +64,35 @@ export class Body {
 
   straight(target: Float32Array, keys: readonly KeyShape[], time: number): void {
     straightAt(target, keys, time);
+  }
+
+  /** The time at which a vertex is nearest to a place; null before the motion is there. */
+  timeNearest(vertex: number, place: Triple): number | null {
+    const { filled } = this;
+    return filled && timeNearest(filled.positions, filled.frames, vertex, place);
+  }
+
+  /** The mix that takes a vertex to a place with least energy. */
+  pulled(energy: Energy, modes: readonly ModeNumbers[], vertex: number, place: Triple): number[] {
+    const moves = this.moves.get(energy) ?? new Float32Array(0);
+    const move = place.map((value, axis) => value - (this.shape[3 * vertex + axis] ?? 0)) as Triple;
+    return pulledMix(moves, modes, this.shape.length, vertex, this.reach, move);
+  }
+
+  /** The vertex that goes farthest: from the first key to the second, or else in the first mode. */
+  liveliest(keys: readonly KeyShape[], energy: Energy): number {
+    const moves = this.moves.get(energy);
+    const [from, to] = [keys[0]?.positions, keys[1]?.positions];
+    let best = { vertex: 0, move: -1 };
+    for (let vertex = 0; vertex < this.nVertices; ++vertex) {
+      const part = [0, 1, 2].map((axis) => {
+        const at = 3 * vertex + axis;
+        return from && to ? (to[at] ?? 0) - (from[at] ?? 0) : (moves?.[at] ?? 0);
+      });
+      const move = Math.hypot(...part);
+      if (move > best.move) best = { vertex, move };
+    }
+    return best.vertex;
   }
 
   /** The shape of a key that is not from a file. */

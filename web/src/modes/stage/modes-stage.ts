@@ -2,14 +2,21 @@
 // shapes, never the solver, and draws only when something changed.
 import { Box3, Sphere } from 'three';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
+import type { Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
-import { createPaneStage } from '../../shared/stage/pane-stage';
+import type { Box } from '../../shared/stage/grab';
+import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
 
 export interface ModesStageEvents {
   /** Keys that are not the camera's. True when used. */
   key(name: string): boolean;
+  grab(vertex: number, pane: number): void;
+  moveGrab(target: Triple): void;
+  releaseGrab(): void;
+  /** After each picture: where the inviting vertex is in the first pane, in pixels. */
+  drawn(invitation: { x: number; y: number }): void;
   pictureLost(isLost: boolean): void;
 }
 
@@ -21,19 +28,25 @@ export interface ModesStage {
   /** Null hides it. */
   showGhost(positions: Float32Array | null): void;
   setEdges(isShown: boolean): void;
-  /** Sets the view so that these places are seen, three numbers each [m]. */
-  frame(places: readonly number[]): void;
+  invite(vertex: number): void;
+  /**
+   * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
+   * take up.
+   */
+  frame(keys: readonly number[], swings: readonly number[]): void;
   homeView(): void;
+  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+  project(vertex: number, pane: number): { x: number; y: number };
 }
 
 /** Direction of the first view [rad]. */
 const AZIMUTH = 0.42;
-const POLAR = 1.2;
+const POLAR = 1.12;
 
 /** The floor lies under the body by this part of its size. */
 const FLOOR_BELOW = 0.2;
 
-const GHOST_OPACITY = 0.42;
+const GHOST_OPACITY = 0.5;
 
 const MOST_PANES = 2;
 
@@ -75,66 +88,160 @@ function makeGhost({ mesh }: Shape, colour: string): void {
   mesh.object.renderOrder = 1;
 }
 
+/** How far behind the body the ghost stands, in shares of the depth that the body takes up and of its size. */
+const BEHIND_DEPTH = 1.15;
+const BEHIND_SIZE = 0.16;
+
+/** Room below the body for the invitation's words, in shares of its size. */
+const BELOW = 0.08;
+
+/** Shapes of one topology, one in each pane, with the ghost behind the first. */
+class Shapes {
+  readonly all = Array.from({ length: MOST_PANES }, () => new Shape());
+  readonly ghost = new Shape();
+  hasGhost = false;
+  triangles: Uint32Array = new Uint32Array(0);
+
+  positions(pane: number): Float32Array {
+    return this.all[pane]?.mesh.positions() ?? new Float32Array(0);
+  }
+
+  setTopology(triangles: Uint32Array, nVertices: number): void {
+    this.triangles = triangles;
+    for (const shape of [...this.all, this.ghost]) shape.setTopology(triangles, nVertices);
+    this.hasGhost = false;
+  }
+
+  /** Has what one pane shows be seen. */
+  show(pane: number): void {
+    this.all.forEach((shape, other) => {
+      shape.mesh.object.visible = other === pane && shape.isThere;
+    });
+    this.ghost.mesh.object.visible = this.hasGhost && pane === 0;
+    for (const { mesh } of [...this.all, this.ghost]) if (mesh.object.visible) mesh.update();
+  }
+}
+
+/** The stage itself and the hand on it. */
+class Stage {
+  readonly shapes = new Shapes();
+  readonly stage: PaneStage;
+  readonly hand: ReturnType<typeof createStageHand>;
+  inviting = 0;
+  floor = 0;
+  private active = 0; // pane in which the hand is
+
+  constructor(parent: HTMLElement, canvas: HTMLCanvasElement, events: ModesStageEvents) {
+    const { all, ghost } = this.shapes;
+    this.stage = createPaneStage(parent, canvas, {
+      fov: 30,
+      objects: [...all, ghost].map(({ mesh }) => mesh.object),
+      isReady: () => all[0]?.isThere ?? false,
+      prepare: (pane) => this.prepare(pane),
+      drawn: () => events.drawn(this.project(this.inviting, 0)),
+      themed: (colour) => this.setTheme(colour),
+      handKey: (name) => this.hand.key(name),
+      key: events.key,
+      pictureLost: events.pictureLost,
+    });
+    this.hand = createStageHand(this.stage, {
+      picture: (at) => this.pictureAt(at),
+      grab: (vertex) => events.grab(vertex, this.active),
+      move: events.moveGrab,
+      release: events.releaseGrab,
+      fallbackVertex: () => this.inviting,
+      cloth: () => ({
+        positions: this.shapes.positions(this.active),
+        triangles: this.shapes.triangles,
+      }),
+      floor: () => this.floor,
+    });
+    this.stage.open();
+  }
+
+  project(vertex: number, pane: number): { x: number; y: number } {
+    return this.stage.grid.project(this.shapes.positions(pane), vertex, pane);
+  }
+
+  frame(keys: readonly number[], swings: readonly number[]): void {
+    const { surroundings, control, camera } = this.stage;
+    const { min, max } = new Box3().setFromArray(keys);
+    const size = min.distanceTo(max);
+    const behind = BEHIND_DEPTH * (max.z - min.z) + BEHIND_SIZE * size;
+    this.shapes.ghost.mesh.object.position.z = -behind;
+    const all = [...keys, ...swings];
+    for (let k = 0; k < keys.length; k += 3)
+      all.push(keys[k] ?? 0, keys[k + 1] ?? 0, (keys[k + 2] ?? 0) - behind);
+    all.push((min.x + max.x) / 2, min.y - BELOW * size, max.z);
+    const whole = new Box3().setFromArray(all);
+    const { center: centre, radius } = whole.getBoundingSphere(new Sphere());
+    this.floor = min.y - FLOOR_BELOW * radius;
+    surroundings.frame(centre, radius, this.floor);
+    const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
+    control.frame({ ...view, upright: uprightOf(all, view, camera.fov) });
+  }
+
+  private pictureAt(at: { x: number; y: number } | null): () => Box {
+    const { grid } = this.stage;
+    const pane = at ? grid.paneAt(at) : 0;
+    this.active = pane;
+    return () => grid.boxOf(pane);
+  }
+
+  private prepare(pane: number): void {
+    this.shapes.show(pane);
+    this.hand.mark(pane === this.active ? this.shapes.positions(pane) : null);
+  }
+
+  private setTheme(colour: (name: string) => string): void {
+    this.hand.setColour(colour('--stage-hand'));
+    makeGhost(this.shapes.ghost, colour('--modes-straight'));
+  }
+}
+
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
 export function createModesStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: ModesStageEvents,
 ): ModesStage {
-  const shapes = Array.from({ length: MOST_PANES }, () => new Shape());
-  const ghost = new Shape();
-  let hasGhost = false;
-  const stage = createPaneStage(parent, canvas, {
-    fov: 30,
-    objects: [...shapes, ghost].map(({ mesh }) => mesh.object),
-    isReady: () => shapes[0]?.isThere ?? false,
-    prepare(pane) {
-      shapes.forEach((shape, other) => {
-        shape.mesh.object.visible = other === pane && shape.isThere;
-      });
-      ghost.mesh.object.visible = hasGhost && pane === 0;
-      for (const { mesh } of [...shapes, ghost]) if (mesh.object.visible) mesh.update();
-    },
-    drawn: () => undefined,
-    themed: (colour) => makeGhost(ghost, colour('--modes-ghost')),
-    key: events.key,
-    pictureLost: events.pictureLost,
-  });
-  const { redraw, grid, surroundings, control, camera } = stage;
-  stage.open();
+  const own = new Stage(parent, canvas, events);
+  const { stage, shapes, hand } = own;
+  const { redraw } = stage;
   return {
     showMesh(triangles, nVertices, lookId) {
-      for (const shape of [...shapes, ghost]) shape.setTopology(triangles, nVertices);
-      for (const { mesh } of shapes) mesh.setLook(lookOf(lookId));
-      hasGhost = false;
+      shapes.setTopology(triangles, nVertices);
+      for (const { mesh } of shapes.all) mesh.setLook(lookOf(lookId));
+      hand.drop();
       redraw();
     },
     setPanes(count, nColumns) {
-      grid.set(count, nColumns);
+      stage.grid.set(count, nColumns);
       stage.refit();
       redraw();
     },
     showShape(pane, positions) {
-      shapes[pane]?.set(positions);
+      shapes.all[pane]?.set(positions);
       redraw();
     },
     showGhost(positions) {
-      hasGhost = positions !== null;
-      if (positions) ghost.set(positions);
+      shapes.hasGhost = positions !== null;
+      if (positions) shapes.ghost.set(positions);
       redraw();
     },
     setEdges(isShown) {
-      for (const { mesh } of shapes) mesh.setEdges(isShown);
+      for (const { mesh } of shapes.all) mesh.setEdges(isShown);
       redraw();
     },
-    frame(places) {
-      const box = new Box3().setFromArray(places);
-      const { center: centre, radius } = box.getBoundingSphere(new Sphere());
-      surroundings.frame(centre, radius, box.min.y - FLOOR_BELOW * radius);
-      const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
-      control.frame({ ...view, upright: uprightOf(places, view, camera.fov) });
+    invite(vertex) {
+      own.inviting = vertex;
       redraw();
     },
-    homeView: control.home,
+    frame(keys, swings) {
+      own.frame(keys, swings);
+      redraw();
+    },
+    homeView: stage.control.home,
+    project: (vertex, pane) => own.project(vertex, pane),
   };
 }

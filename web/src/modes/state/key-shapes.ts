@@ -63,5 +63,5 @@ export function firstKeys(model: string): KeyOrigin[] {
   if (model === 'cloth') return DRAPE_KEYS.map((frame) => ({ kind: 'drape', frame }));
   if (model === 'bar' || model === 'sheet')
     return [{ kind: 'rest' }, { kind: 'bent', degrees: 180 }];
-  return [{ kind: 'rest' }, { kind: 'mix', energy: 'volume', amplitudes: [1] }];
+  return [{ kind: 'rest' }, { kind: 'mix', energy: 'volume', amplitudes: [0.8, 0.4] }];
 }

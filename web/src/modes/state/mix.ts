@@ -1,7 +1,7 @@
 // Shapes that modes add up to, and what a surface measures.
 
 /** At full amplitude the farthest vertex moves by this share of the body's extent. */
-export const REACH = 0.2;
+export const REACH = 0.15;
 
 /** The diagonal of the box around places, three numbers each [m]. */
 export function extentOf(places: ArrayLike<number>): number {

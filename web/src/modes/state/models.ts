@@ -72,7 +72,7 @@ export const MODELS: readonly Model[] = [
     caption:
       'A bar 120 cm long, 24 cm wide and 12 cm thick, of soft rubber (Young’s modulus 1 MPa, 1000 kg/m³) that floats freely.',
     source: { kind: 'box' },
-    lookId: 4,
+    lookId: 10,
   },
   {
     id: 'sheet',
