@@ -203,15 +203,21 @@ function createPanels(
   hands: Hands,
 ): void {
   createModelPanel(panel, store, {
-    openModel: (id) => run.openModel(id),
+    openModel(id) {
+      store.set({ problem: null });
+      run.openModel(id);
+    },
     openObj: (file) => void run.openObj(file),
     setUnit: (unit) => run.setUnit(unit),
-    setCells: (cells) => run.reopen({ cells }),
-    setVolume: (volume) => run.reopen({ volume }),
+    setCells: (cells) => void run.reopen({ cells }),
+    setVolume: (volume) => void run.reopen({ volume }),
   });
   createModeList(panel, store, {
-    setEnergy: (energy, compares) => void run.setEnergy(energy, compares),
-    setCount: (count) => run.reopen({ count }),
+    setEnergy(energy, compares) {
+      store.set({ problem: null });
+      void run.setEnergy(energy, compares);
+    },
+    setCount: (count) => void run.reopen({ count }),
     playAlone: (mode) => hands.playAlone(mode),
     setAmplitude: (mode, amplitude) => hands.setAmplitude(mode, amplitude),
   });

@@ -11,6 +11,7 @@ import {
   stateOf,
   until,
 } from './harness.mjs';
+import { checkModes } from './modes.mjs';
 import { checkMotion } from './motion.mjs';
 import { checkRefinement } from './refinement.mjs';
 import {
@@ -658,6 +659,7 @@ await checkWithoutModule('#scene=curtain', '**/*.wasm', 'the text stays', async 
 
 await checkMotion(harness, visit);
 await checkFabrics(harness);
+await checkModes(harness);
 await checkRefinement(harness);
 
 process.exit((await finish()) ? 0 : 1);

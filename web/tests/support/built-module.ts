@@ -1,6 +1,7 @@
 // The WebAssembly modules as they were built.
 import { existsSync, readFileSync } from 'node:fs';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
+import type { ModalModule } from '../../src/modes/bindings/modal-module';
 import type { PleatModule } from '../../src/motion/bindings/pleat-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
@@ -10,6 +11,7 @@ interface Modules {
   sweep: SweepModule;
   deform: DeformModule;
   refinement: RefinementModule;
+  modal: ModalModule;
 }
 
 const fileOf = (name: string) => new URL(`../../src/wasm/${name}`, import.meta.url);

@@ -9,7 +9,7 @@ import { halvesWords, storyWords } from './completion-words';
 
 const WIDTH = 400;
 const HEIGHT = 104;
-const LEFT = 46;
+const LEFT = 52;
 const RIGHT = 8;
 const TOP = 8;
 const BOTTOM = 30;
@@ -101,7 +101,7 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
   for (let key = 0; key <= end; ++key)
     root.append(
       svg('line', { x1: x(key), y1: TOP, x2: x(key), y2: HEIGHT - BOTTOM, class: 'grid-minor' }),
-      svg('text', { x: x(key), y: HEIGHT - BOTTOM + 14, class: 'tick tick-x' }, String(key + 1)),
+      svg('text', { x: x(key), y: HEIGHT - BOTTOM + 15, class: 'tick tick-x' }, String(key + 1)),
     );
   const points = (values: readonly number[]) =>
     values.map((value, index) => [x(frames[index]?.time ?? 0), y(value)] as const);

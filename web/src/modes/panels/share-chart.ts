@@ -6,10 +6,10 @@ import type { ModesState } from '../state/modes-state';
 
 const WIDTH = 320;
 const HEIGHT = 170;
-const LEFT = 40;
+const LEFT = 54;
 const RIGHT = 6;
 const TOP = 8;
-const BOTTOM = 36;
+const BOTTOM = 40;
 
 /** More bars than this are too thin to be told apart. */
 const MOST_BARS = 24;
@@ -93,7 +93,7 @@ function draw(root: SVGElement, { rigid, modes }: Shares): void {
     ),
     svg(
       'text',
-      { x: 10, y: HEIGHT / 2 - 10, class: 'axis', transform: `rotate(-90 10 ${HEIGHT / 2 - 10})` },
+      { x: 13, y: HEIGHT / 2 - 12, class: 'axis', transform: `rotate(-90 13 ${HEIGHT / 2 - 12})` },
       '% of the motion',
     ),
   );

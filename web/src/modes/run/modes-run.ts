@@ -17,6 +17,7 @@ import {
 } from '../../shared/state/obj-file';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
+import type { Energy } from '../bindings/modal-module';
 import { DRAPE_FRAMES, type KeyOrigin } from '../state/key-shapes';
 import { BAR_SIDES_M, modelOf, OWN } from '../state/models';
 import { energiesOf, type ModesLink, type ModesState, usualLink } from '../state/modes-state';
@@ -78,6 +79,7 @@ export class ModesRun {
   async openObj(file: File): Promise<void> {
     const read = await openObjFile(file);
     if (typeof read === 'string') return this.refuse(inputFailure(read));
+    this.store.set({ problem: null });
     void this.open(this.kept(usualLink(OWN)), { file: read, unit: 'm' });
   }
 
@@ -85,20 +87,31 @@ export class ModesRun {
     if (this.own) void this.open(this.kept(usualLink(OWN)), { ...this.own, unit });
   }
 
-  /** The same body cut otherwise, or in another volume: its modes and in-betweens are found anew. */
-  reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): void {
-    const { model, keys } = this.store.get();
-    const origins = keys.map(({ origin }) => origin).filter(({ kind }) => kind !== 'file');
-    const link = { ...usualLink(model), ...this.presentLink(), ...changes };
-    this.openModel(model, { ...link, keys: origins.length >= 2 ? origins : usualLink(model).keys });
+  /**
+   * The same body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where that cannot
+   * be, it is as it was.
+   */
+  async reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): Promise<void> {
+    const present = this.presentLink();
+    const origins = present.keys.filter(({ kind }) => kind !== 'file');
+    const keys = origins.length >= 2 ? origins : usualLink(present.model).keys;
+    const own = present.model === OWN ? this.own : null;
+    this.store.set({ problem: null });
+    await this.open({ ...present, keys, ...changes }, own);
+    const { found, problem } = this.store.get();
+    if (found || !problem) return;
+    await this.open({ ...present, keys }, own);
+    this.store.set({ problem });
   }
 
-  async setEnergy(energy: ModesState['energy'], compares: boolean): Promise<void> {
+  /** True once the modes of that energy are shown. */
+  async setEnergy(energy: Energy, compares: boolean): Promise<boolean> {
     const { body } = this;
-    if (!body || !(await this.finder.ensure(body, energy))) return;
-    if (compares && !(await this.finder.ensure(body, 'surface'))) return;
-    if (body === this.body)
-      this.store.set({ energy, compares, found: this.finder.found(energy), problem: null });
+    if (!body || !(await this.finder.ensure(body, energy))) return false;
+    if (compares && !(await this.finder.ensure(body, 'surface'))) return false;
+    if (body !== this.body) return false;
+    this.store.set({ energy, compares, found: this.finder.found(energy) });
+    return true;
   }
 
   /** Gives up what takes long: the body is as it was before that. */
@@ -171,7 +184,8 @@ export class ModesRun {
     const isCurrent = () => mark === this.nOpened;
     this.store.set({ phase: 'loading', playing: false });
     const refuse = (failure: Failure) => {
-      if (isCurrent()) this.store.set({ phase: 'ready', problem: failure });
+      const where = own ? `${own.file.name}: ${failure.where}` : failure.where;
+      if (isCurrent()) this.store.set({ phase: 'ready', problem: { ...failure, where } });
     };
     let wanted: Opened;
     try {
@@ -213,8 +227,7 @@ export class ModesRun {
   private async fill(body: Body, link: ModesLink, origins: readonly KeyOrigin[]): Promise<void> {
     const { energy, compares, count } = link;
     const usual = energiesOf(link.model).includes(energy) ? energy : 'volume';
-    await this.setEnergy(usual, compares);
-    if (body !== this.body) return;
+    if (!(await this.setEnergy(usual, compares))) return;
     if (origins.length > 0) await this.setKeys(origins);
     if (body !== this.body || body.drape.length === 0) return;
     const question = this.client.ask({ type: 'drapeShares', drape: body.drape, count });
