@@ -89,8 +89,12 @@ class Stepper {
   /// The same without air.
   void set_steady_forces(Eigen::Ref<Positions> forces);
 
-  /// The solver that the options name; max_iterations is for cg. Throws InputError when this build
-  /// has none.
+  /// Of an iterative solver's way to the end of a substep; reaching it is reported as not
+  /// converged.
+  static constexpr int kMaxSolverIterations = 2000;
+
+  /// The solver that the options name; max_iterations is for cg and sor. Throws InputError when
+  /// this build has none.
   static std::unique_ptr<LinearSolver> make_solver(const MethodOptions& options,
                                                    int max_iterations = 1);
 

@@ -3,12 +3,6 @@
 #include "core/model/elasticity.h"
 
 namespace pleat {
-namespace {
-
-constexpr int kMaxSolverIterations = 2000;  // of cg and sor; reaching it is reported
-
-}  // namespace
-
 StepperImex::StepperImex(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::none),
       solver_(make_solver(options, kMaxSolverIterations)),

@@ -5,12 +5,6 @@
 #include "core/model/elasticity.h"
 
 namespace pleat {
-namespace {
-
-constexpr int kMaxSolverIterations = 2000;  // of CG; reaching it is reported as not converged
-
-}  // namespace
-
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       matrix_(model),
