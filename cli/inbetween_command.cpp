@@ -54,8 +54,8 @@ Json json_frames(const KeyCompletion& completion, const std::vector<KeyCompletio
                     {"is_key", frames[f].is_key()},
                     {"volume_m3", figures[f].volume},
                     {"linear_volume_m3", linear[f].volume},
-                    {"energy_j_per_pa", figures[f].energy},
-                    {"linear_energy_j_per_pa", linear[f].energy},
+                    {"strain", figures[f].strain},
+                    {"linear_strain", linear[f].strain},
                     {"inverted", figures[f].n_inverted},
                     {"linear_inverted", linear[f].n_inverted},
                     {"unequal_halves", figures[f].unequal_halves},
@@ -91,14 +91,13 @@ void print_inbetween(const Json& json) {
       json["n_keys"].get<int>(), json["n_bodies"].get<int>(), json["n_bodies"] == 1 ? "" : "s",
       json["n_volume_vertices"].get<int>(), json["n_tets"].get<int>(),
       json["n_functions"].get<int>(), json["n_clusters"].get<int>());
-  std::printf(
-      "frame  time     volume [m3]  linear       energy [J/Pa]  linear       halves differ\n");
+  std::printf("frame  time     volume [m3]  linear       strain %%    linear      halves differ\n");
   int n = 0;
   for (const Json& frame : json["frames"])
     std::printf(
-        "%5d  %-7.4g  %-11.5g  %-11.5g  %-13.5g  %-11.5g  %s\n", n++, frame["time"].get<double>(),
+        "%5d  %-7.4g  %-11.5g  %-11.5g  %-10.4g  %-10.4g  %s\n", n++, frame["time"].get<double>(),
         frame["volume_m3"].get<double>(), frame["linear_volume_m3"].get<double>(),
-        frame["energy_j_per_pa"].get<double>(), frame["linear_energy_j_per_pa"].get<double>(),
+        100 * frame["strain"].get<double>(), 100 * frame["linear_strain"].get<double>(),
         frame["is_key"].get<bool>()
             ? "key"
             : (Json(std::round(1e4 * frame["unequal_halves"].get<double>()) / 100).dump() + " %")

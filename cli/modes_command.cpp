@@ -11,7 +11,7 @@
 #include "core/files/frame_file.h"
 #include "core/files/json_text.h"
 #include "core/modal/cloth_modes.h"
-#include "core/modal/surface_arap.h"
+#include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
 
@@ -25,29 +25,22 @@ constexpr int kUsualModes = 20;
 /// Modes of something that has a surface to show them on.
 struct ModeTable {
   std::string subject;
-  Modes modes;
-  bool has_frequencies =
-      false;          ///< [Hz]; else only ratios to the first that is not rigid mean something
-  Positions surface;  ///< [m]
+  SurfaceModes modes;
+  double hertz_of_one = 0;  ///< frequency where the stiffness is 1 [Hz]; 0: it means nothing
+  Positions surface;        ///< [m]
   std::vector<Triangle> triangles;
-  SparseMatrix embedding;      ///< of the surface in what swings; empty: it is the surface
   std::vector<double> shares;  ///< of a motion, of the modes one after another; empty without one
 
-  Positions shape(Eigen::Index mode) const {
-    const Eigen::VectorXd column = modes.shapes.col(mode);
-    const Eigen::Map<const Positions> moves(column.data(), 3, column.size() / 3);
-    return embedding.size() > 0 ? Positions(moves * embedding) : Positions(moves);
+  bool has_frequencies() const { return hertz_of_one > 0; }
+  /// Below zero for a way that the shape falls.
+  double frequency(Eigen::Index mode) const {
+    const double stiffness = modes.stiffness[mode];
+    return std::copysign(std::sqrt(std::abs(stiffness)), stiffness) * hertz_of_one;
+  }
+  double over_first(Eigen::Index mode) const {
+    return std::sqrt(std::max(modes.stiffness[mode] / modes.stiffness[0], 0.0));
   }
 };
-
-void check(const SolveReport& report) {
-  if (report.ends_run()) throw InputError("", "no modes: " + report.message);
-  if (!report.ok()) std::fprintf(stderr, "pleat: warning: %s\n", report.message.c_str());
-}
-
-Eigen::VectorXd three_each(const Eigen::VectorXd& of_vertex) {
-  return of_vertex.replicate(1, 3).transpose().reshaped();
-}
 
 struct Material {
   double young = 1e6;     // [Pa]
@@ -56,37 +49,27 @@ struct Material {
 
 /// A mode of 1 Pa and 1 kg/m^3 has the same shape; its stiffness goes with Young's modulus over the
 /// density.
-ModeTable volume_table(const KeySurfaces& keys, const ModalOptions& options,
+ModeTable volume_table(const KeySurfaces& mesh, const ModalOptions& options,
                        const Material& material) {
+  const Positions& surface = mesh.positions.front();
+  const std::vector<Triangle>& triangles = mesh.mesh.triangles;
   ModeTable table;
-  const CarryingVolume carrying =
-      carrying_volume(keys.positions.front(), keys.mesh.triangles, options);
-  check(volume_modes(carrying.volume, options.n_modes, table.modes));
-  table.modes.stiffness *= material.young / material.density;
-  table.modes.shapes /= std::sqrt(material.density);
-  table.has_frequencies = options.volume.value_or(is_closed(keys.mesh.triangles)
-                                                      ? VolumeKind::lattice
-                                                      : VolumeKind::shell) == VolumeKind::lattice;
-  table.embedding = carrying.embedding;
-  table.surface = keys.positions.front();
-  table.triangles = keys.mesh.triangles;
-  table.subject = "volume of " + std::to_string(carrying.volume.n_vertices()) + " vertices and " +
-                  std::to_string(carrying.volume.tets.size()) + " tetrahedra";
+  table.modes = volume_surface_modes(surface, triangles, options);
+  if (volume_kind(triangles, options) == VolumeKind::lattice)
+    table.hertz_of_one = std::sqrt(material.young / material.density) / (2 * kPi);
+  table.surface = surface;
+  table.triangles = triangles;
+  table.subject = "volume of " + std::to_string(table.modes.n_tets) + " tetrahedra";
   return table;
 }
 
-ModeTable surface_table(const KeySurfaces& keys, int count) {
+ModeTable surface_table(const KeySurfaces& mesh, int count) {
+  const Positions& surface = mesh.positions.front();
   ModeTable table;
-  const Positions& x = keys.positions.front();
-  const Eigen::VectorXd areas = surface_areas(x, keys.mesh.triangles);
-  if (!(areas.minCoeff() > 0))
-    throw InputError(keys.files.front().string(), "expected every vertex in a triangle with area");
-  const std::vector<int> parts = surface_parts(x.cols(), keys.mesh.triangles);
-  check(lowest_modes(surface_arap_hessian(x, keys.mesh.triangles, 1), three_each(areas),
-                     rigid_motions(x, parts), count, table.modes));
-  table.surface = x;
-  table.triangles = keys.mesh.triangles;
-  table.subject = "surface alone, " + std::to_string(x.cols()) + " vertices";
+  table.modes = surface_modes(surface, mesh.mesh.triangles, count);
+  table.surface = surface;
+  table.triangles = mesh.mesh.triangles;
+  table.subject = "surface alone, " + std::to_string(surface.cols()) + " vertices";
   return table;
 }
 
@@ -101,12 +84,15 @@ ModeTable cloth_table(const Scene& scene, int count) {
     frames.push_back(simulation.state().positions);
   }
   if (run.has_ended()) throw InputError("", "the run ended: " + run.report().message);
-  ModeTable table;
   const ClothModel& model = simulation.model();
-  check(cloth_modes(model, frames.back(), {}, count, table.modes));
-  const Eigen::VectorXd shares = motion_shares(table.modes, model.masses, frames.back(), frames);
+  Modes modes;
+  const SolveReport report = cloth_modes(model, frames.back(), {}, count, modes);
+  if (report.ends_run()) throw InputError("", "the modes were not found: " + report.message);
+  const Eigen::VectorXd shares = motion_shares(modes, model.masses, frames.back(), frames);
+  ModeTable table;
+  table.modes = whole_surface_modes(modes);
   table.shares.assign(shares.begin(), shares.end());
-  table.has_frequencies = true;
+  table.hertz_of_one = 1 / (2 * kPi);
   table.surface = frames.back();
   table.triangles = simulation.triangles();
   table.subject = scene.name + " after " + Json(simulation.time()).dump() + " s, " +
@@ -114,59 +100,47 @@ ModeTable cloth_table(const Scene& scene, int count) {
   return table;
 }
 
-double frequency(double stiffness) {
-  return std::copysign(std::sqrt(std::abs(stiffness)), stiffness) / (2 * kPi);
-}
-
 Json json_table(const ModeTable& table) {
   Json rows = Json::array();
-  const Modes& modes = table.modes;
-  const double first = modes.size() > modes.n_rigid ? modes.stiffness[modes.n_rigid] : 1;
-  for (Eigen::Index m = 0; m < modes.size(); ++m) {
-    Json row = {{"rigid", m < modes.n_rigid},
-                {"residual", modes.residuals[m]},
-                {"over_first", std::sqrt(std::max(modes.stiffness[m] / first, 0.0))}};
-    if (table.has_frequencies) row["frequency_hz"] = frequency(modes.stiffness[m]);
+  for (Eigen::Index m = 0; m < table.modes.size(); ++m) {
+    Json row = {{"over_first", table.over_first(m)}, {"residual", table.modes.residuals[m]}};
+    if (table.has_frequencies()) row["frequency_hz"] = table.frequency(m);
     if (!table.shares.empty()) row["motion_share"] = table.shares[static_cast<std::size_t>(m)];
     rows.push_back(std::move(row));
   }
   return {{"subject", table.subject},
-          {"n_rigid", modes.n_rigid},
+          {"n_rigid", table.modes.n_rigid},
           {"modes", std::move(rows)},
           {"core", core_version()}};
 }
 
 void print_table(const ModeTable& table) {
-  const Modes& modes = table.modes;
-  std::printf("%s: %d rigid motions, %d modes\n", printable(table.subject).c_str(), modes.n_rigid,
-              static_cast<int>(modes.size()) - modes.n_rigid);
-  std::printf("mode  %s  residual%s\n", table.has_frequencies ? "frequency [Hz]" : "over the first",
+  std::printf("%s: %d rigid motions, %d modes\n", printable(table.subject).c_str(),
+              table.modes.n_rigid, static_cast<int>(table.modes.size()));
+  std::printf("mode  %s  residual%s\n",
+              table.has_frequencies() ? "frequency [Hz]" : "over the first",
               table.shares.empty() ? "" : "  of the motion, with those before");
-  const double first = modes.size() > modes.n_rigid ? modes.stiffness[modes.n_rigid] : 1;
-  for (Eigen::Index m = modes.n_rigid; m < modes.size(); ++m) {
-    std::printf("%4d  %-14.5g  %-8.1e", static_cast<int>(m) - modes.n_rigid + 1,
-                table.has_frequencies ? frequency(modes.stiffness[m])
-                                      : std::sqrt(modes.stiffness[m] / first),
-                modes.residuals[m]);
+  for (Eigen::Index m = 0; m < table.modes.size(); ++m) {
+    std::printf("%4d  %-14.5g  %-8.1e", static_cast<int>(m) + 1,
+                table.has_frequencies() ? table.frequency(m) : table.over_first(m),
+                table.modes.residuals[m]);
     if (!table.shares.empty())
       std::printf("  %.3g %%", 100 * table.shares[static_cast<std::size_t>(m)]);
     std::printf("\n");
   }
-  if (table.has_frequencies && modes.size() > 0 && modes.stiffness.minCoeff() < 0)
+  if (table.modes.stiffness.minCoeff() < 0)
     std::printf(
         "a negative frequency is a way in which the shape falls rather than swings: it is "
         "not at rest\n");
 }
 
-/// One file for each mode that is no rigid motion.
+/// One file for each mode.
 void write_shapes(const ModeTable& table, const std::string& folder) {
   FrameWriter writer(folder, FrameFormat::obj, {{}, table.triangles});
   const double move = kShownMove * box_diagonal(table.surface);
-  for (Eigen::Index m = table.modes.n_rigid; m < table.modes.size(); ++m) {
-    const Positions shape = table.shape(m);
-    writer.write(table.surface + move / shape.colwise().norm().maxCoeff() * shape,
+  for (Eigen::Index m = 0; m < table.modes.size(); ++m)
+    writer.write(table.surface + move * table.modes.moves.col(m).reshaped(3, table.surface.cols()),
                  static_cast<double>(m));
-  }
   writer.finish();
 }
 

@@ -11,9 +11,9 @@
 #include "core/files/obj_file.h"
 #include "core/modal/box_surface.h"
 #include "core/modal/cloth_modes.h"
-#include "core/modal/completion_curves.h"
+#include "core/modal/frame_figures.h"
 #include "core/modal/key_completion.h"
-#include "core/modal/surface_modes.h"
+#include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/sheet_cloth.h"
@@ -50,8 +50,10 @@ pleat::ModalOptions options_in(const val& wanted) {
 pleat::SceneParts sheet_parts() {
   static constexpr std::array<const pleat::StepperType*, 1> kSteppers = {
       &pleat::steppers::kImplicitEuler};
-  const auto sheet = [](const pleat::JsonReader& reader, const pleat::ClothSurroundings&)
-      -> pleat::SceneCloth { return pleat::read_sheet(reader); };
+  const auto sheet = [](const pleat::JsonReader& reader,
+                        const pleat::ClothSurroundings&) -> pleat::SceneCloth {
+    return pleat::read_sheet(reader);
+  };
   return {.cloths = {{"sheet", sheet}, {"particles"}, {"mesh"}, {"garment"}},
           .steppers = kSteppers};
 }
@@ -83,8 +85,8 @@ class ModalStudy {
   /// The cloth of a scene, where it begins.
   std::string open_scene(const std::string& scene_text) {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_),
-                                                   {}, sheet_parts());
+      const pleat::Scene scene =
+          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, sheet_parts());
       auto run = std::make_unique<pleat::Simulation>(scene);
       take(run->rest_positions(), run->triangles(), envelope);
       run_ = std::move(run);
@@ -157,7 +159,8 @@ class ModalStudy {
   std::string fill_in(int count) {
     return guarded([&](val& envelope) {
       frames_ = completed().frames(count);
-      const auto curves = pleat::completion_curves(completed(), frames_);
+      const auto figures = pleat::frame_figures(completed(), frames_);
+      const auto straight = pleat::linear_figures(completed(), frames_);
       val frames = val::array();
       filled_.resize(3, shape_.cols() * static_cast<Eigen::Index>(frames_.size()));
       for (std::size_t f = 0; f < frames_.size(); ++f) {
@@ -167,11 +170,11 @@ class ModalStudy {
         frame.set("time", frames_[f].time);
         frame.set("left", frames_[f].left);
         frame.set("shareOfNext", frames_[f].share_of_next);
-        frame.set("unequalHalves", frames_[f].unequal_halves());
-        frame.set("volume_m3", curves[f].volume);
-        frame.set("straightVolume_m3", curves[f].straight_volume);
-        frame.set("strain", curves[f].strain);
-        frame.set("straightStrain", curves[f].straight_strain);
+        frame.set("unequalHalves", figures[f].unequal_halves);
+        frame.set("volume_m3", figures[f].volume);
+        frame.set("straightVolume_m3", straight[f].volume);
+        frame.set("strain", figures[f].strain);
+        frame.set("straightStrain", straight[f].strain);
         frames.call<void>("push", frame);
       }
       envelope.set("frames", frames);

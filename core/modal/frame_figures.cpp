@@ -1,6 +1,7 @@
 #include "core/modal/frame_figures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/modal/arap_energy.h"
 
@@ -11,14 +12,15 @@ namespace {
 template <class PlacesOf>
 std::vector<FrameFigures> figures(const KeyCompletion& completion, std::size_t n_frames,
                                   const PlacesOf& places_of) {
-  constexpr double kYoung = 1;  // [Pa]; the energy's own stiffness is half of it
+  double rest_volume = 0;
   std::vector<FrameFigures> all(n_frames);
   for (std::size_t i = 0; i < completion.bodies().size(); ++i) {
     const TetMesh& rest = completion.bodies()[i].carrying().volume;
-    const ArapEnergy energy(rest, kYoung / 2);
+    const ArapEnergy energy(rest, 1);
+    rest_volume += total_volume(rest, rest.rest_positions);
     for (std::size_t f = 0; f < n_frames; ++f) {
       const Positions places = places_of(i, f);
-      all[f].energy += energy.energy(places);
+      all[f].strain += energy.energy(places);
       for (const Tet& tet : rest.tets) {
         const double volume = tet_volume(places, tet);
         all[f].volume += volume;
@@ -26,6 +28,7 @@ std::vector<FrameFigures> figures(const KeyCompletion& completion, std::size_t n
       }
     }
   }
+  for (FrameFigures& of : all) of.strain = std::sqrt(of.strain / rest_volume);
   return all;
 }
 

@@ -7,7 +7,7 @@ namespace pleat {
 /// What can be told of a frame beside its picture; of all its bodies together.
 struct FrameFigures {
   double volume = 0;          ///< [m^3]
-  double energy = 0;          ///< ARAP energy since the first key, of a Young's modulus of 1 Pa [J]
+  double strain = 0;          ///< since the first key: root of the mean square of |F - R|
   int n_inverted = 0;         ///< tetrahedra turned inside out
   double unequal_halves = 0;  ///< |D(a -> x) - D(b -> x)| over the larger one
 };

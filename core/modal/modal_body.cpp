@@ -53,11 +53,13 @@ bool is_closed(const std::vector<Triangle>& triangles) {
   return std::none_of(edges.begin(), edges.end(), [](const MeshEdge& e) { return e.is_border(); });
 }
 
+VolumeKind volume_kind(const std::vector<Triangle>& triangles, const ModalOptions& options) {
+  return options.volume.value_or(is_closed(triangles) ? VolumeKind::lattice : VolumeKind::shell);
+}
+
 CarryingVolume carrying_volume(const Positions& surface, const std::vector<Triangle>& triangles,
                                const ModalOptions& options) {
-  const VolumeKind kind =
-      options.volume.value_or(is_closed(triangles) ? VolumeKind::lattice : VolumeKind::shell);
-  if (kind == VolumeKind::lattice) {
+  if (volume_kind(triangles, options) == VolumeKind::lattice) {
     if (options.size > 0 || !is_closed(triangles))  // which the lattice refuses
       return lattice_volume(surface, triangles, options.size > 0 ? options.size : 1);
     const double volume = enclosed_volume(surface, triangles);

@@ -20,6 +20,9 @@ struct ModalOptions {
   double detail_beyond = 0;  ///< patches nearer to the space have no detail [m]
 };
 
+/// The kind that the options name, or the usual one for these triangles.
+VolumeKind volume_kind(const std::vector<Triangle>& triangles, const ModalOptions& options);
+
 /// The volume of a surface that hangs together, and the shapes it takes.
 ///
 /// Usual sizes: the lattice's edge is such that 4000 cubes have the surface's volume; the shell is

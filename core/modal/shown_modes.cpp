@@ -1,24 +1,14 @@
-#include "core/modal/surface_modes.h"
+#include "core/modal/shown_modes.h"
 
 #include <algorithm>
 #include <string>
 
 #include "core/base/check.h"
-#include "core/base/joined_sets.h"
 #include "core/modal/cloth_modes.h"
 #include "core/modal/surface_arap.h"
 
 namespace pleat {
 namespace {
-
-std::vector<int> parts_of(Eigen::Index n_vertices, const std::vector<Triangle>& triangles) {
-  JoinedSets sets(static_cast<std::size_t>(n_vertices));
-  for (const auto& [a, b, c] : triangles) {
-    sets.join(a, b);
-    sets.join(a, c);
-  }
-  return sets.numbers();
-}
 
 void check_solved(const SolveReport& report) {
   if (report.ends_run()) throw InputError("", "the modes were not found: " + report.message);
@@ -36,6 +26,7 @@ SurfaceModes whole_surface_modes(const Modes& modes) {
   const Eigen::Index n_elastic = modes.size() - modes.n_rigid;
   shown.moves = modes.shapes.rightCols(n_elastic);
   shown.stiffness = modes.stiffness.tail(n_elastic);
+  shown.residuals = modes.residuals.tail(n_elastic);
   shown.n_rigid = modes.n_rigid;
   for (Eigen::Index m = 0; m < n_elastic; ++m) scale_to_one(shown.moves.col(m));
   return shown;
@@ -50,11 +41,13 @@ SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Tr
   const Eigen::Index n_elastic = modes.size() - modes.n_rigid;
   shown.moves.resize(surface.size(), n_elastic);
   for (Eigen::Index m = 0; m < n_elastic; ++m) {
-    const Positions moved = modes.shapes.col(modes.n_rigid + m).reshaped(3, carrying.volume.n_vertices());
+    const Positions moved =
+        modes.shapes.col(modes.n_rigid + m).reshaped(3, carrying.volume.n_vertices());
     shown.moves.col(m) = flat(Positions(carrying.surface(moved)));
     scale_to_one(shown.moves.col(m));
   }
   shown.stiffness = modes.stiffness.tail(n_elastic);
+  shown.residuals = modes.residuals.tail(n_elastic);
   shown.n_rigid = modes.n_rigid;
   shown.n_tets = static_cast<int>(carrying.volume.tets.size());
   return shown;
@@ -67,7 +60,7 @@ SurfaceModes surface_modes(const Positions& surface, const std::vector<Triangle>
     if (!(areas[v] > 0))
       throw InputError("", "expected every vertex in a triangle with an area; vertex " +
                                std::to_string(v) + " is in none");
-  const Eigen::MatrixXd rigid = rigid_motions(surface, parts_of(surface.cols(), triangles));
+  const Eigen::MatrixXd rigid = rigid_motions(surface, surface_parts(surface.cols(), triangles));
   const Eigen::Index most = surface.size() - rigid.cols();
   if (count < 1 || count > most)
     throw InputError("", "expected 1 to " + std::to_string(most) + " modes, all that " +
@@ -82,8 +75,8 @@ SurfaceModes surface_modes(const Positions& surface, const std::vector<Triangle>
 Eigen::VectorXd volume_motion_shares(const KeyCompletion& completion,
                                      const std::vector<KeyCompletion::Frame>& frames) {
   if (completion.bodies().size() != 1)
-    throw InputError("", "expected a surface in one part, found " +
-                             std::to_string(completion.bodies().size()));
+    throw InputError(
+        "", "expected a surface in one part, found " + std::to_string(completion.bodies().size()));
   const ModalBody& body = completion.bodies().front();
   const TetMesh& rest = body.carrying().volume;
   std::vector<Positions> shapes;

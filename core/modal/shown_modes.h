@@ -9,8 +9,11 @@ struct SurfaceModes {
   /// 3 n x modes, each as large as lets the farthest vertex move by 1.
   Eigen::MatrixXd moves;
   Eigen::VectorXd stiffness;  ///< of each, as in Modes
+  Eigen::VectorXd residuals;  ///< the same
   int n_rigid = 0;            ///< that are left out
   int n_tets = 0;             ///< of the volume that carries the surface; 0 without
+
+  Eigen::Index size() const { return moves.cols(); }
 };
 
 /// Of modes whose unknowns are the surface's own.
