@@ -264,7 +264,7 @@ export function createModesView(root: HTMLElement, hash: string): View {
     createFailureBanner(messages, () => store.set({ problem: null })),
   );
   createAnnouncer(messages, store, modesSentence);
-  createModesNumbers(numbers, store, () => ({ move_m: hands.move() }));
+  createModesNumbers(numbers, store, () => hands.move());
   createModesTools(toolBox, store, {
     togglePlaying: () => hands.togglePlaying(),
     homeView: () => picture.stage?.homeView(),

@@ -198,6 +198,31 @@ export async function checkModes(harness) {
     }),
   );
 
+  await check('modes: what takes long says so and is given up; the body before comes back', () =>
+    visit('#view=modes&cells=2&mix=3:0.5', async (page) => {
+      await drop(page, 'large.obj', squareObj(1, 90));
+      await page.getByRole('progressbar', { name: 'Computing' }).waitFor();
+      await button(page, 'Cancel').click();
+      const { model, amplitudes, working } = await until(
+        page,
+        (state) => state.model === 'bar' && state.phase === 'ready' && state.completion,
+      );
+      expectThat(working === null, `it is at ${working}`);
+      expectThat(amplitudes[2] === 0.5, `${model} with ${amplitudes}`);
+    }),
+  );
+
+  await check('modes: a first visit of the page fetches nothing of it', async () => {
+    const { page, close } = await harness.open('');
+    await until(page, (state) => state.phase === 'ready' && state.ahead === null);
+    const names = await page.evaluate(() =>
+      performance.getEntriesByType('resource').map(({ name }) => name),
+    );
+    const own = names.filter((name) => /\/mod(al|es)-/.test(name));
+    expectThat(own.length === 0 && names.length > 2, `of ${names.length}: ${own.join()}`);
+    await close();
+  });
+
   await check('modes: keys play, step and choose, only with the stage in focus', () =>
     visit('#view=modes&cells=2', async (page) => {
       await page.keyboard.press('Space');

@@ -5,6 +5,7 @@ import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
 import { energyOf } from '../state/material';
 import type { Completion, ModesState } from '../state/modes-state';
+import { createCompletionTable } from './completion-table';
 import { halvesWords, storyWords } from './completion-words';
 
 const WIDTH = 400;
@@ -156,17 +157,19 @@ export function createCompletionCurves(parent: HTMLElement, store: Store<ModesSt
   );
   const story = element('p', { class: 'story' });
   const halves = element('p', { class: 'note' });
-  const whole = element('div', {}, story, legend, charts.box, halves);
+  const table = createCompletionTable();
+  const whole = element('div', {}, story, legend, charts.box, halves, table.box);
   parent.append(whole);
   let shown: Completion | null = null;
   watch(store, ['completion', 'keys', 'phase', 'working', 'showing'], (state) => {
     const { completion, showing, surface } = state;
     whole.hidden = showing === 'modes';
-    for (const part of [charts.box, legend, halves]) part.hidden = completion === null;
+    for (const part of [charts.box, legend, halves, table.box]) part.hidden = completion === null;
     setText(story, storyWords(state));
     if (!completion || completion === shown) return;
     shown = completion;
     charts.show(completion.frames, surface?.closed ?? false);
+    table.show(completion.frames);
     setText(halves, halvesWords(completion));
   });
   watch(store, ['time', 'completion'], ({ time }) => charts.setTime(time));

@@ -7,16 +7,11 @@ import type { ModesState } from '../state/modes-state';
 import { valueAt } from '../state/timeline';
 import { frequencyText } from './mode-words';
 
-/** What the page itself measures of the shape that the sliders make. */
-export interface MixMeasures {
-  /** Farthest move of a vertex [m]. */
-  move_m: number;
-}
-
 interface Item {
   title: string;
   meaning: string;
-  text(state: ModesState, mix: MixMeasures): string;
+  /** `move` measures the farthest move of a vertex in the mix at its full swing [m]. */
+  text(state: ModesState, move: () => number): string;
 }
 
 function mixedModes({ amplitudes, found }: ModesState): string {
@@ -37,7 +32,7 @@ const OF_MODES: readonly Item[] = [
   {
     title: 'Farthest move',
     meaning: 'Of a vertex, when all modes are at their full swing.',
-    text: (_, { move_m }) => `${digits(100 * move_m, 2)} cm`,
+    text: (_, move) => `${digits(100 * move(), 2)} cm`,
   },
   {
     title: 'Rigid motions',
@@ -94,7 +89,7 @@ const OF_KEYS: readonly Item[] = [
 export function createModesNumbers(
   parent: HTMLElement,
   store: Store<ModesState>,
-  measure: () => MixMeasures,
+  move: () => number,
 ): void {
   const list = element('dl', { class: 'modes-numbers' });
   parent.append(list);
@@ -113,10 +108,9 @@ export function createModesNumbers(
   const keys: (keyof ModesState)[] = ['showing', 'found', 'amplitudes', 'time', 'completion'];
   watch(store, keys, (state) => {
     build(state.showing === 'modes' ? OF_MODES : OF_KEYS);
-    const mix = measure();
     items.forEach(({ text }, index) => {
       const value = values[index];
-      if (value) setText(value, text(state, mix));
+      if (value) setText(value, text(state, move));
     });
   });
 }

@@ -29,28 +29,34 @@ export interface Shares {
 /** The motion whose shares are shown. */
 export function sharesOf({ drapeShares, completion, model, energy }: ModesState): Shares | null {
   if (model === 'cloth' && energy === 'cloth' && drapeShares)
-    return { motion: 'the cloth’s drape', rigid: null, modes: drapeShares };
+    return { motion: 'the way in which the cloth drapes', rigid: null, modes: drapeShares };
   const shares = completion?.shares;
   if (!shares) return null;
   const rigid = shares[N_RIGID - 1] ?? 0;
-  return { motion: 'the motion between the keys', rigid, modes: shares.slice(N_RIGID) };
+  return {
+    motion: 'the motion through the keys, in modes of the volume',
+    rigid,
+    modes: shares.slice(N_RIGID),
+  };
 }
 
 /** A share that is called most of a motion. */
 const MOST = 0.9;
 
+/** "Of the motion ..., the first 6 modes make up 96 %." */
 export function shareWords({ motion, rigid, modes }: Shares): string {
-  const last = modes.at(-1) ?? 0;
   const enough = modes.findIndex((share) => share >= MOST);
-  const start =
-    rigid === null
-      ? `Of all that moves in ${motion}, measured by squares of distances and by mass,`
-      : `Of all that moves in ${motion}, measured by squares of distances and by mass, shifts and turns alone are ${percent(rigid)}, and`;
-  const reached =
+  const n = enough >= 0 ? enough + 1 : modes.length;
+  const first = n === 1 ? 'the first mode' : `the first ${n} modes`;
+  const alone =
+    rigid === null ? `${first} alone make up` : `shifts and turns are ${percent(rigid)}, with`;
+  const share = percent(modes[n - 1] ?? 0);
+  const sum = rigid === null ? `${alone} ${share}` : `${alone} ${first} it is ${share}`;
+  const reason =
     enough >= 0
-      ? `the first ${enough + 1 === 1 ? 'mode' : `${enough + 1} modes`} bring it to ${percent(modes[enough] ?? 0)}.`
-      : `the first ${modes.length} modes bring it to ${percent(last)}: large turns are not in modes, which move every point straight.`;
-  return `${start} ${reached} That is why a few modes are enough to work with.`;
+      ? 'A few modes are enough to work with.'
+      : 'Large turns are missing: a mode moves every point straight.';
+  return `Of ${motion}, by squares of distances and by mass, ${sum}. ${reason}`;
 }
 
 function draw(root: SVGElement, { rigid, modes }: Shares): void {

@@ -2,7 +2,7 @@
 import type { Failure } from '../../shared/bindings/answers';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { KeyShape } from '../state/key-shapes';
+import { type KeyOrigin, type KeyShape, remade } from '../state/key-shapes';
 import type { ModesState } from '../state/modes-state';
 import { frameCount } from '../state/timeline';
 import type { CompletedMessage } from '../worker/modal-protocol';
@@ -40,6 +40,11 @@ export class KeyWork {
     private readonly refuse: (failure: Failure) => void,
   ) {}
 
+  /** Those between which the worker has filled in, as far as they can be made again. */
+  known(): KeyOrigin[] {
+    return remade(this.done);
+  }
+
   /** Another worker or another body: it has no keys. */
   forget(): void {
     this.done = [];
@@ -57,7 +62,7 @@ export class KeyWork {
     }
   }
 
-  private ask(keys: Keys): Promise<CompletedMessage> {
+  private ask(body: Body, keys: Keys): Promise<CompletedMessage> {
     const frames = frameCount(keys.length);
     const index = changedKey(this.done, keys);
     const changed = index === null ? undefined : keys[index];
@@ -65,7 +70,7 @@ export class KeyWork {
       const { positions } = changed;
       return this.client().ask({ type: 'replace', index, positions, frames });
     }
-    const wish = volumeWish(this.store.get());
+    const wish = volumeWish(this.store.get(), body);
     return this.client().ask({
       type: 'complete',
       keys: joined(keys),
@@ -79,7 +84,7 @@ export class KeyWork {
   private async fill(body: Body, keys: Keys): Promise<boolean> {
     const { store } = this;
     const { model, surface } = store.get();
-    const question = answerOf(this.ask(keys), this.refuse);
+    const question = answerOf(this.ask(body, keys), this.refuse);
     const answer = await noticed(store, 'Filling in between the keys', question);
     const isCurrent = store.get().model === model && store.get().surface === surface;
     if (!isCurrent) return false;

@@ -4,6 +4,7 @@ import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import type { Energy, VolumeWish } from '../bindings/modal-module';
 import { modeNumbers } from '../state/material';
+import { enclosedVolume } from '../state/mix';
 import { barEdge } from '../state/models';
 import type { FoundModes, ModesState } from '../state/modes-state';
 import type { ModesMessage } from '../worker/modal-protocol';
@@ -11,10 +12,18 @@ import type { Body } from './body';
 import type { ModalClient } from './modal-client';
 import { noticed } from './slow-work';
 
+/** Cubes in a closed body that comes from a file: as many as a page waits a second or two for. */
+const CUBES = 1500;
+
 /** What carries the present model's surface. */
-export function volumeWish({ model, cells, volume, count }: ModesState): VolumeWish {
-  const isCubes = model === 'bar' && volume !== 'shell';
-  return { volume, modes: count, ...(isCubes ? { size_m: barEdge(cells) } : {}) };
+export function volumeWish(
+  { model, cells, volume, count, surface }: ModesState,
+  { shape, triangles }: Body,
+): VolumeWish {
+  const wish: VolumeWish = { volume, modes: count };
+  if (volume === 'shell' || !surface?.closed) return wish;
+  if (model === 'bar') return { ...wish, size_m: barEdge(cells) };
+  return { ...wish, size_m: Math.cbrt(enclosedVolume(shape, triangles) / CUBES) };
 }
 
 export class ModeFinder {
@@ -40,7 +49,7 @@ export class ModeFinder {
   async ensure(body: Body, energy: Energy): Promise<boolean> {
     if (this.known.has(energy)) return true;
     const { known } = this;
-    const wish = volumeWish(this.store.get());
+    const wish = volumeWish(this.store.get(), body);
     const question = answerOf(this.client().ask({ type: 'modes', energy, wish }), this.refuse);
     const answer = await noticed(this.store, 'Finding the modes', question);
     if (!answer || known !== this.known) return false;

@@ -18,10 +18,10 @@ import {
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import type { Energy } from '../bindings/modal-module';
-import { DRAPE_FRAMES, type KeyOrigin } from '../state/key-shapes';
+import { DRAPE_FRAMES, type KeyOrigin, remade } from '../state/key-shapes';
 import { BAR_SIDES_M, modelOf, OWN } from '../state/models';
 import { energiesOf, type ModesLink, type ModesState, usualLink } from '../state/modes-state';
-import type { Opened } from '../worker/modal-protocol';
+import type { Opened, OpenedMessage } from '../worker/modal-protocol';
 import { Body } from './body';
 import { KeyWork } from './key-work';
 import { type ModalClient, type StartModal, startModalWorker } from './modal-client';
@@ -31,6 +31,9 @@ import { noticed } from './slow-work';
 
 /** Steps of the draping cloth's run between two frames that are kept. */
 const STEPS_EACH = 2;
+
+/** Linen, for the visitor's mesh. */
+const OWN_LOOK_ID = 3;
 
 export interface ModesRunView extends ShapeView {
   /** Another body; its shapes follow. */
@@ -44,6 +47,13 @@ interface OwnMesh {
   unit: ObjUnit;
 }
 
+/** What can be opened. */
+interface Wanted {
+  link: ModesLink;
+  /** The visitor's mesh, if it is of that. */
+  own: OwnMesh | null;
+}
+
 export class ModesRun {
   readonly finder: ModeFinder;
   readonly keyWork: KeyWork;
@@ -51,6 +61,7 @@ export class ModesRun {
   private client: ModalClient;
   private body: Body | null = null;
   private own: OwnMesh | null = null;
+  private last: Wanted | null = null; // that had its modes
   private nOpened = 0; // counts what is to be opened: answers to an earlier one are dropped
 
   constructor(
@@ -72,19 +83,19 @@ export class ModesRun {
 
   /** A model by its id, as it is by itself or as a link has it. */
   openModel(id: string, link: ModesLink = this.kept(usualLink(id))): void {
-    if (id !== OWN) return void this.open(link, null);
-    if (this.own) void this.open(link, this.own);
+    if (id !== OWN) return void this.open({ link, own: null });
+    if (this.own) void this.open({ link, own: this.own });
   }
 
   async openObj(file: File): Promise<void> {
     const read = await openObjFile(file);
     if (typeof read === 'string') return this.refuse(inputFailure(read));
     this.store.set({ problem: null });
-    void this.open(this.kept(usualLink(OWN)), { file: read, unit: 'm' });
+    void this.open({ link: this.kept(usualLink(OWN)), own: { file: read, unit: 'm' } });
   }
 
   setUnit(unit: ObjUnit): void {
-    if (this.own) void this.open(this.kept(usualLink(OWN)), { ...this.own, unit });
+    if (this.own) void this.open({ link: this.kept(usualLink(OWN)), own: { ...this.own, unit } });
   }
 
   /**
@@ -92,15 +103,12 @@ export class ModesRun {
    * be, it is as it was.
    */
   async reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): Promise<void> {
-    const present = this.presentLink();
-    const origins = present.keys.filter(({ kind }) => kind !== 'file');
-    const keys = origins.length >= 2 ? origins : usualLink(present.model).keys;
-    const own = present.model === OWN ? this.own : null;
+    const { link, own } = this.now();
     this.store.set({ problem: null });
-    await this.open({ ...present, keys, ...changes }, own);
+    await this.open({ link: { ...link, ...changes }, own });
     const { found, problem } = this.store.get();
     if (found || !problem) return;
-    await this.open({ ...present, keys }, own);
+    await this.open({ link, own });
     this.store.set({ problem });
   }
 
@@ -114,15 +122,16 @@ export class ModesRun {
     return true;
   }
 
-  /** Gives up what takes long: the body is as it was before that. */
+  /** Gives up what takes long: keys that cannot be filled in between, or a body whose modes are not there yet. */
   cancel(): void {
-    if (this.store.get().working === null) return;
+    const { working, found } = this.store.get();
+    if (working === null) return;
+    const now = this.now();
+    const keys = this.keyWork.known();
     this.client.terminate();
     this.client = this.startClient();
-    this.keyWork.forget();
     this.store.set({ working: null });
-    const link = this.presentLink();
-    void this.open({ ...link, keys: [] }, link.model === OWN ? this.own : null);
+    void this.open(found || !this.last ? { ...now, link: { ...now.link, keys } } : this.last);
   }
 
   refuse(failure: Failure): void {
@@ -158,12 +167,20 @@ export class ModesRun {
     return { ...link, count, ghost, edges, showing };
   }
 
-  private presentLink(): ModesLink {
-    const { keys, ...state } = this.store.get();
-    return { ...state, keys: keys.map(({ origin }) => origin) };
+  /** What is shown, with the keys that can be made again. */
+  private now(): Wanted {
+    const state = this.store.get();
+    const { model, cells, volume, energy, compares, count, amplitudes } = state;
+    const { showing, time, ghost, edges } = state;
+    const keys = remade(state.keys);
+    const shown = { model, cells, volume, energy, compares, count, amplitudes };
+    return {
+      link: { ...shown, showing, time, ghost, edges, keys },
+      own: model === OWN ? this.own : null,
+    };
   }
 
-  private async wanted(link: ModesLink, own: OwnMesh | null): Promise<Opened> {
+  private async textOf({ link, own }: Wanted): Promise<Opened> {
     const source = modelOf(link.model)?.source;
     if (!source) return { kind: 'obj', text: own ? textInMetres(own.file, own.unit) : '' };
     switch (source.kind) {
@@ -178,34 +195,48 @@ export class ModesRun {
     }
   }
 
-  private async open(link: ModesLink, own: OwnMesh | null): Promise<void> {
+  private async open(wanted: Wanted): Promise<void> {
+    const { link, own } = wanted;
     this.nOpened += 1;
     const mark = this.nOpened;
     const isCurrent = () => mark === this.nOpened;
+    const before = this.now();
+    const isOther = !this.body || before.link.model !== link.model || before.own !== own;
+    if (this.store.get().found) this.last = before;
     this.store.set({ phase: 'loading', playing: false });
     const refuse = (failure: Failure) => {
       const where = own ? `${own.file.name}: ${failure.where}` : failure.where;
       if (isCurrent()) this.store.set({ phase: 'ready', problem: { ...failure, where } });
     };
-    let wanted: Opened;
+    let text: Opened;
     try {
-      wanted = await this.wanted(link, own);
+      text = await this.textOf(wanted);
     } catch (error) {
       return refuse(inputFailure(`The mesh could not be fetched: ${describe(error)}.`));
     }
     if (!isCurrent()) return;
-    const question = this.client.ask({ type: 'open', fabricsText, opened: wanted });
+    const question = this.client.ask({ type: 'open', fabricsText, opened: text });
     const words = own ? `Reading ${own.file.name}` : 'Making the body';
     const opened = await noticed(this.store, words, answerOf(question, refuse));
     if (!opened || !isCurrent()) return;
+    const body = this.take(opened, wanted);
+    await this.fill(body, link);
+    if (!isCurrent()) return;
+    if (this.store.get().phase === 'loading') this.store.set({ phase: 'ready' });
+    if (isOther) this.view.framed();
+  }
+
+  /** The answer becomes the body that is shown, still without modes. */
+  private take(opened: OpenedMessage, { link, own }: Wanted): Body {
     const body = new Body(opened);
     this.body = body;
     if (own) this.own = own;
     this.finder.forget(body);
     this.keyWork.forget();
     this.shown.take(body);
-    this.view.showMesh(opened.triangles, body.nVertices, modelOf(link.model)?.lookId ?? 3);
-    const { keys: origins, ...shown } = link;
+    const lookId = modelOf(link.model)?.lookId ?? OWN_LOOK_ID;
+    this.view.showMesh(opened.triangles, body.nVertices, lookId);
+    const { keys: _, ...shown } = link;
     this.store.set({
       ...shown,
       ...(own
@@ -219,16 +250,14 @@ export class ModesRun {
       drapeShares: null,
     });
     this.shown.draw();
-    await this.fill(body, link, origins);
-    if (isCurrent() && this.store.get().phase === 'loading') this.store.set({ phase: 'ready' });
-    if (isCurrent()) this.view.framed();
+    return body;
   }
 
-  private async fill(body: Body, link: ModesLink, origins: readonly KeyOrigin[]): Promise<void> {
-    const { energy, compares, count } = link;
+  private async fill(body: Body, link: ModesLink): Promise<void> {
+    const { energy, compares, count, keys } = link;
     const usual = energiesOf(link.model).includes(energy) ? energy : 'volume';
     if (!(await this.setEnergy(usual, compares))) return;
-    if (origins.length > 0) await this.setKeys(origins);
+    if (keys.length > 0) await this.setKeys(keys);
     if (body !== this.body || body.drape.length === 0) return;
     const question = this.client.ask({ type: 'drapeShares', drape: body.drape, count });
     const answer = await answerOf(question, (failure) => this.refuse(failure));

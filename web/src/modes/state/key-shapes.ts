@@ -58,6 +58,12 @@ export function keyTitle(origin: KeyOrigin): string {
   }
 }
 
+/** Of keys, those that need no file; none where these are too few for a motion. */
+export function remade(keys: readonly KeyShape[]): KeyOrigin[] {
+  const origins = keys.map(({ origin }) => origin).filter(({ kind }) => kind !== 'file');
+  return origins.length >= 2 ? origins : [];
+}
+
 /** The keys that a model starts with. */
 export function firstKeys(model: string): KeyOrigin[] {
   if (model === 'cloth') return DRAPE_KEYS.map((frame) => ({ kind: 'drape', frame }));

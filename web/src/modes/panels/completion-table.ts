@@ -1,0 +1,57 @@
+// The frames of a completed motion as a table, beside their curves.
+import { element } from '../../shared/panels/element';
+import { percent } from '../../shared/panels/quantity';
+import type { FilledFrame } from '../bindings/modal-module';
+
+const HEADS = ['Key', 'Volume', 'straight', 'Strain', 'straight'];
+
+function tableRow(frame: FilledFrame, rest_m3: number): HTMLElement {
+  const { time, volume_m3, straightVolume_m3, strain, straightStrain } = frame;
+  const ratios = [volume_m3 / rest_m3, straightVolume_m3 / rest_m3, strain, straightStrain];
+  return element(
+    'tr',
+    {},
+    element('th', { scope: 'row' }, String(Number((time + 1).toFixed(3)))),
+    ...ratios.map((ratio) => element('td', { class: 'number' }, percent(ratio, 3))),
+  );
+}
+
+/** Rows are made once it is opened. */
+export function createCompletionTable() {
+  const rows = element('tbody');
+  let frames: readonly FilledFrame[] = [];
+  const fill = () => {
+    const rest = frames[0]?.volume_m3 ?? 1;
+    if (box.open) rows.replaceChildren(...frames.map((frame) => tableRow(frame, rest)));
+  };
+  const heads = HEADS.map((head) => element('th', { scope: 'col' }, head));
+  const table = element(
+    'table',
+    { class: 'rows' },
+    element('caption', { class: 'unseen' }, 'Volume and strain of each frame'),
+    element('thead', {}, element('tr', {}, ...heads)),
+    rows,
+  );
+  const box = element(
+    'details',
+    { toggle: fill },
+    element('summary', {}, 'The same as a table'),
+    element(
+      'p',
+      { class: 'note' },
+      'Volumes over that of the first key. Strain: how far each piece is from a turned copy of itself, as a root of the mean square; the energy goes with its square.',
+    ),
+    element(
+      'div',
+      { class: 'table-box', tabindex: 0, role: 'region', 'aria-label': 'Frames' },
+      table,
+    ),
+  );
+  return {
+    box,
+    show(newFrames: readonly FilledFrame[]) {
+      frames = newFrames;
+      fill();
+    },
+  };
+}
