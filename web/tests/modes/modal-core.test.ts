@@ -6,7 +6,7 @@ import {
   type VolumeWish,
 } from '../../src/modes/bindings/modal-module';
 import { bent, DRAPE_FRAMES } from '../../src/modes/state/key-shapes';
-import { modeNumbers } from '../../src/modes/state/material';
+import { beamHz, modeNumbers } from '../../src/modes/state/material';
 import { enclosedVolume, farthestMove } from '../../src/modes/state/mix';
 import { BAR_SIDES_M, barEdge, MODELS } from '../../src/modes/state/models';
 import { ModalCore } from '../../src/modes/worker/modal-core';
@@ -70,6 +70,7 @@ describe.runIf(isBuilt('modal'))('modal core', () => {
     expect(found.answer.rigid).toBe(6);
     const [length, thickness] = BAR_SIDES_M;
     const beam = ((FREE / length) ** 2 / (2 * Math.PI)) * thickness * Math.sqrt(1e6 / (12 * 1000));
+    expect(beamHz(length, thickness)).toBeCloseTo(beam, 9);
     const hz = modeNumbers(found.answer.stiffness, 'volume', true)[0]?.hz ?? 0;
     expect(Math.abs(hz / beam - 1)).toBeLessThan(0.1);
   });

@@ -4,7 +4,7 @@ import { element, setText, svg } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
 import { energyOf } from '../state/material';
-import type { Completion, ModesState } from '../state/modes-state';
+import { type Completion, isSolid, type ModesState } from '../state/modes-state';
 import { createCompletionTable } from './completion-table';
 import { halvesWords, storyWords } from './completion-words';
 
@@ -30,6 +30,8 @@ const VOLUME: Curve = {
   ours: ({ volume_m3 }, rest) => (100 * volume_m3) / rest,
   straight: ({ straightVolume_m3 }, rest) => (100 * straightVolume_m3) / rest,
 };
+
+const SHELL_VOLUME: Curve = { ...VOLUME, title: 'Volume of the shell [% of the first key’s]' };
 
 const ENERGY: Curve = {
   title: 'Energy, of soft rubber [J]',
@@ -132,8 +134,8 @@ function createCharts() {
   let drawn: Drawn[] = [];
   return {
     box: element('div', { class: 'curves' }, ...boxes.map(({ figure }) => figure)),
-    show(frames: readonly FilledFrame[], isClosed: boolean) {
-      const curves = [VOLUME, isClosed ? ENERGY : STRAIN];
+    show(frames: readonly FilledFrame[], isOfRubber: boolean) {
+      const curves = isOfRubber ? [VOLUME, ENERGY] : [SHELL_VOLUME, STRAIN];
       drawn = curves.map((curve) => draw(curve, frames));
       boxes.forEach(({ title, place }, index) => {
         setText(title, curves[index]?.title ?? '');
@@ -162,13 +164,13 @@ export function createCompletionCurves(parent: HTMLElement, store: Store<ModesSt
   parent.append(whole);
   let shown: Completion | null = null;
   watch(store, ['completion', 'keys', 'phase', 'working', 'showing'], (state) => {
-    const { completion, showing, surface } = state;
+    const { completion, showing } = state;
     whole.hidden = showing === 'modes';
     for (const part of [charts.box, legend, halves, table.box]) part.hidden = completion === null;
     setText(story, storyWords(state));
     if (!completion || completion === shown) return;
     shown = completion;
-    charts.show(completion.frames, surface?.closed ?? false);
+    charts.show(completion.frames, isSolid(state));
     table.show(completion.frames);
     setText(halves, halvesWords(completion));
   });

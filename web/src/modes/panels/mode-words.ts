@@ -1,8 +1,9 @@
 // Modes and their energies in words.
 import { digits, percent } from '../../shared/panels/quantity';
 import type { Energy } from '../bindings/modal-module';
-import type { ModeNumbers } from '../state/material';
-import type { FoundModes, ModesState } from '../state/modes-state';
+import { beamHz, type ModeNumbers } from '../state/material';
+import { BAR_SIDES_M } from '../state/models';
+import { type FoundModes, isSolid, type ModesState } from '../state/modes-state';
 
 export const ENERGY_TITLES: Record<Energy, string> = {
   volume: 'Volume',
@@ -24,7 +25,7 @@ function rigidText(rigid: number): string {
   return `Its ${rigid} rigid motions, 3 shifts and 3 turns of each of its ${rigid / 6} parts, bend nothing: they are counted and left out of the list.`;
 }
 
-function frequencyNote(energy: Energy, isClosed: boolean, falls: number): string {
+function frequencyNote(energy: Energy, isOfRubber: boolean, falls: number): string {
   if (energy === 'cloth') {
     const still = 'Frequencies are of the fabric’s own stiffness and weight about this shape.';
     return falls === 0
@@ -33,8 +34,17 @@ function frequencyNote(energy: Energy, isClosed: boolean, falls: number): string
   }
   if (energy === 'surface')
     return 'A surface alone has no thickness and so no frequency in hertz: × compares with the first mode.';
-  if (isClosed) return 'Frequencies are of soft rubber: Young’s modulus 1 MPa, 1000 kg/m³.';
+  if (isOfRubber) return 'Frequencies are of soft rubber: Young’s modulus 1 MPa, 1000 kg/m³.';
   return 'The shell’s thickness is made up, so hertz would be too: × compares with the first mode.';
+}
+
+/** How near the bar's first mode is to what is known of bars. */
+function beamNote({ modes, energy }: FoundModes, model: string): string {
+  const hz = modes[0]?.hz;
+  if (model !== 'bar' || energy !== 'volume' || !hz) return '';
+  const [length, thickness] = BAR_SIDES_M;
+  const beam = beamHz(length, thickness);
+  return ` Beam theory has ${digits(beam)} Hz for the first: tetrahedra this coarse are ${percent(hz / beam - 1)} too high, finer ones less.`;
 }
 
 /** What to know of the list of modes. */
@@ -44,7 +54,8 @@ export function modesNote(found: FoundModes | null, state: ModesState): string {
   const falls = modes.filter((mode) => mode.falls).length;
   const volume =
     tets > 0 ? ` ${tets.toLocaleString('en').replaceAll(',', '\u202f')} tetrahedra carry it.` : '';
-  return `${rigidText(rigid)} ${frequencyNote(energy, state.surface?.closed ?? false, falls)}${volume}`;
+  const hertz = frequencyNote(energy, isSolid(state), falls);
+  return `${rigidText(rigid)} ${hertz}${beamNote(found, state.model)}${volume}`;
 }
 
 const ENERGY_MEANINGS: Record<Energy, string> = {
@@ -56,8 +67,20 @@ const ENERGY_MEANINGS: Record<Energy, string> = {
     'Threads, shear and bending of its own fabric resist, as in the other views; its corners stay held.',
 };
 
+const OPEN_MEANINGS: Record<Energy, string> = {
+  ...ENERGY_MEANINGS,
+  volume:
+    'The surface is thickened, and the inside of that resists as well: the softest modes bend it and hardly stretch it.',
+  surface:
+    'The surface alone resists, by how the edges around each of its points stretch and turn against each other.',
+};
+
 /** What the chosen energy means, to a class. */
-export function energyMeaning({ energy, compares }: ModesState): string {
+export function energyMeaning({ energy, compares, surface }: ModesState): string {
+  if (surface && !surface.closed)
+    return compares
+      ? 'The same mode by number, of the thickened surface and of the surface alone.'
+      : OPEN_MEANINGS[energy];
   if (compares)
     return 'The same mode by number, of the volume and of the surface alone. Compare the last ones of the list: without an inside the body gives way where it is hollow.';
   return ENERGY_MEANINGS[energy];

@@ -3,7 +3,7 @@ import { element, setText } from '../../shared/panels/element';
 import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { energyOf } from '../state/material';
-import type { ModesState } from '../state/modes-state';
+import { isSolid, type ModesState } from '../state/modes-state';
 import { valueAt } from '../state/timeline';
 import { frequencyText } from './mode-words';
 
@@ -77,10 +77,11 @@ const OF_KEYS: readonly Item[] = [
     title: 'Energy',
     meaning:
       'That soft rubber of this volume needs to get here from the first key; of an open surface, whose thickness is made up, the mean strain instead.',
-    text: ({ completion, time, surface }) => {
+    text: (state) => {
+      const { completion, time } = state;
       if (!completion) return '–';
       const strain = valueAt(completion.frames, time, (frame) => frame.strain);
-      if (!surface?.closed) return `${digits(100 * strain, 2)} % strain`;
+      if (!isSolid(state)) return `${digits(100 * strain, 2)} % strain`;
       return `${digits(energyOf(strain, completion.frames[0]?.volume_m3 ?? 0), 2)} J`;
     },
   },

@@ -76,6 +76,7 @@ function createKeyMarks(store: Store<ModesState>) {
             {
               type: 'button',
               class: 'key-mark',
+              title: keyTitle(origin),
               'aria-pressed': String(index === chosenKey),
               click: () =>
                 store.set({

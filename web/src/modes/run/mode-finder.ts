@@ -6,7 +6,7 @@ import type { Energy, VolumeWish } from '../bindings/modal-module';
 import { modeNumbers } from '../state/material';
 import { enclosedVolume } from '../state/mix';
 import { barEdge } from '../state/models';
-import type { FoundModes, ModesState } from '../state/modes-state';
+import { type FoundModes, isSolid, type ModesState } from '../state/modes-state';
 import type { ModesMessage } from '../worker/modal-protocol';
 import type { Body } from './body';
 import type { ModalClient } from './modal-client';
@@ -21,7 +21,7 @@ export function volumeWish(
   { shape, triangles }: Body,
 ): VolumeWish {
   const wish: VolumeWish = { volume, modes: count };
-  if (volume === 'shell' || !surface?.closed) return wish;
+  if (!isSolid({ surface, volume })) return wish;
   if (model === 'bar') return { ...wish, size_m: barEdge(cells) };
   return { ...wish, size_m: Math.cbrt(enclosedVolume(shape, triangles) / CUBES) };
 }
@@ -60,8 +60,7 @@ export class ModeFinder {
   private take(body: Body, { energy, answer, moves }: ModesMessage): void {
     body.setMoves(energy, moves);
     const { stiffness, rigid, tets } = answer;
-    const isClosed = this.store.get().surface?.closed ?? false;
-    const modes = modeNumbers(stiffness, energy, isClosed);
+    const modes = modeNumbers(stiffness, energy, isSolid(this.store.get()));
     this.known.set(energy, { energy, modes, rigid, tets });
   }
 }

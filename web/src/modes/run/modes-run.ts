@@ -18,7 +18,7 @@ import {
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import type { Energy } from '../bindings/modal-module';
-import { DRAPE_FRAMES, type KeyOrigin, remade } from '../state/key-shapes';
+import { DRAPE_FRAMES, DRAPE_FRAMES_PER_S, type KeyOrigin, remade } from '../state/key-shapes';
 import { BAR_SIDES_M, modelOf, OWN } from '../state/models';
 import { energiesOf, type ModesLink, type ModesState, usualLink } from '../state/modes-state';
 import type { Opened, OpenedMessage } from '../worker/modal-protocol';
@@ -29,8 +29,8 @@ import { ModeFinder } from './mode-finder';
 import { type ShapeView, Showing } from './showing';
 import { noticed } from './slow-work';
 
-/** Steps of the draping cloth's run between two frames that are kept. */
-const STEPS_EACH = 2;
+/** Steps of 1/60 s of the draping cloth's run between two frames that are kept. */
+const STEPS_EACH = 60 / DRAPE_FRAMES_PER_S;
 
 /** Linen, for the visitor's mesh. */
 const OWN_LOOK_ID = 3;

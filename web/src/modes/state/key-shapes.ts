@@ -17,6 +17,7 @@ export interface KeyShape {
 
 /** Frames of the draping cloth that are kept, and those that its keys are taken from. */
 export const DRAPE_FRAMES = 61;
+export const DRAPE_FRAMES_PER_S = 30;
 export const DRAPE_KEYS: readonly number[] = [0, 20, 40, 60];
 
 /** A full turn would leave no radius to speak of for what is thick. */
@@ -52,7 +53,7 @@ export function keyTitle(origin: KeyOrigin): string {
     case 'mix':
       return 'Mix';
     case 'drape':
-      return `Frame ${origin.frame}`;
+      return `${(origin.frame / DRAPE_FRAMES_PER_S).toFixed(1)} s`;
     case 'file':
       return origin.name.replace(/\.obj$/i, '');
   }

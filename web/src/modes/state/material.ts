@@ -21,16 +21,29 @@ export interface ModeNumbers {
 export function modeNumbers(
   stiffness: readonly number[],
   energy: Energy,
-  isClosed: boolean,
+  isOfRubber: boolean,
 ): ModeNumbers[] {
   const first = stiffness.find((square) => square > 0) ?? 1;
   const scale = energy === 'cloth' ? 1 : RUBBER.young_pa / RUBBER.density_kg_per_m3;
-  const hasHz = energy === 'cloth' || (energy === 'volume' && isClosed);
+  const hasHz = energy === 'cloth' || (energy === 'volume' && isOfRubber);
   return stiffness.map((square) => ({
     hz: hasHz && square > 0 ? Math.sqrt(scale * square) / (2 * Math.PI) : null,
     relative: Math.sqrt(Math.max(0, square) / first),
     falls: square <= 0,
   }));
+}
+
+/** First root of cos x cosh x = 1: of a beam that nothing holds. */
+const FREE_BEAM = 4.730041;
+
+/**
+ * The first frequency of a slender bar of rubber by beam theory [Hz]: x² / (2 pi l²) sqrt(E I / (rho A)), with
+ * I / A = thickness² / 12.
+ */
+export function beamHz(length_m: number, thickness_m: number): number {
+  const speed = Math.sqrt(RUBBER.young_pa / RUBBER.density_kg_per_m3);
+  const ratio = FREE_BEAM / length_m;
+  return ((ratio ** 2 / (2 * Math.PI)) * thickness_m * speed) / Math.sqrt(12);
 }
 
 /** E = (Young / 2) V strain², as the energy of the module has it [J]. */

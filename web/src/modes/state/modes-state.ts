@@ -88,6 +88,11 @@ export function energiesOf(model: string): readonly Energy[] {
   return model === 'cloth' ? ENERGIES : ENERGIES.filter((energy) => energy !== 'cloth');
 }
 
+/** Whether what is inside the surface is the body's own, and not a thickness that is made up. */
+export function isSolid({ surface, volume }: Pick<ModesState, 'surface' | 'volume'>): boolean {
+  return (surface?.closed ?? false) && volume !== 'shell';
+}
+
 /** How a model is shown that comes without a link. */
 export function usualLink(model: string): ModesLink {
   return {
