@@ -13,6 +13,7 @@
 #include "core/modal/cloth_modes.h"
 #include "core/modal/frame_figures.h"
 #include "core/modal/key_completion.h"
+#include "core/modal/key_faces.h"
 #include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
 #include "core/scene/scene_file.h"
@@ -79,6 +80,15 @@ class ModalStudy {
       const pleat::ObjMesh mesh = pleat::read_obj(obj_text);
       take(mesh.positions, mesh.triangles, envelope);
       envelope.set("skipped", pleat::skipped_sentence(mesh.skipped));
+    });
+  }
+
+  /// A key shape of the present surface, from a file of its own.
+  std::string read_key(const std::string& obj_text) {
+    return guarded([&](val&) {
+      const pleat::ObjMesh mesh = pleat::read_obj(obj_text);
+      pleat::check_key_faces(shape_.cols(), triangles_, mesh.positions.cols(), mesh.triangles);
+      key_ = mesh.positions;
     });
   }
 
@@ -204,6 +214,8 @@ class ModalStudy {
   val triangles() const { return view_of(corners_); }
   /// The shape that modes are about.
   val shape() const { return view_of(shape_); }
+  /// The shape that readKey found.
+  val key() const { return view_of(key_); }
   /// Of each mode beside the rigid ones, where the farthest vertex moves by 1.
   val moves() const { return view_of(moves_); }
   /// Surfaces of all frames, one after the other.
@@ -255,6 +267,7 @@ class ModalStudy {
   Positions shape_;
   std::vector<pleat::Triangle> triangles_;
   std::vector<std::uint32_t> corners_;
+  Positions key_;
   Eigen::MatrixXf moves_;  // 3 n x modes
   std::unique_ptr<pleat::KeyCompletion> completion_;
   std::vector<pleat::KeyCompletion::Frame> frames_;
@@ -268,6 +281,7 @@ EMSCRIPTEN_BINDINGS(modal) {
       .constructor<std::string>()
       .function("openBox", &ModalStudy::open_box)
       .function("openObj", &ModalStudy::open_obj)
+      .function("readKey", &ModalStudy::read_key)
       .function("openScene", &ModalStudy::open_scene)
       .function("run", &ModalStudy::run)
       .function("findModes", &ModalStudy::find_modes)
@@ -278,6 +292,7 @@ EMSCRIPTEN_BINDINGS(modal) {
       .function("clothShares", &ModalStudy::cloth_shares)
       .function("triangles", &ModalStudy::triangles)
       .function("shape", &ModalStudy::shape)
+      .function("key", &ModalStudy::key)
       .function("moves", &ModalStudy::moves)
       .function("filled", &ModalStudy::filled);
 }

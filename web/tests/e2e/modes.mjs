@@ -194,7 +194,7 @@ export async function checkModes(harness) {
         mimeType: 'model/obj',
         buffer: Buffer.from(squareObj(1, 3)),
       });
-      await until(page, (state) => /16 vertices and the model has 49/.test(state.problem?.what));
+      await until(page, (state) => /expected a key with the 49 vertices/.test(state.problem?.what));
     }),
   );
 

@@ -10,6 +10,7 @@ import { decodeModesLink } from '../../src/modes/state/modes-link';
 import { initialModesState } from '../../src/modes/state/modes-state';
 import { ModalCore } from '../../src/modes/worker/modal-core';
 import type { FromModal, ToModal } from '../../src/modes/worker/modal-protocol';
+import { inputFailure, sentenceOf } from '../../src/shared/bindings/answers';
 import { objText } from '../../src/shared/panels/saving';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
@@ -122,6 +123,7 @@ describe.runIf(isBuilt('modal'))('run of modes', () => {
     const { run, store, editor, settled } = await open('#view=modes&cells=2');
     const body = run.present;
     if (!body) throw new Error('no body');
+    const sentence = () => sentenceOf(store.get().problem ?? inputFailure(''));
     const text = objText(
       Float32Array.from(body.shape, (x) => 1.1 * x),
       body.triangles,
@@ -132,7 +134,11 @@ describe.runIf(isBuilt('modal'))('run of modes', () => {
     expect(keys[1]?.origin).toEqual({ kind: 'file', name: 'large.obj' });
     expect(completion?.frames.length).toBe(33);
     await editor.openFiles([fileOf('other.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')]);
-    expect(store.get().problem?.what).toMatch(/other\.obj has 3 vertices and the model has 258/);
+    expect(sentence()).toMatch(/^other\.obj: expected a key with the 258 vertices.*found 3$/);
+    await editor.openFiles([fileOf('joined.obj', text.replace(/f \d+ /, 'f 200 '))]);
+    expect(sentence()).toMatch(/^joined\.obj: expected a key whose triangles join the same/);
+    await editor.openFiles([fileOf('bad.obj', text.replace('v ', 'v x '))]);
+    expect(sentence()).toMatch(/^bad\.obj: line 1: /);
     expect(store.get().keys).toBe(keys);
   });
 

@@ -73,6 +73,8 @@ export interface ModalStudyHandle {
   /** `{sides_m: [x, y, z], cells}`: a closed box. */
   openBox(boxText: string): string;
   openObj(objText: string): string;
+  /** A key shape from a file of its own, with the vertices and triangles of the surface. */
+  readKey(objText: string): string;
   openScene(sceneText: string): string;
   /** So many steps of the scene; the shape is the one that it has come to. */
   run(steps: number): string;
@@ -89,6 +91,8 @@ export interface ModalStudyHandle {
   triangles(): Uint32Array;
   /** The shape that modes are about. */
   shape(): Float64Array;
+  /** The shape that readKey found. */
+  key(): Float64Array;
   /** Of each mode, where the farthest vertex moves by 1. */
   moves(): Float32Array;
   /** Surfaces of all frames, one after the other. */
@@ -105,6 +109,7 @@ export const MODAL_METHODS: Record<keyof ModalModule, string[]> = {
   ModalStudy: methodsOf<ModalStudyHandle>({
     openBox: true,
     openObj: true,
+    readKey: true,
     openScene: true,
     run: true,
     findModes: true,
@@ -115,6 +120,7 @@ export const MODAL_METHODS: Record<keyof ModalModule, string[]> = {
     clothShares: true,
     triangles: true,
     shape: true,
+    key: true,
     moves: true,
     filled: true,
     delete: true,

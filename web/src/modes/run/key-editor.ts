@@ -1,8 +1,7 @@
 // What a visitor does to the keys: keep, replace, delete, take from files.
 import { inputFailure } from '../../shared/bindings/answers';
-import { openObjFile, textInMetres } from '../../shared/state/obj-file';
+import { openObjFile } from '../../shared/state/obj-file';
 import type { KeyOrigin, KeyShape } from '../state/key-shapes';
-import { verticesIn } from '../state/obj-vertices';
 import { MOST_KEYS } from '../state/timeline';
 import type { ModesRun } from './modes-run';
 
@@ -42,15 +41,9 @@ export class KeyEditor {
     const read: KeyShape[] = [];
     for (const file of files) {
       const obj = await openObjFile(file);
-      const problem = (what: string) => this.run.refuse(inputFailure(what));
-      if (typeof obj === 'string') return problem(obj);
-      const positions = verticesIn(textInMetres(obj, this.run.store.get().objUnit));
-      if (positions.length !== body.shape.length)
-        return problem(
-          `${file.name} has ${positions.length / 3} vertices and the model has ${body.nVertices}: a key has the vertices of the model, in the same order.`,
-        );
-      if (!positions.every(Number.isFinite))
-        return problem(`${file.name} has a vertex whose place is no number.`);
+      if (typeof obj === 'string') return this.run.refuse(inputFailure(obj));
+      const positions = await this.run.keyFrom(obj);
+      if (!positions) return;
       read.push({ origin: { kind: 'file', name: file.name }, positions });
     }
     if (body === this.run.present) this.insert(read);

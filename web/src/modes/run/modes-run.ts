@@ -54,6 +54,12 @@ interface Wanted {
   own: OwnMesh | null;
 }
 
+/** The failure with the file that it is of. */
+function named(failure: Failure, { name }: ObjFile): Failure {
+  const where = failure.where ? `${name}: ${failure.where}` : name;
+  return { ...failure, where };
+}
+
 export class ModesRun {
   readonly finder: ModeFinder;
   readonly keyWork: KeyWork;
@@ -151,6 +157,14 @@ export class ModesRun {
     await this.keyWork.update(body);
   }
 
+  /** The places of a key in a file, in the unit of the model; null when it is none of it, which is told. */
+  async keyFrom(file: ObjFile): Promise<Float64Array | null> {
+    const text = textInMetres(file, this.store.get().objUnit);
+    const question = this.client.ask({ type: 'key', text });
+    const answer = await answerOf(question, (failure) => this.refuse(named(failure, file)));
+    return answer?.positions ?? null;
+  }
+
   private startClient(): ModalClient {
     return this.start({
       broken: (reason) =>
@@ -205,8 +219,8 @@ export class ModesRun {
     if (this.store.get().found) this.last = before;
     this.store.set({ phase: 'loading', playing: false });
     const refuse = (failure: Failure) => {
-      const where = own ? `${own.file.name}: ${failure.where}` : failure.where;
-      if (isCurrent()) this.store.set({ phase: 'ready', problem: { ...failure, where } });
+      const problem = own ? named(failure, own.file) : failure;
+      if (isCurrent()) this.store.set({ phase: 'ready', problem });
     };
     let text: Opened;
     try {

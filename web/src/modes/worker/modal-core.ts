@@ -77,6 +77,11 @@ export class ModalCore {
       case 'replace':
         granted(this.study.replaceKey(message.index, message.positions));
         return this.fillIn(this.study, message.frames);
+      case 'key': {
+        granted(this.study.readKey(message.text));
+        const positions = this.study.key().slice();
+        return this.post({ type: 'key', positions }, [positions.buffer]);
+      }
       case 'drapeShares': {
         const { shares } = granted<{ shares: number[] }>(
           this.study.clothShares(message.drape, message.count),

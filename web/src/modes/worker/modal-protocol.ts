@@ -23,6 +23,8 @@ export type ToModal =
   | { type: 'complete'; keys: Float64Array; nKeys: number; wish: VolumeWish; frames: number }
   /** Another shape for one of them. */
   | { type: 'replace'; index: number; positions: Float64Array; frames: number }
+  /** A key shape of the present surface, from a file in metres. */
+  | { type: 'key'; text: string }
   /** How much of the drape is in the cloth's own modes. */
   | { type: 'drapeShares'; drape: Float64Array; count: number };
 
@@ -54,6 +56,11 @@ export interface CompletedMessage {
   shares: number[] | null;
 }
 
+export interface KeyMessage {
+  type: 'key';
+  positions: Float64Array;
+}
+
 export interface SharesMessage {
   type: 'shares';
   shares: number[];
@@ -63,6 +70,7 @@ export type FromModal =
   | OpenedMessage
   | ModesMessage
   | CompletedMessage
+  | KeyMessage
   | SharesMessage
   | { type: 'refused'; failure: Failure };
 
@@ -72,5 +80,6 @@ export interface ModalAnswers {
   modes: ModesMessage;
   complete: CompletedMessage;
   replace: CompletedMessage;
+  key: KeyMessage;
   drapeShares: SharesMessage;
 }
