@@ -4,6 +4,7 @@
 #include "core/files/frame_file.h"
 #include "core/files/json_text.h"
 #include "core/files/whole_file.h"
+#include "core/modal/key_faces.h"
 
 namespace pleat {
 namespace {
@@ -31,16 +32,12 @@ KeySurfaces take_keys(Arguments& arguments) {
   while (arguments.has_words()) {
     file = arguments.word("an OBJ file");
     const ObjMesh mesh = read_mesh(file);
-    if (mesh.positions.cols() != keys.mesh.positions.cols() ||
-        mesh.triangles != keys.mesh.triangles)
-      throw InputError(
-          file,
-          "expected the vertices and faces of " + keys.files.front().string() + ", " +
-              std::to_string(keys.mesh.positions.cols()) + " and " +
-              std::to_string(keys.mesh.triangles.size()) + ", got " +
-              std::to_string(mesh.positions.cols()) + " and " +
-              std::to_string(mesh.triangles.size()) +
-              (mesh.triangles.size() == keys.mesh.triangles.size() ? ", otherwise joined" : ""));
+    try {
+      check_key_faces(keys.mesh.positions.cols(), keys.mesh.triangles, mesh.positions.cols(),
+                      mesh.triangles);
+    } catch (const InputError& error) {
+      throw InputError(file, error.what());
+    }
     keys.positions.push_back(mesh.positions);
     keys.files.emplace_back(file);
   }

@@ -51,7 +51,8 @@ std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
     const ModalBody& of = completion.bodies()[body];
     const int next = std::min(frames[f].left + 1, completion.n_keys() - 1);
     const double share = frames[f].share_of_next;
-    return Positions((1 - share) * of.key_volume(frames[f].left) + share * of.key_volume(next));
+    return Positions((1 - share) * of.volume_positions(of.key(frames[f].left)) +
+                     share * of.volume_positions(of.key(next)));
   });
 }
 

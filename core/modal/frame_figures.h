@@ -16,7 +16,8 @@ struct FrameFigures {
 std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
                                         const std::vector<KeyCompletion::Frame>& frames);
 
-/// Of the frames at the same times whose vertices go straight from key to key.
+/// Of the frames at the same times whose vertices go straight from key to key, as the space has
+/// these.
 std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
                                          const std::vector<KeyCompletion::Frame>& frames);
 

@@ -67,10 +67,6 @@ class ModalBody {
 
   int n_keys() const { return static_cast<int>(keys_.size()); }
   const Shape& key(int index) const { return keys_[static_cast<std::size_t>(index)].shape; }
-  /// The volume fitted to a key, before it is taken into the space [m].
-  const Positions& key_volume(int index) const {
-    return keys_[static_cast<std::size_t>(index)].volume;
-  }
   /// Another surface for a key; modes and space stay.
   SolveReport replace_key(int index, const Positions& surface);
 

@@ -136,7 +136,7 @@ TEST_CASE("modes and inbetween commands: bad input is one sentence", "[cli]") {
       {{"modes", place.straight, "--surface", "--young", "1"}, "--young: a surface alone"},
       {{"modes", "scene.json", "--size", "1"}, "--size: a scene's modes"},
       {{"inbetween", place.straight}, "two keys or more"},
-      {{"inbetween", place.straight, open}, "expected the vertices and faces of"},
+      {{"inbetween", place.straight, open}, "expected a key with the"},
       {{"inbetween", place.straight, place.arc, "--frames", "1"}, "--frames"},
       {{"inbetween", place.straight, place.arc, "--step", "-1"}, "--step"},
       {{"inbetween", flat, flat}, "with an area"}};

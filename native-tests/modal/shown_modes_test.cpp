@@ -1,10 +1,9 @@
-#include "core/modal/surface_modes.h"
+#include "core/modal/shown_modes.h"
 
 #include <catch2/catch.hpp>
 
 #include "core/base/check.h"
 #include "core/modal/box_surface.h"
-#include "core/modal/completion_curves.h"
 #include "native-tests/support/analytic.h"
 #include "native-tests/support/bars.h"
 
@@ -71,24 +70,6 @@ TEST_CASE("surface_modes: rigid motions are left out, the farthest vertex moves 
   Positions more(3, box.positions.cols() + 1);
   more << box.positions, Vec3(9, 9, 9);
   CHECK_THROWS_AS(surface_modes(more, box.triangles, 4), InputError);
-}
-
-TEST_CASE("completion_curves: the straight way between a bar and its arc loses volume", "[modal]") {
-  const BoxSurface box = box_surface(kBox, 2);
-  const KeyCompletion completion({box.positions, bent(box.positions, kPi)}, box.triangles,
-                                 box_options(12));
-  const auto frames = completion.frames(5);
-  const auto curves = completion_curves(completion, frames);
-  REQUIRE(curves.size() == 5);
-  CHECK(curves[0].volume == Approx(kBox.prod()));
-  CHECK(curves[0].strain < 1e-6);
-  for (const std::size_t key : {std::size_t{0}, std::size_t{4}}) {
-    CHECK(curves[key].straight_volume == Approx(curves[key].volume));
-    CHECK(curves[key].straight_strain == Approx(curves[key].strain).margin(1e-9));
-  }
-  CHECK(curves[2].volume == Approx(kBox.prod()).epsilon(0.02));
-  CHECK(curves[2].straight_volume < 0.9 * kBox.prod());
-  CHECK(curves[2].straight_strain > curves[2].strain);
 }
 
 TEST_CASE("surface_modes: shares of a motion climb to all of what its modes span", "[modal]") {
