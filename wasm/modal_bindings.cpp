@@ -1,6 +1,7 @@
 // Modes and key shapes for a page. Calls are as in bindings.cpp; a view dies when memory grows.
 #include <emscripten/bind.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@
 #include "core/run/simulation.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/sheet_cloth.h"
+#include "core/sweep/completion_cost.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
 
@@ -274,9 +276,33 @@ class ModalStudy {
   Positions filled_;
 };
 
+/// What so many frames between keys cost here, OBJ texts of one mesh, with the usual options; told
+/// with the keys of `pleat bench inbetween`.
+std::string completion_cost(const val& obj_texts, int n_frames) {
+  return guarded([&](val& envelope) {
+    std::vector<Positions> keys;
+    std::vector<pleat::Triangle> triangles;
+    for (const auto& text : emscripten::vecFromJSArray<std::string>(obj_texts)) {
+      const pleat::ObjMesh mesh = pleat::read_obj(text);
+      keys.push_back(mesh.positions);
+      triangles = mesh.triangles;
+    }
+    const pleat::CompletionCost cost = pleat::completion_cost(keys, triangles, {}, n_frames);
+    envelope.set("n_vertices", keys.front().cols());
+    envelope.set("n_volume_vertices", cost.n_volume_vertices);
+    envelope.set("n_keys", keys.size());
+    envelope.set("precompute_ms", cost.precompute_ms);
+    envelope.set("middles_ms", cost.middles_ms);
+    envelope.set("middle_ms", cost.middles_ms / std::max(1, cost.n_middles));
+    envelope.set("surfaces_ms", cost.surfaces_ms);
+    envelope.set("unconverged", cost.n_unconverged);
+  });
+}
+
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(modal) {
+  emscripten::function("completionCost", &completion_cost);
   emscripten::class_<ModalStudy>("ModalStudy")
       .constructor<std::string>()
       .function("openBox", &ModalStudy::open_box)

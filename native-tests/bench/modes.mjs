@@ -8,6 +8,7 @@ import { join } from 'node:path';
 import { runParts, tell } from './parts/bench-parts.mjs';
 import { exponent, goal, markdown, median, short } from './parts/bench-rows.mjs';
 import { ask, printed, root } from './parts/command.mjs';
+import { completionWasm } from './parts/contestants.mjs';
 import { barKeys, sheetKeys } from './parts/key-shapes.mjs';
 
 const kFrames = 120;
@@ -33,22 +34,23 @@ function completed(label, files, frames, options = []) {
   return { label, status: found.unconverged > 0 ? 'not_converged' : 'ok', ...found };
 }
 
-/** Times are medians of runs in turn, the rest is the same in all. */
+/** One row of several runs: times are medians, the rest is the same in all. */
+function medians(label, runs) {
+  const times = ['precompute_ms', 'middle_ms', 'middles_ms', 'surfaces_ms'];
+  return {
+    ...runs[0],
+    label,
+    ...Object.fromEntries(times.map((key) => [key, median(runs.map((run) => run[key]))])),
+  };
+}
+
+/** Contestants in turn. */
 function timed(contestants, repeat) {
   const runs = contestants.map(() => []);
   for (let round = 0; round < repeat; ++round)
     for (const [i, { label, files, options }] of contestants.entries())
       runs[i].push(completed(`${label}, round ${round + 1} of ${repeat}`, files, kFrames, options));
-  return runs.map((of, i) => ({
-    ...of[0],
-    label: contestants[i].label,
-    ...Object.fromEntries(
-      ['precompute_ms', 'middle_ms', 'middles_ms', 'surfaces_ms'].map((key) => [
-        key,
-        median(of.map((run) => run[key])),
-      ]),
-    ),
-  }));
+  return runs.map((of, i) => medians(contestants[i].label, of));
 }
 
 const percent = (share) => short(100 * share);
@@ -215,17 +217,17 @@ async function large({ repeat, scale }) {
 /** The same sheet and bar, more and more finely cut. */
 async function growth({ repeat }) {
   return inFolder((folder) => {
-    const kAcross = [20, 32, 50, 71, 100];
+    const kAcross = [20, 35, 60, 100];
     const sheets = timed(
       kAcross.map((n) => ({ label: `sheet ${n} x ${n}`, files: sheetKeys(folder, n, 3) })),
       repeat,
     );
-    const kCells = [20, 40, 80, 110];
+    const kCells = [20, 30, 40, 50];
     const bars = timed(
       kCells.map((n) => ({
-        label: `bar ${n} cells long, lattice of 1/${n} m`,
+        label: `bar in a lattice of 1/${n} m`,
         files: barKeys(folder, [1, 0.2, 0.2], [n, n / 5, n / 5], [1, 2]),
-        options: ['--size', 0.9 / n],
+        options: ['--size', 1 / n],
       })),
       repeat,
     );
@@ -242,4 +244,36 @@ async function growth({ repeat }) {
   });
 }
 
-await runParts('modes', 'frames between key shapes', { bar, cloth, large, growth });
+/** The sheet and the bar of `large`, in the page's module. */
+async function wasm({ repeat, scale }) {
+  return inFolder(async (folder) => {
+    const kCases = [
+      ['rolled sheet', sheetKeys(folder, 100, kKeys)],
+      ['bent bar', barKeys(folder, [1, 0.2, 0.2], [110, 22, 22], kBarAngles)],
+    ];
+    const rows = [];
+    for (const [label, files] of kCases) {
+      const runs = [];
+      for (let round = 0; round < repeat; ++round) {
+        tell(`${label}, wasm, round ${round + 1} of ${repeat}`);
+        runs.push(await completionWasm(files, kFrames));
+      }
+      rows.push(medians(label, runs));
+    }
+    return {
+      rows,
+      goals: [
+        goal(
+          'frames_120_of_8_keys_ms_wasm',
+          Math.max(...rows.map((row) => row.middles_ms)),
+          'at-most',
+          1000 * scale,
+          rows,
+        ),
+      ],
+      text: `\n\n${costTable(rows)}`,
+    };
+  });
+}
+
+await runParts('modes', 'frames between key shapes', { bar, cloth, large, growth, wasm });

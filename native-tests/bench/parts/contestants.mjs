@@ -243,3 +243,11 @@ export async function deformWasm(file, moves) {
   };
   return { scene: scene.name, n_vertices: opened.n_vertices, target: 'wasm', cost, drag };
 }
+
+/** Frames between keys, OBJ files of one mesh, in WebAssembly: the keys of `pleat bench inbetween`. */
+export async function completionWasm(files, frames) {
+  const module = await wasmModule('modal');
+  const keys = files.map((file) => readFileSync(file, 'utf8'));
+  const found = answer(module.completionCost(keys, frames));
+  return { ...found, status: found.unconverged > 0 ? 'not_converged' : 'ok', target: 'wasm' };
+}
