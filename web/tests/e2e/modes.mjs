@@ -114,6 +114,9 @@ export async function checkModes(harness) {
       await page.getByLabel('Amplitude of mode 1', { exact: true }).fill('40');
       await button(page, 'Replace').click();
       await until(page, ({ keys }) => keys[1].origin.amplitudes[0] === 0.4);
+      await page.getByLabel('Amplitude of mode 1', { exact: true }).fill('-70');
+      await button(page, '2 Mix').click(); // whose mix the sliders take up
+      await until(page, ({ amplitudes }) => amplitudes[0] === 0.4 && amplitudes[1] === 0.5);
       await page.getByLabel('Time, in keys').fill('1.5');
       await until(page, (state) => state.time === 1.5 && state.showing === 'keys');
       await button(page, 'Delete').click();

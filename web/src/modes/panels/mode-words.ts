@@ -47,6 +47,9 @@ function beamNote({ modes, energy }: FoundModes, model: string): string {
   return ` Beam theory has ${digits(beam)} Hz for the first: tetrahedra this coarse are ${percent(hz / beam - 1)} too high, finer ones less.`;
 }
 
+const SWELLING =
+  'A mode moves every point straight, so that a large swing swells the body. Between keys it does not.';
+
 /** What to know of the list of modes. */
 export function modesNote(found: FoundModes | null, state: ModesState): string {
   if (!found) return '';
@@ -55,7 +58,7 @@ export function modesNote(found: FoundModes | null, state: ModesState): string {
   const volume =
     tets > 0 ? ` ${tets.toLocaleString('en').replaceAll(',', '\u202f')} tetrahedra carry it.` : '';
   const hertz = frequencyNote(energy, isSolid(state), falls);
-  return `${rigidText(rigid)} ${hertz}${beamNote(found, state.model)}${volume}`;
+  return `${rigidText(rigid)} ${hertz}${beamNote(found, state.model)}${volume} ${SWELLING}`;
 }
 
 const ENERGY_MEANINGS: Record<Energy, string> = {

@@ -1,7 +1,7 @@
 // The timeline: keys on it, the present time, and what makes, changes and removes keys.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import { keyTitle } from '../state/key-shapes';
+import { type KeyOrigin, keyTitle } from '../state/key-shapes';
 import { hasUnlinkedKeys } from '../state/modes-link';
 import type { ModesState } from '../state/modes-state';
 import { MOST_KEYS } from '../state/timeline';
@@ -63,6 +63,17 @@ function createButtons(actions: TimelineActions) {
   };
 }
 
+/** The state at a key. */
+function shownKey(index: number): Partial<ModesState> {
+  return { chosenKey: index, time: index, playing: false, showing: 'keys' };
+}
+
+/** The sliders as they made a key, so that it can be changed and replaced. */
+function mixOf(origin: KeyOrigin, { energy }: ModesState): Partial<ModesState> {
+  const isOfThis = origin.kind === 'mix' && origin.energy === energy;
+  return isOfThis ? { amplitudes: origin.amplitudes } : {};
+}
+
 /** Buttons of the keys, each above its time. */
 function createKeyMarks(store: Store<ModesState>) {
   const marks = element('div', { class: 'key-marks', role: 'group', 'aria-label': 'Keys' });
@@ -70,27 +81,20 @@ function createKeyMarks(store: Store<ModesState>) {
     marks,
     show({ keys, chosenKey }: ModesState) {
       marks.replaceChildren(
-        ...keys.map(({ origin }, index) => {
-          const mark = element(
+        ...keys.map(({ origin }, index) =>
+          element(
             'button',
             {
               type: 'button',
               class: 'key-mark',
               title: keyTitle(origin),
               'aria-pressed': String(index === chosenKey),
-              click: () =>
-                store.set({
-                  chosenKey: index,
-                  time: index,
-                  playing: false,
-                  showing: 'keys',
-                }),
+              click: () => store.set({ ...mixOf(origin, store.get()), ...shownKey(index) }),
             },
             element('b', {}, String(index + 1)),
             element('span', {}, keyTitle(origin)),
-          );
-          return mark;
-        }),
+          ),
+        ),
       );
     },
     /** Without new buttons, so that one keeps the focus. */
