@@ -80,6 +80,7 @@ Eigen::VectorXd volume_motion_shares(const KeyCompletion& completion,
   const ModalBody& body = completion.bodies().front();
   const TetMesh& rest = body.carrying().volume;
   std::vector<Positions> shapes;
+  shapes.reserve(frames.size());
   for (const KeyCompletion::Frame& frame : frames)
     shapes.push_back(body.volume_positions(frame.bodies.front()));
   return motion_shares(body.modes().front(), vertex_volumes(rest), rest.rest_positions, shapes);
