@@ -60,6 +60,7 @@ const scenes: Record<string, object> = {
 const methods: Record<string, { stepper: string; [detail: string]: unknown }> = {
   'implicit, CHOLMOD': { stepper: 'implicit', solver: 'cholmod' },
   'implicit, CG to 1e-12': { stepper: 'implicit', solver: 'cg', tolerance: 1e-12 },
+  'imex, SOR to 1e-12': { stepper: 'imex', solver: 'sor', tolerance: 1e-12 },
   projective: { stepper: 'projective', iterations: 10, solver: 'cholmod' },
   xpbd: { stepper: 'xpbd', substeps: 4, iterations: 2 },
   explicit: { stepper: 'explicit', substeps: 'stable' },
