@@ -26,10 +26,16 @@ Json figures_json(const std::vector<FrameFigures>& figures) {
   return {{"volume_change", change}, {"inverted", n_inverted}, {"unequal_halves", unequal}};
 }
 
-std::vector<Positions> read_frames(const std::string& folder) {
+std::vector<Positions> read_frames(const std::string& folder, const ObjMesh& like) {
   std::vector<Positions> frames;
-  for (const std::filesystem::path& file : frame_files(folder))
-    frames.push_back(read_obj(read_file(file)).positions);
+  for (const std::filesystem::path& file : frame_files(folder)) {
+    const ObjMesh mesh = read_obj(read_file(file));
+    if (mesh.positions.cols() != like.positions.cols())
+      throw FileError(file, "expected " + std::to_string(like.positions.cols()) +
+                                " vertices as the keys have, got " +
+                                std::to_string(mesh.positions.cols()));
+    frames.push_back(mesh.positions);
+  }
   if (frames.empty()) throw FileError(folder, "expected a run's frames as OBJ files, got none");
   return frames;
 }
@@ -60,12 +66,18 @@ Outcome bench_inbetween(Arguments arguments) {
                {"target", build_target()},
                {"core", core_version()}};
   std::optional<UnreducedCost> unreduced;
+  if (wants_unreduced && cost.n_bodies > 1)
+    throw InputError("--unreduced",
+                     "expected a surface in one part, got " + std::to_string(cost.n_bodies));
+  if (against && cost.middles.empty())
+    throw InputError("--against",
+                     "expected more frames than keys, got " + std::to_string(cost.figures.size()));
   if (wants_unreduced) {
     unreduced = unreduced_cost(keys.positions, keys.mesh.triangles, options, n_frames);
     json["unreduced"] = {{"middles_ms", unreduced->middles_ms}};
   }
   if (against) {
-    const std::vector<Positions> others = read_frames(*against);
+    const std::vector<Positions> others = read_frames(*against, keys.mesh);
     json["distance_m"] = mean_distance_to_nearest(cost.middles, others);
     json["linear"]["distance_m"] = mean_distance_to_nearest(cost.linear_middles, others);
     if (unreduced)

@@ -9,6 +9,7 @@
 #include "core/base/core_version.h"
 #include "core/files/frame_file.h"
 #include "core/files/json_text.h"
+#include "core/files/whole_file.h"
 #include "core/modal/frame_figures.h"
 
 namespace pleat {
@@ -140,7 +141,7 @@ Outcome inbetween_command(Arguments arguments) {
   Overwriting overwriting(arguments);
   const KeySurfaces keys = take_keys(arguments);
   overwriting.need(options.out.has_value(), "--out");
-  prepare_frame_folder(options.out, overwriting, keys.files);
+  const auto old_frames = prepare_frame_folder(options.out, overwriting, keys.files);
   const KeyCompletion completion(keys.positions, keys.mesh.triangles, modal);
   const std::vector<KeyCompletion::Frame> frames = frames_of(completion, options);
   const Json json = json_inbetween(completion, json_frames(completion, frames));
@@ -150,6 +151,7 @@ Outcome inbetween_command(Arguments arguments) {
     print_inbetween(json);
   for (const std::string& warning : warnings(json))
     std::fprintf(stderr, "pleat: warning: %s\n", warning.c_str());
+  for (const std::filesystem::path& file : old_frames) remove_file(file);
   if (options.out) write_frames(completion, frames, keys.mesh.triangles, *options.out);
   return options.checks && !warnings(json).empty() ? Outcome::check_failed : Outcome::ok;
 }

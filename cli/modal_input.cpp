@@ -76,17 +76,19 @@ ModalOptions take_completion_options(Arguments& arguments) {
   return options;
 }
 
-void prepare_frame_folder(const std::optional<std::string>& folder, Overwriting& overwriting,
-                          const std::vector<std::filesystem::path>& files) {
+std::vector<std::filesystem::path> prepare_frame_folder(
+    const std::optional<std::string>& folder, Overwriting& overwriting,
+    const std::vector<std::filesystem::path>& files) {
   overwriting.spare(files);
-  if (!folder) return;
-  const std::vector<std::filesystem::path> old = frame_files(*folder);
+  if (!folder) return {};
+  std::vector<std::filesystem::path> old = frame_files(*folder);
   if (!old.empty() && !overwriting.is_asked())
     throw FileError(*folder, "expected a folder without frames, got " +
                                  old.front().filename().string() +
                                  "; --overwrite removes those that stand there");
   for (const std::filesystem::path& file : old) overwriting.check(file);
-  for (const std::filesystem::path& file : old) remove_file(file);
+  make_folder(*folder);
+  return old;
 }
 
 }  // namespace pleat

@@ -31,10 +31,13 @@ ModalOptions take_volume_options(Arguments& arguments);
 /// All of these, and --functions N, --clusters N, --exact-keys and --detail-beyond D.
 ModalOptions take_completion_options(Arguments& arguments);
 
-/// Makes the folder after --out ready for frames, if there is one: none of another run is left.
+/// The folder after --out, if there is one, and the frames of another run that stand in it: they
+/// are to be removed once there is something to write. Throws before anything is computed where the
+/// folder cannot be had or they may not be removed.
 ///
 /// files  that are read, and spared
-void prepare_frame_folder(const std::optional<std::string>& folder, Overwriting& overwriting,
-                          const std::vector<std::filesystem::path>& files);
+std::vector<std::filesystem::path> prepare_frame_folder(
+    const std::optional<std::string>& folder, Overwriting& overwriting,
+    const std::vector<std::filesystem::path>& files);
 
 }  // namespace pleat

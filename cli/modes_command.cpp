@@ -89,9 +89,10 @@ ModeTable cloth_table(const Scene& scene, int count) {
   const SolveReport report = cloth_modes(model, frames.back(), {}, count, modes);
   if (report.ends_run()) throw InputError("", "the modes were not found: " + report.message);
   const Eigen::VectorXd shares = motion_shares(modes, model.masses, frames.back(), frames);
+  const SurfaceModes whole = whole_surface_modes(modes);
   ModeTable table;
-  table.modes = whole_surface_modes(modes);
-  table.shares.assign(shares.begin(), shares.end());
+  table.modes = whole;
+  table.shares.assign(shares.begin() + whole.n_costless, shares.end());
   table.hertz_of_one = 1 / (2 * kPi);
   table.surface = frames.back();
   table.triangles = simulation.triangles();
@@ -110,13 +111,15 @@ Json json_table(const ModeTable& table) {
   }
   return {{"subject", table.subject},
           {"n_rigid", table.modes.n_rigid},
+          {"n_costless", table.modes.n_costless},
           {"modes", std::move(rows)},
           {"core", core_version()}};
 }
 
 void print_table(const ModeTable& table) {
-  std::printf("%s: %d rigid motions, %d modes\n", printable(table.subject).c_str(),
-              table.modes.n_rigid, static_cast<int>(table.modes.size()));
+  std::printf("%s: %d rigid motions, %d more that cost nothing, %d modes\n",
+              printable(table.subject).c_str(), table.modes.n_rigid, table.modes.n_costless,
+              static_cast<int>(table.modes.size()));
   std::printf("mode  %s  residual%s\n",
               table.has_frequencies() ? "frequency [Hz]" : "over the first",
               table.shares.empty() ? "" : "  of the motion, with those before");
@@ -128,7 +131,7 @@ void print_table(const ModeTable& table) {
       std::printf("  %.3g %%", 100 * table.shares[static_cast<std::size_t>(m)]);
     std::printf("\n");
   }
-  if (table.modes.stiffness.minCoeff() < 0)
+  if (table.modes.size() > 0 && table.modes.stiffness.minCoeff() < 0)
     std::printf(
         "a negative frequency is a way in which the shape falls rather than swings: it is "
         "not at rest\n");
@@ -144,25 +147,34 @@ void write_shapes(const ModeTable& table, const std::string& folder) {
   writer.finish();
 }
 
+/// The folder after --out, if there is one.
+struct FrameFolder {
+  std::optional<std::string> folder;
+  Overwriting& overwriting;
+  std::vector<std::filesystem::path> old;
+
+  void prepare(const std::vector<std::filesystem::path>& files_read) {
+    old = prepare_frame_folder(folder, overwriting, files_read);
+  }
+};
+
 /// Takes what only volumes have, and refuses it for what is none.
 void refuse_volume_options(Arguments& arguments, const std::string& why) {
   for (const char* option : {"--volume", "--size", "--young", "--density"})
     arguments.refuse(option, why);
 }
 
-ModeTable table_of_scene(Arguments& arguments, const std::optional<std::string>& out,
-                         Overwriting& overwriting) {
+ModeTable table_of_scene(Arguments& arguments, FrameFolder& out) {
   refuse_volume_options(arguments, "a scene's modes are of its cloth, which has its own masses");
   arguments.refuse("--surface", "a scene's modes are of its cloth, which has its own forces");
   const int count = take_mode_count(arguments).value_or(kUsualModes);
   const SceneInput input = take_scene(arguments);
   arguments.finish();
-  prepare_frame_folder(out, overwriting, input.files_read);
+  out.prepare(input.files_read);
   return with_source_named(input, [&] { return cloth_table(input.scene, count); });
 }
 
-ModeTable table_of_mesh(Arguments& arguments, const std::optional<std::string>& out,
-                        Overwriting& overwriting) {
+ModeTable table_of_mesh(Arguments& arguments, FrameFolder& out) {
   const bool of_surface = arguments.flag("--surface");
   if (of_surface) refuse_volume_options(arguments, "a surface alone has no volume");
   Material material;
@@ -175,7 +187,7 @@ ModeTable table_of_mesh(Arguments& arguments, const std::optional<std::string>& 
   const KeySurfaces mesh = take_keys(arguments);
   if (mesh.files.size() > 1)
     throw InputError(mesh.files[1].string(), "one word too many; modes are of one mesh");
-  prepare_frame_folder(out, overwriting, mesh.files);
+  out.prepare(mesh.files);
   return of_surface ? surface_table(mesh, options.n_modes) : volume_table(mesh, options, material);
 }
 
@@ -183,17 +195,18 @@ ModeTable table_of_mesh(Arguments& arguments, const std::optional<std::string>& 
 
 Outcome modes_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
-  const auto out = arguments.text("--out");
+  const auto folder = arguments.text("--out");
   Overwriting overwriting(arguments);
-  overwriting.need(out.has_value(), "--out");
-  const ModeTable table = arguments.has_word_ending(".json")
-                              ? table_of_scene(arguments, out, overwriting)
-                              : table_of_mesh(arguments, out, overwriting);
+  overwriting.need(folder.has_value(), "--out");
+  FrameFolder out{folder, overwriting, {}};
+  const ModeTable table = arguments.has_word_ending(".json") ? table_of_scene(arguments, out)
+                                                             : table_of_mesh(arguments, out);
   if (for_machines)
     std::printf("%s\n", json_table(table).dump().c_str());
   else
     print_table(table);
-  if (out) write_shapes(table, *out);
+  for (const std::filesystem::path& file : out.old) remove_file(file);
+  if (folder) write_shapes(table, *folder);
   return Outcome::ok;
 }
 

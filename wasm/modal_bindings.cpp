@@ -151,6 +151,9 @@ class ModalStudy {
       const val wanted = json_value(wanted_text);
       const Positions all = positions_in(places);
       const auto n_keys = wanted["keys"].as<Eigen::Index>();
+      if (n_keys < 0 || all.cols() != n_keys * shape_.cols())
+        throw InputError("", "expected a place for each vertex of each key");
+      frames_.clear();
       std::vector<Positions> keys;
       for (Eigen::Index k = 0; k < n_keys; ++k)
         keys.emplace_back(all.middleCols(k * shape_.cols(), shape_.cols()));

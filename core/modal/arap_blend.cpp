@@ -13,7 +13,7 @@ namespace {
 /// Halves then differ by less than one in a hundred, from a tenth without.
 constexpr double kEqualHalves = 20;
 /// D of a stretch by 1e-7: less is the rounding of a rigid motion.
-constexpr double kRigid = 1e-14;
+constexpr double kRigid = 1e-13;
 /// The energy has so nearly ended to fall that x is known to a thousandth of its way: the square.
 constexpr double kEnoughGain = 1e-6;
 
@@ -46,18 +46,22 @@ MiddleShape middle_shape(const ArapBlend& blend, double scale) {
   middle.steps = end.steps;
   middle.converged = end.converged;
   middle.distances = blend.distances(middle.shape, gradient_a, gradient_b);
+  if (middle.distances.from_a + middle.distances.from_b <= kRigid * scale)
+    middle.distances = {0, 0};
   return middle;
+}
+
+Mat3 best_turn(const ShapeCoordinates& a, const ShapeCoordinates& b,
+               const Eigen::VectorXd& weights) {
+  return nearest_rotation(b * weights.asDiagonal() * a.transpose());
 }
 
 // Each turned by half towards the other, a and b fit best as they are; x is turned to fit their
 // sum.
 void turn_half_way(const ShapeCoordinates& a, const ShapeCoordinates& b,
                    const Eigen::VectorXd& weights, ShapeCoordinates& x) {
-  const auto fit = [&](const ShapeCoordinates& from, const ShapeCoordinates& to) {
-    return nearest_rotation(to * weights.asDiagonal() * from.transpose());
-  };
-  const Mat3 half = half_turn(fit(a, b));
-  x = fit(x, half * a + half.transpose() * b) * x;
+  const Mat3 half = half_turn(best_turn(a, b, weights));
+  x = best_turn(x, half * a + half.transpose() * b, weights) * x;
 }
 
 Vec3 shift_half_way(const Positions& a, const Positions& b, const Positions& x) {

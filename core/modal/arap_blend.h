@@ -26,7 +26,8 @@ class ArapBlend {
   virtual Distances distances(const ShapeCoordinates& x, ShapeCoordinates& gradient_a,
                               ShapeCoordinates& gradient_b) const = 0;
   /// Where the sum of both would be least if every piece turned half way from a to b, about the
-  /// origin.
+  /// origin. Pieces take the short way round each, so that a and b must not be turned against each
+  /// other as a whole.
   virtual ShapeCoordinates half_turned() const = 0;
   /// The move that takes this gradient away from D(a -> x) + D(b -> x) while no piece turns.
   virtual ShapeCoordinates answer(const ShapeCoordinates& gradient) const = 0;
@@ -51,6 +52,10 @@ struct MiddleShape {
 ///
 /// scale  three times the volume: D of what shrinks to nothing
 MiddleShape middle_shape(const ArapBlend& blend, double scale);
+
+/// The turn of a that fits b best, both about the origin. Columns count by their weights.
+Mat3 best_turn(const ShapeCoordinates& a, const ShapeCoordinates& b,
+               const Eigen::VectorXd& weights);
 
 /// Turns x, about the origin, to where it is half way from a to b as a whole: best fits to both
 /// have turned by half of the best fit of a to b. Columns count by their weights.

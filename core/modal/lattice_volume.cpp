@@ -281,10 +281,7 @@ CarryingVolume lattice_volume(const Positions& surface, const std::vector<Triang
       }
   result.volume.rest_positions = nodes.positions();
   result.embedding = embedding(lattice, nodes, surface);
-  const auto n_parts = [](const std::vector<int>& parts) {
-    return parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;
-  };
-  if (n_parts(parts_by_faces(result.volume)) != n_parts(parts_by_vertices(result.volume)))
+  if (!hangs_together_by_faces(result.volume))
     throw InputError("", "expected a lattice whose parts hang together by faces; with edges of " +
                              std::to_string(edge) +
                              " m it touches itself along an edge only, take other ones");

@@ -155,9 +155,13 @@ ModalBody::Shape ModalBody::middle(const Shape& a, const Shape& b) const {
     coordinates.col(0).setZero();
     return coordinates;
   };
-  MiddleShape middle = middle_shape(*arap_->blend(a.key, b.key), arap_->scale());
-  turn_half_way(about_centroid(a), about_centroid(b), Eigen::VectorXd::Ones(space_.size()),
-                middle.shape);
+  const ShapeCoordinates from = about_centroid(a);
+  const ShapeCoordinates to = about_centroid(b);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(space_.size());
+  const ReducedArap::Key facing =
+      ReducedArap::turned(b.key, best_turn(from, to, weights).transpose());
+  MiddleShape middle = middle_shape(*arap_->blend(a.key, facing), arap_->scale());
+  turn_half_way(from, to, weights, middle.shape);
   const Vec3 shift =
       shift_half_way(a.key.shape * points_, b.key.shape * points_, middle.shape * points_);
   middle.shape.col(0) += shift / space_.functions(0, 0);

@@ -106,6 +106,11 @@ void set_residuals(const SparseMatrix& stiffness, const Eigen::VectorXd& masses,
 
 }  // namespace
 
+bool is_costless(const Modes& modes, Eigen::Index mode) {
+  constexpr double kLeast = 1e-7;
+  return std::abs(modes.stiffness[mode]) <= kLeast * modes.stiffness.cwiseAbs().maxCoeff();
+}
+
 SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& masses,
                          const Eigen::MatrixXd& null_space, int count, Modes& modes) {
   const Eigen::Index n = stiffness.rows();

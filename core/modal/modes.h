@@ -17,6 +17,10 @@ struct Modes {
   Eigen::Index size() const { return shapes.cols(); }
 };
 
+/// True where a mode's stiffness is next to nothing beside the largest of them: rounding tells
+/// whether it is above or below zero.
+bool is_costless(const Modes& modes, Eigen::Index mode);
+
 /// The lowest modes of a system of n unknowns.
 ///
 /// stiffness   n x n, by its lower triangle [N/m]; where it is indefinite, the lowest lambda are

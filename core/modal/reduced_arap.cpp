@@ -112,6 +112,13 @@ std::unique_ptr<ArapBlend> ReducedArap::blend(const Key& a, const Key& b) const 
   return std::make_unique<ReducedBlend>(stiffness_, compliance_, a, b);
 }
 
+Key ReducedArap::turned(const Key& key, const Mat3& rotation) {
+  Key result{rotation * key.shape, key.pulls, key.square};
+  for (Eigen::Index column = 0; column < result.pulls.cols(); column += 3)
+    result.pulls.middleCols<3>(column) = key.pulls.middleCols<3>(column) * rotation.transpose();
+  return result;
+}
+
 std::vector<Mat3> ReducedArap::rotations(const Key& from, const ShapeCoordinates& to) {
   const Positions moments = to * from.pulls;
   std::vector<Mat3> turns(static_cast<std::size_t>(moments.cols() / 3));

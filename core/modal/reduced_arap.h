@@ -30,6 +30,9 @@ class ReducedArap {
   /// Both keys and this outlive it.
   std::unique_ptr<ArapBlend> blend(const Key& a, const Key& b) const;
 
+  /// The same key, turned as a whole.
+  static Key turned(const Key& key, const Mat3& rotation);
+
   /// How each cluster turned from a key to a shape.
   static std::vector<Mat3> rotations(const Key& from, const ShapeCoordinates& to);
 

@@ -39,14 +39,17 @@ Eigen::MatrixXd mode_functions(const std::vector<Modes>& modes,
   Eigen::Index count = 0;
   double softest = std::numeric_limits<double>::infinity();
   for (const Modes& of_one : modes) {
-    count += 3 * (of_one.size() - of_one.n_rigid);
-    if (of_one.size() > of_one.n_rigid)
-      softest = std::min(softest, of_one.stiffness[of_one.n_rigid]);
+    for (Eigen::Index m = of_one.n_rigid; m < of_one.size(); ++m) {
+      if (is_costless(of_one, m)) continue;
+      count += 3;
+      softest = std::min(softest, of_one.stiffness[m]);
+    }
   }
   Eigen::MatrixXd functions(n, count);
   Eigen::Index column = 0;
   for (const Modes& of_one : modes)
     for (Eigen::Index m = of_one.n_rigid; m < of_one.size(); ++m) {
+      if (is_costless(of_one, m)) continue;
       const Eigen::Map<const Positions> shape(of_one.shapes.col(m).data(), 3, n);
       const double size = std::sqrt(softest / of_one.stiffness[m]);
       for (int axis = 0; axis < 3; ++axis)

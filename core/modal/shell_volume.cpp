@@ -88,6 +88,10 @@ CarryingVolume shell_volume(const Positions& surface, const std::vector<Triangle
       result.volume.tets.push_back(tet);
     }
   }
+  if (!hangs_together_by_faces(result.volume))
+    throw InputError("",
+                     "expected a surface whose parts hang together by edges; some of it is "
+                     "joined at a vertex alone");
   std::vector<Eigen::Triplet<double, int>> weights;
   for (int v = 0; v < n; ++v) {
     weights.emplace_back(v, v, 0.5);

@@ -21,15 +21,32 @@ void scale_to_one(Eigen::Ref<Eigen::VectorXd> move) {
 
 }  // namespace
 
-SurfaceModes whole_surface_modes(const Modes& modes) {
+namespace {
+
+/// map(shape) is a mode as the surface shows it.
+template <class Map>
+SurfaceModes shown_modes(const Modes& modes, Eigen::Index n_surface, const Map& map) {
   SurfaceModes shown;
-  const Eigen::Index n_elastic = modes.size() - modes.n_rigid;
-  shown.moves = modes.shapes.rightCols(n_elastic);
-  shown.stiffness = modes.stiffness.tail(n_elastic);
-  shown.residuals = modes.residuals.tail(n_elastic);
   shown.n_rigid = modes.n_rigid;
-  for (Eigen::Index m = 0; m < n_elastic; ++m) scale_to_one(shown.moves.col(m));
+  Eigen::Index first = modes.n_rigid;
+  while (first < modes.size() && is_costless(modes, first)) ++first;
+  shown.n_costless = static_cast<int>(first) - modes.n_rigid;
+  const Eigen::Index count = modes.size() - first;
+  shown.stiffness = modes.stiffness.tail(count);
+  shown.residuals = modes.residuals.tail(count);
+  shown.moves.resize(3 * n_surface, count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const Eigen::VectorXd shape = modes.shapes.col(first + m);
+    shown.moves.col(m) = flat(Positions(map(shape.reshaped(3, shape.size() / 3))));
+    scale_to_one(shown.moves.col(m));
+  }
   return shown;
+}
+
+}  // namespace
+
+SurfaceModes whole_surface_modes(const Modes& modes) {
+  return shown_modes(modes, modes.shapes.rows() / 3, [](const Positions& shape) { return shape; });
 }
 
 SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
@@ -37,18 +54,8 @@ SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Tr
   const CarryingVolume carrying = carrying_volume(surface, triangles, options);
   Modes modes;
   check_solved(volume_modes(carrying.volume, options.n_modes, modes));
-  SurfaceModes shown;
-  const Eigen::Index n_elastic = modes.size() - modes.n_rigid;
-  shown.moves.resize(surface.size(), n_elastic);
-  for (Eigen::Index m = 0; m < n_elastic; ++m) {
-    const Positions moved =
-        modes.shapes.col(modes.n_rigid + m).reshaped(3, carrying.volume.n_vertices());
-    shown.moves.col(m) = flat(Positions(carrying.surface(moved)));
-    scale_to_one(shown.moves.col(m));
-  }
-  shown.stiffness = modes.stiffness.tail(n_elastic);
-  shown.residuals = modes.residuals.tail(n_elastic);
-  shown.n_rigid = modes.n_rigid;
+  SurfaceModes shown = shown_modes(modes, surface.cols(),
+                                   [&](const Positions& shape) { return carrying.surface(shape); });
   shown.n_tets = static_cast<int>(carrying.volume.tets.size());
   return shown;
 }

@@ -11,7 +11,10 @@ struct SurfaceModes {
   Eigen::VectorXd stiffness;  ///< of each, as in Modes
   Eigen::VectorXd residuals;  ///< the same
   int n_rigid = 0;            ///< that are left out
-  int n_tets = 0;             ///< of the volume that carries the surface; 0 without
+  /// Left out as well: others that cost next to nothing, as a free cloth's turns do, or a flat
+  /// surface's twist, which its own energy does not see.
+  int n_costless = 0;
+  int n_tets = 0;  ///< of the volume that carries the surface; 0 without
 
   Eigen::Index size() const { return moves.cols(); }
 };

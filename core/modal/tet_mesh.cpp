@@ -58,6 +58,13 @@ std::vector<int> parts_by_faces(const TetMesh& mesh) {
   return sets.numbers();
 }
 
+bool hangs_together_by_faces(const TetMesh& mesh) {
+  const auto n_parts = [](const std::vector<int>& parts) {
+    return parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;
+  };
+  return n_parts(parts_by_faces(mesh)) == n_parts(parts_by_vertices(mesh));
+}
+
 std::vector<int> parts_by_vertices(const TetMesh& mesh) {
   JoinedSets sets(static_cast<std::size_t>(mesh.n_vertices()));
   for (const Tet& tet : mesh.tets)

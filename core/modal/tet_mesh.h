@@ -33,6 +33,9 @@ Eigen::VectorXd vertex_volumes(const TetMesh& mesh);
 /// The part that each tetrahedron belongs to, from 0: those of a part hang together by whole faces.
 std::vector<int> parts_by_faces(const TetMesh& mesh);
 
+/// True where whatever hangs together does so by whole faces, not by an edge or a vertex alone.
+bool hangs_together_by_faces(const TetMesh& mesh);
+
 /// The part that each vertex belongs to, from 0: those of a part hang together by edges. Vertices
 /// of no tetrahedron are parts of their own.
 std::vector<int> parts_by_vertices(const TetMesh& mesh);

@@ -69,8 +69,11 @@ UnreducedCost unreduced_cost(const std::vector<Positions>& keys,
         return std::sqrt((a.x - b.x).cwiseAbs2().colwise().sum().dot(masses));
       },
       [&](const Frame& a, const Frame& b) -> Frame {
-        Positions x = middle_shape(*arap.blend(a.x, b.x), arap.scale()).shape;
-        turn_half_way(about_centroid(a.x), about_centroid(b.x), masses, x);
+        const Positions from = about_centroid(a.x);
+        const Positions to = about_centroid(b.x);
+        const Positions facing = best_turn(from, to, masses).transpose() * to;
+        Positions x = middle_shape(*arap.blend(from, facing), arap.scale()).shape;
+        turn_half_way(from, to, masses, x);
         x.colwise() += shift_half_way(a.x, b.x, x);
         return {std::move(x), false};
       },

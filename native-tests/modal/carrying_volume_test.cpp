@@ -129,6 +129,14 @@ TEST_CASE("shell_volume: a sheet is thickened by half to each side", "[modal]") 
   CHECK(n_parts(parts_by_faces(shell.volume)) == 1);
 }
 
+TEST_CASE("shell_volume: what hangs together at a vertex alone is refused", "[modal]") {
+  Positions bow(3, 5);
+  bow << 0, 1, 1, -1, -1, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0;
+  const std::vector<Triangle> triangles{{VertexId(0), VertexId(1), VertexId(2)},
+                                        {VertexId(0), VertexId(3), VertexId(4)}};
+  CHECK_THROWS_AS(shell_volume(bow, triangles, 0.1), InputError);
+}
+
 TEST_CASE("shell_volume: a closed surface is a hollow one, a crease is refused", "[modal]") {
   const Sphere sphere(2);
   check(shell_volume(sphere.positions, sphere.triangles, 0.1), sphere.positions);

@@ -70,6 +70,25 @@ TEST_CASE("key_completion: between rigid motions all frames are rigid, half way 
   }
 }
 
+// Pieces that each took the short way round would go different ways.
+TEST_CASE("key_completion: a large turn of all is none of the parts", "[modal]") {
+  const double degrees = GENERATE(150.0, 170.0, 179.9, 180.0);
+  const double bend = GENERATE(0.0, 1.0);
+  CAPTURE(degrees, bend);
+  const Mat3 turn =
+      Eigen::AngleAxisd(degrees * kPi / 180, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  const Positions arc = bend > 0 ? bent(bar().positions, bend) : bar().positions;
+  const auto middle_of = [&](const Positions& key) {
+    const KeyCompletion completion({bar().positions, key}, bar().triangles, few_modes());
+    const auto frames = completion.frames(3);
+    CHECK(frames[1].unequal_halves() < 0.01);
+    return completion.surface(frames[1]);
+  };
+  const Positions straight = middle_of(arc);
+  const Positions turned = middle_of(moved(arc, turn, {0, 0, 0}));
+  CHECK(farthest(nearest_rigid_motion(straight, turned).of(straight), turned) < 1e-3);
+}
+
 TEST_CASE("key_completion: what stays in both keys stays between them", "[modal]") {
   // A door: turned by 100 degrees about one of its edges.
   const double edge = bar().positions.row(0).minCoeff();
