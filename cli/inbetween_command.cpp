@@ -38,6 +38,19 @@ bool has_converged(const KeyCompletion::Frame& frame) {
                      [](const ModalBody::Shape& shape) { return shape.converged; });
 }
 
+/// How far a vertex moves at most from one frame to the next [m].
+double widest_step(const KeyCompletion& completion,
+                   const std::vector<KeyCompletion::Frame>& frames) {
+  double widest = 0;
+  Positions before = completion.surface(frames.front());
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    const Positions next = completion.surface(frames[f]);
+    widest = std::max(widest, (next - before).colwise().norm().maxCoeff());
+    before = next;
+  }
+  return widest;
+}
+
 void write_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames,
                   const std::vector<Triangle>& triangles, const std::string& folder) {
   FrameWriter writer(folder, FrameFormat::obj, {{}, triangles});
@@ -108,6 +121,10 @@ void print_inbetween(const Json& json) {
 /// What a reader should know of the frames; mostly nothing.
 std::vector<std::string> warnings(const Json& json) {
   std::vector<std::string> all;
+  if (const auto step = json.find("wanted_step_m");
+      step != json.end() && json["widest_step_m"] > *step)
+    all.push_back("a vertex still moves by " + json["widest_step_m"].dump() +
+                  " m from one frame to the next; more frames (--frames) would shorten that");
   int n_inverted = 0, n_unconverged = 0;
   for (const Json& frame : json["frames"]) {
     n_inverted += frame["inverted"] > 0 ? 1 : 0;
@@ -144,7 +161,11 @@ Outcome inbetween_command(Arguments arguments) {
   const auto old_frames = prepare_frame_folder(options.out, overwriting, keys.files);
   const KeyCompletion completion(keys.positions, keys.mesh.triangles, modal);
   const std::vector<KeyCompletion::Frame> frames = frames_of(completion, options);
-  const Json json = json_inbetween(completion, json_frames(completion, frames));
+  Json json = json_inbetween(completion, json_frames(completion, frames));
+  if (options.step) {
+    json["wanted_step_m"] = *options.step;
+    json["widest_step_m"] = widest_step(completion, frames);
+  }
   if (options.for_machines)
     std::printf("%s\n", json.dump().c_str());
   else

@@ -24,8 +24,9 @@ struct CarryingVolume {
 ///
 /// edge  of the cubes [m], positive
 ///
-/// Throws InputError where the surface is open, turns its triangles against each other or would
-/// take more than kMaxVertices.
+/// Throws InputError where the surface is open, turns its triangles against each other, goes round
+/// the middle of a cube twice or both ways, as where it passes through itself, or would take more
+/// than kMaxVertices.
 ///
 /// Source: Freudenthal, Simplizialzerlegungen von beschraenkter Flachheit, Annals of Mathematics
 /// 43, 1942.

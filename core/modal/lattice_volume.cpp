@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "core/base/check.h"
@@ -130,6 +131,13 @@ struct Crossing {
   int sign;
 };
 
+[[noreturn]] void throw_passes_through_itself(const Vec3& place) {
+  std::ostringstream text;
+  text << "expected a surface that does not pass through itself; it does near (" << place.x()
+       << ", " << place.y() << ", " << place.z() << ") m";
+  throw InputError("", text.str());
+}
+
 void use_inner_cells(Lattice& lattice, const Positions& surface,
                      const std::vector<Triangle>& triangles) {
   const auto column = [&](int j, int k) { return static_cast<std::size_t>(k) * lattice.n(1) + j; };
@@ -155,13 +163,17 @@ void use_inner_cells(Lattice& lattice, const Positions& surface,
       }
   }
   Cell cell{};
+  int inside = 0;  // how often the surface goes round what is inside: once, one way or the other
   for (cell[2] = 0; cell[2] < lattice.n(2); ++cell[2])
     for (cell[1] = 0; cell[1] < lattice.n(1); ++cell[1])
       for (cell[0] = 0; cell[0] < lattice.n(0); ++cell[0]) {
         int winding = 0;
         for (const Crossing& crossing : crossings[column(cell[1], cell[2])])
           if (crossing.x > lattice.centre(cell).x()) winding += crossing.sign;
-        if (winding != 0) lattice.use(cell);
+        if (winding == 0) continue;
+        if (inside == 0) inside = winding > 0 ? 1 : -1;
+        if (winding != inside) throw_passes_through_itself(lattice.centre(cell));
+        lattice.use(cell);
       }
 }
 

@@ -14,6 +14,7 @@ namespace pleat {
 namespace {
 
 constexpr double kCubes = 4000;
+constexpr int kUsualModes = 40;
 constexpr int kPoints = 256;  // that tell what stays; as many for any mesh
 double enclosed_volume(const Positions& surface, const std::vector<Triangle>& triangles) {
   const Vec3 origin = surface.rowwise().mean();
@@ -73,6 +74,7 @@ CarryingVolume carrying_volume(const Positions& surface, const std::vector<Trian
 SolveReport volume_modes(const TetMesh& rest, int count, Modes& modes) {
   const Eigen::MatrixXd rigid = rigid_motions(rest.rest_positions, parts_by_vertices(rest));
   const Eigen::Index most = 3 * rest.n_vertices() - rigid.cols();
+  if (count == 0) count = static_cast<int>(std::min<Eigen::Index>(kUsualModes, most));
   if (count < 1 || count > most)
     throw InputError("", "expected 1 to " + std::to_string(most) + " modes, all that " +
                              std::to_string(rest.n_vertices()) +

@@ -13,7 +13,7 @@ enum class VolumeKind { lattice, shell };
 struct ModalOptions {
   std::optional<VolumeKind> volume;  ///< without: lattice for closed surfaces, shell for open ones
   double size = 0;           ///< edge of the lattice or thickness of the shell [m]; 0 for the usual
-  int n_modes = 40;          ///< of each key, beside the rigid ones
+  int n_modes = 0;           ///< of each key, beside the rigid ones; 0: 40, or all that there are
   int n_functions = 64;      ///< of the space
   int n_clusters = 64;       ///< of tetrahedra
   bool exact_keys = false;   ///< adds the keys to the space
@@ -41,7 +41,8 @@ VolumeFit usual_fit(const CarryingVolume& carrying);
 bool is_closed(const std::vector<Triangle>& triangles);
 
 /// The lowest modes of a volume as it lies, under the energy and masses of 1 Pa and 1 kg/m^3, those
-/// of its parts' rigid motions first. Throws InputError where it has fewer than are asked for.
+/// of its parts' rigid motions first; 0 for as many as is usual. Throws InputError where it has
+/// fewer than are asked for.
 SolveReport volume_modes(const TetMesh& rest, int count, Modes& modes);
 
 /// A surface in one part, its key shapes, and the space of shapes that they span.

@@ -111,6 +111,23 @@ TEST_CASE("inbetween command: frames begin and end with the keys", "[cli]") {
   by_step[3] = "--step";
   by_step[4] = "0.02";
   CHECK(place.json(by_step).at("frames").size() > 5);
+  by_step[4] = "1e-6";
+  by_step.insert(by_step.end(), {"--frames", "6", "--check"});
+  const Ending short_of_it = place.run(by_step);
+  CHECK(short_of_it.status == 1);
+  CHECK_THAT(short_of_it.error, Catch::Contains("a vertex still moves"));
+}
+
+TEST_CASE("inbetween command: bad input leaves earlier frames where they are", "[cli]") {
+  const BarFolder place;
+  const std::vector<std::string> words{"inbetween", place.straight, place.arc, "--out", place.out};
+  std::vector<std::string> good = words;
+  good.insert(good.end(), {"--frames", "3", "--size", "0.1", "--modes", "6"});
+  REQUIRE(place.run(good).status == 0);
+  std::vector<std::string> bad = words;
+  bad.insert(bad.end(), {"--modes", "1000", "--size", "0.3", "--overwrite"});
+  CHECK(place.run(bad).status == 2);
+  CHECK(place.frame("frame_000002.obj").positions.cols() == place.box.positions.cols());
 }
 
 TEST_CASE("modes and inbetween commands: bad input is one sentence", "[cli]") {

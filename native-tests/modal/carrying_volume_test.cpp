@@ -107,6 +107,25 @@ TEST_CASE("lattice_volume: tetrahedra meet face to face", "[modal]") {
   CHECK(std::all_of(faces.begin(), faces.end(), [](const auto& face) { return face.second <= 2; }));
 }
 
+TEST_CASE("lattice_volume: a surface that passes through itself is refused", "[modal]") {
+  const Positions box = box_corners({1, 1, 1});
+  Positions two(3, 16);
+  two << box, box.colwise() + Vec3(0.5, 0.3, 0.2);
+  std::vector<Triangle> triangles = box_triangles();
+  for (const auto& [a, b, c] : box_triangles())
+    triangles.push_back({VertexId(a + 8), VertexId(b + 8), VertexId(c + 8)});
+  CHECK_THROWS_WITH(lattice_volume(two, triangles, 0.1), Catch::Contains("pass through itself"));
+  // Apart, they are two.
+  two.rightCols<8>() = box.colwise() + Vec3(3, 0, 0);
+  CHECK_NOTHROW(lattice_volume(two, triangles, 0.1));
+  // One side pulled through the other: what is behind is wound the other way round.
+  Positions pulled = box;
+  for (Eigen::Index v = 0; v < 8; ++v)
+    if (pulled(0, v) > 0 && pulled(1, v) > 0) pulled(0, v) = -2;
+  CHECK_THROWS_WITH(lattice_volume(pulled, box_triangles(), 0.1),
+                    Catch::Contains("pass through itself"));
+}
+
 TEST_CASE("lattice_volume: an open or badly wound surface is refused", "[modal]") {
   const Positions corners = box_corners({1, 1, 1});
   std::vector<Triangle> open = box_triangles();
