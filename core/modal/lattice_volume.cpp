@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <string>
 
 #include "core/base/check.h"
@@ -132,10 +131,10 @@ struct Crossing {
 };
 
 [[noreturn]] void throw_passes_through_itself(const Vec3& place) {
-  std::ostringstream text;
-  text << "expected a surface that does not pass through itself; it does near (" << place.x()
-       << ", " << place.y() << ", " << place.z() << ") m";
-  throw InputError("", text.str());
+  std::string where;
+  for (const double x : place) where += (where.empty() ? "" : ", ") + std::to_string(x);
+  throw InputError(
+      "", "expected a surface that does not pass through itself; it does near (" + where + ") m");
 }
 
 void use_inner_cells(Lattice& lattice, const Positions& surface,
