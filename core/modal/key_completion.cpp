@@ -86,6 +86,7 @@ KeyCompletion::KeyCompletion(const std::vector<Positions>& keys,
   bodies_.reserve(vertices_.size());
   for (const std::vector<VertexId>& vertices : vertices_) {
     std::vector<Positions> own;
+    own.reserve(keys.size());
     for (const Positions& key : keys) own.push_back(columns(key, vertices));
     bodies_.emplace_back(own, triangles_of(vertices, n_vertices_, triangles), options);
   }
