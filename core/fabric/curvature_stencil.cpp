@@ -1,11 +1,11 @@
 #include "core/fabric/curvature_stencil.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/linalg/orthonormal.h"
 
 namespace pleat {
 namespace {
@@ -192,9 +192,8 @@ Fit fitted(const Eigen::Ref<const Places>& places) {
   const Mat3 S = congruence(T);
   Fit fit{S * seen * inverse.asDiagonal() * (R * seen).transpose() / n, unseen.isZero(0)};
   if (!fit.is_determined) {
-    const Mat3 hidden = S * unseen;
-    const Mat3 inverse_of_hidden = hidden.completeOrthogonalDecomposition().pseudoInverse();
-    fit.weights -= hidden * (inverse_of_hidden * fit.weights);
+    const Eigen::MatrixXd base = orthonormal_in_order(S * unseen);
+    fit.weights -= base * (base.transpose() * fit.weights).eval();
   }
   fit.weights.row(2) /= std::sqrt(2.0);
   return fit;

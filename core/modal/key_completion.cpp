@@ -154,7 +154,7 @@ SolveReport KeyCompletion::replace_key(int index, const Positions& surface) {
   PLEAT_CHECK(index >= 0 && index < n_keys() && surface.cols() == n_vertices_,
               "a key that there is, of the same vertices");
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const SolveReport report = bodies_[i].replace_key(index, columns(surface, vertices_[i]));
+    SolveReport report = bodies_[i].replace_key(index, columns(surface, vertices_[i]));
     if (report.ends_run()) return report;
   }
   return {};

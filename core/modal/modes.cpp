@@ -2,12 +2,12 @@
 
 #include <Spectra/SymEigsShiftSolver.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/check.h"
 #include "core/linalg/linear_solver.h"
+#include "core/linalg/orthonormal.h"
 
 namespace pleat {
 namespace {
@@ -75,13 +75,6 @@ class ShiftInverse {
   mutable SolveReport report_;
 };
 
-/// Columns that span the same, orthonormal.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  if (columns.cols() == 0) return columns;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-}
-
 SparseMatrix shifted(const SparseMatrix& stiffness, const Eigen::VectorXd& masses, double shift) {
   std::vector<Eigen::Triplet<double, int>> diagonal;
   diagonal.reserve(static_cast<std::size_t>(masses.size()));
@@ -148,7 +141,7 @@ SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& m
     if (!factorize_with(enough)) return factored;
   }
 
-  const Eigen::MatrixXd rigid = orthonormal(root_masses.asDiagonal() * null_space);
+  const Eigen::MatrixXd rigid = orthonormal_in_order(root_masses.asDiagonal() * null_space);
   ShiftInverse inverse(*solver, root_masses, rigid);
   // A Krylov space of twice the wanted size, as ARPACK's guide has it, but never more than there
   // is.

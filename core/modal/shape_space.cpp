@@ -1,34 +1,23 @@
 #include "core/modal/shape_space.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/linalg/orthonormal.h"
 
 namespace pleat {
 namespace {
-
-/// Columns with an orthonormal base of what the columns before them and they span, each to the side
-/// of its own column.
-Eigen::MatrixXd orthonormal_in_order(const Eigen::MatrixXd& columns) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  Eigen::MatrixXd base =
-      qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-  for (Eigen::Index j = 0; j < base.cols(); ++j)
-    if (qr.matrixQR()(j, j) < 0) base.col(j) *= -1;
-  return base;
-}
 
 Eigen::MatrixXd affine_functions(const Positions& rest, const Eigen::VectorXd& root_masses) {
   Eigen::MatrixXd affine(rest.cols(), kAffineFunctions);
   affine.col(0).setOnes();
   affine.rightCols<3>() = rest.transpose().rowwise() - rest.rowwise().mean().transpose();
   affine = root_masses.asDiagonal() * affine;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> rank(affine);
-  PLEAT_CHECK(rank.rank() == kAffineFunctions, "a shape space is of a volume");
-  return orthonormal_in_order(affine);
+  affine = orthonormal_in_order(affine);
+  PLEAT_CHECK(affine.colwise().squaredNorm().minCoeff() > 0, "a shape space is of a volume");
+  return affine;
 }
 
 /// The coordinates of all modes but the rigid ones, each mode with unit energy over that of the

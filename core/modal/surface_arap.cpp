@@ -1,6 +1,5 @@
 #include "core/modal/surface_arap.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "core/base/check.h"
