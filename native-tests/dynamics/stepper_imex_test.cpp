@@ -106,7 +106,7 @@ TEST_CASE("imex: what is explicit is stable, on any graph of springs", "[dynamic
   constexpr double kStep = 2e-3;
   constexpr double kRounding = 1e-6;
   int n_mixed = 0, n_broken = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     ClothModel model = random_graph(seed);
     const Positions x = random_places(model, seed + 100);
@@ -121,8 +121,8 @@ TEST_CASE("imex: what is explicit is stable, on any graph of springs", "[dynamic
       n_broken += more > 1 + kRounding ? 1 : 0;
     }
   }
-  CHECK(n_mixed > 60);
-  CHECK(n_broken > 5);
+  CHECK(n_mixed > 30);
+  CHECK(n_broken > 3);
 }
 
 TEST_CASE("imex: shorter substeps leave more springs explicit", "[dynamics]") {
