@@ -19,8 +19,7 @@ SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   set_external_forces(state, 0, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
-    add_elastic_forces(model_, state.positions, forces_);
-    add_damping_forces(model_, state.positions, state.velocities, forces_);
+    add_internal_forces(model_, state.positions, state.velocities, forces_);
     pull_to_parents(model_.hanging, forces_);
   }
   {

@@ -4,7 +4,7 @@
 
 #include "core/dynamics/stability_split.h"
 #include "core/dynamics/stepper.h"
-#include "core/model/system_matrix.h"
+#include "core/dynamics/velocity_solve.h"
 
 namespace pleat {
 
@@ -37,10 +37,8 @@ class StepperImex final : public Stepper {
 
   StabilitySplit parts_;
   std::optional<SystemMatrix> matrix_;
-  std::unique_ptr<LinearSolver> solver_;
-  Positions forces_;
-  Positions velocity_changes_;  // kept as the next solve's first guess
-  Positions pin_changes_;       // prescribed, one column per pin
+  VelocitySolve solve_;
+  Positions forces_;  // right-hand side, in [N s] once scaled by h
   Positions positions_begin_;
 };
 

@@ -5,24 +5,17 @@
 #include "core/model/elasticity.h"
 
 namespace pleat {
+
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : Stepper(model, options, options.substeps, ContactMemory::last_substep),
       matrix_(model),
-      solver_(make_solver(options, kMaxSolverIterations)),
+      solve_(model, make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()),
-      velocity_changes_(Positions::Zero(3, model.n_vertices())),
       positions_begin_(3, model.n_vertices()) {
   refuse_jumping_forces(model, "implicit");
-  solver_->analyze(matrix_.lower());
   if (model_.contact) hold_.emplace(model_);
-  refresh();
-}
-
-void StepperImplicit::refresh() {
-  std::vector<VertexId> vertices;
-  for (const Pin& pin : model_.pins) vertices.push_back(pin.vertex);
-  matrix_.choose_prescribed(vertices);
-  pin_changes_.resize(3, static_cast<Eigen::Index>(vertices.size()));
+  solve_.analyze(matrix_);
+  solve_.choose_pins(matrix_);
 }
 
 /// Fills the matrix with A = M + h C + h^2 K and `forces_`, which holds the external ones, with the
@@ -42,31 +35,13 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
   set_external_forces(state, h, forces_);
   assemble(state, h);
-  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
-    const Pin& pin = model_.pins[p];
-    pin_changes_.col(static_cast<Eigen::Index>(p)) =
-        (pin.position(time_end) - state.positions.col(pin.vertex)) / h -
-        state.velocities.col(pin.vertex);
-  }
   matrix_.reduce_to_parents(flat(forces_));
   if (hold_) {
     const StageScope scope(observer_, Stage::contact);
     hold_->add(touches_, state, matrix_, forces_);
   }
-  matrix_.prescribe(pin_changes_, flat(forces_));
-  SolveReport report;
-  {
-    const StageScope scope(observer_, Stage::factor);
-    report = solver_->factorize(matrix_.lower());
-  }
-  if (!report.ok()) return report;
-  {
-    const StageScope scope(observer_, Stage::solve);
-    report = solver_->solve(flat(forces_), flat(velocity_changes_));
-  }
-  state.velocities += velocity_changes_;
-  state.positions += h * state.velocities;
-  for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
+  SolveReport report = solve_.advance(matrix_, forces_, state, time_end, h, observer_);
+  if (report.ends_run()) return report;
   if (hold_) {
     hold_->add_forces(state.velocities, h, contact_forces_);
     resolve_contacts(positions_begin_, state, time_end, h, hold_->resistances());

@@ -2,7 +2,7 @@
 
 #include "core/dynamics/contact_hold.h"
 #include "core/dynamics/stepper.h"
-#include "core/model/system_matrix.h"
+#include "core/dynamics/velocity_solve.h"
 
 namespace pleat {
 
@@ -16,7 +16,7 @@ class StepperImplicit final : public Stepper {
   /// Throws InputError when the wanted solver is not available.
   StepperImplicit(ClothModel& model, const MethodOptions& options);
 
-  void refresh() override;
+  void refresh() override { solve_.choose_pins(matrix_); }
 
  protected:
   SolveReport substep(State& state, double time_end, double h) override;
@@ -26,10 +26,8 @@ class StepperImplicit final : public Stepper {
 
   SystemMatrix matrix_;
   std::optional<ContactHold> hold_;  // with contact
-  std::unique_ptr<LinearSolver> solver_;
-  Positions forces_;            // right-hand side, in [N s] once scaled by h
-  Positions velocity_changes_;  // kept as the next solve's first guess
-  Positions pin_changes_;       // prescribed, one column per pin
+  VelocitySolve solve_;
+  Positions forces_;  // right-hand side, in [N s] once scaled by h
   Positions positions_begin_;
 };
 

@@ -20,8 +20,7 @@ void StepperRk4::evaluate(State& state, double time, State& rates) {
   rates.positions = state.velocities;
   set_external_forces(state, 0, rates.velocities);
   const StageScope scope(observer_, Stage::forces);
-  add_elastic_forces(model_, state.positions, rates.velocities);
-  add_damping_forces(model_, state.positions, state.velocities, rates.velocities);
+  add_internal_forces(model_, state.positions, state.velocities, rates.velocities);
   pull_to_parents(model_.hanging, rates.velocities);
   for (int i = 0; i < model_.n_vertices(); ++i)
     if (!model_.hangs(VertexId(i))) rates.velocities.col(i) /= model_.masses[i];

@@ -22,8 +22,10 @@ inline void multiply_both_ways(const double* B, const double* x, const double* z
   y[2] += B[2] * z[0] + B[5] * z[1] + B[8] * z[2];
 }
 
-/// The other block rows with which each one has a block.
+}  // namespace
+
 std::vector<std::vector<int>> block_neighbours(const SparseMatrix& lower) {
+  PLEAT_CHECK(lower.rows() % 3 == 0, "the size of the matrix must be a multiple of 3");
   std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(lower.rows() / 3));
   for (Eigen::Index column = 0; column < lower.cols(); ++column) {
     const int b = static_cast<int>(column) / 3;
@@ -40,8 +42,6 @@ std::vector<std::vector<int>> block_neighbours(const SparseMatrix& lower) {
   }
   return neighbours;
 }
-
-}  // namespace
 
 bool invert_packed(const double* S, double* inverse) {
   if (!(S[0] > 0)) return false;
@@ -73,7 +73,6 @@ bool invert_packed(const double* S, double* inverse) {
 }
 
 void BlockMatrix::analyze(const SparseMatrix& lower) {
-  PLEAT_CHECK(lower.rows() % 3 == 0, "the size of the matrix must be a multiple of 3");
   n_rows_ = static_cast<int>(lower.rows() / 3);
   const std::vector<std::vector<int>> neighbours = block_neighbours(lower);
   source_rows_ = reverse_king_ordering(neighbours);

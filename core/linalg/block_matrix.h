@@ -22,6 +22,9 @@ inline void multiply_packed(const double* S, const double* x, double* y) {
 /// positive.
 bool invert_packed(const double* S, double* inverse);
 
+/// The other block rows with which each one has a block, ascending.
+std::vector<std::vector<int>> block_neighbours(const SparseMatrix& lower);
+
 /// Symmetric matrix in 3 x 3 blocks, those below the diagonal held once, row by row. Its rows have
 /// an order of their own, in which neighbours are near each other (reverse King order).
 class BlockMatrix {

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/linalg/block_matrix.h"
-#include "core/linalg/finite_check.h"
+#include "core/linalg/block_iteration.h"
 #include "core/linalg/incomplete_factor.h"
 
 namespace pleat {
@@ -22,21 +21,15 @@ constexpr double kLeastProgress = 0.5;
 /// Steps between looks at the residual.
 constexpr int kLookEvery = 4;
 
-double norm(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
-}
-
 /// It iterates on W = (P + L)^-1 A (P + L')^-1 of an incomplete factor, in the metric of P: x moves
 /// along t = (P + L')^-1 p, and the residual of A x = b is (P + L) r.
-class ConjugateGradient final : public LinearSolver {
+class ConjugateGradient final : public BlockIteration {
  public:
-  explicit ConjugateGradient(const SolverOptions& options) : options_(options) {}
+  explicit ConjugateGradient(const SolverOptions& options) : BlockIteration(options) {}
 
   void do_analyze(const SparseMatrix& lower) override {
     factor_.analyze(lower);
-    for (std::vector<double>* vector : {&b_, &x_, &r_, &z_, &p_, &t_, &s_})
+    for (std::vector<double>* vector : {&r_, &z_, &p_, &t_, &s_})
       vector->resize(static_cast<std::size_t>(lower.rows()));
   }
 
@@ -48,27 +41,9 @@ class ConjugateGradient final : public LinearSolver {
                 " is not positive definite"};
   }
 
-  SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                       Eigen::Ref<Eigen::MatrixXd> solution) override {
-    if (auto report = report_not_finite(solution, "starting guess")) return *report;
-    SolveReport total;
-    for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
-      rows().gather(rhs.col(column).data(), b_.data());
-      rows().gather(solution.col(column).data(), x_.data());
-      const SolveReport report = solve_column();
-      rows().scatter(x_.data(), solution.col(column).data());
-      total.iterations += report.iterations;
-      total.relative_residual = std::max(total.relative_residual, report.relative_residual);
-      if (!report.ok() && total.ok()) {
-        total.status = report.status;
-        total.message = report.message;
-      }
-    }
-    return total;
-  }
-
  private:
   const BlockMatrix& rows() const { return factor_.rows(); }
+  const BlockMatrix* ordered() const override { return &rows(); }
 
   /// Starts from x, without a direction yet.
   void start() {
@@ -98,12 +73,7 @@ class ConjugateGradient final : public LinearSolver {
     beta_ = r_z_ / last_r_z;
   }
 
-  SolveReport solve_column() {
-    const double b_norm = norm(b_);
-    if (b_norm == 0) {
-      std::fill(x_.begin(), x_.end(), 0.0);
-      return {};
-    }
+  SolveReport solve_column(double b_norm) override {
     const double goal = options_.tolerance * b_norm;
     int iterations = 0;
     const auto report = [&](SolveStatus status, const char* message) {
@@ -147,11 +117,8 @@ class ConjugateGradient final : public LinearSolver {
     return report(SolveStatus::ok, "");
   }
 
-  SolverOptions options_;
   IncompleteFactor factor_;
   // Vectors in the order of rows().
-  std::vector<double> b_;
-  std::vector<double> x_;
   std::vector<double> r_;
   std::vector<double> z_;  // P r
   std::vector<double> p_;

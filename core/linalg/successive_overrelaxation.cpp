@@ -1,161 +1,283 @@
 #include "core/linalg/successive_overrelaxation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/linalg/block_matrix.h"
-#include "core/linalg/finite_check.h"
+#include "core/linalg/block_iteration.h"
 
 namespace pleat {
 namespace {
 
-constexpr int kPowerIterations = 12;
+constexpr int kPowerIterations = 20;
 constexpr double kLargestRadius = 0.9999;  // beyond, power iterations tell little
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
+/// A 3 x 3 block as three columns of four, the last of which is zero: two pairs of a processor's
+/// lanes each.
+constexpr std::size_t kPaddedColumn = 4;
+constexpr std::size_t kPaddedBlock = 3 * kPaddedColumn;
+
+/// y += B x for a padded block and a y of four.
+inline void add_product(const double* B, const double* x, double* y) {
+  for (std::size_t r = 0; r < kPaddedColumn; ++r)
+    y[r] += B[r] * x[0] + B[kPaddedColumn + r] * x[1] + B[2 * kPaddedColumn + r] * x[2];
 }
 
-class SuccessiveOverrelaxation final : public LinearSolver {
- public:
-  explicit SuccessiveOverrelaxation(const SolverOptions& options) : options_(options) {}
-
-  void do_analyze(const SparseMatrix& lower) override {
-    A_.analyze(lower);
-    inverses_.resize(static_cast<std::size_t>(A_.n_rows()) * kPackedSize);
-    for (std::vector<double>* vector : {&b_, &x_, &upper_, &next_upper_, &step_})
-      vector->resize(static_cast<std::size_t>(lower.rows()));
-    omega_ = options_.omega;
-  }
-
-  SolveReport do_factorize(const SparseMatrix& lower) override {
-    A_.set_values(lower);
-    for (int row = 0; row < A_.n_rows(); ++row)
-      if (!invert_packed(A_.diagonal_block(row), inverses_.data() + row * kPackedSize))
-        return {SolveStatus::not_positive_definite, 0, 0,
-                "diagonal block of row " + std::to_string(A_.source(row)) +
-                    " is not positive definite"};
-    if (omega_ == 0) omega_ = best_omega();
-    return {};
-  }
-
-  SolveReport do_solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
-                       Eigen::Ref<Eigen::MatrixXd> solution) override {
-    if (auto report = report_not_finite(solution, "starting guess")) return *report;
-    SolveReport total;
-    for (Eigen::Index column = 0; column < rhs.cols(); ++column) {
-      A_.gather(rhs.col(column).data(), b_.data());
-      A_.gather(solution.col(column).data(), x_.data());
-      const SolveReport report = solve_column();
-      A_.scatter(x_.data(), solution.col(column).data());
-      total.iterations += report.iterations;
-      total.relative_residual = std::max(total.relative_residual, report.relative_residual);
-      if (!report.ok() && total.ok()) {
-        total.status = report.status;
-        total.message = report.message;
+/// Each node takes the first colour that no neighbour has, breadth first: two colours where two are
+/// enough.
+std::vector<int> coloured(const std::vector<std::vector<int>>& neighbours) {
+  std::vector<int> colours(neighbours.size(), -1);
+  std::vector<std::size_t> queue;
+  std::vector<char> is_taken;
+  for (std::size_t first = 0; first < neighbours.size(); ++first) {
+    if (colours[first] >= 0) continue;
+    colours[first] = 0;
+    queue.assign(1, first);
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+      for (const int next : neighbours[queue[at]]) {
+        const auto node = static_cast<std::size_t>(next);
+        if (colours[node] >= 0) continue;
+        is_taken.assign(neighbours[node].size() + 1, 0);
+        for (const int beside : neighbours[node]) {
+          const int colour = colours[static_cast<std::size_t>(beside)];
+          if (colour >= 0 && colour < static_cast<int>(is_taken.size()))
+            is_taken[static_cast<std::size_t>(colour)] = 1;
+        }
+        colours[node] =
+            static_cast<int>(std::find(is_taken.begin(), is_taken.end(), 0) - is_taken.begin());
+        queue.push_back(node);
       }
     }
-    return total;
+  }
+  return colours;
+}
+
+/// The block rows of a matrix by colour: rows of one colour have no block with each other, so that
+/// a sweep need not wait for one to go on with the next. Each row has all of its blocks, those
+/// above the diagonal too, one after the other as a sweep reads them.
+class ColouredRows {
+ public:
+  void analyze(const SparseMatrix& lower) {
+    const std::vector<std::vector<int>> neighbours = block_neighbours(lower);
+    const std::vector<int> colours = coloured(neighbours);
+    n_colours_ = 1 + *std::max_element(colours.begin(), colours.end());
+    rows_.clear();
+    others_.clear();
+    colour_ends_.clear();
+    std::vector<std::size_t> place(neighbours.size());  // of each row in rows_
+    for (int colour = 0; colour < n_colours_; ++colour) {
+      for (std::size_t row = 0; row < neighbours.size(); ++row) {
+        if (colours[row] != colour) continue;
+        place[row] = rows_.size();
+        others_.insert(others_.end(), neighbours[row].begin(), neighbours[row].end());
+        rows_.push_back({static_cast<int>(row), others_.size()});
+      }
+      colour_ends_.push_back(rows_.size());
+    }
+    blocks_.assign((others_.size() + rows_.size()) * kPaddedBlock, 0.0);
+    inverses_.assign(rows_.size() * kPaddedBlock, 0.0);
+    find_destinations(lower, place);
+  }
+
+  /// Takes the values. Returns the first row whose diagonal block is not positive definite, else
+  /// -1.
+  int set_values(const SparseMatrix& lower) {
+    const double* source = lower.valuePtr();
+    for (std::size_t k = 0; k < destinations_.size(); ++k)
+      for (const std::size_t destination : destinations_[k]) blocks_[destination] = source[k];
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const double* D = diagonal(k);
+      const double packed[kPackedSize] = {D[0], D[1], D[5], D[2], D[6], D[10]};
+      double inverse[kPackedSize];
+      if (!invert_packed(packed, inverse)) return rows_[k].row;
+      const double columns[3][3] = {{inverse[0], inverse[1], inverse[3]},
+                                    {inverse[1], inverse[2], inverse[4]},
+                                    {inverse[3], inverse[4], inverse[5]}};
+      for (std::size_t c = 0; c < 3; ++c)
+        std::copy(columns[c], columns[c] + 3,
+                  inverses_.data() + k * kPaddedBlock + c * kPaddedColumn);
+    }
+    return -1;
+  }
+
+  int n_colours() const { return n_colours_; }
+
+  /// x_i += omega (D_i^-1 (b_i - sum_j A_ij x_j) - x_i) for the rows of a colour. Returns the sum
+  /// of the squares of these steps.
+  double relax(int colour, double omega, const double* b, double* x) const {
+    const std::size_t first = colour == 0 ? 0 : colour_ends_[static_cast<std::size_t>(colour - 1)];
+    double squares = 0;
+    for_each_row(first, colour_ends_[static_cast<std::size_t>(colour)], x,
+                 [&](std::size_t k, int row, const double* sum) {
+                   const double* own_b = b + 3 * row;
+                   double* own_x = x + 3 * row;
+                   const double rest[3] = {own_b[0] - sum[0], own_b[1] - sum[1], own_b[2] - sum[2]};
+                   double wanted[kPaddedColumn] = {};
+                   add_product(inverses_.data() + k * kPaddedBlock, rest, wanted);
+                   for (int i = 0; i < 3; ++i) {
+                     const double step = omega * (wanted[i] - own_x[i]);
+                     squares += step * step;
+                     own_x[i] += step;
+                   }
+                 });
+    return squares;
+  }
+
+  double residual(const double* b, const double* x) const {
+    double squares = 0;
+    for_each_row(0, rows_.size(), x, [&](std::size_t k, int row, double* sum) {
+      add_product(diagonal(k), x + 3 * row, sum);
+      for (int i = 0; i < 3; ++i) {
+        const double rest = b[3 * row + i] - sum[i];
+        squares += rest * rest;
+      }
+    });
+    return std::sqrt(squares);
+  }
+
+  /// An estimate of the spectral radius of block Jacobi's iteration x -> -D^-1 (A - D) x, which is
+  /// symmetric in the metric of D: how much it lengthens a vector there tends to the radius from
+  /// below, whether it turns it round or not. Changes x.
+  double jacobi_radius(std::vector<double>& x) const {
+    Random random(1);
+    for (double& value : x) value = random.uniform(-1, 1);
+    std::vector<double> next(x.size());
+    double radius = 0;
+    for (int iteration = 0; iteration <= kPowerIterations; ++iteration) {
+      double square = 0;
+      for_each_row(0, rows_.size(), x.data(), [&](std::size_t k, int row, const double* sum) {
+        const double* own = x.data() + 3 * row;
+        double product[kPaddedColumn] = {};
+        double moved[kPaddedColumn] = {};
+        add_product(diagonal(k), own, product);
+        add_product(inverses_.data() + k * kPaddedBlock, sum, moved);
+        for (int i = 0; i < 3; ++i) {
+          square += own[i] * product[i];
+          next[static_cast<std::size_t>(3 * row + i)] = -moved[i];
+        }
+      });
+      const double length = std::sqrt(square);
+      if (!(length > 0)) break;
+      if (iteration > 0) radius = length;
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] = next[k] / length;
+    }
+    return std::min(radius, kLargestRadius);
   }
 
  private:
-  /// Power iterations with G = I - D^-1 A, which is symmetric in the metric of D; how much they
-  /// lengthen a vector there tends to the radius from below, whether G turns it round or not.
-  double best_omega() {
-    Random random(1);
-    for (double& value : x_) value = random.uniform(-1, 1);
-    double radius = 0;
-    for (int iteration = 0; iteration <= kPowerIterations; ++iteration) {
-      for (int row = 0; row < A_.n_rows(); ++row)
-        multiply_packed(A_.diagonal_block(row), x_.data() + 3 * row, step_.data() + 3 * row);
-      const double length = std::sqrt(dot(x_, step_));
-      if (!(length > 0)) break;
-      if (iteration > 0) radius = length;
-      for (double& value : x_) value /= length;
-      A_.multiply(x_.data(), step_.data());
-      for (int row = 0; row < A_.n_rows(); ++row) {
-        double move[3];
-        multiply_packed(inverses_.data() + row * kPackedSize, step_.data() + 3 * row, move);
-        for (int i = 0; i < 3; ++i) x_[static_cast<std::size_t>(3 * row + i)] -= move[i];
+  struct Row {
+    int row;
+    std::size_t blocks_end;  // in others_
+  };
+
+  const double* diagonal(std::size_t k) const {
+    return blocks_.data() + (others_.size() + k) * kPaddedBlock;
+  }
+
+  /// The places of an entry in blocks_: below and above the diagonal.
+  void find_destinations(const SparseMatrix& lower, const std::vector<std::size_t>& place) {
+    const auto padded = [&](std::size_t row, int other, std::size_t r, std::size_t c) {
+      const std::size_t k = place[row];
+      std::size_t block = others_.size() + k;
+      if (other != static_cast<int>(row)) {
+        const auto begin =
+            others_.begin() + static_cast<std::ptrdiff_t>(k == 0 ? 0 : rows_[k - 1].blocks_end);
+        const auto end = others_.begin() + static_cast<std::ptrdiff_t>(rows_[k].blocks_end);
+        block = static_cast<std::size_t>(std::lower_bound(begin, end, other) - others_.begin());
+      }
+      return block * kPaddedBlock + c * kPaddedColumn + r;
+    };
+    destinations_.clear();
+    destinations_.reserve(static_cast<std::size_t>(lower.nonZeros()));
+    for (Eigen::Index column = 0; column < lower.cols(); ++column) {
+      for (SparseMatrix::InnerIterator entry(lower, column); entry; ++entry) {
+        const auto [i, r] = std::div(static_cast<int>(entry.row()), 3);
+        const auto [j, c] = std::div(static_cast<int>(column), 3);
+        destinations_.push_back({padded(static_cast<std::size_t>(i), j, static_cast<std::size_t>(r),
+                                        static_cast<std::size_t>(c)),
+                                 padded(static_cast<std::size_t>(j), i, static_cast<std::size_t>(c),
+                                        static_cast<std::size_t>(r))});
       }
     }
-    radius = std::min(radius, kLargestRadius);
-    return 2 / (1 + std::sqrt(1 - radius * radius));
   }
 
-  /// upper_ = U x for the part U of A above the diagonal.
-  void multiply_upper() {
-    std::fill(upper_.begin(), upper_.end(), 0.0);
-    for (int row = 0; row < A_.n_rows(); ++row)
-      for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-        add_transposed(A_.block(k), x_.data() + 3 * row, upper_.data() + 3 * A_.column(k));
-  }
-
-  static void add_transposed(const double* block, const double* x, double* y) {
-    for (int c = 0; c < 3; ++c) y[c] += block[c] * x[0] + block[3 + c] * x[1] + block[6 + c] * x[2];
-  }
-
-  /// One sweep. With the steps d that it makes, b - A x is (1/omega - 1) D d - U d afterwards, and
-  /// U x is summed up on the way. Returns the norm of that.
-  double sweep() {
-    std::fill(next_upper_.begin(), next_upper_.end(), 0.0);
-    for (int row = 0; row < A_.n_rows(); ++row) {
-      double* x = x_.data() + 3 * row;
-      double rest[3], own[3];
-      multiply_packed(A_.diagonal_block(row), x, own);
-      for (int i = 0; i < 3; ++i) rest[i] = b_[3 * row + i] - own[i] - upper_[3 * row + i];
-      for (int k = A_.begin(row); k < A_.begin(row + 1); ++k) {
-        const double* block = A_.block(k);
-        const double* other = x_.data() + 3 * A_.column(k);
-        for (int r = 0; r < 3; ++r)
-          rest[r] -=
-              block[3 * r] * other[0] + block[3 * r + 1] * other[1] + block[3 * r + 2] * other[2];
-      }
-      double* step = step_.data() + 3 * row;
-      multiply_packed(inverses_.data() + row * kPackedSize, rest, step);
-      for (int i = 0; i < 3; ++i) {
-        step[i] *= omega_;
-        x[i] += step[i];
-        step[i] = (1 - omega_) * rest[i];  // (1/omega - 1) D d
-      }
-      for (int k = A_.begin(row); k < A_.begin(row + 1); ++k)
-        add_transposed(A_.block(k), x, next_upper_.data() + 3 * A_.column(k));
+  /// act(k, row, sum) with the sum of A_ij x_j over the other rows, for rows_ from begin to end.
+  template <class Action>
+  void for_each_row(std::size_t begin, std::size_t end, const double* x, Action&& act) const {
+    std::size_t j = begin == 0 ? 0 : rows_[begin - 1].blocks_end;
+    for (std::size_t k = begin; k < end; ++k) {
+      double sum[kPaddedColumn] = {};
+      for (; j < rows_[k].blocks_end; ++j)
+        add_product(blocks_.data() + j * kPaddedBlock, x + 3 * others_[j], sum);
+      act(k, rows_[k].row, sum);
     }
-    double square = 0;
-    for (std::size_t k = 0; k < step_.size(); ++k) {
-      const double rest = step_[k] - (next_upper_[k] - upper_[k]);
-      square += rest * rest;
-    }
-    std::swap(upper_, next_upper_);
-    return std::sqrt(square);
   }
 
-  double residual_of_x() {
-    A_.multiply(x_.data(), step_.data());
-    double square = 0;
-    for (std::size_t k = 0; k < step_.size(); ++k)
-      square += (b_[k] - step_[k]) * (b_[k] - step_[k]);
-    return std::sqrt(square);
+  int n_colours_ = 0;
+  std::vector<Row> rows_;                                 // by colour
+  std::vector<std::size_t> colour_ends_;                  // in rows_
+  std::vector<int> others_;                               // the column of each block, row by row
+  std::vector<double> blocks_;                            // padded; then those on the diagonal
+  std::vector<double> inverses_;                          // of those on the diagonal, padded
+  std::vector<std::array<std::size_t, 2>> destinations_;  // of each entry of the sparse matrix
+};
+
+/// The factors of the sweeps to come, colour by colour. With two colours and a known radius they
+/// rise from 1 as Chebyshev's polynomials have it.
+class Omega {
+ public:
+  Omega(double given, double radius, int n_colours) : omega_(given), square_(radius * radius) {
+    if (given > 0) return;
+    rises_ = n_colours == 2;
+    omega_ = rises_ ? 1 : 2 / (1 + std::sqrt(1 - square_));
   }
 
-  SolveReport solve_column() {
-    const double b_norm = std::sqrt(dot(b_, b_));
-    if (b_norm == 0) {
-      std::fill(x_.begin(), x_.end(), 0.0);
-      return {};
+  double next() {
+    const double now = omega_;
+    if (rises_) omega_ = 1 / (1 - square_ * (is_first_ ? 0.5 : omega_ / 4));
+    is_first_ = false;
+    return now;
+  }
+
+ private:
+  double omega_, square_;
+  bool rises_ = false;
+  bool is_first_ = true;
+};
+
+class SuccessiveOverrelaxation final : public BlockIteration {
+ public:
+  explicit SuccessiveOverrelaxation(const SolverOptions& options) : BlockIteration(options) {}
+
+  void do_analyze(const SparseMatrix& lower) override {
+    rows_.analyze(lower);
+    radius_ = -1;
+  }
+
+  SolveReport do_factorize(const SparseMatrix& lower) override {
+    const int row = rows_.set_values(lower);
+    if (row >= 0)
+      return {SolveStatus::not_positive_definite, 0, 0,
+              "diagonal block of row " + std::to_string(3 * row) + " is not positive definite"};
+    if (options_.omega == 0 && radius_ < 0) {
+      x_.resize(static_cast<std::size_t>(lower.rows()));
+      radius_ = rows_.jacobi_radius(x_);
     }
-    double residual = residual_of_x();
+    return {};
+  }
+
+ private:
+  SolveReport solve_column(double b_norm) override {
+    double residual = rows_.residual(b_.data(), x_.data());
     if (!(residual <= b_norm)) {
       std::fill(x_.begin(), x_.end(), 0.0);
       residual = b_norm;
     }
-    multiply_upper();
     const double goal = options_.tolerance * b_norm;
+    Omega omega(options_.omega, radius_, rows_.n_colours());
     SolveReport report;
     while (!(residual <= goal)) {
       if (report.iterations == options_.max_iterations) {
@@ -163,25 +285,27 @@ class SuccessiveOverrelaxation final : public LinearSolver {
         report.message = "the iteration cap was reached";
         break;
       }
-      residual = sweep();
+      double squares = 0;
+      for (int colour = 0; colour < rows_.n_colours(); ++colour)
+        squares += rows_.relax(colour, omega.next(), b_.data(), x_.data());
       ++report.iterations;
-      if (!std::isfinite(residual))
+      const double step = std::sqrt(squares);
+      if (!std::isfinite(step))
         return {SolveStatus::not_finite, report.iterations, 0, "a sweep is not finite"};
+      // A residual takes a sweep's work: it is looked at when it should be at the goal, were it to
+      // the step as it was last.
+      const bool is_last = report.iterations == options_.max_iterations;
+      if (residual_per_step_ * step > goal && !is_last) continue;
+      residual = rows_.residual(b_.data(), x_.data());
+      residual_per_step_ = residual / step;
     }
     report.relative_residual = residual / b_norm;
     return report;
   }
 
-  SolverOptions options_;
-  BlockMatrix A_;
-  std::vector<double> inverses_;  // of the diagonal blocks, packed
-  double omega_ = 0;
-  // Vectors in the order of the matrix's rows.
-  std::vector<double> b_;
-  std::vector<double> x_;
-  std::vector<double> upper_;  // U x
-  std::vector<double> next_upper_;
-  std::vector<double> step_;
+  ColouredRows rows_;
+  double radius_ = -1;            // of block Jacobi's iteration, -1 while it is not known
+  double residual_per_step_ = 0;  // when both were last known
 };
 
 }  // namespace

@@ -11,13 +11,15 @@ namespace pleat {
 ///
 ///     x_i += omega D_i^-1 (b_i - sum_j A_ij x_j)      row by row, with the newest x
 ///
-/// Stops at |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the last
-/// x. One sweep takes a product's work, and tells the residual. Without an omega in the options it
-/// is the best for a consistently ordered matrix, 2 / (1 + sqrt(1 - rho^2)), with the spectral
-/// radius rho of block Jacobi's iteration from a few power iterations with the first values after
-/// `analyze`.
+/// Rows are taken by colour: those of one colour have no block with each other. Stops at
+/// |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the last x. One
+/// sweep takes a product's work. Without an omega in the options it follows from the spectral
+/// radius rho of block Jacobi's iteration, which power iterations estimate with the first values
+/// after `analyze`: with two colours it rises from 1 as Chebyshev's polynomials have it, to what it
+/// is from the first sweep on otherwise, 2 / (1 + sqrt(1 - rho^2)).
 ///
-/// Source: Young, Iterative solution of large linear systems, Academic Press 1971.
+/// Source: Young, Iterative solution of large linear systems, Academic Press 1971; Golub & Varga,
+/// Numerische Mathematik 3 (1961) 147.
 std::unique_ptr<LinearSolver> make_successive_overrelaxation(const SolverOptions& options);
 
 }  // namespace pleat

@@ -1,5 +1,7 @@
 #include "core/model/elasticity.h"
 
+#include <type_traits>
+
 #include "core/model/elements.h"
 
 namespace pleat {
@@ -28,6 +30,19 @@ void add_damping_forces(const ClothModel& model, const Eigen::Ref<const Position
                         Eigen::Ref<Positions> forces) {
   for_each_element_kind(
       model, [&](const auto& kind) { kind.add_damping_forces(positions, velocities, forces); });
+}
+
+void add_internal_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
+                         const Eigen::Ref<const Positions>& velocities,
+                         Eigen::Ref<Positions> forces) {
+  for_each_element_kind(model, [&](const auto& kind) {
+    if constexpr (std::decay_t<decltype(kind)>::kHasInternalForces) {
+      kind.add_internal_forces(positions, velocities, forces);
+    } else {
+      kind.add_forces(positions, forces);
+      kind.add_damping_forces(positions, velocities, forces);
+    }
+  });
 }
 
 void add_gravity(const ClothModel& model, Eigen::Ref<Positions> forces) {

@@ -20,6 +20,11 @@ void add_damping_forces(const ClothModel& model, const Eigen::Ref<const Position
                         const Eigen::Ref<const Positions>& velocities,
                         Eigen::Ref<Positions> forces);
 
+/// Adds both [N], with one look at springs.
+void add_internal_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,
+                         const Eigen::Ref<const Positions>& velocities,
+                         Eigen::Ref<Positions> forces);
+
 /// Adds weight [N].
 void add_gravity(const ClothModel& model, Eigen::Ref<Positions> forces);
 

@@ -34,6 +34,14 @@ void add_spring_force(const Spring& spring, const Eigen::Ref<const Positions>& p
   forces.col(spring.b) += pull;
 }
 
+/// The relative velocity of the ends that the damper resists [m/s].
+Vec3 damped_velocity(const Spring& spring, const SpringAxis& axis,
+                     const Eigen::Ref<const Positions>& velocities, DampingDirection direction) {
+  const Vec3 relative = velocities.col(spring.a) - velocities.col(spring.b);
+  if (direction == DampingDirection::isotropic) return relative;
+  return axis.direction.dot(relative) * axis.direction;
+}
+
 void add_spring_sums(const std::vector<Spring>& springs, RowSums& sums) {
   for (const Spring& spring : springs) {
     for (const VertexId v : {spring.a, spring.b}) {
@@ -93,11 +101,23 @@ void SpringElements::add_damping_forces(const Eigen::Ref<const Positions>& posit
                                         Eigen::Ref<Positions> forces) const {
   for (const Spring& spring : model_.springs) {
     if (spring.damping == 0) continue;
-    const Vec3 relative = velocities.col(spring.a) - velocities.col(spring.b);
-    const Vec3 drag =
-        spring_damping(spring, spring_axis(spring, positions), model_.damping_direction) * relative;
+    const Vec3 drag = spring.damping * damped_velocity(spring, spring_axis(spring, positions),
+                                                       velocities, model_.damping_direction);
     forces.col(spring.a) -= drag;
     forces.col(spring.b) += drag;
+  }
+}
+
+void SpringElements::add_internal_forces(const Eigen::Ref<const Positions>& positions,
+                                         const Eigen::Ref<const Positions>& velocities,
+                                         Eigen::Ref<Positions> forces) const {
+  for (const Spring& spring : model_.springs) {
+    const SpringAxis axis = spring_axis(spring, positions);
+    Vec3 pull = spring.stiffness * (axis.length - spring.rest_length) * axis.direction;
+    if (spring.damping > 0)
+      pull += spring.damping * damped_velocity(spring, axis, velocities, model_.damping_direction);
+    forces.col(spring.a) -= pull;
+    forces.col(spring.b) += pull;
   }
 }
 

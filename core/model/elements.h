@@ -60,6 +60,7 @@ struct RowSums {
 ///     add_energy(x, energy)               [J], element by element
 ///     add_forces(x, forces)               -dE/dx [N]
 ///     add_damping_forces(x, v, forces)    [N]; none unless the kind says so
+///     add_internal_forces(x, v, forces)   both, in one pass, where `kHasInternalForces`
 ///     add_to_matrix(x, shares, blocks)    3 x 3 blocks, pairs in the order of for_each_pair
 ///     add_row_sums(sums)                  bounds for any positions that cloth takes
 ///
@@ -67,6 +68,7 @@ struct RowSums {
 /// SystemMatrix::add_elasticity hands over.
 struct ElementKind {
   static constexpr bool kInPlainLattice = false;
+  static constexpr bool kHasInternalForces = false;
 
   explicit ElementKind(const ClothModel& model) : model_(model) {}
 
@@ -89,6 +91,7 @@ struct ElementKind {
 struct SpringElements : ElementKind {
   using ElementKind::ElementKind;
   static constexpr bool kInPlainLattice = true;
+  static constexpr bool kHasInternalForces = true;
 
   bool empty() const { return model_.springs.empty(); }
   void check() const;
@@ -108,6 +111,9 @@ struct SpringElements : ElementKind {
   void add_damping_forces(const Eigen::Ref<const Positions>& positions,
                           const Eigen::Ref<const Positions>& velocities,
                           Eigen::Ref<Positions> forces) const;
+  void add_internal_forces(const Eigen::Ref<const Positions>& positions,
+                           const Eigen::Ref<const Positions>& velocities,
+                           Eigen::Ref<Positions> forces) const;
   template <class Blocks>
   void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
                      Blocks& blocks) const {

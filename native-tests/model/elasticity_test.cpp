@@ -160,6 +160,23 @@ TEST_CASE("elasticity: damping is minus the derivative of the damping forces by 
   CHECK(relative_error(dense(damping_matrix(model, x)), -jacobian) < 1e-9);
 }
 
+TEST_CASE("elasticity: internal forces are elastic and damping ones in one pass", "[model]") {
+  const auto direction = GENERATE(DampingDirection::along_spring, DampingDirection::isotropic);
+  Random random(5);
+  const QuadMesh mesh = small_sheet();
+  ClothModel model = sheet_model(mesh, soft_fabric());
+  model.damping_direction = direction;
+  model.springs.front().damping = 0;
+  const Positions x = crumpled(mesh, random);
+  const Positions v = shaken(Positions::Zero(3, x.cols()), 1, random);
+  Positions apart = Positions::Zero(3, x.cols());
+  add_elastic_forces(model, x, apart);
+  add_damping_forces(model, x, v, apart);
+  Positions together = Positions::Zero(3, x.cols());
+  add_internal_forces(model, x, v, together);
+  CHECK((together - apart).norm() < 1e-14 * apart.norm());
+}
+
 TEST_CASE("elasticity: damping along springs takes energy and leaves rotation alone", "[model]") {
   Random random(6);
   const QuadMesh mesh = small_sheet();

@@ -1,0 +1,177 @@
+// ./pleat bench imex (--help tells the options)
+// What it saves to treat only those springs implicitly that need it, and where it does not pay.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
+import { exponent, goal, markdown, measure, short } from './parts/bench-rows.mjs';
+import { reference, root } from './parts/command.mjs';
+import { contestant } from './parts/contestants.mjs';
+
+const kFrames = 100;
+const kStep = 1 / 60; // [s]
+const kSubsteps = 7; // of 2.4 ms
+const kTolerance = 1e-4;
+
+const kImplicit = { stepper: 'implicit', substeps: kSubsteps, solver: 'cg', tolerance: kTolerance };
+const kImex = { stepper: 'imex', substeps: kSubsteps, solver: 'sor', tolerance: kTolerance };
+
+/** A sheet of 1 m and 0.2 kg, n x n particles, let go from the horizontal, two corners held. */
+function pendulum(n, method, fabric = 'fine cotton') {
+  return {
+    name: `pendulum ${n}x${n}, ${fabric}`,
+    cloth: {
+      sheet: {
+        width_m: 1,
+        height_m: 1,
+        columns: n - 1,
+        rows: n - 1,
+        origin_m: [0, 1.5, 0],
+        warp_direction: [1, 0, 0],
+        weft_direction: [0, 0, 1],
+      },
+    },
+    fabric: {
+      name: fabric,
+      overrides: { damping_ratio: 0.02, areal_density_kg_per_m2: 0.2 },
+    },
+    pins: [{ part: 'upper_left' }, { part: 'lower_left' }],
+    method: { step_s: kStep, ...method },
+    duration_s: kFrames * kStep,
+  };
+}
+
+/** A shipped scene as springs with quadratic bending, which `imex` splits. */
+function shipped(file, method, changes = {}) {
+  const scene = JSON.parse(readFileSync(join(root, 'assets', 'scenes', `${file}.json`), 'utf8'));
+  return { ...scene, ...changes, method: { step_s: kStep, ...method } };
+}
+
+/**
+ * The scene by several methods in turn, against `newton` with `exactSteps` of a frame.
+ *
+ * sceneOf: method => scene; methods: {label: method}
+ */
+function compared(settings) {
+  const { repeat, sceneOf, methods, vertices, frames = kFrames, exactSteps = 64 } = settings;
+  const times = [(frames * kStep) / 2, frames * kStep];
+  const scene = sceneOf({});
+  tell(`reference of ${scene.name}`);
+  const exact = { stepper: 'newton', step_s: kStep / exactSteps };
+  const against = reference(sceneOf(exact), 'run', times);
+  const contestants = Object.entries(methods).map(([label, method]) =>
+    contestant('native', label, sceneOf(method), vertices, frames),
+  );
+  return measure(contestants, { repeat, times, commit, tell, against, frames, turnFrames: 5 });
+}
+
+const lastError = (row) => Object.values(row.position_errors_m).at(-1);
+
+/** Time and error over those of the first row. */
+const overFirst = (rows) =>
+  rows.map((row) => ({
+    time: row.ms_per_frame / rows[0].ms_per_frame,
+    error: lastError(row) / lastError(rows[0]),
+  }));
+
+async function onPendulum({ repeat }) {
+  const rows = await compared({
+    repeat,
+    sceneOf: (method) => pendulum(10, method),
+    vertices: 100,
+    methods: {
+      'implicit, cg': kImplicit,
+      'imex, sor': kImex,
+      'imex, cg': { ...kImex, solver: 'cg' },
+      'imex, cholmod': { stepper: 'imex', substeps: kSubsteps, solver: 'cholmod' },
+      'imex_fixed, sor': { ...kImex, split: 'structural' },
+      'rk4, largest stable step': { stepper: 'rk4', substeps: 'stable' },
+    },
+  });
+  const [, imex] = overFirst(rows);
+  const judged = rows.slice(0, 2);
+  return {
+    rows,
+    goals: [
+      goal('imex_sor_time_to_implicit_cg', imex.time, 'at-most', 0.6, judged),
+      goal('imex_sor_error_to_implicit_cg', imex.error, 'at-most', 1, judged),
+    ],
+  };
+}
+
+async function growth({ repeat }) {
+  const kSides = [10, 20, 40, 80];
+  const rows = [];
+  for (const n of kSides) {
+    const found = await compared({
+      repeat,
+      sceneOf: (method) => pendulum(n, method),
+      vertices: n * n,
+      frames: 15,
+      exactSteps: 8,
+      methods: {
+        'imex, sor': kImex,
+        'imex, cg': { ...kImex, solver: 'cg' },
+        'imex, supernodal': { stepper: 'imex', substeps: kSubsteps, solver: 'supernodal' },
+        'implicit, cg': kImplicit,
+      },
+    });
+    rows.push(...found);
+  }
+  const slope = (label) => {
+    const own = rows.filter((row) => row.label.endsWith(label));
+    return exponent(own.map((row) => [row.n_vertices, row.ms_per_frame]));
+  };
+  return {
+    rows,
+    goals: ['imex, sor', 'imex, cg', 'imex, supernodal', 'implicit, cg'].map((label) =>
+      goal(`growth_exponent_${label.replace(', ', '_')}`, slope(label), 'at-most', 1.2, rows),
+    ),
+  };
+}
+
+/** Other scenes, fabrics and steps: what no goal names. */
+async function elsewhere({ repeat }) {
+  const kScenes = [
+    ['curtain, its own fabric', (method) => shipped('curtain', method)],
+    ['tablecloth, its own fabric', (method) => shipped('tablecloth', method)],
+    ['swinging sheet', (method) => shipped('swinging_sheet', method)],
+    ['pendulum of denim', (method) => pendulum(10, method, 'denim')],
+    ['pendulum of silk', (method) => pendulum(10, method, 'silk')],
+    [
+      'pendulum, 2 substeps',
+      (method) => pendulum(10, { ...method, ...(method.substeps && { substeps: 2 }) }),
+    ],
+    [
+      'pendulum, 20 substeps',
+      (method) => pendulum(10, { ...method, ...(method.substeps && { substeps: 20 }) }),
+    ],
+  ];
+  const rows = [];
+  const lines = [];
+  for (const [name, sceneOf] of kScenes) {
+    const found = await compared({
+      repeat,
+      sceneOf,
+      vertices: 100,
+      frames: 30,
+      methods: {
+        'implicit, cg': kImplicit,
+        'imex, sor': kImex,
+        'imex, cg': { ...kImex, solver: 'cg' },
+      },
+    });
+    const [, sor, cg] = overFirst(found);
+    lines.push([name, ...[sor, cg].flatMap(({ time, error }) => [short(time), short(error)])]);
+    rows.push(...found);
+  }
+  const head = ['scene', 'sor: time', 'error', 'cg: time', 'error'];
+  const text = `over implicit with cg\n\n${markdown(head, lines)}\n\n${described(rows)}`;
+  return { rows, goals: [], text };
+}
+
+await runParts('imex', 'implicit where it must be, explicit where it can be', {
+  pendulum: onPendulum,
+  growth,
+  elsewhere,
+});
