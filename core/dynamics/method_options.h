@@ -32,6 +32,12 @@ enum class ImplicitSplit {
   structural,    ///< warp and weft, whatever the substep
 };
 
+/// What `projective` does with its rounds.
+enum class Acceleration {
+  none,
+  anderson,  ///< foretells from the last rounds where they lead
+};
+
 /// The tolerance that newton, which makes references, starts from.
 constexpr double kNewtonTolerance = 1e-10;
 
@@ -50,6 +56,7 @@ struct MethodOptions {
   ImplicitSplit split = ImplicitSplit::by_stability;
   NewtonRule rule = NewtonRule::backward_euler;
   Constraints constraints = Constraints::compliant;
+  Acceleration acceleration = Acceleration::none;
 
   /// Throws ContractError.
   void validate() const;

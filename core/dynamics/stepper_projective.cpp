@@ -29,11 +29,18 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
       right_side_(model.n_vertices(), 3),
       solution_(model.n_vertices(), 3),
       positions_begin_(3, model.n_vertices()) {
+  if (options.acceleration == Acceleration::anderson) {
+    const VertexRows empty(model.n_vertices(), 3);
+    acceleration_.emplace(model.n_vertices());
+    start_ = {empty, empty};
+    steady_side_ = empty;
+    proposed_.resize(3, model.n_vertices());
+  }
   refresh();
 }
 
 /// M/h^2 + sum over springs and bending elements, one number per pair of vertices because x, y and
-/// z do not couple. The damper's c/h joins k whichever way it acts. Rows of vertices that are
+/// z do not couple. The damper's c/h joins k whichever way it acts. LoadedRows of vertices that are
 /// pinned or hang are those of the identity.
 void StepperProjective::refresh() {
   const int n = model_.n_vertices();
@@ -94,27 +101,70 @@ void StepperProjective::set_targets(double h) {
   }
 }
 
-/// The right-hand side of the global solve: M/h^2 y + sum of projected springs, pinned neighbours
-/// moved over.
-void StepperProjective::set_right_side(double time_end, double h) {
+template <class PullOfSpring>
+void StepperProjective::add_up(double time_end, double h, const PullOfSpring& pull_of,
+                               VertexRows& side) const {
   for (int i = 0; i < model_.n_vertices(); ++i)
-    right_side_.row(i) = (model_.masses[i] / (h * h) * predicted_.col(i)).transpose();
+    side.row(i) = (model_.masses[i] / (h * h) * predicted_.col(i)).transpose();
   for (std::size_t s = 0; s < model_.springs.size(); ++s) {
-    const Spring& spring = model_.springs[s];
-    const Target& target = targets_[s];
+    const Vec3 pull = pull_of(model_.springs[s], targets_[s]);
+    side.row(model_.springs[s].a) += pull.transpose();
+    side.row(model_.springs[s].b) -= pull.transpose();
+  }
+  pull_to_parents(model_.hanging, side.transpose());
+  for (const PinnedEntry& entry : pinned_entries_)
+    side.row(entry.free_vertex) -=
+        entry.value * model_.pins[entry.pin].position(time_end).transpose();
+  for (const Pin& pin : model_.pins) side.row(pin.vertex) = pin.position(time_end).transpose();
+}
+
+void StepperProjective::set_right_side(double time_end, double h) {
+  const auto projected = [this](const Spring& spring, const Target& target) -> Vec3 {
     const Vec3 d = positions_.col(spring.a) - positions_.col(spring.b);
     const double length = d.norm();
     const double scale = length > 0 ? target.weight * target.length / length : 0;
-    const Vec3 pull = scale * d + target.damped;
-    right_side_.row(spring.a) += pull.transpose();
-    right_side_.row(spring.b) -= pull.transpose();
+    return scale * d + target.damped;
+  };
+  add_up(time_end, h, projected, right_side_);
+}
+
+void StepperProjective::start_acceleration(double time_end, double h) {
+  const auto damped = [](const Spring&, const Target& target) { return target.damped; };
+  add_up(time_end, h, damped, steady_side_);
+  start_.places = positions_.transpose();
+  for (const HangingVertex& vertex : model_.hanging) start_.places.row(vertex.vertex).setZero();
+  const auto A = matrix_.selfadjointView<Eigen::Lower>();
+  for (int c = 0; c < 3; ++c) start_.loads.col(c).noalias() = A * start_.places.col(c);
+  acceleration_->start(start_);
+}
+
+// The rounds lower x.Ax/2 - x.b_0 - sum k L l(x): b(x) = b_0 + sum S^T p is where the last term
+// pulls. At the image x of a round, A x = b, so that from x to x + d this changes by
+// d.(b - b_0) + d.Ad/2 - sum k L (l(x + d) - l(x)), in which nothing large cancels.
+double StepperProjective::energy_change(const LoadedRows& change) const {
+  double sum = change.places.cwiseProduct(right_side_ - steady_side_ + change.loads / 2).sum();
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Spring& spring = model_.springs[s];
+    const Vec3 begin = positions_.col(spring.a) - positions_.col(spring.b);
+    const Vec3 end = proposed_.col(spring.a) - proposed_.col(spring.b);
+    const double lengths = begin.norm() + end.norm();
+    if (lengths > 0)
+      sum -= targets_[s].weight * targets_[s].length * (end - begin).dot(end + begin) / lengths;
   }
-  pull_to_parents(model_.hanging, right_side_.transpose());
-  for (const PinnedEntry& entry : pinned_entries_)
-    right_side_.row(entry.free_vertex) -=
-        entry.value * model_.pins[entry.pin].position(time_end).transpose();
-  for (const Pin& pin : model_.pins)
-    right_side_.row(pin.vertex) = pin.position(time_end).transpose();
+  return sum;
+}
+
+void StepperProjective::accelerate() {
+  const auto* change = acceleration_->propose(solution_, right_side_);
+  if (change == nullptr) return;
+  proposed_ = (solution_ + change->places).transpose();
+  place_between_parents(model_.hanging, proposed_);
+  if (energy_change(*change) < 0) {
+    positions_.swap(proposed_);
+    acceleration_->accept();
+  } else {
+    acceleration_->refuse();
+  }
 }
 
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
@@ -132,6 +182,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
     place_between_parents(model_.hanging, positions_);
     set_targets(h);
+    if (acceleration_) start_acceleration(time_end, h);
   }
   SolveReport report;
   for (int round = 0; round < options().iterations; ++round) {
@@ -145,6 +196,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     if (round == 0) first_change_ = solution_.transpose() - positions_;
     positions_ = solution_.transpose();
     place_between_parents(model_.hanging, positions_);
+    if (acceleration_) accelerate();
   }
   report.iterations = options().iterations;
   time_end_ = time_end;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "core/dynamics/anderson_acceleration.h"
 #include "core/dynamics/stepper.h"
 
 namespace pleat {
@@ -10,6 +13,9 @@ namespace pleat {
 /// about the length (k L + c/h l_begin)/(k + c/h). Pinned vertices are eliminated: their places
 /// enter the right-hand side, so that a moving pin needs no new factor and does not lag.
 ///
+/// Where acceleration is asked for, a round ends where AndersonAcceleration proposes if the energy
+/// that the rounds lower is less there than where the round ends by itself.
+///
 /// Source: Liu, Bargteil, O'Brien & Kavan, Fast simulation of mass-spring systems, SIGGRAPH Asia
 /// 2013.
 class StepperProjective final : public Stepper {
@@ -19,14 +25,14 @@ class StepperProjective final : public Stepper {
 
   void refresh() override;
 
+  /// How often the acceleration was refused, since this was made.
+  int n_refused() const { return acceleration_ ? acceleration_->n_refused() : 0; }
+
  protected:
   SolveReport substep(State& state, double time_end, double h) override;
   void store(State& state, SolveReport& report) override;
 
  private:
-  using VertexRows =
-      Eigen::Matrix<double, Eigen::Dynamic, 3>;  // one row per vertex: three right-hand sides
-
   /// The part of a spring's term that stays fixed during a substep.
   struct Target {
     double weight = 0;     // k, plus c/h when the damper acts along the spring [N/m]
@@ -40,7 +46,15 @@ class StepperProjective final : public Stepper {
   };
 
   void set_targets(double h);
+  /// The right-hand side of the global solve into `side`: M/h^2 y, what pull_of gives for each
+  /// spring, and pinned neighbours.
+  template <class PullOfSpring>
+  void add_up(double time_end, double h, const PullOfSpring& pull_of, VertexRows& side) const;
   void set_right_side(double time_end, double h);
+  void start_acceleration(double time_end, double h);
+  void accelerate();
+  /// Of what the rounds lower [J], from positions_ to proposed_, which are `change` apart.
+  double energy_change(const LoadedRows& change) const;
 
   SparseMatrix matrix_;
   std::unique_ptr<LinearSolver> solver_;
@@ -54,6 +68,10 @@ class StepperProjective final : public Stepper {
   VertexRows right_side_;
   VertexRows solution_;
   Eigen::VectorXd column_;
+  std::optional<AndersonAcceleration> acceleration_;
+  LoadedRows start_;        // of the substep's first round
+  VertexRows steady_side_;  // of the right-hand side, what no round changes
+  Positions proposed_;
   Positions positions_begin_;
   double time_end_ = 0;  // of the last substep [s]
 };

@@ -22,13 +22,14 @@ enum class MethodSetting {
   omega,
   split,
   constraints,
-  rule
+  rule,
+  acceleration
 };
 
-constexpr std::array<MethodSetting, 8> kMethodSettings = {
+constexpr std::array<MethodSetting, 9> kMethodSettings = {
     MethodSetting::substeps,    MethodSetting::iterations, MethodSetting::solver,
     MethodSetting::tolerance,   MethodSetting::omega,      MethodSetting::split,
-    MethodSetting::constraints, MethodSetting::rule};
+    MethodSetting::constraints, MethodSetting::rule,       MethodSetting::acceleration};
 
 /// Spelled as in scenes.
 const char* key(MethodSetting setting);

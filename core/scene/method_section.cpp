@@ -22,6 +22,9 @@ constexpr std::array<Word<NewtonRule>, 3> kNewtonRules{
      {"midpoint", NewtonRule::midpoint},
      {"equilibrium", NewtonRule::equilibrium}}};
 
+constexpr std::array<Word<Acceleration>, 2> kAccelerations{
+    {{"none", Acceleration::none}, {"anderson", Acceleration::anderson}}};
+
 constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
                                                           {"ply", FrameFormat::ply},
                                                           {"binary", FrameFormat::binary},
@@ -97,6 +100,9 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
     case MethodSetting::rule:
       method.rule = reader.word(kNewtonRules);
       return;
+    case MethodSetting::acceleration:
+      method.acceleration = reader.word(kAccelerations);
+      return;
   }
 }
 
@@ -120,6 +126,8 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
       return word_for(kConstraints, method.constraints);
     case MethodSetting::rule:
       return word_for(kNewtonRules, method.rule);
+    case MethodSetting::acceleration:
+      return word_for(kAccelerations, method.acceleration);
   }
   return nullptr;
 }

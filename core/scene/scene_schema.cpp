@@ -30,6 +30,7 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
     case MethodSetting::split:
     case MethodSetting::constraints:
     case MethodSetting::rule:
+    case MethodSetting::acceleration:
       break;
   }
   return schema;

@@ -105,6 +105,7 @@ std::string method_phrase(const BenchRow& row) {
   text += ", " + step_phrase(method.step);
   if (row.n_substeps > 0) text += " x " + std::to_string(row.n_substeps);
   if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
+  if (method.acceleration != Acceleration::none) text += " accelerated";
   return text;
 }
 

@@ -50,6 +50,7 @@ TEST_CASE("steppers: projective keeps the momentum after any number of rounds", 
   ClothModel model = sheet_model(free_mesh(), soft_fabric());
   MethodOptions options = converged_methods(0.01)[2];
   options.iterations = GENERATE(1, 2, 7);
+  options.acceleration = GENERATE(Acceleration::none, Acceleration::anderson);
   const Vec3 before = momentum(model, tumbling_state());
   CHECK((momentum(model, after(model, options, 0.2)) - before).norm() < 1e-11 * before.norm());
 }

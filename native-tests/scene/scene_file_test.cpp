@@ -320,6 +320,8 @@ const BadScene kBadScenes[] = {
      "/method/omega", "expected no such key, as implicit does not read it, got 1.5"},
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd", "constraints": true}})",
      "/method/constraints", R"(expected one of "compliant", "rigid", got true)"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "projective", "acceleration": 5}})",
+     "/method/acceleration", R"(expected one of "none", "anderson", got 5)"},
     {R"({"cloth": {"sheet": {}}, "record": {"every_s": -1}})", "/record/every_s",
      "expected a number > 0.0, got -1"},
     {R"({"cloth": {"sheet": {}}, "record": {"format": "stl"}})", "/record/format",
@@ -425,6 +427,9 @@ TEST_CASE("scene file: every setting of a method is read", "[scene]") {
   CHECK(implicit.solver == SolverKind::eigen);
   CHECK(implicit.tolerance == 1e-7);
   CHECK(method(R"({"stepper": "newton", "rule": "midpoint"})").rule == NewtonRule::midpoint);
+  const MethodOptions accelerated =
+      method(R"({"stepper": "projective", "acceleration": "anderson"})");
+  CHECK(accelerated.acceleration == Acceleration::anderson);
 }
 
 TEST_CASE("scene file: a positive number may be as large as any, but not zero", "[scene]") {

@@ -122,12 +122,15 @@ std::vector<MethodOptions> converged_methods(double step) {
   MethodOptions explicit_method = method(&steppers::kExplicitEuler, step);
   MethodOptions projective = method(&steppers::kProjective, step);
   projective.iterations = 300;
+  MethodOptions accelerated = projective;
+  accelerated.acceleration = Acceleration::anderson;
   MethodOptions xpbd = method(&steppers::kXpbd, step);
   xpbd.iterations = 100;
   MethodOptions newton = method(&steppers::kNewton, step);
   newton.rule = NewtonRule::backward_euler;
   newton.tolerance = kNewtonTolerance;
-  return {explicit_method, method(&steppers::kImplicitEuler, step), projective, xpbd, newton};
+  return {explicit_method, method(&steppers::kImplicitEuler, step), projective, xpbd, newton,
+          accelerated};
 }
 
 std::vector<MethodOptions> everyday_methods() {
@@ -137,13 +140,15 @@ std::vector<MethodOptions> everyday_methods() {
   implicit.solver = SolverKind::cg;
   MethodOptions projective = method(&steppers::kProjective, 1.0 / 60);
   projective.iterations = 10;
+  MethodOptions accelerated = projective;
+  accelerated.acceleration = Acceleration::anderson;
   MethodOptions xpbd = method(&steppers::kXpbd, 1.0 / 60);
   xpbd.substeps = 30;
   MethodOptions imex = method(&steppers::kImex, 1.0 / 60);
   imex.solver = SolverKind::sor;
   imex.tolerance = 1e-4;
   imex.substeps = 4;
-  return {explicit_method, implicit, imex, projective, xpbd};
+  return {explicit_method, implicit, imex, projective, xpbd, accelerated};
 }
 
 std::vector<MethodOptions> accurate_methods(double step) {

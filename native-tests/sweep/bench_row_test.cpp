@@ -173,6 +173,13 @@ TEST_CASE("bench_row: the table tells surface, bend, parts and the process's mem
   CHECK(table.find("| - | ok |") != std::string::npos);
 }
 
+TEST_CASE("bench_row: the table says whose rounds are accelerated", "[sweep]") {
+  std::vector<BenchRow> rows(1, measured_row());
+  CHECK(markdown_table(rows).find("accelerated") == std::string::npos);
+  rows[0].method.acceleration = Acceleration::anderson;
+  CHECK(markdown_table(rows).find(" x 7 accelerated |") != std::string::npos);
+}
+
 TEST_CASE("bench_row: the table has a column for each pointer that varies", "[sweep]") {
   std::vector<BenchRow> rows(3, measured_row());
   const auto head = [&] {
