@@ -13,9 +13,9 @@
 #include "core/error/self_crossings.h"
 #include "core/files/frame_file.h"
 #include "core/files/matrix_file.h"
-#include "core/model/energy_ledger.h"
 #include "core/model/stretch.h"
 #include "core/model/system_matrix.h"
+#include "core/run/run_ledger.h"
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
@@ -101,7 +101,7 @@ void add_step(const Simulation& simulation, RunSummary& summary) {
 struct Watchers {
   FrameWriter* frames = nullptr;
   SelfCrossings* crossings = nullptr;
-  EnergyLedger* ledger = nullptr;
+  RunLedger* ledger = nullptr;
 };
 
 /// Hands a frame to everything that watches them.
@@ -123,16 +123,13 @@ RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
   TimedRun run(simulation, TimedRun::Parts::untimed);
   RunWatch watch(simulation);
   Progress progress;
-  State begin;
   add_frame(simulation, watchers, summary);
   while (simulation.n_steps() < n_steps) {
-    if (watchers.ledger != nullptr) begin = simulation.state();
     const SolveReport step_report = run.step();
     const bool ended = run.has_ended();
     add_step(simulation, summary);
     watch.look(simulation, step_report);
-    if (watchers.ledger != nullptr && !ended)
-      watchers.ledger->record(begin, simulation.state(), simulation.time(), step);
+    if (watchers.ledger != nullptr) watchers.ledger->look();
     // The last finite frame of a run that ended early is kept, unless it was written already.
     const bool is_frame = (simulation.n_steps() % steps_per_frame == 0) != ended;
     if (is_frame) add_frame(simulation, watchers, summary);
@@ -147,9 +144,13 @@ RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
 
 Json drift_json(const EnergyLedger& ledger) {
   const EnergyLedger::Works& works = ledger.works();
+  const EnergyParts& parts = ledger.parts();
   return {{"drift_j", ledger.drift()},
           {"share_of_largest_kinetic_energy", ledger.relative_drift()},
-          {"energy_j", ledger.energy()},
+          {"energy_j", parts.sum()},
+          {"kinetic_j", parts.kinetic},
+          {"elastic_j", parts.elastic},
+          {"gravity_j", parts.gravity},
           {"work_of_damping_j", works.damping},
           {"work_of_air_j", works.air},
           {"work_of_pins_j", works.pins},
@@ -192,7 +193,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
   }
-  if (watchers.ledger != nullptr) json["energy"] = drift_json(*watchers.ledger);
+  if (watchers.ledger != nullptr) json["energy"] = drift_json(watchers.ledger->account());
   json["core"] = core_version();
   return json;
 }
@@ -235,9 +236,11 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),
                 static_cast<long long>(summary.largest_crossings));
-  if (const EnergyLedger* ledger = watchers.ledger)
-    std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n", ledger->drift(),
-                100 * ledger->relative_drift());
+  if (watchers.ledger != nullptr) {
+    const EnergyLedger& ledger = watchers.ledger->account();
+    std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n", ledger.drift(),
+                100 * ledger.relative_drift());
+  }
 }
 
 struct RunOptions {
@@ -265,8 +268,8 @@ Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriti
     frames.emplace(out->folder.string(), scene.record.format,
                    FrameMesh{simulation.model().rest_coordinates, simulation.triangles()});
   }
-  std::optional<EnergyLedger> ledger;
-  if (wants_drift) ledger.emplace(simulation.model(), simulation.state());
+  std::optional<RunLedger> ledger;
+  if (wants_drift) ledger.emplace(simulation);
   std::optional<SelfCrossings> crossings;
   if (frames || scene.cloth->is_worn())
     crossings.emplace(simulation.triangles(), simulation.rest_positions(),

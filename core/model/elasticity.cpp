@@ -12,12 +12,18 @@ double elastic_energy(const ClothModel& model, const Eigen::Ref<const Positions>
   return energy;
 }
 
+EnergyParts energy_parts(const ClothModel& model, const State& state) {
+  EnergyParts parts;
+  parts.elastic = elastic_energy(model, state.positions);
+  for (int i = 0; i < model.n_vertices(); ++i) {
+    parts.kinetic += 0.5 * model.masses[i] * state.velocities.col(i).squaredNorm();
+    parts.gravity -= model.masses[i] * model.gravity.dot(state.positions.col(i));
+  }
+  return parts;
+}
+
 double total_energy(const ClothModel& model, const State& state) {
-  double energy = elastic_energy(model, state.positions);
-  for (int i = 0; i < model.n_vertices(); ++i)
-    energy += model.masses[i] * (0.5 * state.velocities.col(i).squaredNorm() -
-                                 model.gravity.dot(state.positions.col(i)));
-  return energy;
+  return energy_parts(model, state).sum();
 }
 
 void add_elastic_forces(const ClothModel& model, const Eigen::Ref<const Positions>& positions,

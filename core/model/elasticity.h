@@ -8,7 +8,18 @@ namespace pleat {
 /// Energy stored in the cloth, stretched and bent [J].
 double elastic_energy(const ClothModel& model, const Eigen::Ref<const Positions>& positions);
 
-/// Elastic, kinetic and gravitational energy [J]; height zero is the origin.
+/// Energy of moving cloth by its kinds [J].
+struct EnergyParts {
+  double kinetic = 0;
+  double elastic = 0;  ///< stretched and bent
+  double gravity = 0;  ///< height zero is the origin
+
+  double sum() const { return kinetic + elastic + gravity; }
+};
+
+EnergyParts energy_parts(const ClothModel& model, const State& state);
+
+/// The sum of the parts [J].
 double total_energy(const ClothModel& model, const State& state);
 
 /// Adds the forces of all elements [N].

@@ -4,15 +4,10 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
 namespace pleat {
 namespace {
-
-double kinetic_energy(const Eigen::VectorXd& masses, const Positions& velocities) {
-  return 0.5 * masses.dot(velocities.colwise().squaredNorm().transpose());
-}
 
 /// The part of an impulse that a solid can give: it pushes, and rubs at most `friction` times as
 /// much.
@@ -30,9 +25,9 @@ EnergyLedger::EnergyLedger(const ClothModel& model, const State& state)
     : model_(model),
       air_(model.air),
       is_pinned_(static_cast<std::size_t>(model.n_vertices())),
-      first_energy_(total_energy(model, state)),
-      energy_(first_energy_),
-      largest_kinetic_energy_(kinetic_energy(model.masses, state.velocities)) {
+      first_parts_(energy_parts(model, state)),
+      parts_(first_parts_),
+      largest_kinetic_energy_(first_parts_.kinetic) {
   for (Loads* loads : {&begin_, &end_}) loads->forces.resize(3, model.n_vertices());
   part_.resize(3, model.n_vertices());
 }
@@ -92,14 +87,11 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
                    2;
   }
   if (model_.contact) record_contact(begin, end, time_end, step);
-  energy_ = total_energy(model_, end);
-  largest_kinetic_energy_ =
-      std::max(largest_kinetic_energy_, kinetic_energy(model_.masses, end.velocities));
+  parts_ = energy_parts(model_, end);
+  largest_kinetic_energy_ = std::max(largest_kinetic_energy_, parts_.kinetic);
 }
 
-double EnergyLedger::drift() const {
-  return energy_ - first_energy_ - works_.damping - works_.air - works_.pins - works_.contact;
-}
+double EnergyLedger::drift() const { return parts_.sum() - first_parts_.sum() - works_.sum(); }
 
 double EnergyLedger::relative_drift() const {
   return largest_kinetic_energy_ > 0 ? std::abs(drift()) / largest_kinetic_energy_ : 0;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/model/cloth_model.h"
+#include "core/model/elasticity.h"
 #include "core/model/state.h"
 
 namespace pleat {
@@ -22,6 +23,8 @@ class EnergyLedger {
     double air = 0;
     double pins = 0;
     double contact = 0;
+
+    double sum() const { return damping + air + pins + contact; }
   };
 
   /// model  outlives the ledger; its pins and colliders may move as their motions say.
@@ -32,8 +35,9 @@ class EnergyLedger {
   void record(const State& begin, const State& end, double time_end, double step);
 
   const Works& works() const { return works_; }
-  double energy() const { return energy_; }  ///< elastic, kinetic and gravitational [J]
-  double drift() const;                      ///< change of the energy minus the works [J]
+  const EnergyParts& parts() const { return parts_; }  ///< after the last step
+  const EnergyParts& first_parts() const { return first_parts_; }
+  double drift() const;  ///< change of the energy minus the works [J]
   /// |drift| over the largest kinetic energy seen, 0 while nothing moved.
   double relative_drift() const;
 
@@ -57,9 +61,9 @@ class EnergyLedger {
   Positions part_;  // force of one kind [N]
   std::vector<char> is_pinned_;
   Works works_;
-  double first_energy_;
-  double energy_;
-  double largest_kinetic_energy_ = 0;
+  EnergyParts first_parts_;
+  EnergyParts parts_;
+  double largest_kinetic_energy_;
 };
 
 }  // namespace pleat

@@ -30,12 +30,12 @@ SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts part
       times_(std::move(times)) {
   PLEAT_CHECK(!times_.empty() && times_.front() > 0 && std::is_sorted(times_.begin(), times_.end()),
               "sample times are positive and ascend");
-  if (parts == Parts::timed_with_ledger) ledger_.emplace(simulation_.model(), simulation_.state());
+  if (parts == Parts::timed_with_ledger) ledger_.emplace(simulation_);
   if (parts != Parts::untimed) watch_.emplace(simulation_);
 }
 
 double SampledRun::relative_drift() const {
-  return ledger_ ? ledger_->relative_drift() : std::numeric_limits<double>::quiet_NaN();
+  return ledger_ ? ledger_->account().relative_drift() : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<RunWarning> SampledRun::warnings() const {
@@ -70,14 +70,12 @@ void SampledRun::take_samples(const State& begin, double time_begin) {
 void SampledRun::step() {
   const double time_begin = simulation_.time();
   const bool sampling = sample_is_due();
-  if (sampling || ledger_) begin_ = simulation_.state();
+  if (sampling) begin_ = simulation_.state();
   const SolveReport report = run_.step();
   if (report.ends_run()) return;
   if (watch_) watch_->look(simulation_, report);
   if (sampling) take_samples(begin_, time_begin);
-  if (ledger_)
-    ledger_->record(begin_, simulation_.state(), simulation_.time(),
-                    simulation_.scene().method.step);
+  if (ledger_) ledger_->look();
 }
 
 void SampledRun::advance(double budget) {

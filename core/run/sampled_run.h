@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/model/energy_ledger.h"
 #include "core/model/stretch.h"
+#include "core/run/run_ledger.h"
 #include "core/run/run_watch.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
@@ -77,7 +77,7 @@ class SampledRun {
   std::vector<double> times_;
   std::vector<Sample> samples_;
   State begin_;
-  std::optional<EnergyLedger> ledger_;
+  std::optional<RunLedger> ledger_;
   std::optional<RunWatch> watch_;
 };
 

@@ -54,6 +54,19 @@ TEST_CASE("command: run writes the frames and the numbers of the scene", "[cli]"
   CHECK(frames.positions[0].cols() == 9);
 }
 
+TEST_CASE("command: a run tells the energy by its kinds", "[cli]") {
+  const SmallScene scene(scene_with("\"step_s\"", "\"stepper\": \"imex\", \"step_s\""));
+  const Ending ending = scene.run({"run", "--json", "--drift"});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  const Json metrics = parse_json(ending.out);
+  const Json& energy = metrics.at("energy");
+  const auto joules = [&](const char* kind) { return energy.at(kind).get<double>(); };
+  CHECK(joules("kinetic_j") > 0);
+  CHECK(joules("kinetic_j") + joules("elastic_j") + joules("gravity_j") ==
+        Approx(joules("energy_j")));
+}
+
 TEST_CASE("command: the same scene gives the same bytes", "[cli]") {
   const SmallScene scene;
   for (const char* out : {"one", "two"})

@@ -104,10 +104,25 @@ std::vector<Case> cases() {
           {"drag", falling_sheet_model, flat_state, 0.5}};
 }
 
+/// One spring with a weight at its end, held up at its rest length.
+ClothModel spring_balance_model() {
+  Chain chain;
+  chain.n_springs = 1;
+  return chain_model(chain);
+}
+
+State unstretched_state(const ClothModel& model) {
+  State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
+  state.positions(1, 1) = -model.springs.front().rest_length;
+  return state;
+}
+
 struct Account {
   double largest_drift = 0;  // over all steps [J]
   double relative_drift = 0;
   EnergyLedger::Works works;
+  EnergyParts first_parts;
+  EnergyParts parts;
 };
 
 Account account(const Case& wanted, const StepperType* stepper, double step) {
@@ -129,6 +144,8 @@ Account account(const Case& wanted, const StepperType* stepper, double step) {
   }
   result.relative_drift = ledger.relative_drift();
   result.works = ledger.works();
+  result.first_parts = ledger.first_parts();
+  result.parts = ledger.parts();
   return result;
 }
 
@@ -166,4 +183,33 @@ TEST_CASE("energy_ledger: a pin that does not move does no work", "[model]") {
 TEST_CASE("energy_ledger: dampers and air only take energy", "[model]") {
   CHECK(account(cases()[2], &steppers::kImplicitEuler, 1.0 / 1000).works.damping < 0);
   CHECK(account(cases()[5], &steppers::kImplicitEuler, 1.0 / 1000).works.air < 0);
+}
+
+// x = x0 (1 - cos omega t) below the rest length, with x0 = m g / k and omega^2 = k / m.
+TEST_CASE("energy_ledger: a weight let go on a spring has its closed-form energies", "[model]") {
+  const double turns = GENERATE(0.0, 0.25, 0.5, 1.0, 1.7);
+  CAPTURE(turns);
+  const ClothModel model = spring_balance_model();
+  const double mass = model.masses[1];
+  const double stiffness = model.springs.front().stiffness;
+  const double omega = std::sqrt(stiffness / mass);
+  const double weight = mass * 9.81;
+  Case balance{"balance", spring_balance_model, unstretched_state, turns * 2 * kPi / omega};
+  const Account found = account(balance, &steppers::kRk4, 2 * kPi / omega / 1000);
+  const double speed = weight / stiffness * omega * std::sin(turns * 2 * kPi);
+  const double depth = weight / stiffness * (1 - std::cos(turns * 2 * kPi));
+  const double scale = weight * weight / stiffness;
+  CHECK(found.first_parts.kinetic == 0);
+  CHECK(found.first_parts.elastic == 0);
+  CHECK(found.parts.kinetic == Approx(mass * speed * speed / 2).margin(1e-9 * scale));
+  CHECK(found.parts.elastic == Approx(stiffness * depth * depth / 2).margin(1e-9 * scale));
+  CHECK(found.parts.gravity - found.first_parts.gravity ==
+        Approx(-weight * depth).margin(1e-9 * scale));
+}
+
+TEST_CASE("energy_ledger: of a pendulum without friction nothing is lost", "[model]") {
+  const Account found = account(cases()[0], &steppers::kRk4, 1.0 / 8000);
+  CHECK(found.relative_drift < 1e-6);
+  CHECK(found.works.sum() == 0);
+  CHECK(found.parts.sum() == Approx(found.first_parts.sum()).margin(1e-6 * found.parts.kinetic));
 }
