@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "cli/commands.h"
 #include "cli/overwriting.h"
@@ -157,6 +158,23 @@ Json drift_json(const EnergyLedger& ledger) {
           {"work_of_contact_j", works.contact}};
 }
 
+/// How many springs of all are implicit.
+struct ImplicitCount {
+  std::size_t count;
+  std::size_t all;
+
+  double share() const { return static_cast<double>(count) / static_cast<double>(all); }
+};
+
+/// Nothing for steppers that treat all springs alike.
+std::optional<ImplicitCount> implicit_count(const Simulation& simulation) {
+  const std::span<const char> is_implicit = simulation.implicit_springs();
+  if (is_implicit.empty()) return std::nullopt;
+  const auto n_explicit = std::count(is_implicit.begin(), is_implicit.end(), char{0});
+  return ImplicitCount{is_implicit.size() - static_cast<std::size_t>(n_explicit),
+                       is_implicit.size()};
+}
+
 Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                   const Watchers& watchers) {
   const Scene& scene = simulation.scene();
@@ -193,6 +211,9 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
   }
+  if (const auto springs = implicit_count(simulation))
+    json["implicit_springs"] = {
+        {"count", springs->count}, {"all", springs->all}, {"share", springs->share()}};
   if (watchers.ledger != nullptr) json["energy"] = drift_json(watchers.ledger->account());
   json["core"] = core_version();
   return json;
@@ -232,6 +253,9 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   if (!summary.report.message.empty() && !summary.report.ends_run())
     std::printf("%s\n", summary.report.message.c_str());
   std::printf("largest residual %.3g\n", summary.report.relative_residual);
+  if (const auto springs = implicit_count(simulation))
+    std::printf("implicit springs: %zu of %zu, %.3g %%\n", springs->count, springs->all,
+                100 * springs->share());
   if (watchers.crossings != nullptr)
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),

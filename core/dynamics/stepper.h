@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,10 @@ class Stepper {
   const Positions& contact_forces() const { return contact_forces_; }
   /// The same for the substep before the first. Of no effect where none are remembered.
   void start_from_contact_forces(const Eigen::Ref<const Positions>& forces);
+
+  /// For each spring of the model, whether it is taken implicitly; empty for steppers that treat
+  /// all alike. Valid until the next call that changes the stepper.
+  virtual std::span<const char> implicit_springs() const { return {}; }
 
   void observe(StageObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }

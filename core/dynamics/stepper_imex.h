@@ -25,6 +25,7 @@ class StepperImex final : public Stepper {
 
   void refresh() override { choose(); }
   void refresh_rest_lengths() override { choose(); }
+  std::span<const char> implicit_springs() const override { return parts_.is_stiff; }
 
   const StabilitySplit& parts() const { return parts_; }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,8 @@ class Simulation final : public MovingCloth {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
   int substeps() const { return stepper_->substeps(); }
+  /// See Stepper::implicit_springs.
+  std::span<const char> implicit_springs() const { return stepper_->implicit_springs(); }
   void observe(StageObserver* observer) override;
 
  private:

@@ -54,7 +54,7 @@ TEST_CASE("command: run writes the frames and the numbers of the scene", "[cli]"
   CHECK(frames.positions[0].cols() == 9);
 }
 
-TEST_CASE("command: a run tells the energy by its kinds", "[cli]") {
+TEST_CASE("command: a run tells the energy by its kinds, and which springs are implicit", "[cli]") {
   const SmallScene scene(scene_with("\"step_s\"", "\"stepper\": \"imex\", \"step_s\""));
   const Ending ending = scene.run({"run", "--json", "--drift"});
   CAPTURE(ending.error);
@@ -65,6 +65,12 @@ TEST_CASE("command: a run tells the energy by its kinds", "[cli]") {
   CHECK(joules("kinetic_j") > 0);
   CHECK(joules("kinetic_j") + joules("elastic_j") + joules("gravity_j") ==
         Approx(joules("energy_j")));
+  const Json& springs = metrics.at("implicit_springs");
+  CHECK(springs.at("all") == metrics.at("n_springs"));
+  CHECK(springs.at("count") > 0);
+  CHECK(springs.at("share").get<double>() ==
+        Approx(springs.at("count").get<double>() / springs.at("all").get<double>()));
+  CHECK_FALSE(parse_json(SmallScene().run({"run", "--json"}).out).contains("implicit_springs"));
 }
 
 TEST_CASE("command: the same scene gives the same bytes", "[cli]") {

@@ -185,6 +185,30 @@ TEST_CASE("imex: structural springs alone are implicit where that is asked for",
   CHECK(parts.soft.bends.size() == model.bends.size());
 }
 
+TEST_CASE("imex: it tells which springs are implicit, again after the pins changed", "[dynamics]") {
+  ClothModel model = swinging_model(square_sheet(9));
+  const auto stepper = make_stepper(model, exact_method(steppers::kImex, 2.5e-3));
+  const auto told = [&] {
+    const std::span<const char> is_implicit = stepper->implicit_springs();
+    return std::vector<char>(is_implicit.begin(), is_implicit.end());
+  };
+  const std::vector<char> before = told();
+  CHECK(before == split_by_stability(model, 2.5e-3).is_stiff);
+  CHECK(std::count(before.begin(), before.end(), char{0}) > 0);
+  CHECK(std::count(before.begin(), before.end(), char{1}) > 0);
+  model.pins.clear();
+  stepper->refresh();
+  CHECK(told() == split_by_stability(model, 2.5e-3).is_stiff);
+  CHECK(told() != before);
+}
+
+TEST_CASE("imex: other steppers treat all springs alike", "[dynamics]") {
+  ClothModel model = swinging_model(square_sheet(3));
+  for (const MethodOptions& options : everyday_methods())
+    if (options.stepper != &steppers::kImex)
+      CHECK(make_stepper(model, options)->implicit_springs().empty());
+}
+
 TEST_CASE("imex: sor, cg and a factor come to the same", "[dynamics]") {
   const QuadMesh mesh = square_sheet(6);
   const ClothModel model = swinging_model(mesh);
