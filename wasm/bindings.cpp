@@ -4,6 +4,7 @@
 #include <emscripten/bind.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/files/obj_file.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"
+#include "core/run/run_ledger.h"
 #include "core/scene/mesh_cloth.h"
 #include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
@@ -142,6 +144,7 @@ class Simulation {
   std::string start_from(const val& places) {
     return guarded([&](val&) {
       run_.start_from(positions_in(places));
+      begin_ledger();
       frame();
     });
   }
@@ -149,12 +152,30 @@ class Simulation {
   std::string reset() {
     return guarded([&](val&) {
       run_.reset();
+      begin_ledger();
       frame();
     });
   }
 
   int step(int n) {
-    return run_.step(n, [this] { frame(); });
+    if (!ledger_) return run_.step(n, [this] { frame(); });
+    int status = run_.step(0, [this] { frame(); });
+    for (int i = 0; i < n && status == 0; ++i)
+      status = run_.step(1, [this] {
+        ledger_->look();
+        frame();
+      });
+    return status;
+  }
+
+  /// Accounts for energy from now on, and anew from each start.
+  void open_ledger() {
+    wants_ledger_ = true;
+    begin_ledger();
+  }
+  void close_ledger() {
+    wants_ledger_ = false;
+    begin_ledger();
   }
 
   std::string status() const {
@@ -228,6 +249,36 @@ class Simulation {
     if (!matches_ || !reference_->distance(running())) return view_of(kNoFloats);
     return view_of(reference_->distances());
   }
+  /// Time [s]; energy of motion, elastic, and by height above that at the start of the account;
+  /// works of damping, air, contact and pins; drift; energy of motion and elastic at the start [J].
+  /// Empty without an account.
+  val energies() {
+    if (!ledger_) return view_of(kNoDoubles);
+    const pleat::EnergyLedger& account = ledger_->account();
+    const pleat::EnergyParts& first = account.first_parts();
+    const pleat::EnergyParts& now = account.parts();
+    const pleat::EnergyLedger::Works& works = account.works();
+    energies_ = {running().time(), now.kinetic,
+                 now.elastic,      now.gravity - first.gravity,
+                 works.damping,    works.air,
+                 works.contact,    works.pins,
+                 account.drift(),  first.kinetic + first.elastic};
+    return view_of(energies_);
+  }
+  /// Two vertices a spring.
+  val spring_ends() {
+    spring_ends_.clear();
+    if (run_.is_loaded())
+      for (const pleat::Spring& spring : running().model().springs)
+        for (const pleat::VertexId v : {spring.a, spring.b})
+          spring_ends_.push_back(static_cast<std::uint32_t>(v.value));
+    return view_of(spring_ends_);
+  }
+  /// 1 for each spring that is taken implicitly, 0 for others; empty where all are taken alike.
+  val implicit_springs() const {
+    if (!run_.is_loaded()) return view_of(kNoDoubles);
+    return view_of(running().implicit_springs());
+  }
   val exact_positions() const {
     return run_.is_loaded() ? view_of(running().state().positions) : view_of(kNoDoubles);
   }
@@ -250,12 +301,18 @@ class Simulation {
   /// as it was.
   void take(std::unique_ptr<pleat::Simulation> fresh) {
     run_.take(std::move(fresh));
+    begin_ledger();
     match();
     strain_map_.emplace(running().gauge(), running().model().n_vertices());
     triangles_.clear();
     for (const pleat::Triangle& t : running().triangles())
       for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
     frame();
+  }
+
+  void begin_ledger() {
+    ledger_.reset();
+    if (wants_ledger_ && run_.is_loaded()) ledger_.emplace(running());
   }
 
   void match() {
@@ -281,11 +338,15 @@ class Simulation {
 
   std::string fabrics_json_;
   pleat::PageRun run_;
+  bool wants_ledger_ = false;
+  std::optional<pleat::RunLedger> ledger_;
+  std::array<double, 10> energies_{};
   std::optional<pleat::StrainMap> strain_map_;
   std::optional<pleat::ReferenceTrack> reference_;
   bool matches_ = false;          // it is of the loaded scene
   std::vector<float> positions_;  // 3 per vertex [m]
   std::vector<std::uint32_t> triangles_;
+  std::vector<std::uint32_t> spring_ends_;
 };
 
 }  // namespace
@@ -317,5 +378,10 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("masses", &Simulation::masses)
       .function("stretch", &Simulation::stretch)
       .function("distances", &Simulation::distances)
-      .function("triangles", &Simulation::triangles);
+      .function("triangles", &Simulation::triangles)
+      .function("openLedger", &Simulation::open_ledger)
+      .function("closeLedger", &Simulation::close_ledger)
+      .function("energies", &Simulation::energies)
+      .function("springEnds", &Simulation::spring_ends)
+      .function("implicitSprings", &Simulation::implicit_springs);
 }

@@ -12,6 +12,7 @@ import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createCaption } from './panels/caption';
 import { createDrawingPanel } from './panels/drawing-panel';
+import { createEnergyPanel } from './panels/energy-panel';
 import { createFabricPanel } from './panels/fabric-panel';
 import { createHeatLegend } from './panels/heat-legend';
 import { createLinkTool } from './panels/link-tool';
@@ -20,6 +21,7 @@ import { motionSentence } from './panels/motion-sentence';
 import { createNumbersStrip } from './panels/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
+import { createSpringLegend } from './panels/spring-legend';
 import { createSweepPanel } from './panels/sweep-panel';
 import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
@@ -61,6 +63,7 @@ function createPicture(
     invitation.setShown(invited && phase === 'ready' && ahead === null && busy === null),
   );
   createHeatLegend(box, store);
+  createSpringLegend(box, store);
   const keys: Record<string, () => void> = {
     ' ': () => (store.get().playing ? run()?.pause() : run()?.play()),
     '.': () => run()?.step(),
@@ -154,6 +157,7 @@ function createPanels(
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store);
   createDrawingPanel(place('panel'), store);
+  createEnergyPanel(place('panel'), store);
   const showChart = createSweepTray(place('tray'), store, run);
   createSweepPanel(place('panel'), store, createSweep(store), showChart);
   createKeysPanel(place('panel'));
@@ -167,6 +171,9 @@ function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
     stage.setHeat(shownHeat(state), state.heatRange),
   );
   watch(store, ['edges'], ({ edges }) => stage.setEdges(edges));
+  watch(store, ['springs', 'springSplit'], ({ springs, springSplit }) =>
+    stage.setSprings(springs ? springSplit : null),
+  );
   watch(store, ['camera'], ({ camera }) => stage.setCamera(camera));
 }
 
@@ -192,7 +199,9 @@ export function createMotionView(place: Place, hash: string): MotionView {
   if (stage) drawFrom(store, stage);
 
   const writeLink = createLinkWriter(store, link, () => isShown);
-  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'compare'], () => writeLink());
+  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'springs', 'energy', 'compare'], () =>
+    writeLink(),
+  );
 
   return {
     link,

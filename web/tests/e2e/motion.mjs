@@ -379,10 +379,52 @@ async function checkRefused({ check, open }) {
   });
 }
 
+async function checkInside({ check }, visit) {
+  await check('energy is drawn, told and written in a table while its account is open', () =>
+    visit('#scene=swinging-sheet&level=0', async (page) => {
+      const heading = page.getByText('Energy: where it is and where it goes');
+      const box = page.locator('.energy');
+      await heading.click();
+      await eventually(
+        async () => /begin with the next step/.test(await box.textContent()),
+        'what to do for a line',
+      );
+      await button(page, 'Play').click();
+      await until(page, (state) => state.energies.length > 30);
+      await button(page, 'Pause').click();
+      const words = await box.locator('figcaption').textContent();
+      expectThat(/moves with .* less by height than at 0\.00 s.*damping took/.test(words), words);
+      const lines = await box.locator('.energy-over-time .energy-line').count();
+      expectThat(lines >= 5, `${lines} lines`);
+      await box.getByText('The same as a table').click();
+      await eventually(async () => (await box.locator('tbody tr').count()) === 9, 'rows');
+      await heading.click();
+      await until(page, (state) => !state.energy && state.energies.length === 0);
+    }),
+  );
+
+  await check('springs are drawn by whether they are implicit, and their share is told', () =>
+    visit('#scene=swinging-sheet&level=0&stepper=imex&step=1/240', async (page) => {
+      const without = await picture(page);
+      await page.getByLabel('Springs: explicit or implicit').check();
+      await until(page, (state) => state.springSplit !== null);
+      const words = () => page.locator('.legend-springs .legend-present').textContent();
+      const told = await words();
+      expectThat(/^\d+ of \d+ springs are implicit at this step: \d+\s%\.$/.test(told), told);
+      await eventually(async () => !(await picture(page)).equals(without), 'lines');
+      await choice(page, 'Step').selectOption({ label: '1/960 s' });
+      await eventually(async () => (await words()) !== told, 'another share at another step');
+      await choice(page, 'Stepper').selectOption({ label: 'XPBD' });
+      await eventually(async () => /are taken alike/.test(await words()), 'none of XPBD');
+    }),
+  );
+}
+
 export async function checkMotion(harness, visit) {
   await checkHand(harness, visit);
   await checkLinks(harness, visit);
   await checkWorker(harness, visit);
   await checkFirstVisit(harness, visit);
   await checkRefused(harness);
+  await checkInside(harness, visit);
 }

@@ -126,6 +126,66 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(frameViews(frame.buffer).positions.every(Number.isFinite)).toBe(true);
   });
 
+  it('accounts for all energy of the frames that want it, and for none of the others', async () => {
+    const { send, take, loaded } = open(await load());
+    const [buffer, other] = loaded.buffers;
+    const step = (count: number, wantsEnergy: boolean, into: ArrayBuffer) => {
+      const wanted = { wantsNumbers: false, wantsEnergy };
+      send({ type: 'step', count, request: 1, buffer: into, ...wanted });
+      return take('frame').energy;
+    };
+    expect(step(3, false, buffer)).toBeNull();
+    const first = step(0, true, other);
+    expect(first).toMatchObject({ damping: 0, air: 0, contact: 0, pins: 0, gravity: 0 });
+    const now = step(20, true, buffer);
+    if (!first || !now) throw new Error('no account');
+    expect(now.time_s - first.time_s).toBeCloseTo(20 * loaded.summary.step_s, 9);
+    const held = now.kinetic + now.elastic + now.gravity;
+    const given = now.start + now.damping + now.air + now.contact + now.pins + now.drift;
+    expect(Math.abs(held - given)).toBeLessThan(1e-9 * Math.abs(now.gravity));
+    expect(now.kinetic).toBeGreaterThan(0);
+    expect(now.damping).toBeLessThan(0);
+    expect(step(1, false, other)).toBeNull();
+  });
+
+  it('begins the account anew with a load and a reset', async () => {
+    const { send, take, loaded } = open(await load());
+    const wanted = { wantsNumbers: false, wantsEnergy: true } as const;
+    send({ type: 'step', count: 9, request: 1, buffer: loaded.buffers[1], ...wanted });
+    expect(take('frame').energy?.gravity).not.toBe(0);
+    for (const begin of [
+      { type: 'reset', request: 2 },
+      { type: 'load', sceneText: sceneText(), keepMotion: true, request: 2 },
+    ] as const) {
+      send(begin);
+      const [buffer] = take('loaded').buffers;
+      send({ type: 'step', count: 0, request: 2, buffer, ...wanted });
+      expect(take('frame').energy).toMatchObject({ gravity: 0, damping: 0, drift: 0 });
+    }
+  });
+
+  it('tells the springs of the mesh, and which of them imex takes implicitly', async () => {
+    const { send, take } = open(await load());
+    const splitOf = (patch: Partial<Setting>) => {
+      send({ type: 'load', sceneText: sceneText(patch), keepMotion: false, request: 1 });
+      const { summary } = take('loaded');
+      send({ type: 'readSprings', request: 1 });
+      const { ends, isImplicit } = take('springs');
+      expect(Math.max(...ends)).toBeLessThan(summary.n_vertices);
+      return { n: ends.length / 2, summary, isImplicit: Array.from(isImplicit) };
+    };
+    const imex = withStepper(setting, 'imex');
+    const { n, summary, isImplicit } = splitOf(imex);
+    expect(isImplicit).toHaveLength(n);
+    expect(isImplicit).toContain(1);
+    expect(splitOf(withStepper(setting, 'xpbd')).isImplicit).toEqual([]);
+    if (_name === 'the stand-in') return;
+    expect(n).toBe(summary.n_springs);
+    const count = (split: number[]) => split.reduce((sum, one) => sum + one, 0);
+    const finer = splitOf({ ...imex, substeps: 40 * imex.substeps }).isImplicit;
+    expect(count(finer)).toBeLessThan(count(isImplicit));
+  });
+
   it('keeps the motion when the level changes, and forgets it on a load', async () => {
     const { send, take, loaded } = open(await load());
     send({ type: 'step', count: 20, wantsNumbers: true, request: 1, buffer: loaded.buffers[1] });

@@ -31,6 +31,8 @@ const link: MotionLink = {
   heat: 'signed',
   heatRange: 2,
   edges: true,
+  springs: true,
+  energy: true,
   compare: true,
   startSteps: 180,
   camera: { azimuth: 0.125, polar: 1.5, zoom: 0.75, shift: [0.1, -0.25, 0] },

@@ -6,7 +6,7 @@ import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
 import { MotionRun } from '../../src/motion/run/motion-run';
 import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/state/motion-link';
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
-import { presetSetting, withModel } from '../../src/motion/state/setting';
+import { presetSetting, withModel, withStepper } from '../../src/motion/state/setting';
 import { stepCostAt } from '../../src/motion/state/step-cost';
 import { MotionCore } from '../../src/motion/worker/motion-core';
 import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
@@ -213,6 +213,68 @@ describe('motion run', () => {
     page.run.showAnew(link);
     await vi.waitUntil(() => page.store.get().numbers?.step === 4);
     expect(page.store.get().setting.level).toBe(1);
+  });
+
+  it('keeps an account of energy while it is open, anew from each start', async () => {
+    const page = open('#scene=curtain&level=0');
+    const times = () => page.store.get().energies.map(({ time_s }) => Math.round(60 * time_s));
+    const stepTo = async (step: number) => {
+      page.run.step();
+      await vi.waitUntil(() => page.store.get().numbers?.step === step);
+    };
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    await stepTo(1);
+    expect(times()).toEqual([]);
+    page.store.set({ energy: true });
+    await vi.waitUntil(() => times().length === 1);
+    await stepTo(2);
+    await stepTo(3);
+    expect(times()).toEqual([1, 2, 3]);
+    page.run.reset();
+    await vi.waitUntil(() => phaseOf(page) === 'ready' && times().length === 1);
+    expect(times()).toEqual([0]);
+    page.store.set({ energy: false });
+    await stepTo(1);
+    expect(times()).toEqual([]);
+  });
+
+  it('begins the account at the start of a run that plays or runs ahead', async () => {
+    const ahead = open('#scene=curtain&level=0&energy=on&steps=20');
+    await vi.waitUntil(() => ahead.store.get().numbers?.step === 20);
+    const aheadTimes = ahead.store.get().energies.map(({ time_s }) => Math.round(60 * time_s));
+    expect(aheadTimes).toEqual(Array.from({ length: 21 }, (_, step) => step));
+    const played = open('#scene=curtain&level=0&energy=on');
+    played.run.play();
+    await vi.waitUntil(() => played.store.get().energies.length > 1);
+    expect(played.store.get().energies.at(0)?.time_s).toBe(0);
+    played.run.pause();
+  });
+
+  it('knows which springs are implicit, anew for each step and hand', async () => {
+    const page = open('#scene=curtain&level=0&stepper=imex&springs=on');
+    const split = () => Array.from(page.store.get().springSplit?.isImplicit ?? []).join('');
+    await vi.waitUntil(() => split() === '10');
+    page.run.grab(3);
+    await vi.waitUntil(() => split() === '01');
+    page.run.releaseGrab();
+    await vi.waitUntil(() => split() === '10');
+    page.store.set({ springSplit: null });
+    const { setting } = page.store.get();
+    page.store.set({ setting: { ...setting, substeps: setting.substeps + 1 } });
+    await vi.waitUntil(() => split() === '10');
+    page.store.set({ setting: withStepper(setting, 'xpbd') });
+    await vi.waitUntil(() => split() === '');
+    expect(page.store.get().springSplit?.ends).toHaveLength(4);
+  });
+
+  it('does not ask for springs that nobody looks at', async () => {
+    const page = open('#scene=curtain&level=0&stepper=imex');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    expect(page.store.get().springSplit).toBeNull();
+    page.store.set({ springs: true });
+    await vi.waitUntil(() => page.store.get().springSplit !== null);
   });
 
   it('knows what a link to the shown cloth leaves out', async () => {

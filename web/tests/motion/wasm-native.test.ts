@@ -1,11 +1,11 @@
 // The same core natively and in WebAssembly: smooth scenes end at the same places.
 import { beforeAll, describe, expect, it } from 'vitest';
-import type { PleatModule } from '../../src/motion/bindings/pleat-module';
+import { ENERGY_NUMBERS, type PleatModule } from '../../src/motion/bindings/pleat-module';
 import { MODELS } from '../../src/motion/state/setting';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { canRun, type Model, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
 import { loadModule } from '../support/built-module';
-import { nativePositions } from '../support/native-command';
+import { nativeEnergy, nativePositions } from '../support/native-command';
 
 /** Steps of a run: rk4, in its hundreds of stable substeps, takes seconds for twenty. */
 const stepsOf = (stepper: string) => (stepper === 'rk4' ? 20 : 100);
@@ -95,6 +95,17 @@ function relativeDifference(a: Float64Array, b: Float64Array): number {
   return difference / largest;
 }
 
+/** The same numbers by the names of the command. */
+const NATIVE_NAMES = {
+  kinetic: 'kinetic_j',
+  elastic: 'elastic_j',
+  damping: 'work_of_damping_j',
+  air: 'work_of_air_j',
+  contact: 'work_of_contact_j',
+  pins: 'work_of_pins_j',
+  drift: 'drift_j',
+} as const;
+
 /** The scene with its model, for the models that it can have: particles have springs alone. */
 function modelled(scene: object): [Model, object][] {
   const models: Model[] = 'fabric' in scene ? ['springs', 'membrane'] : ['springs'];
@@ -137,4 +148,28 @@ describe('WebAssembly against native', () => {
     },
     PATIENCE_MS,
   );
+
+  it('accounts for the same energy', () => {
+    const particle = {
+      name: 'a particle on a spring, pulled about and rubbing on the floor',
+      ...scenes['spring pendulum'],
+      pins: [{ vertices: [0], motion: { kind: 'move', offset_m: [0.2, 0, 0], end_s: 0.4 } }],
+      world: { colliders: [{ plane: { point_m: [0, 0.8, 0] }, friction: 0.3 }] },
+      method: { stepper: 'implicit', step_s: stepS },
+      duration_s: 100 * stepS,
+    };
+    const native = nativeEnergy(particle);
+    const simulation = new module.Simulation(fabricsText);
+    simulation.openLedger();
+    expect(JSON.parse(simulation.load(JSON.stringify(particle)))).toMatchObject({ ok: true });
+    expect(simulation.step(100)).toBe(0);
+    const energies = simulation.energies().slice();
+    simulation.delete();
+    const largest = Math.max(...Object.values(NATIVE_NAMES).map((name) => native[name] ?? 0));
+    for (const [name, nativeName] of Object.entries(NATIVE_NAMES)) {
+      const value = energies[ENERGY_NUMBERS.indexOf(name as keyof typeof NATIVE_NAMES)];
+      if (name !== 'air') expect(Math.abs(native[nativeName] ?? 0)).toBeGreaterThan(0);
+      expect((value ?? Number.NaN) / largest).toBeCloseTo((native[nativeName] ?? 0) / largest, 9);
+    }
+  });
 });

@@ -103,6 +103,7 @@ class FakeSimulation implements SimulationHandle {
     const steps = this.steps;
     const answer = this.load(text);
     this.steps = steps;
+    if (this.ledgerFrom !== null) this.openLedger();
     return answer;
   }
 
@@ -114,6 +115,7 @@ class FakeSimulation implements SimulationHandle {
 
   reset(): string {
     this.steps = 0;
+    if (this.ledgerFrom !== null) this.openLedger();
     this.pulled = false;
     this.ended = false;
     for (let v = 0; v < this.side * this.side; ++v) {
@@ -202,6 +204,28 @@ class FakeSimulation implements SimulationHandle {
   }
 
   colliders = () => ok({ colliders: [{ shape: 'sphere', centre: [0, 0, 0], radius_m: 0.2 }] });
+
+  private ledgerFrom: number | null = null; // the step at which the account began
+  openLedger = () => {
+    this.ledgerFrom = this.steps;
+  };
+  closeLedger = () => {
+    this.ledgerFrom = null;
+  };
+  /** All energy of height becomes energy of motion, but for what damping takes. */
+  energies(): Float64Array {
+    if (this.ledgerFrom === null) return new Float64Array(0);
+    const fallen = 0.01 * (this.steps - this.ledgerFrom);
+    const held = [0.75 * fallen, 0, 0 - fallen];
+    return Float64Array.from([this.steps / 60, ...held, 0 - 0.25 * fallen, 0, 0, 0, 0, 0]);
+  }
+
+  /** Two springs, of which imex has one implicit; the other one while a hand holds the cloth. */
+  springEnds = () => Uint32Array.from([0, 1, 1, 2]);
+  implicitSprings = () => {
+    const held = this.held === null ? [1, 0] : [0, 1];
+    return Int8Array.from(this.scene?.method.stepper === 'imex' ? held : []);
+  };
 
   grab(vertex: number): string {
     if (vertex < 0 || vertex >= this.x.length / 3) return refuse('', `no vertex ${vertex}`);

@@ -7,18 +7,35 @@ import { fileURLToPath } from 'node:url';
 
 const command = fileURLToPath(new URL('../../../build/release/cli/pleat', import.meta.url));
 
-/** Positions after the last step, as `pleat run` writes them. */
-export function nativePositions(scene: object): Float64Array {
+/** What `read` finds after a run of the scene with these words, given what it printed and its folder. */
+function ran<Found>(
+  scene: object,
+  words: readonly string[],
+  read: (printed: string, folder: string) => Found,
+): Found {
   const folder = mkdtempSync(join(tmpdir(), 'pleat-native-'));
   try {
     const file = join(folder, 'scene.json');
     writeFileSync(file, JSON.stringify(scene));
-    execFileSync(command, ['run', file, '--out', join(folder, 'run')], { stdio: 'pipe' });
-    const bytes = readFileSync(join(folder, 'run', 'frames.bin'));
-    const { n_vertices: n } = JSON.parse(bytes.toString('utf8', 0, bytes.indexOf('\n')));
-    const last = bytes.subarray(bytes.length - 24 * n);
-    return new Float64Array(last.buffer.slice(last.byteOffset, last.byteOffset + last.byteLength));
+    const out = join(folder, 'run');
+    const all = ['run', file, '--out', out, '--json', ...words];
+    return read(execFileSync(command, all, { stdio: 'pipe', encoding: 'utf8' }), out);
   } finally {
     rmSync(folder, { recursive: true });
   }
+}
+
+/** Positions after the last step, as `pleat run` writes them. */
+export function nativePositions(scene: object): Float64Array {
+  return ran(scene, [], (_, folder) => {
+    const bytes = readFileSync(join(folder, 'frames.bin'));
+    const { n_vertices: n } = JSON.parse(bytes.toString('utf8', 0, bytes.indexOf('\n')));
+    const last = bytes.subarray(bytes.length - 24 * n);
+    return new Float64Array(last.buffer.slice(last.byteOffset, last.byteOffset + last.byteLength));
+  });
+}
+
+/** The account of energy of a run, as `pleat run --drift` tells it [J]. */
+export function nativeEnergy(scene: object): Record<string, number> {
+  return ran(scene, ['--drift'], (printed) => JSON.parse(printed).energy);
 }

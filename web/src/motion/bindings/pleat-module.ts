@@ -47,6 +47,35 @@ export interface RunNumbers {
   reference: ReferenceNumbers | null;
 }
 
+/** What `energies` holds, in this order. */
+export const ENERGY_NUMBERS = [
+  /** [s] */
+  'time_s',
+  /** Energies now [J]; that by height above what it was when the account began. */
+  'kinetic',
+  'elastic',
+  'gravity',
+  /** Works done on the cloth since then [J]: negative where they took energy. */
+  'damping',
+  'air',
+  'contact',
+  'pins',
+  /** What no work explains [J]. */
+  'drift',
+  /** Kinetic and elastic energy when the account began [J]. */
+  'start',
+] as const;
+
+export type EnergyNumbers = Record<(typeof ENERGY_NUMBERS)[number], number>;
+
+/** The springs of a mesh, and how its stepper takes them. */
+export interface SpringSplit {
+  /** Two vertices a spring. */
+  ends: Uint32Array;
+  /** 1 where a spring is implicit, 0 where not; empty where the stepper takes all alike. */
+  isImplicit: Int8Array;
+}
+
 /** The answer of `readObj`. */
 export interface ObjAnswer {
   /** The section "cloth" of a scene, with the mesh written out. */
@@ -94,6 +123,14 @@ export interface SimulationHandle {
   /** Distance to the reference at each vertex [m]; empty without one for the scene at its time. */
   distances(): Float32Array;
   triangles(): Uint32Array;
+  /** Accounts for energy from now on, and anew from each start and load, until it is closed. */
+  openLedger(): void;
+  closeLedger(): void;
+  /** ENERGY_NUMBERS; empty while there is no account. */
+  energies(): Float64Array;
+  /** The two parts of a SpringSplit. */
+  springEnds(): Uint32Array;
+  implicitSprings(): Int8Array;
   /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
   setReference(bytes: Uint8Array): string;
   colliders(): string;
@@ -133,6 +170,11 @@ export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
     distances: true,
     setReference: true,
     triangles: true,
+    openLedger: true,
+    closeLedger: true,
+    energies: true,
+    springEnds: true,
+    implicitSprings: true,
     colliders: true,
     grab: true,
     moveGrab: true,

@@ -1,4 +1,4 @@
-// Chooses what is painted on the cloth: its material, stretch or distance; and the mesh's edges.
+// Chooses what is painted on the cloth: its material, stretch or distance; and the lines over it.
 import { choice, element, field } from '../../shared/panels/element';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
@@ -27,20 +27,26 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
     type: 'checkbox',
     change: () => store.set({ edges: edges.checked }),
   });
+  const springs = element('input', {
+    type: 'checkbox',
+    change: () => store.set({ springs: springs.checked }),
+  });
   parent.append(
     element(
       'section',
       { 'aria-label': 'Drawing' },
       element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
       element('label', { class: 'check' }, edges, 'Edges of the mesh'),
+      element('label', { class: 'check' }, springs, 'Springs: explicit or implicit'),
     ),
   );
-  return watch(store, ['heat', 'heatRange', 'edges', 'numbers', 'setting'], (state) => {
+  return watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
     const hasReference = referenceUrl(state.setting) !== null;
     heat.limit((value) => (value === 'distance' && !hasReference ? 'none of this scene' : null));
     heat.select(hasReference ? state.heat : shownHeat(state));
     range.select(String(state.heatRange));
     rangeField.hidden = !['magnitude', 'signed'].includes(shownHeat(state));
     edges.checked = state.edges;
+    springs.checked = state.springs;
   });
 }

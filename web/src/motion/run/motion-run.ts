@@ -4,6 +4,8 @@ import type { Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
+import type { EnergyNumbers } from '../bindings/pleat-module';
+import { withSample } from '../state/energy-samples';
 import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
 import { presetSetting } from '../state/setting';
 import { withCost } from '../state/step-cost';
@@ -28,6 +30,7 @@ import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content'
 import { RunFrames } from './run-frames';
 import { endOf, workWords } from './run-words';
 import { RunWorker, type Work } from './run-worker';
+import { SpringSource } from './spring-source';
 import { createStepTimer } from './step-timing';
 
 /** Time of a step that is expected before one was measured [ms]. */
@@ -35,6 +38,9 @@ const EXPECTED_STEP_MS = 10;
 
 /** Work that takes longer is shown, and can be stopped [ms]. */
 const SHOWN_WORK_MS = 500;
+
+/** An account of energy has a sample at least this often on the way to the start [s]. */
+const SAMPLE_EVERY_S = 1 / 60;
 
 /** How often a run that is to rest is looked at [ms]. */
 const REST_POLL_MS = 20;
@@ -58,6 +64,7 @@ export class MotionRun {
   readonly obj: ObjSource;
   private readonly worker: RunWorker;
   private readonly reference: ReferenceSource;
+  private readonly springs: SpringSource;
   private readonly clock = new RunClock();
   private readonly frames = new RunFrames();
   private readonly timer = createStepTimer();
@@ -65,6 +72,7 @@ export class MotionRun {
   private isWaiting = false; // for the answer to a load or a reset
   private isStepping = false;
   private areNumbersOld = false; // they are not those of the shown frame
+  private lacksEnergy = false; // the account of energy is open, but its begin was not read
   private isAhead = false; // running to the start, nothing is shown
   private nWarned = 0; // warnings of the run that were told
   private isRecovering = false; // started again after an end, and no step since
@@ -90,10 +98,16 @@ export class MotionRun {
     this.reference = new ReferenceSource(store, this.worker, (numbers) => {
       if (!this.isWaiting) store.set({ numbers });
     });
+    this.springs = new SpringSource(store, () => {
+      const { request } = this;
+      return this.answer(this.worker.ask({ type: 'readSprings', request }));
+    });
     store.subscribe((state, previous) => {
       if (state.setting !== previous.setting && state.phase !== 'broken') void this.load();
       if (state.playing && !previous.playing) this.startClock();
       if (wantsReference(state) && !wantsReference(previous)) this.bringReference();
+      if (state.springs && !previous.springs) this.bringSprings();
+      if (state.energy !== previous.energy) this.beginAccount();
       const isPaused = !state.playing && previous.playing;
       if (isPaused || shownHeat(state) !== shownHeat(previous)) this.refill();
     });
@@ -167,6 +181,7 @@ export class MotionRun {
   grab(vertex: number): void {
     this.worker.tell({ type: 'grab', vertex });
     this.store.set({ held: true, astray: 'pulled' });
+    this.bringSprings();
   }
 
   moveGrab(target: Triple): void {
@@ -176,6 +191,18 @@ export class MotionRun {
   releaseGrab(): void {
     this.worker.tell({ type: 'releaseGrab' });
     this.store.set({ held: false });
+    this.bringSprings();
+  }
+
+  private bringSprings(): void {
+    if (this.store.get().phase === 'ready') void this.springs.bring();
+  }
+
+  /** The account of energy begins with the frame that stands, or is closed. */
+  private beginAccount(): void {
+    this.lacksEnergy = this.store.get().energy;
+    this.store.set({ energies: [] });
+    this.refill();
   }
 
   private hear(message: FromMotion): void {
@@ -340,7 +367,8 @@ export class MotionRun {
     this.timer.feed(message.numbers);
     this.nWarned = 0;
     this.showLoaded(message, content);
-    const { problem, startSteps } = this.store.get();
+    const { problem, startSteps, energy } = this.store.get();
+    this.lacksEnergy = energy;
     const isSolved = problem !== null && ['setting', 'run', 'file'].includes(problem.source);
     this.store.set({
       phase: 'ready',
@@ -348,12 +376,14 @@ export class MotionRun {
       numbers: message.numbers,
       colliders: message.colliders,
       timing: null,
+      energies: [],
       isCutShort: false,
       pace: null,
       astray,
       problem: isSolved ? null : problem,
     });
     this.bringReference();
+    this.bringSprings();
     if (message.numbers.time_s === 0 && startSteps > 0) {
       this.isAhead = true;
       this.runAhead();
@@ -371,19 +401,21 @@ export class MotionRun {
     const { phase, playing } = this.store.get();
     const isFree = !this.isWaiting && !this.isStepping && !this.isAhead;
     if (!isFree || phase !== 'ready') return;
-    const isBehind = this.areNumbersOld && !playing;
+    const isBehind = (this.areNumbersOld && !playing) || this.lacksEnergy;
     if (isBehind || this.frames.scalar !== this.scalar()) void this.send(0);
   }
 
   /** Takes the next steps towards the start, or shows the frame when there. */
   private runAhead(): void {
-    const { startSteps, numbers, summary, timing, playing } = this.store.get();
+    const { startSteps, numbers, summary, timing, playing, energy } = this.store.get();
     if (!this.isAhead || !numbers || !summary) return;
     const left = startSteps - numbers.step;
     if (left <= 0 || playing) return this.endAhead();
+    if (this.lacksEnergy) return void this.send(0);
     this.store.set({ ahead: numbers.step / startSteps });
     const msPerStep = timing?.totalMs ?? EXPECTED_STEP_MS;
-    void this.send(this.clock.takeOf(left, summary.step_s, msPerStep));
+    const atOnce = energy ? Math.max(1, Math.round(SAMPLE_EVERY_S / summary.step_s)) : left;
+    void this.send(this.clock.takeOf(Math.min(left, atOnce), summary.step_s, msPerStep));
   }
 
   private endAhead(): void {
@@ -412,8 +444,17 @@ export class MotionRun {
     this.store.set(patch);
   }
 
-  private receiveFrame({ buffer, scalar, hasEnded, report, colliders }: FrameMessage): void {
+  private addSample(sample: EnergyNumbers): void {
+    const { energy, energies } = this.store.get();
+    if (!energy) return;
+    this.lacksEnergy = false;
+    this.store.set({ energies: withSample(energies, sample) });
+  }
+
+  private receiveFrame(frame: FrameMessage): void {
+    const { buffer, scalar, hasEnded, report, energy, colliders } = frame;
     this.isStepping = false;
+    if (energy) this.addSample(energy);
     this.frames.show(buffer, scalar);
     if (!this.isAhead || hasEnded) this.showFrame();
     if (colliders.length > 0) this.store.set({ colliders });
@@ -434,12 +475,14 @@ export class MotionRun {
   private async send(count: number): Promise<void> {
     const buffer = this.frames.take();
     if (!buffer) return;
-    const wantsNumbers = this.clock.areNumbersDue(!this.store.get().playing);
+    const { playing, energy: wantsEnergy } = this.store.get();
+    const wantsNumbers = this.clock.areNumbersDue(!playing);
     this.isStepping = true;
     const { request } = this;
     const scalar = this.scalar();
     const beginMs = performance.now();
-    const question = { type: 'step', count, wantsNumbers, request, scalar, buffer } as const;
+    const wants = { wantsNumbers, wantsEnergy, scalar };
+    const question = { type: 'step', count, request, buffer, ...wants } as const;
     const frame = await this.answer(this.worker.ask(question, [buffer]));
     if (frame?.type !== 'frame') return;
     if (count > 0 && performance.now() - beginMs < PATIENCE_MS) {
@@ -455,6 +498,7 @@ export class MotionRun {
     if (!playing || !summary) return;
     this.clock.tick(speed);
     if (this.isWaiting || this.isStepping || this.isAhead) return;
+    if (this.lacksEnergy) return void this.send(0);
     const count = this.clock.take(summary.step_s, timing?.totalMs ?? null);
     if (count > 0) void this.send(count);
   }

@@ -8,7 +8,9 @@ import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+import type { SpringSplit } from '../bindings/pleat-module';
 import { invitingVertex } from './inviting';
+import { createSpringLines } from './spring-lines';
 
 export interface MotionStageEvents {
   grab(vertex: number): void;
@@ -37,6 +39,8 @@ export interface MotionStage {
   setFabric(id: number): void;
   setHeat(map: HeatMap, range: 'auto' | number): void;
   setEdges(isShown: boolean): void;
+  /** Springs of the shown mesh; null draws none, as a new mesh does. */
+  setSprings(split: SpringSplit | null): void;
   homeView(): void;
   /** From where the scene is seen, also once it is another one. */
   setCamera(pose: Pose | null): void;
@@ -124,6 +128,7 @@ export function createMotionStage(
   events: MotionStageEvents,
 ): MotionStage {
   const cloth = createClothMesh();
+  const springs = createSpringLines();
   let awaitsFraming = false;
   let isFreshMesh = false;
   let inviting = 0;
@@ -132,17 +137,22 @@ export function createMotionStage(
 
   const stage = createPaneStage(parent, canvas, {
     fov: 32,
-    objects: [cloth.object],
+    objects: [cloth.object, springs.object],
     isReady: () => cloth.positions().length > 0,
     prepare() {
       cloth.update();
+      springs.update(cloth.positions());
       hand.mark(cloth.positions());
     },
     drawn() {
       const [invitation, camera] = [project(inviting), stage.control.pose()];
       events.drawn({ heatScale: cloth.heatScale(), invitation, camera });
     },
-    themed: (colour) => hand.setColour(colour('--stage-hand')),
+    themed(colour) {
+      hand.setColour(colour('--stage-hand'));
+      const [explicit, implicit] = [colour('--spring-explicit'), colour('--spring-implicit')];
+      springs.setColours({ explicit, implicit });
+    },
     handKey: (name) => hand.key(name),
     key: events.key,
     pictureLost: events.pictureLost,
@@ -169,6 +179,7 @@ export function createMotionStage(
   return {
     showMesh(triangles, nVertices, isNewScene) {
       cloth.setTopology(triangles, nVertices);
+      springs.setSplit(null);
       awaitsFraming = isNewScene;
       isFreshMesh = true;
       hand.drop();
@@ -192,6 +203,10 @@ export function createMotionStage(
       redraw();
     },
     ...drawingOf(cloth, redraw),
+    setSprings(split) {
+      springs.setSplit(split);
+      redraw();
+    },
     homeView: stage.control.home,
     setCamera(pose) {
       wantedPose = pose;

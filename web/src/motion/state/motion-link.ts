@@ -26,6 +26,10 @@ export interface MotionLink {
   /** Upper end of the scale of stretch [%], or chosen from the frame. */
   heatRange: 'auto' | number;
   edges: boolean;
+  /** The springs are drawn by how the stepper takes them. */
+  springs: boolean;
+  /** The account of energy is open, which takes keeping it. */
+  energy: boolean;
   /** The reference is compared with, which takes fetching it. */
   compare: boolean;
   /** Steps that are run through before the cloth is shown. */
@@ -120,6 +124,8 @@ export function encodeMotionLink(link: MotionLink): string {
     ['edges', link.edges ? 'on' : 'off'],
     ['steps', String(link.startSteps)],
   ];
+  if (link.springs) parts.push(['springs', 'on']);
+  if (link.energy) parts.push(['energy', 'on']);
   if (link.compare) parts.push(['compare', 'on']);
   if (link.camera) parts.push(['camera', poseText(link.camera)]);
   if (setting.preset === 'obj') parts.push(['hold', encodeURIComponent(setting.hold)]);
@@ -160,11 +166,17 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const range = take<MotionLink['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>
     text === 'auto' ? 'auto' : oneOf(HEAT_RANGES)(text),
   );
-  const edges = take('edges', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const takeSwitch = (key: string) => take(key, 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const [edges, springs, energy] = [
+    takeSwitch('edges'),
+    takeSwitch('springs'),
+    takeSwitch('energy'),
+  ];
   const usualStart = text === '' ? FIRST_VISIT_START_S : 0;
   const startSteps = takeStart(reader, setting.stepS, usualStart);
-  const compare = take('compare', 'off', 'on or off', oneOf(['on', 'off'])) === 'on';
+  const compare = takeSwitch('compare');
   const camera = take<Pose | null>('camera', null, 'six numbers', poseIn);
-  const link = { setting, heat, heatRange: range, edges, compare, startSteps, camera };
+  const drawing = { heat, heatRange: range, edges, springs };
+  const link = { setting, ...drawing, energy, compare, startSteps, camera };
   return { link, problems: finish() };
 }

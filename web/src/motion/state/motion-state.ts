@@ -1,7 +1,12 @@
 // Everything the page shows. Only this and the frames travel between its parts.
 import type { Collider } from '../../shared/bindings/geometry';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
-import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
+import type {
+  EnergyNumbers,
+  RunNumbers,
+  SceneSummary,
+  SpringSplit,
+} from '../bindings/pleat-module';
 import type { MotionLink } from './motion-link';
 import type { ObjMesh } from './obj-mesh';
 import type { Setting } from './setting';
@@ -53,6 +58,10 @@ export interface MotionState extends MotionLink {
   summary: SceneSummary | null;
   numbers: RunNumbers | null;
   timing: StepTiming | null;
+  /** Of the frames since the account was opened or the run began; empty while it is closed. */
+  energies: readonly EnergyNumbers[];
+  /** As it was when last asked for: while `springs` is on, of the loaded cloth. */
+  springSplit: SpringSplit | null;
   /** How much of the way to the start is run through, 0 to 1; null when nothing is. */
   ahead: number | null;
   /** What the worker has been at for a while, and for how long by now [s]. */
@@ -87,6 +96,8 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     summary: null,
     numbers: null,
     timing: null,
+    energies: [],
+    springSplit: null,
     ahead: null,
     busy: null,
     astray: null,

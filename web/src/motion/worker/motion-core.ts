@@ -11,11 +11,13 @@ import {
 import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../../shared/bindings/frame';
 import type { Collider } from '../../shared/bindings/geometry';
 import type { Post } from '../../shared/workers/serve';
-import type {
-  PleatModule,
-  RunNumbers,
-  SceneSummary,
-  SimulationHandle,
+import {
+  ENERGY_NUMBERS,
+  type EnergyNumbers,
+  type PleatModule,
+  type RunNumbers,
+  type SceneSummary,
+  type SimulationHandle,
 } from '../bindings/pleat-module';
 import type { FromMotion, LoadMessage, RunReport, StepMessage, ToMotion } from './motion-protocol';
 
@@ -40,6 +42,13 @@ function readReport(simulation: SimulationHandle): RunReport | null {
   return { numbers, status: status.status, message: status.message };
 }
 
+function readEnergy(simulation: SimulationHandle): EnergyNumbers | null {
+  const values = simulation.energies();
+  if (values.length === 0) return null;
+  const named = ENERGY_NUMBERS.map((name, index) => [name, values[index] ?? Number.NaN]);
+  return Object.fromEntries(named) as EnergyNumbers;
+}
+
 function readColliders(simulation: SimulationHandle): Collider[] {
   const answer = read<{ colliders: Collider[] }>(simulation.colliders());
   return answer.ok ? answer.colliders : [];
@@ -50,6 +59,7 @@ export class MotionCore {
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
   private isHeld = false;
+  private hasLedger = false;
 
   private refuse(request: number, failure: Failure): void {
     this.post({ type: 'refused', request, failure }, []);
@@ -100,24 +110,36 @@ export class MotionCore {
   }
 
   private step(run: SimulationHandle, message: StepMessage): void {
-    const { buffer, count, request, scalar = 'stretch' } = message;
+    const { buffer, count, request, scalar = 'stretch', wantsEnergy = false } = message;
     // A buffer of another size belongs to the mesh before the last load: nothing to fill.
     if (!this.loaded || buffer.byteLength !== 4 * FLOATS_PER_VERTEX * this.loaded.n_vertices)
       return;
+    if (wantsEnergy && !this.hasLedger) run.openLedger();
+    if (!wantsEnergy && this.hasLedger) run.closeLedger();
+    this.hasLedger = wantsEnergy;
     const code = run.step(count);
     fill(run, buffer, scalar);
     const hasEnded = code !== 0;
     const report = hasEnded || message.wantsNumbers ? readReport(run) : null;
+    const energy = readEnergy(run);
     const colliders = readColliders(run);
-    this.post({ type: 'frame', request, count, buffer, scalar, hasEnded, report, colliders }, [
-      buffer,
-    ]);
+    this.post(
+      { type: 'frame', request, count, buffer, scalar, hasEnded, report, energy, colliders },
+      [buffer],
+    );
+  }
+
+  private readSprings(run: SimulationHandle, request: number): void {
+    const ends = run.springEnds().slice();
+    const isImplicit = run.implicitSprings().slice();
+    this.post({ type: 'springs', request, ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
   }
 
   private open(text: string): void {
     this.simulation?.delete();
     this.simulation = new this.module.Simulation(text);
     this.loaded = null;
+    this.hasLedger = false;
     this.post({ type: 'ready' }, []);
   }
 
@@ -135,6 +157,8 @@ export class MotionCore {
         return this.setReference(this.simulation, message.bytes);
       case 'step':
         return this.step(this.simulation, message);
+      case 'readSprings':
+        return this.readSprings(this.simulation, message.request);
       case 'grab':
         this.isHeld = this.loaded !== null && read<object>(this.simulation.grab(message.vertex)).ok;
         return;

@@ -4,13 +4,20 @@ import type { Failure } from '../../shared/bindings/answers';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider } from '../../shared/bindings/geometry';
 import type { Done } from '../../shared/workers/asked';
-import type { RunNumbers, SceneSummary } from '../bindings/pleat-module';
+import type {
+  EnergyNumbers,
+  RunNumbers,
+  SceneSummary,
+  SpringSplit,
+} from '../bindings/pleat-module';
 
 export interface StepMessage {
   type: 'step';
   /** 0 to fill the buffer anew. */
   count: number;
   wantsNumbers: boolean;
+  /** An account of energy is kept over these steps. */
+  wantsEnergy?: boolean;
   request: number;
   scalar?: Scalar;
   buffer: ArrayBuffer;
@@ -36,6 +43,8 @@ export type ToMotion =
   | { type: 'setReference'; bytes: ArrayBuffer }
   /** The buffer is given away here and comes back filled in `frame`. */
   | StepMessage
+  /** Which springs are implicit, as of now. */
+  | { type: 'readSprings'; request: number }
   | { type: 'grab'; vertex: number }
   | { type: 'moveGrab'; target: [number, number, number] }
   | { type: 'releaseGrab' };
@@ -69,7 +78,14 @@ export interface FrameMessage {
   hasEnded: boolean;
   /** Null unless it was asked for or the run has ended. */
   report: RunReport | null;
+  /** Null unless an account is kept. */
+  energy: EnergyNumbers | null;
   colliders: Collider[];
+}
+
+export interface SpringsMessage extends SpringSplit {
+  type: 'springs';
+  request: number;
 }
 
 /** A reference was taken: the numbers anew. */
@@ -82,6 +98,7 @@ export type FromMotion =
   | { type: 'ready' }
   | LoadedMessage
   | FrameMessage
+  | SpringsMessage
   | ReferenceSetMessage
   /** `request` is -1 when what was refused had none. */
   | { type: 'refused'; request: number; failure: Failure };
@@ -93,6 +110,7 @@ export interface MotionAnswers {
   reset: LoadedMessage;
   setReference: ReferenceSetMessage | Done;
   step: FrameMessage | Done;
+  readSprings: SpringsMessage;
   grab: Done;
   moveGrab: Done;
   releaseGrab: Done;

@@ -39,6 +39,19 @@ export function smallLength(metres: number | null): string {
   return `${digits(millimetres, 2)} mm`;
 }
 
+/** The unit in which energies of this size are written, and how many of it a joule is. */
+export function energyUnit(joules: number): { unit: string; perJoule: number } {
+  const size = Math.abs(joules);
+  if (size >= 0.1 || size === 0) return { unit: 'J', perJoule: 1 };
+  return size >= 1e-4 ? { unit: 'mJ', perJoule: 1e3 } : { unit: 'µJ', perJoule: 1e6 };
+}
+
+/** An energy of any size: "1.2 J", "34 mJ"; no line ends before the unit. */
+export function energyText(joules: number): string {
+  const { unit, perJoule } = energyUnit(joules);
+  return `${digits(perJoule * joules, 2)}\u00a0${unit}`;
+}
+
 export function milliseconds(ms: number | null): string {
   if (ms === null) return '–';
   return `${digits(ms, 2)} ms`;

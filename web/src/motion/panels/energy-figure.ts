@@ -1,0 +1,98 @@
+// The account of energy as a plot, in words, and as a table.
+import { element, setText, svg } from '../../shared/panels/element';
+import { energyText } from '../../shared/panels/quantity';
+import { type Store, watch } from '../../shared/state/store';
+import type { EnergyNumbers } from '../bindings/pleat-module';
+import type { MotionState } from '../state/motion-state';
+import { type EnergyLine, linesOf } from './energy-lines';
+import { createEnergyPlot, lineMark } from './energy-plot';
+import { energyWords } from './energy-words';
+
+/** So many times of a run are in the table. */
+const TABLE_ROWS = 9;
+
+function legendKey({ kind, title }: EnergyLine): HTMLElement {
+  const mark = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
+  mark.append(lineMark(kind, 'M0 5H24'));
+  return element('li', {}, mark, title);
+}
+
+/** Samples evenly spread over all of them, with the first and the last. */
+export function spread(samples: readonly EnergyNumbers[]): EnergyNumbers[] {
+  const n = Math.min(TABLE_ROWS, samples.length);
+  return Array.from({ length: n }, (_, row) =>
+    samples.at(Math.round((row * (samples.length - 1)) / Math.max(1, n - 1))),
+  ).filter((sample) => sample !== undefined);
+}
+
+function createTable() {
+  const head = element('tr');
+  const rows = element('tbody');
+  const box = element(
+    'div',
+    { class: 'table-box', tabindex: 0, role: 'region', 'aria-label': 'Energies over time' },
+    element(
+      'table',
+      { class: 'rows energy-rows' },
+      element('caption', { class: 'unseen' }, 'Energies over time'),
+      element('thead', {}, head),
+      rows,
+    ),
+  );
+  return {
+    box,
+    fill(samples: readonly EnergyNumbers[], lines: readonly EnergyLine[]) {
+      const heads = ['Time', ...lines.map(({ title }) => title)];
+      head.replaceChildren(...heads.map((title) => element('th', { scope: 'col' }, title)));
+      const row = (sample: EnergyNumbers) =>
+        element(
+          'tr',
+          {},
+          element('th', { scope: 'row' }, `${sample.time_s.toFixed(2)}\u00a0s`),
+          ...lines.map((line) =>
+            element('td', { class: 'number' }, energyText(line.joules(sample))),
+          ),
+        );
+      rows.replaceChildren(...spread(samples).map(row));
+    },
+  };
+}
+
+export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState>): () => void {
+  const plot = createEnergyPlot();
+  const legend = element('ul', { class: 'marks energy-keys' });
+  const words = element('figcaption');
+  const table = createTable();
+  const asTable = element(
+    'details',
+    { toggle: () => render(store.get()) },
+    element('summary', {}, 'The same as a table'),
+    table.box,
+  );
+  const figure = element('figure', { class: 'chart' }, legend);
+  figure.append(plot.root, words);
+  parent.append(
+    figure,
+    asTable,
+    element(
+      'p',
+      { class: 'note' },
+      'Height and losses count from where the account begins, so that all lines add up to the same at any time. Keeping the account takes time while this is open.',
+    ),
+  );
+
+  function render({ energies }: MotionState): void {
+    const isDrawn = energies.length > 1;
+    plot.root.toggleAttribute('hidden', !isDrawn);
+    legend.hidden = !isDrawn;
+    asTable.hidden = !isDrawn;
+    setText(words, energyWords(energies));
+    if (!isDrawn) return;
+    const lines = linesOf(energies);
+    legend.replaceChildren(...lines.map(legendKey));
+    plot.draw(energies, lines);
+    if (asTable.open) table.fill(energies, lines);
+  }
+  // Energies change with each frame, and are drawn as often as numbers can be read.
+  return watch(store, ['energy', 'numbers'], render);
+}

@@ -1,0 +1,30 @@
+// The account of energy, which is kept only while it is open. What draws it comes when it is first asked for.
+import { element } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import type { MotionState } from '../state/motion-state';
+
+export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+  const box = element(
+    'details',
+    { class: 'energy', toggle: () => store.set({ energy: box.open }) },
+    element('summary', {}, 'Energy: where it is and where it goes'),
+  );
+  parent.append(element('section', { 'aria-label': 'Energy' }, box));
+  let isAskedFor = false;
+
+  async function make(): Promise<void> {
+    isAskedFor = true;
+    try {
+      const { createEnergyFigure } = await import('./energy-figure');
+      createEnergyFigure(box, store);
+    } catch {
+      isAskedFor = false;
+      const sentence = 'The plot of energy could not be fetched. Try again with a network.';
+      store.set({ energy: false, problem: { source: 'link', sentence } });
+    }
+  }
+  return watch(store, ['energy'], ({ energy }) => {
+    box.open = energy;
+    if (energy && !isAskedFor) void make();
+  });
+}
