@@ -53,6 +53,12 @@ describe('setting', () => {
     expect({ ...scene, fabric: 0, refinement: 0 }).toEqual({ ...before, fabric: 0, refinement: 0 });
   });
 
+  it('keeps what a preset says of its own fabric, and only of that', () => {
+    const own = presetSetting('pendulum');
+    expect(sceneOf(own).fabric).toHaveProperty('overrides');
+    expect(sceneOf({ ...own, fabric: 'silk' }).fabric).toEqual({ name: 'silk' });
+  });
+
   it('tells methods apart by the counts that matter only', () => {
     const implicit = withStepper(start, 'implicit');
     const projective = withStepper(start, 'projective');

@@ -1,6 +1,7 @@
 // The setting to compute: preset, fabric, model, level, method. The scene text given to the module
 // is made here.
 import curtainText from '../../../../assets/scenes/curtain.json?raw';
+import pendulumText from '../../../../assets/scenes/pendulum_10x10.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
@@ -15,7 +16,7 @@ import {
 } from '../../shared/steppers/steppers';
 import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
-export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'obj';
+export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'pendulum' | 'obj';
 
 export interface Setting {
   preset: PresetId;
@@ -38,7 +39,7 @@ interface SceneFile {
   name: string;
   caption: string;
   cloth: { sheet?: object; mesh?: object };
-  fabric: { name: string };
+  fabric: { name: string; overrides?: object };
   world?: object;
   refinement?: { level?: number };
   method: {
@@ -84,6 +85,7 @@ export const PRESETS: Record<PresetId, Preset> = {
   curtain: presetFrom('Curtain', curtainText),
   tablecloth: presetFrom('Tablecloth on a ball', tableclothText),
   'swinging-sheet': presetFrom('Swinging sheet', swingingSheetText),
+  pendulum: presetFrom('Pendulum 10 × 10', pendulumText),
   obj: {
     title: 'Your OBJ',
     scene: {
@@ -153,11 +155,17 @@ export function methodOf(setting: Setting): Record<string, unknown> {
   return method;
 }
 
+/** The fabric, with the numbers that a preset has of its own only where it is the preset's. */
+function fabricOf({ preset, fabric }: Setting): SceneFile['fabric'] {
+  const own = PRESETS[preset].scene.fabric;
+  return own.name === fabric ? own : { name: fabric };
+}
+
 /** The scene as the module reads it; `mesh` is the cloth of the preset that is any mesh. */
 export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<string, unknown> {
   const scene: Record<string, unknown> = {
     ...PRESETS[setting.preset].scene,
-    fabric: { name: setting.fabric },
+    fabric: fabricOf(setting),
     model: { elasticity: setting.model },
     refinement: { level: setting.level },
     method: methodOf(setting),
