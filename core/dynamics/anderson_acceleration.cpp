@@ -7,35 +7,19 @@ namespace {
 
 constexpr std::size_t kWindow = 2;
 
-LoadedRows zero_rows(Eigen::Index n_vertices) {
-  return {VertexRows::Zero(n_vertices, 3), VertexRows::Zero(n_vertices, 3)};
-}
-
-/// sum += factor * term
-void add_multiple(double factor, const LoadedRows& term, LoadedRows& sum) {
-  sum.places += factor * term.places;
-  sum.loads += factor * term.loads;
-}
-
-/// Either may be the difference itself.
-void set_difference(const LoadedRows& a, const LoadedRows& b, LoadedRows& difference) {
-  difference.places = a.places - b.places;
-  difference.loads = a.loads - b.loads;
-}
-
 /// a . A b [J]
 double inner_product(const LoadedRows& a, const LoadedRows& b) {
-  return a.places.cwiseProduct(b.loads).sum();
+  return places(a).cwiseProduct(loads(b)).sum();
 }
 
 }  // namespace
 
 AndersonAcceleration::AndersonAcceleration(Eigen::Index n_vertices)
-    : point_(zero_rows(n_vertices)),
-      step_(zero_rows(n_vertices)),
-      image_(zero_rows(n_vertices)),
-      change_(zero_rows(n_vertices)),
-      directions_(kWindow + 1, {zero_rows(n_vertices), zero_rows(n_vertices), 0}) {}
+    : point_(n_vertices, 6),
+      step_(n_vertices, 6),
+      image_(n_vertices, 6),
+      change_(n_vertices, 6),
+      directions_(kWindow + 1, {step_, image_, 0}) {}
 
 void AndersonAcceleration::start(const LoadedRows& point) {
   point_ = point;
@@ -52,8 +36,8 @@ void AndersonAcceleration::add_direction() {
   for (std::size_t d = 0; d < n_directions_; ++d) {
     const Direction& known = directions_[d];
     const double along = inner_product(fresh.step, known.step) / known.squared_norm;
-    add_multiple(-along, known.step, fresh.step);
-    add_multiple(-along, known.image, fresh.image);
+    fresh.step -= along * known.step;
+    fresh.image -= along * known.image;
   }
   fresh.squared_norm = inner_product(fresh.step, fresh.step);
   if (!(fresh.squared_norm > kLostShare * whole)) return;
@@ -65,12 +49,12 @@ const LoadedRows* AndersonAcceleration::propose(const VertexRows& image, const V
   Direction& fresh = directions_.back();
   std::swap(fresh.step, step_);
   std::swap(fresh.image, image_);
-  image_.places = image;
-  image_.loads = load;
-  set_difference(image_, point_, step_);
+  places(image_) = image;
+  loads(image_) = load;
+  step_ = image_ - point_;
   if (has_round_) {
-    set_difference(step_, fresh.step, fresh.step);
-    set_difference(image_, fresh.image, fresh.image);
+    fresh.step = step_ - fresh.step;
+    fresh.image = image_ - fresh.image;
     add_direction();
   }
   has_round_ = true;
@@ -78,19 +62,15 @@ const LoadedRows* AndersonAcceleration::propose(const VertexRows& image, const V
     point_ = image_;
     return nullptr;
   }
-  change_.places.setZero();
-  change_.loads.setZero();
+  change_.setZero();
   for (std::size_t d = 0; d < n_directions_; ++d) {
     const Direction& known = directions_[d];
-    add_multiple(-inner_product(step_, known.step) / known.squared_norm, known.image, change_);
+    change_ -= inner_product(step_, known.step) / known.squared_norm * known.image;
   }
   return &change_;
 }
 
-void AndersonAcceleration::accept() {
-  point_ = image_;
-  add_multiple(1, change_, point_);
-}
+void AndersonAcceleration::accept() { point_ = image_ + change_; }
 
 void AndersonAcceleration::refuse() {
   ++n_refused_;

@@ -8,11 +8,13 @@ namespace pleat {
 /// One row per vertex, as a solver takes three right-hand sides.
 using VertexRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Places, or differences of places, and what a constant matrix makes of them.
-struct LoadedRows {
-  VertexRows places;  ///< [m]
-  VertexRows loads;   ///< [N]
-};
+/// Places [m], or differences of places, and beside them what a constant matrix makes of them [N].
+using LoadedRows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+inline auto places(const LoadedRows& rows) { return rows.leftCols<3>(); }
+inline auto places(LoadedRows& rows) { return rows.leftCols<3>(); }
+inline auto loads(const LoadedRows& rows) { return rows.rightCols<3>(); }
+inline auto loads(LoadedRows& rows) { return rows.rightCols<3>(); }
 
 /// Foretells from the last rounds of an iteration where it leads. A round takes a point x to the
 /// image g with A g = b(x), A symmetric and positive definite; the proposed point is the sum of

@@ -30,10 +30,9 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
       solution_(model.n_vertices(), 3),
       positions_begin_(3, model.n_vertices()) {
   if (options.acceleration == Acceleration::anderson) {
-    const VertexRows empty(model.n_vertices(), 3);
     acceleration_.emplace(model.n_vertices());
-    start_ = {empty, empty};
-    steady_side_ = empty;
+    start_.resize(model.n_vertices(), 6);
+    steady_side_.resize(model.n_vertices(), 3);
     proposed_.resize(3, model.n_vertices());
   }
   refresh();
@@ -131,10 +130,10 @@ void StepperProjective::set_right_side(double time_end, double h) {
 void StepperProjective::start_acceleration(double time_end, double h) {
   const auto damped = [](const Spring&, const Target& target) { return target.damped; };
   add_up(time_end, h, damped, steady_side_);
-  start_.places = positions_.transpose();
-  for (const HangingVertex& vertex : model_.hanging) start_.places.row(vertex.vertex).setZero();
+  places(start_) = positions_.transpose();
+  for (const HangingVertex& vertex : model_.hanging) start_.row(vertex.vertex).setZero();
   const auto A = matrix_.selfadjointView<Eigen::Lower>();
-  for (int c = 0; c < 3; ++c) start_.loads.col(c).noalias() = A * start_.places.col(c);
+  for (int c = 0; c < 3; ++c) loads(start_).col(c).noalias() = A * places(start_).col(c);
   acceleration_->start(start_);
 }
 
@@ -142,7 +141,7 @@ void StepperProjective::start_acceleration(double time_end, double h) {
 // pulls. At the image x of a round, A x = b, so that from x to x + d this changes by
 // d.(b - b_0) + d.Ad/2 - sum k L (l(x + d) - l(x)), in which nothing large cancels.
 double StepperProjective::energy_change(const LoadedRows& change) const {
-  double sum = change.places.cwiseProduct(right_side_ - steady_side_ + change.loads / 2).sum();
+  double sum = places(change).cwiseProduct(right_side_ - steady_side_ + loads(change) / 2).sum();
   for (std::size_t s = 0; s < model_.springs.size(); ++s) {
     const Spring& spring = model_.springs[s];
     const Vec3 begin = positions_.col(spring.a) - positions_.col(spring.b);
@@ -157,7 +156,7 @@ double StepperProjective::energy_change(const LoadedRows& change) const {
 void StepperProjective::accelerate() {
   const auto* change = acceleration_->propose(solution_, right_side_);
   if (change == nullptr) return;
-  proposed_ = (solution_ + change->places).transpose();
+  proposed_ = (solution_ + places(*change)).transpose();
   place_between_parents(model_.hanging, proposed_);
   if (energy_change(*change) < 0) {
     positions_.swap(proposed_);

@@ -14,6 +14,12 @@ Eigen::MatrixXd random_matrix(Eigen::Index n_rows, Eigen::Index n_columns, Rando
   return matrix;
 }
 
+LoadedRows loaded(const VertexRows& x, const VertexRows& load) {
+  LoadedRows rows(x.rows(), 6);
+  rows << x, load;
+  return rows;
+}
+
 /// A g = B x + c, whose rounds shrink the error by four distinct rates, in the norm of A.
 struct LinearRounds {
   Eigen::MatrixXd A, B;
@@ -29,10 +35,10 @@ struct LinearRounds {
     B = root * Q * rates.replicate<3, 1>().asDiagonal() * Q.transpose() * root.transpose();
     c = random_matrix(kSize, 3, random);
   }
-  LoadedRows point(const VertexRows& places) const { return {places, A * places}; }
+  LoadedRows point(const VertexRows& x) const { return loaded(x, A * x); }
   LoadedRows image(const VertexRows& x) const {
     const VertexRows load = B * x + c;
-    return {A.llt().solve(load), load};
+    return loaded(A.llt().solve(load), load);
   }
   VertexRows fixed_point() const { return (A - B).llt().solve(c); }
 };
@@ -49,12 +55,12 @@ TEST_CASE("anderson_acceleration: rounds of four rates end at the fixed point af
   for (int round = 0; round < 5; ++round) {
     CHECK((x - rounds.fixed_point()).norm() > 1e-3 * rounds.fixed_point().norm());
     const LoadedRows image = rounds.image(x);
-    const LoadedRows* change = acceleration.propose(image.places, image.loads);
+    const LoadedRows* change = acceleration.propose(places(image), loads(image));
     CHECK((change == nullptr) == (round == 0));
-    x = image.places;
+    x = places(image);
     if (change == nullptr) continue;
-    CHECK((rounds.A * change->places - change->loads).norm() < 1e-9 * change->loads.norm());
-    x += change->places;
+    CHECK((rounds.A * places(*change) - loads(*change)).norm() < 1e-9 * loads(*change).norm());
+    x += places(*change);
     acceleration.accept();
   }
   CHECK((x - rounds.fixed_point()).norm() < 1e-9 * rounds.fixed_point().norm());
@@ -69,13 +75,13 @@ TEST_CASE("anderson_acceleration: after a refusal rounds before it are forgotten
   refused.start(rounds.point(x));
   const auto take_round = [&](AndersonAcceleration& acceleration) {
     const LoadedRows image = rounds.image(x);
-    return acceleration.propose(image.places, image.loads);
+    return acceleration.propose(places(image), loads(image));
   };
   for (int round = 0; round < 3; ++round) {
     const LoadedRows* change = take_round(refused);
-    x = rounds.image(x).places;
+    x = VertexRows(places(rounds.image(x)));
     if (change == nullptr) continue;
-    x += change->places;
+    x += places(*change);
     refused.accept();
   }
   AndersonAcceleration fresh(rounds.c.rows());
@@ -84,12 +90,12 @@ TEST_CASE("anderson_acceleration: after a refusal rounds before it are forgotten
   REQUIRE(take_round(refused) != nullptr);
   refused.refuse();
   CHECK(refused.n_refused() == 1);
-  x = rounds.image(x).places;
+  x = VertexRows(places(rounds.image(x)));
   const LoadedRows* expected = take_round(fresh);
   const LoadedRows* change = take_round(refused);
   REQUIRE(expected != nullptr);
   REQUIRE(change != nullptr);
-  CHECK((change->places - expected->places).norm() < 1e-9 * expected->places.norm());
+  CHECK((*change - *expected).norm() < 1e-9 * expected->norm());
 }
 
 TEST_CASE("anderson_acceleration: rounds that stand still propose nothing", "[dynamics]") {
@@ -99,7 +105,7 @@ TEST_CASE("anderson_acceleration: rounds that stand still propose nothing", "[dy
   acceleration.start(rounds.point(rounds.fixed_point()));
   const LoadedRows image = rounds.point(rounds.fixed_point());
   for (int round = 0; round < 3; ++round)
-    CHECK(acceleration.propose(image.places, image.loads) == nullptr);
+    CHECK(acceleration.propose(places(image), loads(image)) == nullptr);
 }
 
 }  // namespace pleat
