@@ -332,7 +332,7 @@ await check('heat map: legend with unit and ends, pixels change', () =>
   visit('#scene=swinging-sheet&level=1', async (page) => {
     const still = await picture(page);
     await choice(page, 'Colour shows').selectOption({ index: 1 });
-    const legend = page.locator('.legend');
+    const legend = page.getByLabel('Colour scale');
     await legend.waitFor();
     expectThat(/%/.test(await legend.textContent()), 'the legend has no unit');
     expectThat(!still.equals(await picture(page)), 'the picture is the same');
@@ -346,7 +346,7 @@ await check('a reference tells how far off the cloth is, in words and as a heat 
     await until(page, (state) => state.numbers.reference !== null);
     const verdict = page.locator('.verdict');
     expectThat(/has a reference/.test(await verdict.textContent()), 'it is not announced');
-    const legend = page.locator('.legend');
+    const legend = page.getByLabel('Colour scale');
     await eventually(async () => /mm/.test(await legend.textContent()), 'the legend in mm');
     await button(page, 'Play').click();
     await until(page, (state) => state.numbers.time_s > 0.3);

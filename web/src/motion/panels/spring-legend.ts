@@ -30,7 +30,7 @@ export function createSpringLegend(parent: HTMLElement, store: Store<MotionState
   const words = element('p', { class: 'legend-present' });
   const legend = element(
     'div',
-    { class: 'legend legend-springs', role: 'group', 'aria-label': 'Springs' },
+    { class: 'legend legend-springs', role: 'group', 'aria-label': 'Explicit or implicit' },
     element('p', { class: 'legend-title' }, 'Springs'),
     keys,
     words,
