@@ -37,7 +37,7 @@ void add_spring_force(const Spring& spring, const Eigen::Ref<const Positions>& p
 /// The relative velocity of the ends that the damper resists [m/s].
 Vec3 damped_velocity(const Spring& spring, const SpringAxis& axis,
                      const Eigen::Ref<const Positions>& velocities, DampingDirection direction) {
-  const Vec3 relative = velocities.col(spring.a) - velocities.col(spring.b);
+  Vec3 relative = velocities.col(spring.a) - velocities.col(spring.b);
   if (direction == DampingDirection::isotropic) return relative;
   return axis.direction.dot(relative) * axis.direction;
 }

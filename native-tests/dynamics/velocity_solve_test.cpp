@@ -22,7 +22,7 @@ std::vector<int> iterations(int n_steps, const std::function<Positions(int)>& ch
   solve.analyze(matrix);
   solve.choose_pins(matrix);
   const Positions rest = Positions::Zero(3, model.n_vertices());
-  const Positions places = mesh.rest_positions();
+  const Positions& places = mesh.rest_positions();
   std::vector<int> counts;
   for (int step = 0; step < n_steps; ++step) {
     matrix.set_zero();
