@@ -66,16 +66,19 @@ run_native_tests() {
       exit "$status"' "$preset" "$@"
 }
 
-# Long motions walk the same code as short ones, twenty times slower with sanitizers.
-test_long_motions() {
-  step release-build "Build, Release" build_preset release pleat long_tests &&
-    suite read_catch2 release-tests "Test long motions, Release" run_native_tests long release '[long]'
+# Long motions walk the same code as short ones, twenty times slower with sanitizers. The command joins what modules
+# do that are tested with them; compiling it so takes a third of what all of the core does.
+test_in_release() {
+  step release-build "Build, Release" build_preset release pleat cli_tests long_tests &&
+    suite read_catch2 release-tests "Test long motions, Release" run_native_tests long release '[long]' &&
+    suite read_catch2 cli-tests "Test the command, Release" run_native_tests cli release
 }
 
 test_with_sanitizers() {
   local modules
-  modules=$(tested_modules | tr '\n' ' ')
-  step dev-build "Build with sanitizers" build_preset dev pleat_tests &&
+  modules=$(tested_modules | grep -vx cli | tr '\n' ' ')
+  # shellcheck disable=SC2046
+  step dev-build "Build with sanitizers" build_preset dev $(printf '%s_tests ' $modules) &&
     suite read_catch2 dev-tests "Test with sanitizers" run_native_tests "$modules" dev '~[long]'
   step tidy-configure "Configure for clang-tidy" configure_tidy &&
     check tidy "Tidy what changed" tidy changed_files
@@ -118,7 +121,7 @@ run_all_tests() {
   (install_tools "$native_tools" "$wasm_tools" "$node_tools" "$test_tools") || failed=1
   check format "Check the format of C++" check_format
   check layers "Check the layers" check_layers
-  test_long_motions
+  test_in_release
   # The page's tests wait for a browser now and then, and leave a core to the compiler.
   meanwhile test_with_sanitizers
   test_wasm_build
