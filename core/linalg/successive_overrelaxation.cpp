@@ -12,8 +12,9 @@
 namespace pleat {
 namespace {
 
-constexpr int kPowerIterations = 20;
-constexpr double kLargestRadius = 0.9999;  // beyond, power iterations tell little
+constexpr int kLanczosSteps = 40;
+constexpr double kExhausted = 1e-10;       // of a unit vector: no direction is left
+constexpr double kLargestRadius = 0.9999;  // beyond, so few steps tell little
 
 /// A 3 x 3 block as three columns of four, the last of which is zero: two pairs of a processor's
 /// lanes each.
@@ -54,6 +55,51 @@ std::vector<int> coloured(const std::vector<std::vector<int>>& neighbours) {
   }
   return colours;
 }
+
+/// A symmetric tridiagonal matrix.
+class Tridiagonal {
+ public:
+  /// The next row: its diagonal and what joins it to the row before.
+  void add(double on_diagonal, double beside) { rows_.push_back({on_diagonal, beside * beside}); }
+
+  /// The largest size of an eigenvalue, at most kLargestRadius, by bisection.
+  double radius() const {
+    double low = 0;
+    double high = kLargestRadius;
+    if (!all_within(high)) return high;
+    while (high - low > 1e-3 * (1 - high)) {
+      const double middle = low + (high - low) / 2;
+      (all_within(middle) ? high : low) = middle;
+    }
+    return high;
+  }
+
+ private:
+  struct Row {
+    double on_diagonal, squared_beside;
+  };
+
+  bool all_within(double size) const {
+    return n_below(size) == rows_.size() && n_below(-size) == 0;
+  }
+
+  /// How many eigenvalues are below a value: as many as the pivots of the shifted matrix that are
+  /// negative (Sylvester).
+  std::size_t n_below(double value) const {
+    std::size_t count = 0;
+    double pivot = 1;
+    for (const Row& row : rows_) {
+      pivot = row.on_diagonal - value - row.squared_beside / pivot;
+      if (pivot == 0) pivot = kTiny;
+      count += pivot < 0 ? 1 : 0;
+    }
+    return count;
+  }
+
+  static constexpr double kTiny = 1e-300;
+
+  std::vector<Row> rows_;
+};
 
 /// The block rows of a matrix by colour: rows of one colour have no block with each other, so that
 /// a sweep need not wait for one to go on with the next. Each row has all of its blocks, those
@@ -139,35 +185,50 @@ class ColouredRows {
   }
 
   /// An estimate of the spectral radius of block Jacobi's iteration x -> -D^-1 (A - D) x, which is
-  /// symmetric in the metric of D: how much it lengthens a vector there tends to the radius from
-  /// below, whether it turns it round or not. Changes x.
+  /// self-adjoint in the metric of D: Lanczos' steps come to it from below. Changes x.
   double jacobi_radius(std::vector<double>& x) const {
     Random random(1);
     for (double& value : x) value = random.uniform(-1, 1);
+    std::vector<double> before(x.size(), 0.0);
     std::vector<double> next(x.size());
-    double radius = 0;
-    for (int iteration = 0; iteration <= kPowerIterations; ++iteration) {
-      double square = 0;
+    Tridiagonal projected;
+    double length = length_in_metric(x);
+    for (int step = 0; step < kLanczosSteps && length > 0; ++step) {
+      for (double& value : x) value /= length;
+      double on_diagonal = 0;
       for_each_row(0, rows_.size(), x.data(), [&](std::size_t k, int row, const double* sum) {
-        const double* own = x.data() + 3 * row;
-        double product[kPaddedColumn] = {};
         double moved[kPaddedColumn] = {};
-        add_product(diagonal(k), own, product);
         add_product(inverses_.data() + k * kPaddedBlock, sum, moved);
         for (int i = 0; i < 3; ++i) {
-          square += own[i] * product[i];
+          on_diagonal -= x[static_cast<std::size_t>(3 * row + i)] * sum[i];
           next[static_cast<std::size_t>(3 * row + i)] = -moved[i];
         }
       });
-      const double length = std::sqrt(square);
-      if (!(length > 0)) break;
-      if (iteration > 0) radius = length;
-      for (std::size_t k = 0; k < x.size(); ++k) x[k] = next[k] / length;
+      const double to_before = step == 0 ? 0 : length;
+      projected.add(on_diagonal, to_before);
+      for (std::size_t k = 0; k < x.size(); ++k)
+        next[k] -= on_diagonal * x[k] + to_before * before[k];
+      before.swap(x);
+      x.swap(next);
+      length = length_in_metric(x);
+      if (length < kExhausted) break;
     }
-    return std::min(radius, kLargestRadius);
+    return projected.radius();
   }
 
  private:
+  /// The root of x'D x.
+  double length_in_metric(const std::vector<double>& x) const {
+    double square = 0;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const double* own = x.data() + 3 * rows_[k].row;
+      double product[kPaddedColumn] = {};
+      add_product(diagonal(k), own, product);
+      for (int i = 0; i < 3; ++i) square += own[i] * product[i];
+    }
+    return std::sqrt(square);
+  }
+
   struct Row {
     int row;
     std::size_t blocks_end;  // in others_

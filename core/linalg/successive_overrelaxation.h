@@ -14,7 +14,7 @@ namespace pleat {
 /// Rows are taken by colour: those of one colour have no block with each other. Stops at
 /// |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the last x. One
 /// sweep takes a product's work. Without an omega in the options it follows from the spectral
-/// radius rho of block Jacobi's iteration, which power iterations estimate with the first values
+/// radius rho of block Jacobi's iteration, which Lanczos' steps estimate with the first values
 /// after `analyze`: with two colours it rises from 1 as Chebyshev's polynomials have it, to what it
 /// is from the first sweep on otherwise, 2 / (1 + sqrt(1 - rho^2)).
 ///

@@ -17,7 +17,7 @@ std::vector<int> iterations(int n_steps, const std::function<Positions(int)>& ch
   constexpr double kTolerance = 1e-6;
   const QuadMesh mesh = square_sheet(kCells);
   const ClothModel model = sheet_model(mesh, library_fabric("fine cotton"));
-  VelocitySolve solve(model, make_linear_solver(SolverKind::sor, {kTolerance, 1000}));
+  VelocitySolve solve(model, make_linear_solver(SolverKind::cg, {kTolerance, 1000}));
   SystemMatrix matrix(model);
   solve.analyze(matrix);
   solve.choose_pins(matrix);

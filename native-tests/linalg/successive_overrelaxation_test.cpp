@@ -60,7 +60,7 @@ TEST_CASE("sor: over-relaxation saves sweeps, the estimate most of them", "[lina
   const int best = sweeps(2 / (1 + std::sqrt(1 - radius * radius)));
   CAPTURE(best, sweeps(0), sweeps(1));
   CHECK(15 * best < sweeps(1));
-  CHECK(sweeps(0) < 0.35 * sweeps(1));
+  CHECK(sweeps(0) < 1.3 * best);
 }
 
 TEST_CASE("sor: it starts from what it is given, if that is better than zero", "[linalg]") {
@@ -75,5 +75,6 @@ TEST_CASE("sor: it starts from what it is given, if that is better than zero", "
   CHECK(cold > 1);
   CHECK(solver->solve(rhs, solution).iterations == 0);
   solution *= -1e6;
-  CHECK(solver->solve(rhs, solution).iterations == cold);
+  // What the last solve told of residuals lets it look at them a little sooner.
+  CHECK(solver->solve(rhs, solution).iterations <= cold);
 }
