@@ -24,5 +24,6 @@ Outcome bench_plans(Arguments arguments);      ///< bench plans
 Outcome bench_together(Arguments arguments);   ///< bench together
 Outcome bench_rows(Arguments arguments);       ///< bench rows
 Outcome bench_limit(Arguments arguments);      ///< bench limit
+Outcome bench_response(Arguments arguments);   ///< bench response
 
 }  // namespace pleat

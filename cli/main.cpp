@@ -120,6 +120,9 @@ pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in
   --adaptive K           one more, split anew in every frame where the first's base cloth bends more
                          than K [1/m]
   --from S               of what is timed and compared (default: half);  --every N  frames compared
+pleat bench response SCENE.json   how touched vertices move along the normal after first contact, with
+                         cloth that rests on solids and with cloth that bounces
+  --window S             after first contact (default: 0.05)
 pleat bench rows RUNS.json        rows with speed and error, of runs as bench run prints them
 pleat bench limit RUNS.json       where runs on three meshes lead, each with edges half as long
 pleat help | --version

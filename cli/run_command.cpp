@@ -214,6 +214,8 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
   if (const auto springs = implicit_count(simulation))
     json["implicit_springs"] = {
         {"count", springs->count}, {"all", springs->all}, {"share", springs->share()}};
+  if (const auto bound = simulation.stability_bound()) json["stability_bound_s"] = *bound;
+  if (const auto contact = simulation.first_contact()) json["first_contact_s"] = *contact;
   if (watchers.ledger != nullptr) json["energy"] = drift_json(watchers.ledger->account());
   json["core"] = core_version();
   return json;
@@ -226,13 +228,19 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// There may be so many that the first step, and so the first sign of progress, takes minutes.
-bool chooses_substeps(const Scene& scene) { return scene.method.substeps == 0; }
+bool chooses_substeps(const Scene& scene) {
+  return scene.method.substeps == 0 || scene.method.explicit_share > 0;
+}
 
 /// Says what a long run is of.
 void print_beginning(const Simulation& simulation) {
-  std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n",
-               simulation.scene().method.stepper->name, simulation.substeps(),
-               simulation.model().n_vertices());
+  const MethodOptions& method = simulation.scene().method;
+  const double substep = method.step / simulation.substeps();
+  std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n", method.stepper->name,
+               simulation.substeps(), simulation.model().n_vertices());
+  if (const auto bound = simulation.stability_bound())
+    std::fprintf(stderr, "stable in substeps of up to %.3g s; these are of %.3g s%s\n", *bound,
+                 substep, substep > *bound ? ", and the run may end early" : "");
 }
 
 void print_summary(const Simulation& simulation, const RunSummary& summary,
@@ -256,6 +264,8 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   if (const auto springs = implicit_count(simulation))
     std::printf("implicit springs: %zu of %zu, %.3g %%\n", springs->count, springs->all,
                 100 * springs->share());
+  if (const auto contact = simulation.first_contact())
+    std::printf("first contact at %.10g s\n", *contact);
   if (watchers.crossings != nullptr)
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),

@@ -227,7 +227,8 @@ bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
 // One solid acts at a time, the earliest first. With n its normal where the vertex meets it at the
 // share s of the substep, u the velocity and d the path relative to it, and t marking the part
 // across n:
-//   u <- slip u_t + max(u_n, 0) n,   x <- point + (1 - s) slip d_t.
+//   u <- slip u_t + max(u_n, 0) n,   x <- point + (1 - s) slip d_t,
+// or, where it bounces, with |u_n| and the mirrored rest of d_n.
 // Friction thus acts on the path after the impact as it does on the velocity; a vertex that sticks
 // stays where it met the solid, to the bit. The new place lies on the tangent plane, never inside
 // of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
@@ -240,6 +241,7 @@ std::optional<ContactStage::Touch> ContactStage::resolve_vertex(VertexId vertex,
                                                                 Vec3& position, Vec3& velocity) {
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
   if (!meeting.solid || !velocity.allFinite()) return std::nullopt;
+  const bool bounces = options_.response == ContactResponse::uniform;
   Touch touch;
   const Solid* before = nullptr;
   Vec3 place_before = position;
@@ -253,16 +255,20 @@ std::optional<ContactStage::Touch> ContactStage::resolve_vertex(VertexId vertex,
     place_before = position;
     const Solid& solid = *meeting.solid;
     const Vec3& normal = meeting.impact.normal;
-    const Vec3 path = tangential(relative_path(solid, position_begin, position), normal);
+    const Vec3 whole_path = relative_path(solid, position_begin, position);
+    const Vec3 path = tangential(whole_path, normal);
     const Vec3 solid_velocity = velocity_at(solid, meeting.impact.point);
     const Vec3 relative_velocity = velocity - solid_velocity;
     const double normal_speed = normal.dot(relative_velocity);
     const Vec3 tangential_velocity = relative_velocity - normal_speed * normal;
+    const double parting_speed = bounces ? std::abs(normal_speed) : std::max(normal_speed, 0.0);
     const double left =
-        slip(solid.friction, std::max(-normal_speed, 0.0), tangential_velocity.norm());
+        slip(solid.friction, parting_speed - normal_speed, tangential_velocity.norm());
     touch = {vertex, static_cast<int>(&solid - solids_.data()), normal, left == 0};
-    position = meeting.impact.point + (1 - meeting.impact.fraction) * left * path;
-    velocity = solid_velocity + left * tangential_velocity + std::max(normal_speed, 0.0) * normal;
+    const double path_left = 1 - meeting.impact.fraction;
+    position = meeting.impact.point + path_left * left * path;
+    if (bounces) position += path_left * std::max(-normal.dot(whole_path), 0.0) * normal;
+    velocity = solid_velocity + left * tangential_velocity + parting_speed * normal;
 
     if (before) {
       const Gap other = with_held(*before, before->swept, vertex,
@@ -303,6 +309,21 @@ std::span<const ContactStage::Touch> ContactStage::resolve(
     touches_.push_back(*touch);
   }
   return touches_;
+}
+
+double ContactStage::least_gap(const Eigen::Ref<const Positions>& positions,
+                               std::span<const char> is_exempt) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Solid& solid : solids_) {
+    for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+      if (is_exempt[static_cast<std::size_t>(i)] != 0) continue;
+      const Gap found = with_held(solid, solid.swept, VertexId(i), [&](const SweptSolid& held) {
+        return gap(held, positions.col(i));
+      });
+      least = std::min(least, found.distance);
+    }
+  }
+  return least;
 }
 
 Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) const {

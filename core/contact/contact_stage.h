@@ -12,12 +12,20 @@
 
 namespace pleat {
 
+/// What becomes of the velocity with which a vertex comes down on a solid, and of the force that
+/// presses it there.
+enum class ContactResponse {
+  resting,  ///< both end: the vertex rests on the solid
+  uniform,  ///< both are turned round: the vertex bounces. For comparison.
+};
+
 struct ContactOptions {
   double half_thickness = 0;  ///< vertices keep at least this distance [m]
   /// One per vertex: the distance from a corner within which every point of the faces there lies
   /// [m], a triangle's circumradius or half of an edge's length. Empty: no face is any larger than
   /// a vertex. See clearance().
   Eigen::VectorXd face_radii;
+  ContactResponse response = ContactResponse::resting;
 };
 
 /// How far from where a solid holds it a vertex still counts as on it [m]: contact puts vertices
@@ -36,13 +44,13 @@ struct Penetration {
 ///
 /// The path of a vertex relative to the moving solid is swept over the substep, so that nothing
 /// fast or thin is tunnelled. From the impact on, the vertex moves in the tangent plane: its normal
-/// velocity relative to the solid becomes zero (no bounce), the tangential one loses at most
-/// `friction` times the normal change (Coulomb), and the rest of its tangential path shrinks by the
-/// same factor. A solid's velocity is the mean over the substep of its point that is met. A vertex
-/// that begins inside is put on the surface without gaining speed. Edges and faces are covered by a
-/// sample rule: vertices are held off a round solid far enough that a flat face with its corners
-/// there does not cut it (see clearance()). Source: docs/methods/contact.md (derivation and
-/// limits).
+/// velocity relative to the solid becomes zero (no bounce, unless the response is `uniform`), the
+/// tangential one loses at most `friction` times the normal change (Coulomb), and the rest of its
+/// tangential path shrinks by the same factor. A solid's velocity is the mean over the substep of
+/// its point that is met. A vertex that begins inside is put on the surface without gaining speed.
+/// Edges and faces are covered by a sample rule: vertices are held off a round solid far enough
+/// that a flat face with its corners there does not cut it (see clearance()). Source:
+/// docs/methods/contact.md (derivation and limits).
 class ContactStage {
  public:
   /// Throws ContractError for a collider that is not valid, negative sizes.
@@ -84,6 +92,14 @@ class ContactStage {
   std::span<const Touch> resolve(const Eigen::Ref<const Positions>& positions_begin,
                                  std::span<const char> is_exempt, Eigen::Ref<Positions> positions,
                                  Eigen::Ref<Positions> velocities);
+
+  /// Those of the last call of resolve, in the order of the vertices.
+  std::span<const Touch> touches() const { return touches_; }
+
+  /// How far above where solids hold them the nearest of the vertices that are not exempt is at the
+  /// end of the substep [m]; negative below, infinite without solids.
+  double least_gap(const Eigen::Ref<const Positions>& positions,
+                   std::span<const char> is_exempt) const;
 
   /// Mean velocity over the substep of the touched solid's point that is at a place [m] when it
   /// begins [m/s].

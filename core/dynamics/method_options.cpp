@@ -11,6 +11,8 @@ void MethodOptions::validate() const {
   PLEAT_CHECK(substeps >= (stepper->has_stability_bound ? 0 : 1), "at least one substep");
   PLEAT_CHECK(iterations >= 1, "at least one iteration");
   PLEAT_CHECK(omega >= 0 && omega < 2, "an omega lies between 0 and 2");
+  PLEAT_CHECK(explicit_share >= 0 && explicit_share <= 1, "a share lies between 0 and 1");
+  PLEAT_CHECK(first_contact >= 0, "a distance is not negative");
   PLEAT_CHECK(tolerance > 0 && tolerance < 1, "a relative residual lies between 0 and 1");
 }
 

@@ -38,6 +38,18 @@ enum class Acceleration {
   anderson,  ///< foretells from the last rounds where they lead
 };
 
+/// What `explicit` adds to the places.
+enum class EulerRule {
+  symplectic,  ///< the new velocities
+  forward,     ///< the old ones: without damping along every spring no step is stable
+};
+
+/// What an explicit stepper does with substeps beyond its stability bound.
+enum class BeyondBound {
+  refuse,
+  go_on,  ///< until the numbers end the run
+};
+
 /// The tolerance that newton, which makes references, starts from.
 constexpr double kNewtonTolerance = 1e-10;
 
@@ -54,6 +66,14 @@ struct MethodOptions {
   double tolerance = 1e-3;
   double omega = 0;  ///< of sor, in (0, 2), or 0 for an estimate of the best
   ImplicitSplit split = ImplicitSplit::by_stability;
+  /// imex: share of the springs that shall be explicit, in [0, 1]: it takes as many substeps more
+  /// as that asks for.
+  double explicit_share = 0;
+  EulerRule euler = EulerRule::symplectic;
+  BeyondBound beyond_bound = BeyondBound::refuse;
+  /// The substep in which the cloth first meets a solid is parted where the nearest vertex is
+  /// within this of it [m], not negative; 0: it is not.
+  double first_contact = 0;
   NewtonRule rule = NewtonRule::backward_euler;
   Constraints constraints = Constraints::compliant;
   Acceleration acceleration = Acceleration::none;

@@ -40,15 +40,42 @@ double largest_stable_step(const ClothModel& model) {
   return bound;
 }
 
+double largest_forward_step(const ClothModel& model) {
+  double bound = std::numeric_limits<double>::infinity();
+  if (std::isinf(largest_stable_step(model))) return bound;
+  if (!model.is_plain_spring_lattice() || !model.bends.empty() || !model.hanging.empty() ||
+      model.damping_direction != DampingDirection::isotropic)
+    return 0;
+  Eigen::VectorXd dampings = Eigen::VectorXd::Zero(model.n_vertices());
+  for (const Spring& spring : model.springs) {
+    if (spring.stiffness > 0) bound = std::min(bound, spring.damping / spring.stiffness);
+    dampings[spring.a] += spring.damping;
+    dampings[spring.b] += spring.damping;
+  }
+  for (int i = 0; i < model.n_vertices(); ++i)
+    if (dampings[i] > 0) bound = std::min(bound, model.masses[i] / dampings[i]);
+  return bound;
+}
+
+double stability_bound(const ClothModel& model, const MethodOptions& options) {
+  return options.euler == EulerRule::forward ? largest_forward_step(model)
+                                             : largest_stable_step(model);
+}
+
 int stable_substeps(const ClothModel& model, const MethodOptions& options) {
   if (!model.hinges.empty())
     throw InputError("/model/bending", std::string("expected fitted or none with ") +
                                            options.stepper->name + ", got hinge");
-  const double bound = largest_stable_step(model);
+  const bool goes_on = options.beyond_bound == BeyondBound::go_on;
+  const double bound = stability_bound(model, options);
+  if (bound == 0 && !(goes_on && options.substeps > 0))
+    throw InputError("/method/euler",
+                     "expected symplectic, as no substep is stable with forward unless the cloth "
+                     "is of springs alone, each damped, with \"damping\": \"isotropic\"");
   const double enough = std::max(1.0, std::ceil(options.step / (kStepShare * bound)));
   if (options.substeps > 0) {
     const double h = options.step / options.substeps;
-    if (h <= bound) return options.substeps;
+    if (h <= bound || goes_on) return options.substeps;
     refuse(
         "expected substeps of at most %.3g s, the stability bound of this cloth, got %.3g "
         "s (%.7g substeps would do)",

@@ -9,9 +9,18 @@ namespace pleat {
 /// The classical Runge-Kutta method is stable in steps of this length too.
 double largest_stable_step(const ClothModel& model);
 
+/// The same of forward Euler: h k <= c for every spring and h sum c <= m for every vertex [s]. With
+/// the shares c, k of a mode that swings, |1 + h lambda|^2 = 1 - h c + h^2 k; one that only fades
+/// has |lambda| <= c. 0 where a spring or anything else is undamped, or dampers leave rotations
+/// alone.
+double largest_forward_step(const ClothModel& model);
+
+/// The bound that holds for an explicit method with these options [s].
+double stability_bound(const ClothModel& model, const MethodOptions& options);
+
 /// Substeps of a step of an explicit method: as many as the options say, or, when they leave it
-/// open, as many as the bound needs. Throws InputError for steps beyond the bound and for cloth
-/// that would need more than kMaxSubsteps.
+/// open, as many as the bound needs. Throws InputError for cloth that would need more than
+/// kMaxSubsteps and, unless the options go on beyond it, for substeps beyond the bound.
 int stable_substeps(const ClothModel& model, const MethodOptions& options);
 
 }  // namespace pleat

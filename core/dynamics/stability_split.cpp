@@ -67,9 +67,8 @@ StabilitySplit split(const ClothModel& model, const std::vector<char>& is_stiff)
   return parts;
 }
 
-}  // namespace
-
-StabilitySplit split_by_stability(const ClothModel& model, double h) {
+/// For each element whether it is stiff in substeps of h.
+std::vector<char> stiff_elements(const ClothModel& model, double h) {
   PLEAT_CHECK(model.is_plain_spring_lattice(), "springs with quadratic bending alone are split");
   PLEAT_CHECK(h > 0, "a substep is positive");
   const std::vector<Demands> demands = all_demands(model, h);
@@ -100,7 +99,21 @@ StabilitySplit split_by_stability(const ClothModel& model, double h) {
       for (const Demand& demand : demands[e])
         sums[static_cast<std::size_t>(demand.vertex)] += demand.amount;
   }
-  return split(model, is_stiff);
+  return is_stiff;
+}
+
+}  // namespace
+
+StabilitySplit split_by_stability(const ClothModel& model, double h) {
+  return split(model, stiff_elements(model, h));
+}
+
+double explicit_share(const ClothModel& model, double h) {
+  if (model.springs.empty()) return 1;
+  const std::vector<char> is_stiff = stiff_elements(model, h);
+  const auto end = is_stiff.begin() + static_cast<std::ptrdiff_t>(model.springs.size());
+  return static_cast<double>(std::count(is_stiff.begin(), end, char{0})) /
+         static_cast<double>(model.springs.size());
 }
 
 StabilitySplit split_structural(const ClothModel& model) {

@@ -25,6 +25,10 @@ struct StabilitySplit {
 /// h  [s], positive
 StabilitySplit split_by_stability(const ClothModel& model, double h);
 
+/// Share of the springs that split_by_stability takes for soft; 1 without springs. It grows, as
+/// good as always, as h falls.
+double explicit_share(const ClothModel& model, double h);
+
 /// Structural springs are stiff, shear and bending soft, whatever h.
 StabilitySplit split_structural(const ClothModel& model);
 

@@ -10,6 +10,9 @@
 namespace pleat {
 namespace {
 
+/// Of a substep: contact that is sooner than this after its begin has been there before.
+constexpr double kLeastShare = 1e-12;
+
 /// False for NaN too.
 bool is_within_bounds(const Eigen::Ref<const Positions>& columns) {
   return (columns.array().abs() <= kLargestCoordinate).all();
@@ -42,7 +45,9 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
     : model_(model),
       options_(options),
       substeps_(substeps),
-      memory_(model.contact ? memory : ContactMemory::none) {
+      memory_(model.contact && model.contact->options().response == ContactResponse::resting
+                  ? memory
+                  : ContactMemory::none) {
   options.validate();
   model.validate();
   if (!model.contact) return;
@@ -75,9 +80,8 @@ SolveReport Stepper::advance(State& state, double time) {
   load(state);
   for (int s = 1; s <= substeps_; ++s) {
     const double time_end = time + options_.step * s / substeps_;
-    place_solids(time_end - h, time_end);
-    SolveReport part = substep(state, time_end, h);
-    place_between_parents(model_.hanging, state);
+    SolveReport part = awaits_contact() ? substep_to_contact(state, time_end, h)
+                                        : substep_with_solids(state, time_end, h);
     const double last_residual = part.relative_residual;
     report.add(std::move(part));
     report.relative_residual = last_residual;
@@ -88,6 +92,52 @@ SolveReport Stepper::advance(State& state, double time) {
   if (bad.valid()) report = lost_report(bad, time);
   if (report.ends_run()) state = last_finite_;
   return report;
+}
+
+SolveReport Stepper::substep_with_solids(State& state, double time_end, double h) {
+  place_solids(time_end - h, time_end);
+  is_touched_ = false;
+  SolveReport report = substep(state, time_end, h);
+  place_between_parents(model_.hanging, state);
+  return report;
+}
+
+bool Stepper::awaits_contact() const {
+  return options_.first_contact > 0 && model_.contact && !first_contact_;
+}
+
+void Stepper::begin_again(State& state) {
+  state = before_contact_;
+  touches_.clear();
+  contact_forces_.setZero();
+}
+
+// Shorter substeps are tried from the same state until one ends untouched and near enough; what is
+// left of the whole begins at the contact. Cloth that touches from the beginning is not parted.
+SolveReport Stepper::substep_to_contact(State& state, double time_end, double h) {
+  const double time_begin = time_end - h;
+  before_contact_ = state;
+  SolveReport report = substep_with_solids(state, time_end, h);
+  if (!is_touched_ || report.ends_run()) return report;
+  double free = 0;
+  double touched = h;
+  bool is_near = false;
+  while (!is_near && touched - free > kLeastShare * h) {
+    const double part = free + (touched - free) / 2;
+    begin_again(state);
+    report = substep_with_solids(state, time_begin + part, part);
+    if (report.ends_run()) return report;
+    (is_touched_ ? touched : free) = part;
+    is_near = !is_touched_ &&
+              model_.contact->least_gap(state.positions, is_exempt_) <= options_.first_contact;
+  }
+  first_contact_ = time_begin + free;
+  if (is_near) {
+    report.add(substep_with_solids(state, time_end, h - free));
+    return report;
+  }
+  begin_again(state);
+  return substep_with_solids(state, time_end, h);
 }
 
 void Stepper::place_solids(double time_begin, double time_end) {
@@ -126,7 +176,9 @@ std::span<const ContactStage::Touch> Stepper::correct_for_contact(const Position
   std::fill(is_exempt_.begin(), is_exempt_.end(), char{0});
   for (const HangingVertex& h : model_.hanging) is_exempt_[h.vertex] = 1;
   for (const Pin& pin : model_.pins) is_exempt_[pin.vertex] = 1;
-  return model_.contact->resolve(positions_begin, is_exempt_, positions, velocities);
+  const auto touches = model_.contact->resolve(positions_begin, is_exempt_, positions, velocities);
+  is_touched_ = !touches.empty();
+  return touches;
 }
 
 // With f the remembered force and r the vertex's resistance, the place and velocity without f are

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +48,10 @@ class Stepper {
   /// For each spring of the model, whether it is taken implicitly; empty for steppers that treat
   /// all alike. Valid until the next call that changes the stepper.
   virtual std::span<const char> implicit_springs() const { return {}; }
+
+  /// When a solid first touched the cloth since this was made, to the accuracy that
+  /// MethodOptions::first_contact asks for [s]; nothing before, and where none is asked for.
+  std::optional<double> first_contact() const { return first_contact_; }
 
   void observe(StageObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }
@@ -111,6 +116,10 @@ class Stepper {
   std::vector<ContactStage::Touch> touches_;
 
  private:
+  SolveReport substep_with_solids(State& state, double time_end, double h);
+  SolveReport substep_to_contact(State& state, double time_end, double h);
+  bool awaits_contact() const;
+  void begin_again(State& state);
   void place_solids(double time_begin, double time_end);
   void let_go(State& state, double h, const Eigen::VectorXd& resistances, double travel_share);
   void remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
@@ -120,6 +129,9 @@ class Stepper {
   int substeps_;
   ContactMemory memory_;
   std::vector<char> is_exempt_;  // of contact, for each vertex
+  bool is_touched_ = false;      // in the last substep
+  std::optional<double> first_contact_;
+  State before_contact_;         // where first contact is looked for
   Positions solved_velocities_;  // before contact [m/s]; of steppers that remember
   State last_finite_;
 };

@@ -24,13 +24,14 @@ SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   }
   {
     const StageScope scope(observer_, Stage::solve);
+    if (options().euler == EulerRule::forward) state.positions += h * state.velocities;
     for (int i = 0; i < model_.n_vertices(); ++i)
       if (!model_.hangs(VertexId(i)))
         state.velocities.col(i) += h / model_.masses[i] * forces_.col(i);
     for (const Pin& pin : model_.pins)
       state.velocities.col(pin.vertex) =
-          (pin.position(time_end) - state.positions.col(pin.vertex)) / h;
-    state.positions += h * state.velocities;
+          (pin.position(time_end) - positions_begin_.col(pin.vertex)) / h;
+    if (options().euler == EulerRule::symplectic) state.positions += h * state.velocities;
     for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
   }
   resolve_contacts(positions_begin_, state, time_end, h);

@@ -4,8 +4,8 @@
 
 namespace pleat {
 
-/// Symplectic Euler: v += h M^-1 f(x, v), then x += h v with the new v. First order; stable below a
-/// bound only.
+/// Symplectic Euler: v += h M^-1 f(x, v), then x += h v with the new v; or forward Euler, with the
+/// old v. First order; stable below a bound only (stability_bound.h).
 class StepperExplicit final : public Stepper {
  public:
   /// Throws InputError naming the bound when the given substeps are longer than it.

@@ -1,14 +1,49 @@
 #include "core/dynamics/stepper_imex.h"
 
+#include <string>
+
+#include "core/base/check.h"
 #include "core/model/elasticity.h"
 
 namespace pleat {
+namespace {
+
+bool has_share(const ClothModel& model, const MethodOptions& options, int substeps) {
+  return explicit_share(model, options.step / substeps) >= options.explicit_share;
+}
+
+/// The least number, from the given one up, with which the wanted share of springs is explicit.
+int substeps_for_share(const ClothModel& model, const MethodOptions& options) {
+  int too_few = options.substeps - 1;
+  int enough = options.substeps;
+  if (options.explicit_share == 0) return enough;
+  if (options.split == ImplicitSplit::structural)
+    throw InputError("/method/explicit_share",
+                     "expected no such key beside \"split\": \"structural\", which takes the same "
+                     "springs whatever the substeps");
+  while (!has_share(model, options, enough)) {
+    if (enough > kMaxSubsteps / 2)
+      throw InputError("/method/explicit_share",
+                       "expected a share that " + std::to_string(kMaxSubsteps) +
+                           " substeps or fewer make explicit, got one that needs more");
+    too_few = enough;
+    enough *= 2;
+  }
+  while (enough - too_few > 1) {
+    const int middle = too_few + (enough - too_few) / 2;
+    (has_share(model, options, middle) ? enough : too_few) = middle;
+  }
+  return enough;
+}
+
+}  // namespace
 
 StepperImex::StepperImex(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, options.substeps, ContactMemory::none),
+    : Stepper(model, options, substeps_for_share(model, options), ContactMemory::last_substep),
       solve_(model, make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()),
       positions_begin_(3, model.n_vertices()) {
+  if (model_.contact) hold_.emplace(model_);
   choose();
 }
 
@@ -40,9 +75,16 @@ SolveReport StepperImex::substep(State& state, double time_end, double h) {
   set_external_forces(state, h, forces_);
   assemble(state, h);
   matrix_->reduce_to_parents(flat(forces_));
+  if (hold_) {
+    const StageScope scope(observer_, Stage::contact);
+    hold_->add(touches_, state, *matrix_, forces_);
+  }
   SolveReport report = solve_.advance(*matrix_, forces_, state, time_end, h, observer_);
   if (report.ends_run()) return report;
-  resolve_contacts(positions_begin_, state, time_end, h);
+  if (hold_) {
+    hold_->add_forces(state.velocities, h, contact_forces_);
+    resolve_contacts(positions_begin_, state, time_end, h, hold_->resistances());
+  }
   return report;
 }
 

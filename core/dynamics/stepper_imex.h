@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/dynamics/contact_hold.h"
 #include "core/dynamics/stability_split.h"
 #include "core/dynamics/stepper.h"
 #include "core/dynamics/velocity_solve.h"
@@ -20,7 +21,8 @@ namespace pleat {
 /// Source: docs/methods/imex.md.
 class StepperImex final : public Stepper {
  public:
-  /// Throws InputError when the wanted solver is not available.
+  /// Throws InputError when the wanted solver is not available, or no number of substeps makes the
+  /// wanted share of springs explicit.
   StepperImex(ClothModel& model, const MethodOptions& options);
 
   void refresh() override { choose(); }
@@ -38,6 +40,7 @@ class StepperImex final : public Stepper {
 
   StabilitySplit parts_;
   std::optional<SystemMatrix> matrix_;
+  std::optional<ContactHold> hold_;  // with contact
   VelocitySolve solve_;
   Positions forces_;  // right-hand side, in [N s] once scaled by h
   Positions positions_begin_;

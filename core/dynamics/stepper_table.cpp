@@ -20,12 +20,16 @@ std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
   return std::make_unique<Type>(model, options);
 }
 
-constexpr std::array kSubsteps = {MethodSetting::substeps};
+constexpr std::array kExplicitSettings = {MethodSetting::substeps, MethodSetting::beyond_bound,
+                                          MethodSetting::euler, MethodSetting::first_contact};
+constexpr std::array kRk4Settings = {MethodSetting::substeps, MethodSetting::beyond_bound,
+                                     MethodSetting::first_contact};
 constexpr std::array kImplicitSettings = {MethodSetting::substeps, MethodSetting::solver,
-                                          MethodSetting::tolerance};
-constexpr std::array kImexSettings = {MethodSetting::substeps, MethodSetting::solver,
-                                      MethodSetting::tolerance, MethodSetting::omega,
-                                      MethodSetting::split};
+                                          MethodSetting::tolerance, MethodSetting::first_contact};
+constexpr std::array kImexSettings = {MethodSetting::substeps,     MethodSetting::solver,
+                                      MethodSetting::tolerance,    MethodSetting::omega,
+                                      MethodSetting::split,        MethodSetting::explicit_share,
+                                      MethodSetting::first_contact};
 constexpr std::array kProjectiveSettings = {MethodSetting::substeps, MethodSetting::iterations,
                                             MethodSetting::solver, MethodSetting::acceleration};
 constexpr std::array kXpbdSettings = {MethodSetting::substeps, MethodSetting::iterations,
@@ -130,7 +134,7 @@ constinit const StepperType steppers::kExplicitEuler = {
     .name = "explicit",
     .title = "Explicit",
     .meaning = "Forces give velocities, velocities give positions. Only stable in tiny substeps.",
-    .settings = kSubsteps,
+    .settings = kExplicitSettings,
     .substeps_meaning = kStableSubsteps,
     .start = {0, 1},
     .has_stability_bound = true,
@@ -148,7 +152,7 @@ constinit const StepperType steppers::kRk4 = {
     .name = "rk4",
     .title = "Runge-Kutta 4",
     .meaning = "Explicit, with four looks at the forces a substep. Very exact, and slow.",
-    .settings = kSubsteps,
+    .settings = kRk4Settings,
     .substeps_meaning = kStableSubsteps,
     .start = {0, 1},
     .has_stability_bound = true,
@@ -208,6 +212,14 @@ const char* key(MethodSetting setting) {
       return "rule";
     case MethodSetting::acceleration:
       return "acceleration";
+    case MethodSetting::explicit_share:
+      return "explicit_share";
+    case MethodSetting::euler:
+      return "euler";
+    case MethodSetting::beyond_bound:
+      return "beyond_bound";
+    case MethodSetting::first_contact:
+      return "first_contact_m";
   }
   return "";
 }

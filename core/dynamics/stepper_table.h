@@ -23,13 +23,19 @@ enum class MethodSetting {
   split,
   constraints,
   rule,
-  acceleration
+  acceleration,
+  explicit_share,
+  euler,
+  beyond_bound,
+  first_contact
 };
 
-constexpr std::array<MethodSetting, 9> kMethodSettings = {
-    MethodSetting::substeps,    MethodSetting::iterations, MethodSetting::solver,
-    MethodSetting::tolerance,   MethodSetting::omega,      MethodSetting::split,
-    MethodSetting::constraints, MethodSetting::rule,       MethodSetting::acceleration};
+constexpr std::array<MethodSetting, 13> kMethodSettings = {
+    MethodSetting::substeps,       MethodSetting::iterations, MethodSetting::solver,
+    MethodSetting::tolerance,      MethodSetting::omega,      MethodSetting::split,
+    MethodSetting::constraints,    MethodSetting::rule,       MethodSetting::acceleration,
+    MethodSetting::explicit_share, MethodSetting::euler,      MethodSetting::beyond_bound,
+    MethodSetting::first_contact};
 
 /// Spelled as in scenes.
 const char* key(MethodSetting setting);

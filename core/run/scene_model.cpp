@@ -119,7 +119,8 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   else if (scene.air && !cloth.mesh.triangles.empty())
     model.air.emplace(cloth.mesh.triangles, *scene.air, model.n_vertices());
   if (std::vector<Collider> colliders = scene_colliders(scene, frames); !colliders.empty()) {
-    const ContactOptions options{scene.fabric.thickness / 2, face_radii(scene, cloth, model)};
+    const ContactOptions options{scene.fabric.thickness / 2, face_radii(scene, cloth, model),
+                                 scene.contact_response};
     model.contact.emplace(std::move(colliders), options);
   }
   return model;

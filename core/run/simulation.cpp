@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/dynamics/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/run/content_id.h"
 
@@ -50,6 +51,11 @@ void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
   start_positions_ = positions;
   for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
   start();
+}
+
+std::optional<double> Simulation::stability_bound() const {
+  if (!scene_.method.stepper->has_stability_bound) return std::nullopt;
+  return pleat::stability_bound(model_, scene_.method);
 }
 
 SolveReport Simulation::step() {

@@ -65,6 +65,12 @@ class Simulation final : public MovingCloth {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
   int substeps() const { return stepper_->substeps(); }
+  /// See Stepper::first_contact.
+  std::optional<double> first_contact() const { return stepper_->first_contact(); }
+  /// See Stepper::contact_forces.
+  bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
+  /// The longest substep that is surely stable [s]; nothing where the method has no bound.
+  std::optional<double> stability_bound() const;
   /// See Stepper::implicit_springs.
   std::span<const char> implicit_springs() const { return stepper_->implicit_springs(); }
   void observe(StageObserver* observer) override;

@@ -25,6 +25,12 @@ constexpr std::array<Word<NewtonRule>, 3> kNewtonRules{
 constexpr std::array<Word<Acceleration>, 2> kAccelerations{
     {{"none", Acceleration::none}, {"anderson", Acceleration::anderson}}};
 
+constexpr std::array<Word<EulerRule>, 2> kEulerRules{
+    {{"symplectic", EulerRule::symplectic}, {"forward", EulerRule::forward}}};
+
+constexpr std::array<Word<BeyondBound>, 2> kBeyondBound{
+    {{"refuse", BeyondBound::refuse}, {"go_on", BeyondBound::go_on}}};
+
 constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
                                                           {"ply", FrameFormat::ply},
                                                           {"binary", FrameFormat::binary},
@@ -103,6 +109,18 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
     case MethodSetting::acceleration:
       method.acceleration = reader.word(kAccelerations);
       return;
+    case MethodSetting::explicit_share:
+      method.explicit_share = reader.number({0, 1});
+      return;
+    case MethodSetting::euler:
+      method.euler = reader.word(kEulerRules);
+      return;
+    case MethodSetting::beyond_bound:
+      method.beyond_bound = reader.word(kBeyondBound);
+      return;
+    case MethodSetting::first_contact:
+      method.first_contact = reader.number(kNotNegative);
+      return;
   }
 }
 
@@ -128,6 +146,14 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
       return word_for(kNewtonRules, method.rule);
     case MethodSetting::acceleration:
       return word_for(kAccelerations, method.acceleration);
+    case MethodSetting::explicit_share:
+      return method.explicit_share;
+    case MethodSetting::euler:
+      return word_for(kEulerRules, method.euler);
+    case MethodSetting::beyond_bound:
+      return word_for(kBeyondBound, method.beyond_bound);
+    case MethodSetting::first_contact:
+      return method.first_contact;
   }
   return nullptr;
 }

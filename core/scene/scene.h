@@ -85,6 +85,7 @@ struct Scene {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;
   std::vector<Collider> colliders;
+  ContactResponse contact_response = ContactResponse::resting;  ///< of colliders and figure
   MethodOptions method;
   double duration = 5;  ///< [s], positive
   RecordOptions record;

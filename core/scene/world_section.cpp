@@ -15,6 +15,9 @@ constexpr std::array<Word<Motion::Kind>, 4> kMotionKinds{{{"hold", Motion::Kind:
                                                           {"ease", Motion::Kind::ease},
                                                           {"oscillate", Motion::Kind::oscillate}}};
 
+constexpr std::array<Word<ContactResponse>, 2> kContactResponses{
+    {{"resting", ContactResponse::resting}, {"uniform", ContactResponse::uniform}}};
+
 Motion read_motion(const JsonReader& reader) {
   Motion motion;
   motion.kind = reader.at("kind").word(kMotionKinds);
@@ -199,12 +202,14 @@ Json json_pins(const Scene& scene) {
 }
 
 void read_world(const JsonReader& reader, Scene& scene) {
-  reader.allow_keys({"gravity_m_per_s2", "air", "colliders"});
+  reader.allow_keys({"gravity_m_per_s2", "air", "colliders", "contact_response"});
   if (const auto at = reader.find("gravity_m_per_s2")) scene.gravity = at->vec3();
   if (const auto at = reader.find("air")) scene.air = read_air(*at);
   if (const auto at = reader.find("colliders"))
     for (const JsonReader& collider : at->elements())
       scene.colliders.push_back(read_collider(collider, scene.fabric.friction_solid));
+  if (const auto at = reader.find("contact_response"))
+    scene.contact_response = at->word(kContactResponses);
 }
 
 Json json_world(const Scene& scene) {
@@ -218,6 +223,8 @@ Json json_world(const Scene& scene) {
   json["colliders"] = Json::array();
   for (const Collider& collider : scene.colliders)
     json["colliders"].push_back(json_collider(collider));
+  if (scene.contact_response != ContactResponse::resting)
+    json["contact_response"] = word_for(kContactResponses, scene.contact_response);
   return json;
 }
 

@@ -125,6 +125,29 @@ TEST_CASE("command: bench limit tells where three meshes lead, and that some lea
   CHECK(answer({1, 2, 4}).at("positions_m").at(1).is_null());
 }
 
+TEST_CASE("command: bench response runs a scene under both responses", "[cli]") {
+  const SmallScene ball(
+      R"({"cloth": {"sheet": {"columns": 4, "rows": 4, "origin_m": [-0.4, 0.85, -0.5],
+    "warp_direction": [1, 0, 0], "weft_direction": [0, 0, 1]}}, "fabric": {"name": "linen"},
+    "world": {"colliders": [{"sphere": {"centre_m": [0, 0, 0], "radius_m": 0.8}}]},
+    "method": {"stepper": "explicit"}, "duration_s": 0.5})");
+  const Ending ending =
+      pleat_command(ball.folder, {"bench", "response", ball.file, "--window", "0.01"});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  const Json found = parse_json(ending.out);
+  const auto speed = [&](const char* response) {
+    return found.at(response).at("rms_normal_velocity_m_per_s").get<double>();
+  };
+  CHECK(speed("resting") < speed("uniform"));
+  CHECK(found.at("window_s") == 0.01);
+  CHECK(found.at("resting").at("momentum_deviation").get<double>() < 1e-9);
+  const SmallScene without;
+  const Ending bare = pleat_command(without.folder, {"bench", "response", without.file});
+  CHECK(bare.status == 2);
+  CHECK(bare.error.find("scene.json: /world/colliders: expected a solid") != std::string::npos);
+}
+
 TEST_CASE("command: a spring hangs as far down as its closed form says", "[cli]") {
   const ScratchFolder folder;
   write(folder / "hanging.json", R"({

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -52,6 +53,30 @@ TEST_CASE("command: run writes the frames and the numbers of the scene", "[cli]"
   REQUIRE(frames.times.size() == 6);
   CHECK(frames.times[5] == Approx(0.2));
   CHECK(frames.positions[0].cols() == 9);
+}
+
+TEST_CASE("command: an explicit run says its bound first, and when a solid was first met",
+          "[cli]") {
+  const SmallScene ball(R"({"cloth": {"particles": {"positions_m": [[0, 1, 0], [0, 2, 0]],
+    "masses_kg": [1, 1], "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 100}]}},
+    "world": {"colliders": [{"sphere": {"centre_m": [0, 0, 0], "radius_m": 0.8}}]},
+    "method": {"stepper": "explicit", "step_s": 0.01, "substeps": 1, "first_contact_m": 1e-6},
+    "record": {"format": "none"}, "duration_s": 0.5})");
+  const Ending ending = ball.run({"run"});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  // h^2 k = 2 m at both of its ends.
+  CHECK(ending.error.find("stable in substeps of up to 0.141 s; these are of 0.01 s\n") !=
+        std::string::npos);
+  CHECK(ending.out.find("first contact at 0.19") != std::string::npos);
+  const Json metrics = parse_json(ball.run({"run", "--json"}).out);
+  CHECK(metrics.at("stability_bound_s").get<double>() == Approx(std::sqrt(0.02)));
+  CHECK(metrics.at("first_contact_s").get<double>() ==
+        Approx(std::sqrt(2 * 0.2 / 9.81)).epsilon(0.03));
+  const Ending beyond = ball.run({"run", "--step", "0.5"});
+  CHECK(beyond.status == 2);
+  CHECK(beyond.error.find("/method/substeps: expected substeps of at most 0.141 s") !=
+        std::string::npos);
 }
 
 TEST_CASE("command: a run tells the energy by its kinds, and which springs are implicit", "[cli]") {
@@ -166,9 +191,8 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--levels", "0", "--set", "/refinement/level=1"}, "pleat: --set: expected each "},
       {{"sweep", "--reference", "rigid_chain", "--set", "/pins=[]"}, "scene.json: /pins: expected"},
       {{"bench"},
-       "pleat: bench: expected run, reference, deform, inbetween, plans, together, rows or limit "
-       "after it, "
-       "got "},
+       "pleat: bench: expected run, reference, deform, inbetween, plans, together, response, rows "
+       "or limit after it, got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
       {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},
       {{"run", "-x"}, "pleat: -x: unknown option"},

@@ -78,7 +78,110 @@ TEST_CASE("contact: friction stops a sliding particle after v^2 / (2 mu g)", "[c
 }
 
 TEST_CASE(
-    "contact: implicit finds in a few substeps with what force a floor holds a stiff string up",
+    "contact: where the response is uniform a particle rises as high as it fell, with every "
+    "stepper",
+    "[contact]") {
+  for (const MethodOptions& options : fine_methods()) {
+    CAPTURE(options.stepper->name);
+    ClothModel model = particle_on(floor_collider(0));
+    ContactOptions contact;
+    contact.response = ContactResponse::uniform;
+    model.contact->set_options(contact);
+    const auto stepper = make_stepper(model, options);
+    constexpr double kHeight = 0.2;
+    State state = state_at({0, kHeight, 0});
+    const double fall_time = std::sqrt(2 * kHeight / 9.81);
+    const int n_fall = static_cast<int>(std::ceil(fall_time / options.step));
+    advance(*stepper, state, 0, n_fall);
+    CHECK(state.velocities(1, 0) > 0);
+    double highest = 0;
+    for (int s = n_fall; s < 2 * n_fall + 2; ++s) {
+      advance(*stepper, state, s, s + 1);
+      highest = std::max(highest, state.positions(1, 0));
+    }
+    CHECK(highest == Approx(kHeight).epsilon(0.01));
+  }
+}
+
+TEST_CASE("contact: where the response is uniform friction is of twice the normal change",
+          "[contact]") {
+  ClothModel model = particle_on(floor_collider(0.25));
+  ContactOptions contact;
+  contact.response = ContactResponse::uniform;
+  model.contact->set_options(contact);
+  model.gravity = Vec3::Zero();
+  MethodOptions options;
+  options.stepper = &steppers::kExplicitEuler;
+  options.step = 0.01;
+  const auto stepper = make_stepper(model, options);
+  State state = state_at({0, 0.005, 0});
+  state.velocities.col(0) = Vec3(3, -1, 0);
+  advance(*stepper, state, 0, 1);
+  // Half of the path is left after the impact, of which 3 - 0.25 * 2 are as fast as before.
+  CHECK((state.velocities.col(0) - Vec3(2.5, 1, 0)).norm() < 1e-12);
+  CHECK((state.positions.col(0) - Vec3(0.005 * 3 + 0.005 * 2.5, 0.005, 0)).norm() < 1e-12);
+}
+
+// A free particle falls by g (h^2 n (n + 1) / 2 + n h h' + h'^2) in n substeps of h and one of h',
+// with every method of first order alike.
+TEST_CASE("contact: first contact is within 1 um of where a free fall meets the solid",
+          "[contact]") {
+  constexpr double kHeight = 0.25;
+  constexpr double kTolerance = 1e-6;
+  for (const StepperType* type :
+       {&steppers::kExplicitEuler, &steppers::kRk4, &steppers::kImplicitEuler, &steppers::kImex}) {
+    CAPTURE(type->name);
+    ClothModel model = particle_on(ball_collider(Vec3(0, -1, 0), 1, 0.3));
+    MethodOptions options = type->usual_method();
+    options.step = 1.0 / 60;
+    options.substeps = 3;
+    options.first_contact = kTolerance;
+    const auto stepper = make_stepper(model, options);
+    State state = state_at({0, kHeight, 0});
+    for (int s = 0; s < 20; ++s) {
+      CHECK_FALSE(stepper->first_contact().has_value());
+      advance(*stepper, state, s, s + 1);
+      if (stepper->first_contact()) break;
+    }
+    REQUIRE(stepper->first_contact().has_value());
+    const double time = *stepper->first_contact();
+    const double h = options.step / options.substeps;
+    const double n = std::floor(time / h);
+    const double rest = time - n * h;
+    const double fallen = type == &steppers::kRk4
+                              ? 9.81 * time * time / 2
+                              : 9.81 * (h * h * n * (n + 1) / 2 + n * h * rest + rest * rest);
+    CHECK(fallen <= kHeight);
+    CHECK(fallen >= kHeight - kTolerance);
+    if (type == &steppers::kRk4)
+      CHECK(std::abs(time - std::sqrt(2 * kHeight / 9.81)) < kTolerance / (9.81 * time));
+  }
+}
+
+TEST_CASE("contact: looking for first contact changes nothing before it, nor cloth that rests",
+          "[contact]") {
+  MethodOptions options;
+  options.step = 0.01;
+  const bool rests = GENERATE(false, true);
+  const auto end = [&](double first_contact) {
+    ClothModel model = particle_on(floor_collider(0.3));
+    options.first_contact = first_contact;
+    const auto stepper = make_stepper(model, options);
+    State state = state_at({0, rests ? 0.0 : 0.1, 0});
+    advance(*stepper, state, 0, 10);
+    CHECK(stepper->first_contact().has_value() == (rests && first_contact > 0));
+    return state;
+  };
+  const State with = end(1e-6);
+  const State without = end(0);
+  CHECK(with.positions == without.positions);
+  CHECK(with.velocities == without.velocities);
+}
+
+TEST_CASE(
+    "contact: implicit and imex find in a few substeps with what force a floor holds a stiff "
+    "string "
+    "up",
     "[contact]") {
   // Two springs from pins at (-+1, -0.1, 0) below the floor to a particle that it holds up.
   const double stiffness = 1e5;  // [N/m]: h^2 k is 1000 times the mass
@@ -92,8 +195,9 @@ TEST_CASE(
   state.positions.resize(3, 3);
   state.positions << -1, 0, 1, -0.1, 0, -0.1, 0, 0, 0;
   state.velocities = Positions::Zero(3, 3);
-  MethodOptions options;
+  MethodOptions options = GENERATE(&steppers::kImplicitEuler, &steppers::kImex)->usual_method();
   options.step = 0.01;
+  options.substeps = 1;
   const auto stepper = make_stepper(model, options);
   advance(*stepper, state, 0, 40);
   const double length = std::hypot(1, 0.1);

@@ -62,6 +62,19 @@ ClothModel pair_model(double damping) {
   return model;
 }
 
+/// The same of one step of forward Euler.
+double forward_amplification(const ClothModel& model, const Positions& x, double h) {
+  const Eigen::Index n = 3 * model.n_vertices();
+  const Eigen::VectorXd inverse_mass = dense(mass_matrix(model)).diagonal().cwiseInverse();
+  const Eigen::MatrixXd K =
+      inverse_mass.asDiagonal() * dense(stiffness_matrix(model, x, ElementHessian::projected));
+  const Eigen::MatrixXd C = inverse_mass.asDiagonal() * dense(damping_matrix(model, x));
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd step(2 * n, 2 * n);  // of (x, v)
+  step << I, h * I, -h * K, I - h * C;
+  return step.eigenvalues().cwiseAbs().maxCoeff();
+}
+
 /// Largest stretch of the pair's spring over 4000 steps, begun at 1e-6 [m].
 double largest_stretch(ClothModel model, double h) {
   State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
@@ -184,6 +197,68 @@ TEST_CASE("explicit: left to choose, it takes the fewest substeps within its sha
   const int substeps = make_stepper(model, explicit_method(1.0 / 60, 0))->substeps();
   CHECK(1.0 / 60 / substeps <= 0.9 * bound);
   CHECK(1.0 / 60 / (substeps - 1) > 0.9 * bound);
+}
+
+TEST_CASE("explicit: below forward Euler's bound nothing grows, on any graph of damped springs",
+          "[dynamics]") {
+  Random random(GENERATE(range(1, 21)));
+  Positions x;
+  ClothModel model = random_graph(random, x);
+  model.damping_direction = DampingDirection::isotropic;
+  CHECK(forward_amplification(model, x, largest_forward_step(model)) < 1 + 1e-6);
+}
+
+TEST_CASE("explicit: forward Euler's bound of two masses on a spring is the exact one",
+          "[dynamics]") {
+  // It swings with the first damping, where h k = c, and fades with the second, where h c = m.
+  const double damping = GENERATE(0.5, 50.0);
+  CAPTURE(damping);
+  ClothModel model = pair_model(damping);
+  model.damping_direction = DampingDirection::isotropic;
+  const double bound = largest_forward_step(model);
+  CHECK(bound == Approx(damping == 0.5 ? 0.5 / 100 : 0.01 / 50));
+  const Positions x = Vec3::UnitX() * Eigen::RowVector2d(0, 1);
+  CHECK(forward_amplification(model, x, bound) < 1 + 1e-6);
+  CHECK(forward_amplification(model, x, 1.01 * bound) > 1 + 1e-6);
+}
+
+TEST_CASE("explicit: forward Euler moves places with the old velocities", "[dynamics]") {
+  ClothModel model;
+  model.masses = Eigen::VectorXd::Ones(1);
+  MethodOptions options = explicit_method(0.1, 1);
+  options.euler = EulerRule::forward;
+  State state{Vec3::Zero(), Vec3(1, 2, 3)};
+  REQUIRE(make_stepper(model, options)->advance(state, 0).ok());
+  CHECK((state.positions.col(0) - Vec3(0.1, 0.2, 0.3)).norm() < 1e-15);
+  CHECK((state.velocities.col(0) - Vec3(1, 2 - 0.981, 3)).norm() < 1e-15);
+}
+
+TEST_CASE("explicit: forward Euler is refused where something is undamped", "[dynamics]") {
+  MethodOptions options = explicit_method(1e-4, GENERATE(0, 1));
+  options.euler = EulerRule::forward;
+  ClothModel model = pair_model(0.5);
+  CHECK_THROWS_WITH(make_stepper(model, options), Catch::Contains("forward"));  // turns undamped
+  model.damping_direction = DampingDirection::isotropic;
+  CHECK_NOTHROW(make_stepper(model, options));
+  model.springs[0].damping = 0;
+  CHECK_THROWS_WITH(make_stepper(model, options), Catch::Contains("forward"));
+}
+
+TEST_CASE("explicit: told to go on beyond the bound, it runs until the numbers end it",
+          "[dynamics]") {
+  MethodOptions options;
+  options.stepper = GENERATE(&steppers::kExplicitEuler, &steppers::kRk4);
+  ClothModel model = pair_model(0);
+  options.step = 2 * largest_stable_step(model);
+  CHECK_THROWS_AS(make_stepper(model, options), InputError);
+  options.beyond_bound = BeyondBound::go_on;
+  State state{Positions::Zero(3, 2), Positions::Zero(3, 2)};
+  state.positions(0, 1) = 1 + 1e-6;
+  const auto stepper = make_stepper(model, options);
+  SolveReport report;
+  for (int s = 0; s < 1000 && report.ok(); ++s) report = stepper->advance(state, s * options.step);
+  CHECK(report.status == SolveStatus::not_finite);
+  CHECK(state.positions.allFinite());
 }
 
 TEST_CASE("explicit: cloth without stiffness has no bound", "[dynamics]") {

@@ -202,6 +202,32 @@ TEST_CASE("imex: it tells which springs are implicit, again after the pins chang
   CHECK(told() != before);
 }
 
+TEST_CASE("imex: it takes the fewest substeps that make the wanted share explicit", "[dynamics]") {
+  ClothModel model = swinging_model(square_sheet(9));
+  MethodOptions options = exact_method(steppers::kImex, 1.0 / 60);
+  const auto share = [&](int substeps) { return explicit_share(model, options.step / substeps); };
+  for (const double wanted : {0.2, 0.5, 0.9, 1.0}) {
+    options.explicit_share = wanted;
+    const int substeps = make_stepper(model, options)->substeps();
+    CAPTURE(wanted, substeps);
+    CHECK(share(substeps) >= wanted);
+    CHECK(share(substeps - 1) < wanted);
+  }
+  options.explicit_share = 0.2;
+  options.substeps = 1000;
+  CHECK(make_stepper(model, options)->substeps() == 1000);
+}
+
+TEST_CASE("imex: a share that no substeps reach, or none can change, is refused", "[dynamics]") {
+  ClothModel model = swinging_model(square_sheet(3));
+  MethodOptions options = exact_method(steppers::kImex, 1.0 / 60);
+  options.explicit_share = 1;
+  model.springs[0].stiffness = 1e15;
+  CHECK_THROWS_WITH(make_stepper(model, options), Catch::Contains("got one that needs more"));
+  options.split = ImplicitSplit::structural;
+  CHECK_THROWS_WITH(make_stepper(model, options), Catch::Contains("structural"));
+}
+
 TEST_CASE("imex: other steppers treat all springs alike", "[dynamics]") {
   ClothModel model = swinging_model(square_sheet(3));
   for (const MethodOptions& options : everyday_methods())

@@ -322,6 +322,20 @@ const BadScene kBadScenes[] = {
      "/method/constraints", R"(expected one of "compliant", "rigid", got true)"},
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "projective", "acceleration": 5}})",
      "/method/acceleration", R"(expected one of "none", "anderson", got 5)"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "imex", "explicit_share": 1.5}})",
+     "/method/explicit_share", "expected a number between 0.0 and 1.0, got 1.5"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "euler": "backward"}})",
+     "/method/euler", R"(expected one of "symplectic", "forward", got "backward")"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "rk4", "beyond_bound": true}})",
+     "/method/beyond_bound", R"(expected one of "refuse", "go_on", got true)"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "rk4", "euler": "forward"}})",
+     "/method/euler", R"(expected no such key, as rk4 does not read it, got "forward")"},
+    {R"({"cloth": {"sheet": {}}, "method": {"first_contact_m": -1}})", "/method/first_contact_m",
+     "expected a number >= 0.0, got -1"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd", "first_contact_m": 1}})",
+     "/method/first_contact_m", "expected no such key, as xpbd does not read it, got 1"},
+    {R"({"cloth": {"sheet": {}}, "world": {"contact_response": "bouncing"}})",
+     "/world/contact_response", R"(expected one of "resting", "uniform", got "bouncing")"},
     {R"({"cloth": {"sheet": {}}, "record": {"every_s": -1}})", "/record/every_s",
      "expected a number > 0.0, got -1"},
     {R"({"cloth": {"sheet": {}}, "record": {"format": "stl"}})", "/record/format",
@@ -430,6 +444,24 @@ TEST_CASE("scene file: every setting of a method is read", "[scene]") {
   const MethodOptions accelerated =
       method(R"({"stepper": "projective", "acceleration": "anderson"})");
   CHECK(accelerated.acceleration == Acceleration::anderson);
+  const MethodOptions imex =
+      method(R"({"stepper": "imex", "explicit_share": 0.5, "first_contact_m": 1e-6})");
+  CHECK(imex.explicit_share == 0.5);
+  CHECK(imex.first_contact == 1e-6);
+  const MethodOptions forward =
+      method(R"({"stepper": "explicit", "euler": "forward", "beyond_bound": "go_on"})");
+  CHECK(forward.euler == EulerRule::forward);
+  CHECK(forward.beyond_bound == BeyondBound::go_on);
+}
+
+TEST_CASE("scene file: what contact does is read, and written where it is not the usual",
+          "[scene]") {
+  const Scene scene =
+      read_text(R"({"cloth": {"sheet": {}}, "world": {"contact_response": "uniform"}})");
+  CHECK(scene.contact_response == ContactResponse::uniform);
+  CHECK(read_text(write_scene(scene)).contact_response == ContactResponse::uniform);
+  CHECK(write_scene(read_text(R"({"cloth": {"sheet": {}}})")).find("contact_response") ==
+        std::string::npos);
 }
 
 TEST_CASE("scene file: a positive number may be as large as any, but not zero", "[scene]") {

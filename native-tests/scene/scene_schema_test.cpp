@@ -48,6 +48,7 @@ const char* const kFurtherScenes[] = {
     R"({"$schema": "scene_schema.json", "cloth": {"sheet": {}},
         "fabric": {"name": "silk", "overrides": {"shear_n_per_m": 3}}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
+    R"({"cloth": {"sheet": {}}, "world": {"contact_response": "uniform"}})",
     R"({"cloth": {"sheet": {}}, "model": {"elasticity": "membrane", "stiffening_strain": 0.06}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "masses_kg": [1, 1, 1],
         "bends": [{"vertices": [0, 1, 2], "stiffness_n_m3": 1, "weights_per_m2": [1, -2, 1]}],

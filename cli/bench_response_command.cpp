@@ -1,0 +1,48 @@
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/scene_input.h"
+#include "core/run/response_study.h"
+#include "core/scene/method_section.h"
+
+namespace pleat {
+namespace {
+
+constexpr double kWindow = 0.05;  // [s]
+
+Json response_json(const ResponseRun& run) {
+  Json json = {{"rms_normal_velocity_m_per_s", run.rms_normal_velocity},
+               {"n_touched", run.n_touched},
+               {"contact_share", run.contact_share},
+               {"tangential_velocity_deviation", Json()},
+               {"momentum_deviation", Json()}};
+  if (run.friction) {
+    json["tangential_velocity_deviation"] = run.friction->tangential_velocity;
+    json["momentum_deviation"] = run.friction->momentum;
+  }
+  return json;
+}
+
+}  // namespace
+
+Outcome bench_response(Arguments arguments) {
+  double window = kWindow;
+  if (const auto text = arguments.text("--window"))
+    window = parse_positive_number(*text, "--window");
+  const SceneInput input = take_scene(arguments);
+  arguments.finish();
+  return with_source_named(input, [&] {
+    const ResponseStudy study = study_response(input.scene, window);
+    const Json json = {{"scene", input.scene.name},
+                       {"method", json_method(input.scene.method)},
+                       {"window_s", window},
+                       {"substep_s", study.substep},
+                       {"first_contact_s", study.first_contact},
+                       {"resting", response_json(study.resting)},
+                       {"uniform", response_json(study.uniform)}};
+    std::printf("%s\n", json.dump().c_str());
+    return Outcome::ok;
+  });
+}
+
+}  // namespace pleat
