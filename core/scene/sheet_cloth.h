@@ -4,8 +4,7 @@
 
 namespace pleat {
 
-/// A flat rectangle of quads. Its parts are its edges and corners: upper is u = 0 (where warp
-/// begins), left is v = 0 (where weft begins).
+/// A flat rectangle of quads. Its parts are its edges and corners (sheet_groups).
 class SheetCloth final : public QuadCloth {
  public:
   SheetCloth() = default;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/files/json_reader.h"
+#include "core/mesh/quad_mesh.h"
+#include "core/mesh/vertex_group.h"
+
+namespace pleat {
+
+/// How a kind of flat rectangular cloth calls what a SheetShape holds.
+struct SheetWords {
+  const char* warp_direction;
+  const char* weft_direction;
+  int border;  ///< 0 where "columns" and "rows" are of cells, 1 where they are of particles
+};
+
+/// Size, counts, place and directions. What the scene leaves out stays as it is in `shape`.
+void read_sheet_shape(const JsonReader& reader, const SheetWords& words, SheetShape& shape);
+
+/// The same keys in an object, key by key as write_scene has them.
+Json json_sheet_shape(const SheetWords& words, const SheetShape& shape);
+
+/// Edges and corners by name: upper is u = 0 (where warp begins), left is v = 0 (where weft
+/// begins).
+///
+/// uv  2 x n [m], of any refinement
+std::vector<VertexGroup> sheet_groups(const SheetShape& shape, const RestCoordinates& uv);
+
+/// The name of an edge or a corner. Throws InputError for any other.
+std::string read_sheet_part(const JsonReader& reader);
+
+/// The unrefined vertices of a part that read_sheet_part returned, ascending.
+std::vector<VertexId> sheet_part(const SheetShape& shape, const std::string& name);
+
+}  // namespace pleat
