@@ -57,7 +57,7 @@ pleat::SceneParts sheet_parts() {
                         const pleat::ClothSurroundings&) -> pleat::SceneCloth {
     return pleat::read_sheet(reader);
   };
-  return {.cloths = {{"sheet", sheet}, {"particles"}, {"mesh"}, {"garment"}},
+  return {.cloths = {{"sheet", sheet}, {"particles"}, {"knit"}, {"mesh"}, {"garment"}},
           .steppers = kSteppers};
 }
 

@@ -121,12 +121,11 @@ StabilitySplit split_structural(const ClothModel& model) {
   const std::vector<Demands> demands = all_demands(model, 1);
   std::vector<char> is_stiff(demands.size(), 0);
   for (std::size_t e = 0; e < demands.size(); ++e) {
-    const bool is_structural =
-        e < model.springs.size() && model.springs[e].kind != SpringKind::shear;
+    const bool is_taut = e < model.springs.size() && is_structural(model.springs[e].kind);
     const bool hangs = std::any_of(demands[e].begin(), demands[e].end(), [&](const Demand& demand) {
       return model.hangs(demand.vertex);
     });
-    is_stiff[e] = is_structural || hangs ? 1 : 0;
+    is_stiff[e] = is_taut || hangs ? 1 : 0;
   }
   return split(model, is_stiff);
 }

@@ -11,7 +11,13 @@
 
 namespace pleat {
 
-enum class SpringKind : std::uint8_t { warp, weft, shear, other };
+/// `bend` joins every second vertex of a line.
+enum class SpringKind : std::uint8_t { warp, weft, shear, bend, other };
+
+/// True for what keeps cloth from being longer along its threads, and for springs of no kind.
+constexpr bool is_structural(SpringKind kind) {
+  return kind != SpringKind::shear && kind != SpringKind::bend;
+}
 
 /// Hooke spring with a damper beside it. Force on a: -k (l - L) u - c ((v_a - v_b).u) u, u from b
 /// to a. At zero length it pulls nowhere.

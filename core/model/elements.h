@@ -101,6 +101,9 @@ struct SpringElements : ElementKind {
     note(std::any_of(model_.springs.begin(), model_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }),
          "dampers");
+    if (std::any_of(model_.springs.begin(), model_.springs.end(),
+                    [](const Spring& spring) { return spring.kind == SpringKind::bend; }))
+      note(true, "bending");
   }
   template <class Join>
   void for_each_pair(Join&& join) const {

@@ -35,7 +35,7 @@ std::vector<GaugeEdge> gauge_edges(const TriangleMesh& mesh) {
 std::vector<GaugeEdge> gauge_edges(std::span<const Spring> springs) {
   std::vector<GaugeEdge> edges;
   for (const Spring& spring : springs)
-    if (spring.kind != SpringKind::shear && spring.rest_length > 0)
+    if (is_structural(spring.kind) && spring.rest_length > 0)
       edges.push_back({spring.a, spring.b, spring.rest_length});
   return edges;
 }

@@ -21,7 +21,7 @@ std::vector<GaugeEdge> gauge_edges(const QuadMesh& mesh);
 /// All edges of a triangle mesh that have a length.
 std::vector<GaugeEdge> gauge_edges(const TriangleMesh& mesh);
 
-/// Springs that have a length and are not there against shear.
+/// Structural springs that have a length.
 std::vector<GaugeEdge> gauge_edges(std::span<const Spring> springs);
 
 /// |l/L - 1| over the edges of a gauge; 0 without any.

@@ -22,15 +22,15 @@ BendingLaw lattice_law(BendingModel bending) {
   }
 }
 
-void drop_shear(std::vector<Spring>& springs) {
-  const auto is_shear = [](const Spring& spring) { return spring.kind == SpringKind::shear; };
-  springs.erase(std::remove_if(springs.begin(), springs.end(), is_shear), springs.end());
+void drop(std::vector<Spring>& springs, SpringKind kind) {
+  const auto is_of_kind = [kind](const Spring& spring) { return spring.kind == kind; };
+  springs.erase(std::remove_if(springs.begin(), springs.end(), is_of_kind), springs.end());
 }
 
 void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
   SpringLattice lattice = spring_lattice(quads, scene.fabric, lattice_law(scene.model.bending),
                                          scene.model.stiffness_exponent);
-  if (!scene.model.shear) drop_shear(lattice.springs);
+  if (!scene.model.shear) drop(lattice.springs, SpringKind::shear);
   if (scene.model.stiffening_strain > 0)
     model.taut_springs = taut_springs(lattice.springs, scene.model.stiffening_strain);
   model.springs = std::move(lattice.springs);
@@ -42,7 +42,11 @@ void add_springs(ClothModel& model, const Scene& scene, const QuadMesh& quads) {
 void add_given(ClothModel& model, const Scene& scene, const GivenSprings& given) {
   model.masses = given.masses;
   model.springs = given.springs;
-  if (scene.model.bending == BendingModel::quadratic) model.bends = given.bends;
+  if (!scene.model.shear) drop(model.springs, SpringKind::shear);
+  if (scene.model.bending == BendingModel::none)
+    drop(model.springs, SpringKind::bend);
+  else
+    model.bends = given.bends;
 }
 
 void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mesh) {

@@ -31,7 +31,7 @@ struct RestCloth {
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: of a mesh, texture coordinates
   Positions start;                   ///< where it begins [m]: at rest, a garment as it is round
   Positions start_velocities;        ///< 3 x n [m/s]
-  std::optional<GivenSprings> given_springs;  ///< of particles
+  std::optional<GivenSprings> given_springs;  ///< of particles and knits
 };
 
 class QuadCloth;
@@ -62,7 +62,7 @@ class ClothSource {
   /// This cloth when it is made of quads, which springs and plans need; else null.
   virtual const QuadCloth* quads() const { return nullptr; }
   /// True for one piece with an area: a membrane may fill it, it can be refined, and a hand holds
-  /// what is near. False for particles.
+  /// what is near. False for particles and knits.
   virtual bool is_surface() const { return true; }
   /// True for what is fixed to a figure's waist and meets its hips and legs alone.
   virtual bool is_worn() const { return false; }

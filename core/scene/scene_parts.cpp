@@ -1,6 +1,7 @@
 #include "core/scene/scene_parts.h"
 
 #include "core/base/check.h"
+#include "core/scene/knit_cloth.h"
 #include "core/scene/mesh_cloth.h"
 #include "core/scene/particle_cloth.h"
 #include "core/scene/sheet_cloth.h"
@@ -14,6 +15,8 @@ SceneCloth particles(const JsonReader& reader, const ClothSurroundings&) {
   return read_particles(reader);
 }
 
+SceneCloth knit(const JsonReader& reader, const ClothSurroundings&) { return read_knit(reader); }
+
 SceneCloth mesh(const JsonReader& reader, const ClothSurroundings& around) {
   return read_mesh_cloth(reader, around.files);
 }
@@ -22,7 +25,8 @@ SceneCloth mesh(const JsonReader& reader, const ClothSurroundings& around) {
 
 SceneParts plain_scene_parts() {
   SceneParts parts;
-  parts.cloths = {{"sheet", sheet}, {"particles", particles}, {"mesh", mesh}, {"garment"}};
+  parts.cloths = {
+      {"sheet", sheet}, {"particles", particles}, {"knit", knit}, {"mesh", mesh}, {"garment"}};
   return parts;
 }
 

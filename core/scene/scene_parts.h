@@ -42,7 +42,7 @@ struct SceneParts {
 /// Everything.
 SceneParts all_scene_parts();
 
-/// Sheets, particles and meshes, without figures, garments and plans.
+/// Sheets, particles, knits and meshes, without figures, garments and plans.
 SceneParts plain_scene_parts();
 
 /// Throws the InputError for a part that a program lacks: "garment", say.

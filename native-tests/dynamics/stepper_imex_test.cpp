@@ -177,10 +177,16 @@ TEST_CASE("imex: its error falls with the first power of the step", "[dynamics]"
 }
 
 TEST_CASE("imex: structural springs alone are implicit where that is asked for", "[dynamics]") {
-  const ClothModel model = swinging_model(square_sheet(4));
+  ClothModel model = swinging_model(square_sheet(4));
+  std::size_t n_soft = 0;
+  for (const Spring& spring : model.springs) n_soft += spring.kind == SpringKind::shear ? 1 : 0;
+  model.springs.push_back({VertexId(0), VertexId(2), 1, 0.5, 0, SpringKind::bend});
+  model.springs.push_back({VertexId(0), VertexId(3), 1, 0.5, 0, SpringKind::other});
   const StabilitySplit parts = split_structural(model);
-  for (const Spring& spring : parts.stiff.springs) CHECK(spring.kind != SpringKind::shear);
-  for (const Spring& spring : parts.soft.springs) CHECK(spring.kind == SpringKind::shear);
+  CHECK(parts.soft.springs.size() == n_soft + 1);
+  CHECK(parts.soft.springs.back().kind == SpringKind::bend);
+  CHECK(parts.stiff.springs.back().kind == SpringKind::other);
+  CHECK(parts.stiff.springs.size() + parts.soft.springs.size() == model.springs.size());
   CHECK(parts.stiff.bends.empty());
   CHECK(parts.soft.bends.size() == model.bends.size());
 }

@@ -35,13 +35,14 @@ TEST_CASE(
   check_same(gauge_edges(mesh), gauge_edges(sheet_model(mesh, soft_fabric()).springs));
 }
 
-TEST_CASE("stretch: springs against shear and without length gauge nothing", "[model]") {
+TEST_CASE("stretch: springs against shear, of bending and without length gauge nothing",
+          "[model]") {
   const auto spring = [](double rest_length, SpringKind kind) {
     return Spring{VertexId(0), VertexId(1), 1, rest_length, 0, kind};
   };
   const std::vector<Spring> springs = {spring(0, SpringKind::other), spring(1, SpringKind::shear),
                                        spring(2, SpringKind::other), spring(3, SpringKind::warp),
-                                       spring(0, SpringKind::weft)};
+                                       spring(0, SpringKind::weft),  spring(4, SpringKind::bend)};
   const std::vector<GaugeEdge> gauge = gauge_edges(springs);
   REQUIRE(gauge.size() == 2);
   CHECK(gauge[0].rest_length == 2);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/check.h"
+#include "core/scene/knit_cloth.h"
 #include "core/scene/particle_cloth.h"
 #include "native-tests/support/assets.h"
 
@@ -67,11 +68,11 @@ const BadScene kBadScenes[] = {
          std::string(59, 'k') + "..."},
     // Cloth: sheet.
     {R"({"cloth": {}})", "/cloth",
-     R"(expected one of the keys "sheet", "particles", "mesh", "garment", got an empty object)"},
+     R"(expected one of the keys "sheet", "particles", "knit", "mesh", "garment", got an empty object)"},
     {R"({"cloth": {"sheet": {}, "particles": {}}})", "/cloth",
-     R"(expected only one of the keys "sheet", "particles", "mesh", "garment", got several)"},
+     R"(expected only one of the keys "sheet", "particles", "knit", "mesh", "garment", got several)"},
     {R"({"cloth": {"curtain": {}}})", "/cloth/curtain",
-     R"(expected one of the keys "sheet", "particles", "mesh", "garment", got "curtain")"},
+     R"(expected one of the keys "sheet", "particles", "knit", "mesh", "garment", got "curtain")"},
     {R"({"cloth": {"sheet": {"a/b~": 1}}})", "/cloth/sheet/a~1b~0",
      R"(expected one of the keys "width_m", "height_m", "columns", "rows", "origin_m", "warp_direction", )"
      R"("weft_direction", "initial_velocity_m_per_s", got "a/b~")"},
@@ -128,6 +129,38 @@ const BadScene kBadScenes[] = {
      "expected weights that sum to zero, got a sum of 1.0"},
     {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1], "triangles": [[0, 1, 2]]}}})",
      "/cloth/particles/triangles/0/1", "expected a whole number from 0 to 0, got 1"},
+    // Cloth: knit.
+    {R"({"cloth": {"knit": {"columns": 1}}})", "/cloth/knit/columns",
+     "expected a whole number from 2 to 1000000, got 1"},
+    {R"({"cloth": {"knit": {"rows": 1000, "columns": 1001}}})", "/cloth/knit",
+     "expected at most 1000000 vertices, got 1001000"},
+    {R"({"cloth": {"knit": {"height_m": 0}}})", "/cloth/knit/height_m",
+     "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"knit": {"warp_direction": [1, 0, 0]}}})", "/cloth/knit/warp_direction",
+     R"(expected the key "wale_direction", got "warp_direction")"},
+    {R"({"cloth": {"knit": {"wale_direction": [1, -1, 0]}}})", "/cloth/knit/course_direction",
+     "expected a direction perpendicular to wale_direction, got one at 45.00000000000001 degrees"},
+    {R"({"cloth": {"knit": {"particle_mass_kg": 0}}})", "/cloth/knit/particle_mass_kg",
+     "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"knit": {"structural": {"stiffness_n_per_m": -1}}}})",
+     "/cloth/knit/structural/stiffness_n_per_m", "expected a number > 0.0, got -1"},
+    {R"({"cloth": {"knit": {"shear": {"damping_n_s_per_m": -0.1}}}})",
+     "/cloth/knit/shear/damping_n_s_per_m", "expected a number >= 0.0, got -0.1"},
+    {R"({"cloth": {"knit": {"bending": {"stiffness": 1}}}})", "/cloth/knit/bending/stiffness",
+     R"(expected the key "stiffness_n_per_m", got "stiffness")"},
+    {R"({"cloth": {"knit": {"pattern": {"plain_columns": 0, "lace_columns": 0}}}})",
+     "/cloth/knit/pattern", "expected at least one plain or lace column, got none"},
+    {R"({"cloth": {"knit": {"pattern": {"lace_columns": -1}}}})",
+     "/cloth/knit/pattern/lace_columns", "expected a whole number from 0 to 1000000, got -1"},
+    {R"({"cloth": {"knit": {"pattern": {"lace_stiffness": 0}}}})",
+     "/cloth/knit/pattern/lace_stiffness", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"knit": {}}, "refinement": {"level": 1}})", "/refinement/level",
+     "expected 0, as particles cannot be refined, got 1"},
+    {R"({"cloth": {"knit": {}}, "model": {"elasticity": "membrane"}})", "/model/elasticity",
+     R"(expected "springs" for particles, which have no area, got "membrane")"},
+    {R"({"cloth": {"knit": {}}, "pins": [{"part": "hem"}]})", "/pins/0/part",
+     R"(expected one of "upper_edge", "lower_edge", "left_edge", "right_edge", "upper_left", "upper_right", )"
+     R"("lower_left", "lower_right", got "hem")"},
     // Cloth: mesh.
     {R"({"cloth": {"mesh": {}}})", "/cloth/mesh",
      R"(expected one of the keys "obj", "positions_m", got an empty object)"},
@@ -361,6 +394,16 @@ const char* const kRichScene = R"({
   "method": {"stepper": "explicit", "step_s": 0.003, "substeps": "stable"},
   "duration_s": 1.7, "record": {"every_s": 0.06, "format": "binary"}})";
 
+const char* const kKnitScene = R"({
+  "cloth": {"knit": {"width_m": 0.3, "height_m": 0.7, "columns": 5, "rows": 7, "origin_m": [0.1, 2.3, -0.7],
+            "wale_direction": [0, -2, 0.1], "course_direction": [3, 0, 0], "particle_mass_kg": 0.003,
+            "structural": {"stiffness_n_per_m": 1300, "damping_n_s_per_m": 0.1},
+            "shear": {"stiffness_n_per_m": 170, "damping_n_s_per_m": 0.3},
+            "bending": {"stiffness_n_per_m": 19, "damping_n_s_per_m": 0.7},
+            "pattern": {"plain_columns": 2, "lace_columns": 1, "lace_stiffness": 0.7},
+            "initial_velocity_m_per_s": [0.1, 0, 0.3]}},
+  "pins": [{"part": "lower_right"}]})";
+
 Scene read_text(const std::string& text) { return read_scene(text, fabric_library()); }
 
 }  // namespace
@@ -426,6 +469,30 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.duration == 1.7);
   CHECK(scene.record.every == 0.06);
   CHECK(scene.record.format == FrameFormat::binary);
+}
+
+TEST_CASE("scene file: every number of a knit arrives", "[scene]") {
+  const Scene scene = read_text(kKnitScene);
+  const auto& knit = *scene.cloth.as<KnitCloth>();
+  CHECK(knit.shape.width == 0.3);
+  CHECK(knit.shape.height == 0.7);
+  CHECK(knit.n_vertices(0) == 35);
+  CHECK(knit.shape.columns == 4);
+  CHECK(knit.shape.origin == Vec3(0.1, 2.3, -0.7));
+  CHECK(knit.shape.warp_direction.isApprox(Vec3(0, -2, 0.1).normalized(), 1e-15));
+  CHECK(knit.shape.weft_direction == Vec3(1, 0, 0));
+  CHECK(knit.particle_mass == 0.003);
+  CHECK(knit.structural.stiffness == 1300);
+  CHECK(knit.structural.damping == 0.1);
+  CHECK(knit.shear.stiffness == 170);
+  CHECK(knit.shear.damping == 0.3);
+  CHECK(knit.bending.stiffness == 19);
+  CHECK(knit.bending.damping == 0.7);
+  CHECK(knit.pattern.plain_columns == 2);
+  CHECK(knit.pattern.lace_columns == 1);
+  CHECK(knit.pattern.lace_stiffness == 0.7);
+  CHECK(knit.initial_velocity == Vec3(0.1, 0, 0.3));
+  CHECK(knit.base_part("lower_right") == std::vector<VertexId>{VertexId(34)});
 }
 
 TEST_CASE("scene file: every setting of a method is read", "[scene]") {
@@ -509,7 +576,7 @@ TEST_CASE("scene file: almost perpendicular directions become perpendicular", "[
 }
 
 TEST_CASE("scene file: what was written is read back to the bit", "[scene]") {
-  std::vector<std::string> texts{kRichScene, R"({"cloth": {"sheet": {}}})"};
+  std::vector<std::string> texts{kRichScene, R"({"cloth": {"sheet": {}}})", kKnitScene};
   for (const char* name : kSceneFiles) texts.push_back(scene_text(name));
   for (const std::string& text : texts) {
     CAPTURE(text);

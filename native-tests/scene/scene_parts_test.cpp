@@ -91,10 +91,9 @@ TEST_CASE("scene parts: what is not registered is refused at its place", "[scene
         "/figure: expected no figure" + refused_end);
   CHECK(refusal(R"({"cloth": {"sheet": {}}, "refinement": {"plan": {}}})", plain) ==
         "/refinement/plan: expected no plan" + refused_end);
-  CHECK(
-      refusal(kDiscScene, plain) ==
-      "/cloth/disc: expected one of the keys \"sheet\", \"particles\", \"mesh\", \"garment\", got "
-      "\"disc\"");
+  CHECK(refusal(kDiscScene, plain) ==
+        "/cloth/disc: expected one of the keys \"sheet\", \"particles\", \"knit\", \"mesh\", "
+        "\"garment\", got \"disc\"");
   CHECK(refusal(R"({"cloth": {"disc": {"radius_m": 1}}, "pins": [{"part": "rim"}]})",
                 parts_with_disc()) == "/pins/0/part: expected \"centre\", got \"rim\"");
 }

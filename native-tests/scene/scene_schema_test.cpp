@@ -24,6 +24,7 @@ const char* const kShortScenes[] = {
     R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk"}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}}})",
+    R"({"cloth": {"knit": {}}})",
     R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]],
         "triangles": [[0, 1, 2]], "warp_direction": [1, 0, 0]}}})",
     R"({"cloth": {"garment": {"skirt": {}}}, "figure": {"motion": "turn.json"}})",
