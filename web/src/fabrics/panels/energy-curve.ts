@@ -1,7 +1,10 @@
 // The energy after each step towards the shape, in whole and term by term, drawn and as a table.
 import { linearScale } from '../../shared/chart/linear-scale';
 import { logScale } from '../../shared/chart/log-scale';
+import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
+import { lineKey } from '../../shared/panels/line-key';
+import { createNumberTable, fillHead } from '../../shared/panels/number-table';
 import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import {
@@ -93,18 +96,6 @@ function verticalAxis(energies: readonly number[]): VerticalAxis {
   };
 }
 
-/** A path through the points, with gaps where there is none. */
-function pathThrough(points: readonly ([number, number] | null)[]): string {
-  let isOpen = false;
-  return points
-    .map((point) => {
-      const command = isOpen ? 'L' : 'M';
-      isOpen = point !== null;
-      return point ? `${command}${point[0].toFixed(1)} ${point[1].toFixed(1)}` : '';
-    })
-    .join('');
-}
-
 function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
   const energies = steps.flatMap(({ energy, terms }) => [energy, ...TERMS.map((t) => terms[t])]);
   const { ticks, y } = verticalAxis(energies);
@@ -172,13 +163,6 @@ function tableRow(step: WeightedStep, index: number): HTMLElement {
   );
 }
 
-/** A piece of the line as it is drawn, with its title. */
-function key(kind: string, title: string): HTMLElement {
-  const line = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
-  line.append(svg('path', { d: 'M0 5H24', class: `curve ${kind}` }));
-  return element('li', {}, line, title);
-}
-
 /** The curve of the chosen pane. */
 export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>): () => void {
   const root = svg('svg', {
@@ -190,11 +174,11 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
   const legend = element(
     'ul',
     { class: 'marks curve-keys' },
-    key('whole', 'Whole'),
-    ...TERMS.map((term) => key(`term-${term}`, TERM_TITLES[term])),
+    lineKey('curve whole', 'Whole'),
+    ...TERMS.map((term) => lineKey(`curve term-${term}`, TERM_TITLES[term])),
   );
-  const rows = element('tbody');
-  const heads = ['Step', 'Energy', ...TERMS.map((term) => TERM_TITLES[term]), 'Move', 'Matrix'];
+  const table = createNumberTable('Steps', 'Energy after each step', 'step-rows');
+  fillHead(table, ['Step', 'Energy', ...TERMS.map((term) => TERM_TITLES[term]), 'Move', 'Matrix']);
   const numbers = element(
     'details',
     { toggle: () => fill() },
@@ -204,21 +188,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
       { class: 'note' },
       'Energies have no unit. Each term is weighted; the three add up to the energy. Move: how far the points went, as a part of the size of the cloth (RMS).',
     ),
-    element(
-      'div',
-      { class: 'table-box', tabindex: 0, role: 'region', 'aria-label': 'Steps' },
-      element(
-        'table',
-        { class: 'rows step-rows' },
-        element('caption', { class: 'unseen' }, 'Energy after each step'),
-        element(
-          'thead',
-          {},
-          element('tr', {}, ...heads.map((head) => element('th', { scope: 'col' }, head))),
-        ),
-        rows,
-      ),
-    ),
+    table.box,
   );
   const figure = element('figure', { class: 'chart' });
   figure.append(legend, root, words);
@@ -235,7 +205,7 @@ export function createEnergyCurve(parent: HTMLElement, store: Store<DeformState>
   let steps: WeightedStep[] = [];
 
   function fill(): void {
-    if (numbers.open) rows.replaceChildren(...steps.map(tableRow));
+    if (numbers.open) table.rows.replaceChildren(...steps.map(tableRow));
   }
 
   let drawn: PaneState | undefined;

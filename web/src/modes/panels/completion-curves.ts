@@ -1,6 +1,8 @@
 // Volume and energy along the timeline, of the in-betweens and of the straight way.
 import { linearScale } from '../../shared/chart/linear-scale';
+import { pathThrough } from '../../shared/chart/path-through';
 import { element, setText, svg } from '../../shared/panels/element';
+import { lineKey } from '../../shared/panels/line-key';
 import { type Store, watch } from '../../shared/state/store';
 import type { FilledFrame } from '../bindings/modal-module';
 import { energyOf } from '../state/material';
@@ -73,12 +75,6 @@ interface Drawn {
   x(time: number): number;
 }
 
-function pathOf(points: readonly (readonly [number, number])[]): string {
-  return points
-    .map(([x, y], index) => `${index === 0 ? 'M' : 'L'}${x.toFixed(1)} ${y.toFixed(1)}`)
-    .join('');
-}
-
 function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
   const rest = frames[0]?.volume_m3 ?? 1;
   const ours = frames.map((frame) => curve.ours(frame, rest));
@@ -110,18 +106,12 @@ function draw(curve: Curve, frames: readonly FilledFrame[]): Drawn {
     values.map((value, index) => [x(frames[index]?.time ?? 0), y(value)] as const);
   const now = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'now' });
   root.append(
-    svg('path', { d: pathOf(points(straight)), class: 'curve-straight' }),
-    svg('path', { d: pathOf(points(ours)), class: 'curve-ours' }),
+    svg('path', { d: pathThrough(points(straight)), class: 'curve-straight' }),
+    svg('path', { d: pathThrough(points(ours)), class: 'curve-ours' }),
     now,
     svg('text', { x: LEFT + (WIDTH - LEFT) / 2, y: HEIGHT - 3, class: 'axis' }, 'key'),
   );
   return { root, now, x };
-}
-
-function legendKey(kind: string, title: string): HTMLElement {
-  const line = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
-  line.append(svg('path', { d: 'M0 5H24', class: kind }));
-  return element('li', {}, line, title);
 }
 
 /** The two charts, and lines on them at the present time. */
@@ -154,8 +144,8 @@ export function createCompletionCurves(parent: HTMLElement, store: Store<ModesSt
   const legend = element(
     'ul',
     { class: 'marks curve-keys' },
-    legendKey('curve-ours', 'In-betweens'),
-    legendKey('curve-straight', 'Straight from key to key, the ghost'),
+    lineKey('curve-ours', 'In-betweens'),
+    lineKey('curve-straight', 'Straight from key to key, the ghost'),
   );
   const story = element('p', { class: 'story' });
   const halves = element('p', { class: 'note' });

@@ -1,5 +1,6 @@
 // The frames of a completed motion as a table, beside their curves.
 import { element } from '../../shared/panels/element';
+import { createNumberTable, fillHead } from '../../shared/panels/number-table';
 import { percent } from '../../shared/panels/quantity';
 import type { FilledFrame } from '../bindings/modal-module';
 
@@ -18,20 +19,13 @@ function tableRow(frame: FilledFrame, rest_m3: number): HTMLElement {
 
 /** Rows are made once it is opened. */
 export function createCompletionTable() {
-  const rows = element('tbody');
+  const table = createNumberTable('Frames', 'Volume and strain of each frame');
+  fillHead(table, HEADS);
   let frames: readonly FilledFrame[] = [];
   const fill = () => {
     const rest = frames[0]?.volume_m3 ?? 1;
-    if (box.open) rows.replaceChildren(...frames.map((frame) => tableRow(frame, rest)));
+    if (box.open) table.rows.replaceChildren(...frames.map((frame) => tableRow(frame, rest)));
   };
-  const heads = HEADS.map((head) => element('th', { scope: 'col' }, head));
-  const table = element(
-    'table',
-    { class: 'rows' },
-    element('caption', { class: 'unseen' }, 'Volume and strain of each frame'),
-    element('thead', {}, element('tr', {}, ...heads)),
-    rows,
-  );
   const box = element(
     'details',
     { toggle: fill },
@@ -41,11 +35,7 @@ export function createCompletionTable() {
       { class: 'note' },
       'Volumes over that of the first key. Strain: how far each piece is from a turned copy of itself, as a root of the mean square; the energy goes with its square.',
     ),
-    element(
-      'div',
-      { class: 'table-box', tabindex: 0, role: 'region', 'aria-label': 'Frames' },
-      table,
-    ),
+    table.box,
   );
   return {
     box,

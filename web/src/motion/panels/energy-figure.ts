@@ -1,21 +1,17 @@
 // The account of energy as a plot, in words, and as a table.
-import { element, setText, svg } from '../../shared/panels/element';
+import { element, setText } from '../../shared/panels/element';
+import { lineKey } from '../../shared/panels/line-key';
+import { createNumberTable, fillHead, type NumberTable } from '../../shared/panels/number-table';
 import { energyText } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import type { EnergyNumbers } from '../bindings/pleat-module';
 import type { MotionState } from '../state/motion-state';
 import { type EnergyLine, linesOf } from './energy-lines';
-import { createEnergyPlot, lineMark } from './energy-plot';
+import { createEnergyPlot, lineClass } from './energy-plot';
 import { energyWords } from './energy-words';
 
 /** So many times of a run are in the table. */
 const TABLE_ROWS = 9;
-
-function legendKey({ kind, title }: EnergyLine): HTMLElement {
-  const mark = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
-  mark.append(lineMark(kind, 'M0 5H24'));
-  return element('li', {}, mark, title);
-}
 
 /** Samples evenly spread over all of them, with the first and the last. */
 export function spread(samples: readonly EnergyNumbers[]): EnergyNumbers[] {
@@ -25,44 +21,27 @@ export function spread(samples: readonly EnergyNumbers[]): EnergyNumbers[] {
   ).filter((sample) => sample !== undefined);
 }
 
-function createTable() {
-  const head = element('tr');
-  const rows = element('tbody');
-  const box = element(
-    'div',
-    { class: 'table-box', tabindex: 0, role: 'region', 'aria-label': 'Energies over time' },
+function fillTable(
+  table: NumberTable,
+  samples: readonly EnergyNumbers[],
+  lines: readonly EnergyLine[],
+): void {
+  fillHead(table, ['Time', ...lines.map(({ title }) => title)]);
+  const row = (sample: EnergyNumbers) =>
     element(
-      'table',
-      { class: 'rows energy-rows' },
-      element('caption', { class: 'unseen' }, 'Energies over time'),
-      element('thead', {}, head),
-      rows,
-    ),
-  );
-  return {
-    box,
-    fill(samples: readonly EnergyNumbers[], lines: readonly EnergyLine[]) {
-      const heads = ['Time', ...lines.map(({ title }) => title)];
-      head.replaceChildren(...heads.map((title) => element('th', { scope: 'col' }, title)));
-      const row = (sample: EnergyNumbers) =>
-        element(
-          'tr',
-          {},
-          element('th', { scope: 'row' }, `${sample.time_s.toFixed(2)}\u00a0s`),
-          ...lines.map((line) =>
-            element('td', { class: 'number' }, energyText(line.joules(sample))),
-          ),
-        );
-      rows.replaceChildren(...spread(samples).map(row));
-    },
-  };
+      'tr',
+      {},
+      element('th', { scope: 'row' }, `${sample.time_s.toFixed(2)}\u00a0s`),
+      ...lines.map((line) => element('td', { class: 'number' }, energyText(line.joules(sample)))),
+    );
+  table.rows.replaceChildren(...spread(samples).map(row));
 }
 
 export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState>): () => void {
   const plot = createEnergyPlot();
   const legend = element('ul', { class: 'marks energy-keys' });
   const words = element('figcaption');
-  const table = createTable();
+  const table = createNumberTable('Energies over time', 'Energies over time', 'energy-rows');
   const asTable = element(
     'details',
     { toggle: () => render(store.get()) },
@@ -89,9 +68,9 @@ export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState
     setText(words, energyWords(energies));
     if (!isDrawn) return;
     const lines = linesOf(energies);
-    legend.replaceChildren(...lines.map(legendKey));
+    legend.replaceChildren(...lines.map(({ kind, title }) => lineKey(lineClass(kind), title)));
     plot.draw(energies, lines);
-    if (asTable.open) table.fill(energies, lines);
+    if (asTable.open) fillTable(table, energies, lines);
   }
   // Energies change with each frame, and are drawn as often as numbers can be read.
   return watch(store, ['energy', 'numbers'], render);

@@ -1,5 +1,6 @@
 // Energies over time, as lines about zero.
 import { spanScale } from '../../shared/chart/linear-scale';
+import { pathThrough } from '../../shared/chart/path-through';
 import { svg } from '../../shared/panels/element';
 import { energyUnit } from '../../shared/panels/quantity';
 import type { EnergyNumbers } from '../bindings/pleat-module';
@@ -18,13 +19,9 @@ function numeral(tick: number): string {
   return String(tick).replace('-', '−');
 }
 
-function pathThrough(points: readonly (readonly [number, number])[]): string {
-  return `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
-}
-
 /** What a line looks like, in the chart and in its legend. */
-export function lineMark(kind: EnergyLine['kind'], path: string): SVGElement {
-  return svg('path', { d: path, class: `energy-line energy-${kind}` });
+export function lineClass(kind: EnergyLine['kind']): string {
+  return `energy-line energy-${kind}`;
 }
 
 function draw(
@@ -69,7 +66,7 @@ function draw(
     ...lines.map(({ kind }, index) => {
       const joules = heights[index] ?? [];
       const points = joules.map((one, at) => [x(times[at] ?? begin), y(perJoule * one)] as const);
-      return lineMark(kind, pathThrough(points));
+      return svg('path', { d: pathThrough(points), class: lineClass(kind) });
     }),
   );
 }

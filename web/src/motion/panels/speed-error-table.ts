@@ -1,6 +1,7 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
 
 import { element } from '../../shared/panels/element';
+import { createNumberTable } from '../../shared/panels/number-table';
 import { digits, milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { warningSentence } from '../../shared/panels/warning-words';
 import type { BenchRow } from '../bindings/sweep-module';
@@ -46,20 +47,13 @@ function cells(row: BenchRow, meshError: MeshError): Cell[] {
   ];
 }
 
-export function createSpeedErrorTable(
-  parent: HTMLElement,
-  onChoice: (index: number) => void,
-): { update(content: PlotContent): void } {
-  const head = element('tr');
-  const body = element('tbody');
-  parent.append(
-    element(
-      'table',
-      { class: 'rows' },
-      element('caption', { class: 'unseen' }, 'Speed and error of each setting'),
-      element('thead', {}, head),
-      body,
-    ),
+export function createSpeedErrorTable(onChoice: (index: number) => void): {
+  box: HTMLElement;
+  update(content: PlotContent): void;
+} {
+  const { box, head, rows } = createNumberTable(
+    'Rows of the sweep',
+    'Speed and error of each setting',
   );
 
   function line(row: BenchRow, index: number, { front, current, meshError }: PlotContent) {
@@ -96,8 +90,9 @@ export function createSpeedErrorTable(
   }
 
   return {
+    box,
     update(content) {
-      const focused = body.contains(document.activeElement)
+      const focused = rows.contains(document.activeElement)
         ? document.activeElement?.getAttribute('data-row')
         : null;
       head.replaceChildren(
@@ -105,8 +100,8 @@ export function createSpeedErrorTable(
           element('th', { scope: 'col' }, title, ' ', element('small', {}, detail)),
         ),
       );
-      body.replaceChildren(...content.rows.map((row, index) => line(row, index, content)));
-      if (focused) body.querySelector<HTMLElement>(`[data-row="${focused}"]`)?.focus();
+      rows.replaceChildren(...content.rows.map((row, index) => line(row, index, content)));
+      if (focused) rows.querySelector<HTMLElement>(`[data-row="${focused}"]`)?.focus();
     },
   };
 }

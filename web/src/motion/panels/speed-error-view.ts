@@ -117,17 +117,11 @@ export function createSpeedErrorView(
   const note = element('p', { class: 'note' });
   const legend = createLegend();
   figure.append(legend.list);
-  const tableBox = element('div', {
-    class: 'table-box',
-    tabindex: 0,
-    role: 'region',
-    'aria-label': 'Rows of the sweep',
-  });
-  const table = createSpeedErrorTable(tableBox, use);
+  const table = createSpeedErrorTable(use);
   parent.append(
     element('div', { class: 'tray-head' }, heading, close),
     beside,
-    element('div', { class: 'tray-body' }, figure, tableBox),
+    element('div', { class: 'tray-body' }, figure, table.box),
     note,
   );
   let drawn = '';

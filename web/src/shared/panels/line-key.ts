@@ -1,0 +1,9 @@
+// What a line of a chart looks like, for a list of marks.
+import { element, svg } from './element';
+
+/** A piece of the line, which `kind` styles, and its title. */
+export function lineKey(kind: string, title: string): HTMLElement {
+  const mark = svg('svg', { viewBox: '0 0 24 10', 'aria-hidden': 'true' });
+  mark.append(svg('path', { d: 'M0 5H24', class: kind }));
+  return element('li', {}, mark, title);
+}
