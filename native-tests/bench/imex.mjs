@@ -7,6 +7,7 @@ import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
 import { exponent, goal, markdown, measure, short } from './parts/bench-rows.mjs';
 import { reference, root } from './parts/command.mjs';
 import { contestant } from './parts/contestants.mjs';
+import { squareSheet } from './parts/square-sheet.mjs';
 
 const kFrames = 100;
 const kStep = 1 / 60; // [s]
@@ -20,17 +21,7 @@ const kImex = { stepper: 'imex', substeps: kSubsteps, solver: 'sor', tolerance: 
 function pendulum(n, method, fabric = 'fine cotton') {
   return {
     name: `pendulum ${n}x${n}, ${fabric}`,
-    cloth: {
-      sheet: {
-        width_m: 1,
-        height_m: 1,
-        columns: n - 1,
-        rows: n - 1,
-        origin_m: [0, 1.5, 0],
-        warp_direction: [1, 0, 0],
-        weft_direction: [0, 0, 1],
-      },
-    },
+    cloth: squareSheet(n, [0, 1.5, 0], [1, 0, 0], [0, 0, 1]),
     fabric: {
       name: fabric,
       overrides: { damping_ratio: 0.02, areal_density_kg_per_m2: 0.2 },

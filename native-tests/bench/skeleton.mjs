@@ -6,6 +6,7 @@ import { commit, runParts, tell } from './parts/bench-parts.mjs';
 import { goal, measure } from './parts/bench-rows.mjs';
 import { nativeRun, reference } from './parts/command.mjs';
 import { contestant as contestantOf, yardstickTurns } from './parts/contestants.mjs';
+import { squareSheet } from './parts/square-sheet.mjs';
 
 const kFrames = 60; // one second, the stretch of motion that positions are compared over
 const kStep = 1 / 60; // [s]
@@ -28,17 +29,7 @@ const settings = (repeat, times) => ({ repeat, times, commit, tell });
 function swingingSheet(n, method, more = {}) {
   return {
     name: `swinging sheet ${n}x${n}`,
-    cloth: {
-      sheet: {
-        width_m: 1,
-        height_m: 1,
-        columns: n - 1,
-        rows: n - 1,
-        origin_m: [0, 0, 0],
-        warp_direction: [0, 0, 1],
-        weft_direction: [1, 0, 0],
-      },
-    },
+    cloth: squareSheet(n, [0, 0, 0], [0, 0, 1], [1, 0, 0]),
     fabric: { name: 'fine cotton' },
     pins: [{ part: 'upper_edge' }],
     method: { step_s: kStep, ...method },
@@ -58,19 +49,10 @@ function cornersMeet(method, begin = 'horizontal') {
     begin_s: 0,
     end_s: 1,
   });
+  const warp = begin === 'horizontal' ? [0, 0, 1] : [0, -0.94, 0.342];
   return {
     name: `corners meet 65x65, ${begin}`,
-    cloth: {
-      sheet: {
-        width_m: 1,
-        height_m: 1,
-        columns: 64,
-        rows: 64,
-        origin_m: [-0.5, 1.5, 0],
-        warp_direction: begin === 'horizontal' ? [0, 0, 1] : [0, -0.94, 0.342],
-        weft_direction: [1, 0, 0],
-      },
-    },
+    cloth: squareSheet(65, [-0.5, 1.5, 0], warp, [1, 0, 0]),
     fabric: { name: 'fine cotton' },
     pins: [
       { part: 'upper_left', motion: comeTogether(0.25) },
