@@ -1,16 +1,21 @@
 import { describe, expect, it } from 'vitest';
 import type { BenchRow } from '../../src/motion/bindings/sweep-module';
+import { weightText } from '../../src/motion/panels/numbers-strip';
 import {
   isSameMethod,
   modelsOf,
+  ownQuantities,
   PRESET_IDS,
   presetSetting,
+  type Setting,
   sceneOf,
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
 import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
 import { NO_SWEEP, rowOfSetting, sweptScene } from '../../src/motion/state/sweep-state';
+import { fabricNamed } from '../../src/shared/fabric/fabric-data';
+import { quantityReadings } from '../../src/shared/panels/fabric-quantities';
 import { STEPPER_NAMES } from '../../src/shared/steppers/steppers';
 
 const start = presetSetting('curtain');
@@ -57,6 +62,21 @@ describe('setting', () => {
     const own = presetSetting('pendulum');
     expect(sceneOf(own).fabric).toHaveProperty('overrides');
     expect(sceneOf({ ...own, fabric: 'silk' }).fabric).toEqual({ name: 'silk' });
+  });
+
+  it('shows the numbers that a preset has of its own, and whose they are', () => {
+    const own = presetSetting('pendulum');
+    const weightOf = (one: Setting) =>
+      quantityReadings(fabricNamed(one.fabric), ownQuantities(one)).get('Weight');
+    expect(weightOf(own)).toEqual({
+      shown: '200 g/m²',
+      badge: 'this scene',
+      origin: 'Set by this scene; fine cotton has 110 g/m², measured.',
+    });
+    const { shown, badge } = weightOf({ ...start, fabric: own.fabric }) ?? {};
+    expect([shown, badge]).toEqual(['110 g/m²', 'measured']);
+    expect(weightText(own)).toBe('weight of this scene');
+    expect(weightText(start)).toMatch(/^weight (measured|typical|estimated)$/);
   });
 
   it('tells methods apart by the counts that matter only', () => {

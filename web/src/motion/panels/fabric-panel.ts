@@ -5,6 +5,7 @@ import { choice, element, field } from '../../shared/panels/element';
 import { quantityMeanings, quantityRows, sourceList } from '../../shared/panels/fabric-quantities';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
+import { ownQuantities } from '../state/setting';
 
 export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
   const names = choice(
@@ -48,14 +49,16 @@ export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>
   );
   let shown = '';
   return watch(store, ['setting'], ({ setting }) => {
-    if (setting.fabric === shown) return;
-    shown = setting.fabric;
-    const fabric = fabricNamed(shown);
+    const own = ownQuantities(setting);
+    const wanted = JSON.stringify([setting.fabric, own]);
+    if (wanted === shown) return;
+    shown = wanted;
+    const fabric = fabricNamed(setting.fabric);
     const { front, back } = lookOf(fabric.id);
-    names.select(shown);
+    names.select(setting.fabric);
     swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
     construction.textContent = `Taken as: ${fabric.assumed_construction}.`;
-    rows.replaceChildren(...quantityRows(fabric));
+    rows.replaceChildren(...quantityRows(fabric, own));
     sourceBody.replaceChildren(construction, sourceList(fabric));
   });
 }

@@ -4,6 +4,7 @@ import { element, setText } from '../../shared/panels/element';
 import { digits, milliseconds, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
+import { ownQuantities, type Setting } from '../state/setting';
 import { errorWords } from './error-words';
 
 const STATUS_WORDS: Record<MotionState['phase'], string> = {
@@ -34,6 +35,13 @@ function statusText({ phase, playing, pace, ahead }: MotionState): string {
   if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
   if (pace === null) return 'running';
   return pace < SLOWEST_PACE ? 'running slowly' : `running ${digits(Math.min(pace, 1), 2)} ×`;
+}
+
+/** How the weight of the cloth is known. */
+export function weightText(setting: Setting): string {
+  const { areal_density_kg_per_m2: own } = ownQuantities(setting);
+  const { confidence } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
+  return own === undefined ? `weight ${confidence}` : 'weight of this scene';
 }
 
 const ITEMS: readonly Item[] = [
@@ -95,8 +103,7 @@ const ITEMS: readonly Item[] = [
     width: 'middle',
     meaning: 'The fabric, and how its weight is known; the panel names the source.',
     text: ({ setting }) => setting.fabric.replace(/ \(.*\)/, ''),
-    detail: ({ setting }) =>
-      `weight ${fabricNamed(setting.fabric).areal_density_kg_per_m2.confidence}`,
+    detail: ({ setting }) => weightText(setting),
   },
 ];
 

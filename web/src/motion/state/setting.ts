@@ -5,6 +5,7 @@ import pendulumText from '../../../../assets/scenes/pendulum_10x10.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
+import type { OwnQuantities } from '../../shared/fabric/fabric-data';
 import {
   type Count,
   canRun,
@@ -39,7 +40,7 @@ interface SceneFile {
   name: string;
   caption: string;
   cloth: { sheet?: object; mesh?: object };
-  fabric: { name: string; overrides?: object };
+  fabric: { name: string; overrides?: OwnQuantities };
   world?: object;
   refinement?: { level?: number };
   method: {
@@ -159,6 +160,11 @@ export function methodOf(setting: Setting): Record<string, unknown> {
 function fabricOf({ preset, fabric }: Setting): SceneFile['fabric'] {
   const own = PRESETS[preset].scene.fabric;
   return own.name === fabric ? own : { name: fabric };
+}
+
+/** The numbers that the scene has in place of the fabric's. */
+export function ownQuantities(setting: Setting): OwnQuantities {
+  return fabricOf(setting).overrides ?? {};
 }
 
 /** The scene as the module reads it; `mesh` is the cloth of the preset that is any mesh. */

@@ -23,6 +23,9 @@ export type FabricQuantity =
   | 'damping_ratio'
   | 'friction_fabric_solid';
 
+/** What a scene has in place of a fabric's numbers. */
+export type OwnQuantities = Partial<Record<FabricQuantity, number>>;
+
 export type FabricRecord = Record<FabricQuantity, Measured> & {
   id: number;
   name_en: string;

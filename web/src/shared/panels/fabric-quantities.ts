@@ -3,10 +3,14 @@ import {
   confidenceMeaning,
   type FabricQuantity,
   type FabricRecord,
+  type OwnQuantities,
   sources,
 } from '../fabric/fabric-data';
 import { element } from './element';
 import { digits } from './quantity';
+
+/** The badge of a number that is not the fabric's. */
+const SCENE = 'this scene';
 
 interface Line {
   key: FabricQuantity;
@@ -87,25 +91,41 @@ function shownText(value: number, { factor, unit }: Line): string {
   return `${digits(value * factor, 2)} ${unit}`.trim();
 }
 
-function row(fabric: FabricRecord, line: Line): HTMLElement {
-  const { value, range, confidence, source } = fabric[line.key];
-  const [from, to] = range;
-  const shown = shownText(value, line);
+interface Reading {
+  shown: string;
+  badge: string;
+  /** Why it is this number. */
+  origin: string;
+}
+
+function reading(fabric: FabricRecord, line: Line, own: OwnQuantities): Reading {
+  const { value, confidence, source } = fabric[line.key];
+  const ofFabric = shownText(value, line);
+  const ofScene = own[line.key];
+  if (ofScene !== undefined) {
+    const origin = `Set by this scene; ${fabric.name_en} has ${ofFabric}, ${confidence}.`;
+    return { shown: shownText(ofScene, line), badge: SCENE, origin };
+  }
+  const origin = `${confidenceMeaning[confidence]}. Sources: ${source.join(', ')}`;
+  return { shown: ofFabric, badge: confidence, origin };
+}
+
+/** What is read of each quantity, by its title. */
+export function quantityReadings(fabric: FabricRecord, own: OwnQuantities): Map<string, Reading> {
+  return new Map(LINES.map((line) => [line.title, reading(fabric, line, own)]));
+}
+
+function row(fabric: FabricRecord, line: Line, own: OwnQuantities): HTMLElement {
+  const [from, to] = fabric[line.key].range;
+  const { shown, badge, origin } = reading(fabric, line, own);
   const span = `${digits(from * line.factor, 2)} to ${digits(to * line.factor, 2)} ${line.unit}`;
-  const badge = element(
-    'span',
-    {
-      class: `badge badge-${confidence}`,
-      title: `${confidenceMeaning[confidence]}. Sources: ${source.join(', ')}`,
-    },
-    confidence,
-  );
+  const kind = badge === SCENE ? 'scene' : badge;
   return element(
     'tr',
     { title: `${line.meaning} Reported range: ${span.trim()}.` },
     element('th', { scope: 'row' }, line.title),
     element('td', { class: 'number' }, shown),
-    element('td', {}, badge),
+    element('td', {}, element('span', { class: `badge badge-${kind}`, title: origin }, badge)),
   );
 }
 
@@ -139,6 +159,6 @@ export function quantityMeanings(): HTMLElement {
 }
 
 /** The rows of a table of class `quantities`. */
-export function quantityRows(fabric: FabricRecord): HTMLElement[] {
-  return LINES.map((line) => row(fabric, line));
+export function quantityRows(fabric: FabricRecord, own: OwnQuantities = {}): HTMLElement[] {
+  return LINES.map((line) => row(fabric, line, own));
 }
