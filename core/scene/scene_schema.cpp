@@ -31,6 +31,10 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
     case MethodSetting::constraints:
     case MethodSetting::rule:
     case MethodSetting::acceleration:
+    case MethodSetting::explicit_share:
+    case MethodSetting::euler:
+    case MethodSetting::beyond_bound:
+    case MethodSetting::first_contact:
       break;
   }
   return schema;

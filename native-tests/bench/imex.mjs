@@ -5,7 +5,7 @@ import { join } from 'node:path';
 
 import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
 import { exponent, goal, markdown, measure, short } from './parts/bench-rows.mjs';
-import { reference, root } from './parts/command.mjs';
+import { ask, reference, root } from './parts/command.mjs';
 import { contestant } from './parts/contestants.mjs';
 import { squareSheet } from './parts/square-sheet.mjs';
 
@@ -17,11 +17,14 @@ const kTolerance = 1e-4;
 const kImplicit = { stepper: 'implicit', substeps: kSubsteps, solver: 'cg', tolerance: kTolerance };
 const kImex = { stepper: 'imex', substeps: kSubsteps, solver: 'sor', tolerance: kTolerance };
 
-/** A sheet of 1 m and 0.2 kg, n x n particles, let go from the horizontal, two corners held. */
-function pendulum(n, method, fabric = 'fine cotton') {
+/**
+ * A sheet of 0.2 kg/m^2, n x n particles on a square with sides of `size` [m], let go from the
+ * horizontal, two corners held.
+ */
+function pendulum(n, method, { fabric = 'fine cotton', size = 1 } = {}) {
   return {
-    name: `pendulum ${n}x${n}, ${fabric}`,
-    cloth: squareSheet(n, [0, 1.5, 0], [1, 0, 0], [0, 0, 1]),
+    name: `pendulum ${n}x${n} over ${size} m, ${fabric}`,
+    cloth: squareSheet(n, [0, 1.5, 0], [1, 0, 0], [0, 0, 1], size),
     fabric: {
       name: fabric,
       overrides: { damping_ratio: 0.02, areal_density_kg_per_m2: 0.2 },
@@ -90,22 +93,25 @@ async function onPendulum({ repeat }) {
   };
 }
 
-async function growth({ repeat }) {
+const kGrowing = {
+  'imex, sor': kImex,
+  'imex, cg': { ...kImex, solver: 'cg' },
+  'imex, supernodal': { stepper: 'imex', substeps: kSubsteps, solver: 'supernodal' },
+  'implicit, cg': kImplicit,
+};
+
+/** How the time of a frame grows with the vertices of n x n particles over sizeOf(n) [m]. */
+async function grown(name, repeat, sizeOf) {
   const kSides = [10, 20, 40, 80];
   const rows = [];
   for (const n of kSides) {
     const found = await compared({
       repeat,
-      sceneOf: (method) => pendulum(n, method),
+      sceneOf: (method) => pendulum(n, method, { size: sizeOf(n) }),
       vertices: n * n,
       frames: 15,
       exactSteps: 8,
-      methods: {
-        'imex, sor': kImex,
-        'imex, cg': { ...kImex, solver: 'cg' },
-        'imex, supernodal': { stepper: 'imex', substeps: kSubsteps, solver: 'supernodal' },
-        'implicit, cg': kImplicit,
-      },
+      methods: kGrowing,
     });
     rows.push(...found);
   }
@@ -115,9 +121,81 @@ async function growth({ repeat }) {
   };
   return {
     rows,
-    goals: ['imex, sor', 'imex, cg', 'imex, supernodal', 'implicit, cg'].map((label) =>
-      goal(`growth_exponent_${label.replace(', ', '_')}`, slope(label), 'at-most', 1.2, rows),
+    goals: Object.keys(kGrowing).map((label) =>
+      goal(`growth_${name}_${label.replace(', ', '_')}`, slope(label), 'at-most', 1.2, rows),
     ),
+  };
+}
+
+/** A larger cloth with the same mesh width: each particle's springs and mass stay as they are. */
+const larger = ({ repeat }) => grown('larger', repeat, (n) => (n - 1) / 9);
+
+/** The same cloth on a finer mesh: what a substep reaches is ever more cells away. */
+const finer = ({ repeat }) => grown('finer', repeat, () => 1);
+
+/** The preset's wool with another method, let go or thrown. */
+function wool(method, velocity) {
+  const scene = JSON.parse(readFileSync(join(root, 'assets', 'scenes', 'wool.json'), 'utf8'));
+  const cloth = { knit: { ...scene.cloth.knit, initial_velocity_m_per_s: velocity } };
+  return { ...scene, cloth, method: { step_s: kStep, ...method } };
+}
+
+/** Wool that falls on a ball, from one state at first contact, resting and bouncing. */
+async function contact() {
+  const kExplicit = { stepper: 'explicit', substeps: 'stable' };
+  const kThrown = [1.5, 0, 0.5];
+  const kScenes = {
+    explicit: wool(kExplicit, [0, 0, 0]),
+    'explicit, thrown': wool(kExplicit, kThrown),
+    'explicit, forward Euler': wool({ ...kExplicit, euler: 'forward' }, [0, 0, 0]),
+    'imex, 8 substeps': wool({ stepper: 'imex', substeps: 8 }, [0, 0, 0]),
+    'imex, 8 substeps, thrown': wool({ stepper: 'imex', substeps: 8 }, kThrown),
+    'imex, 64 substeps': wool({ stepper: 'imex', substeps: 64 }, [0, 0, 0]),
+  };
+  const rows = Object.entries(kScenes).map(([label, scene]) => {
+    tell(`wool on a ball: ${label}`);
+    return { label, ...ask('bench', 'response', scene) };
+  });
+  const percent = (share) => (share === null ? '-' : short(100 * share));
+  const lines = rows.flatMap((row) =>
+    ['resting', 'uniform'].map((response) => [
+      row.label,
+      response,
+      short(1e3 * row.first_contact_s),
+      short(1e6 * row.substep_s),
+      row[response].n_touched,
+      short(1e3 * row[response].rms_normal_velocity_m_per_s),
+      percent(row[response].tangential_velocity_deviation),
+      percent(row[response].momentum_deviation),
+      percent(row[response].contact_share),
+    ]),
+  );
+  const head = [
+    'method',
+    'response',
+    'first contact ms',
+    'substep us',
+    'touched',
+    'RMS normal velocity mm/s',
+    'tangential velocity off %',
+    'momentum off %',
+    'contact, % of a step',
+  ];
+  const [explicit, thrown, , imex] = rows;
+  const ratio = ({ resting, uniform }) =>
+    resting.rms_normal_velocity_m_per_s / uniform.rms_normal_velocity_m_per_s;
+  const off = (key) =>
+    Math.max(...[explicit, thrown].flatMap(({ resting, uniform }) => [resting[key], uniform[key]]));
+  return {
+    rows,
+    goals: [
+      goal('wool_resting_to_uniform_explicit', ratio(explicit), 'at-most', 0.2),
+      goal('wool_resting_to_uniform_explicit_thrown', ratio(thrown), 'at-most', 0.2),
+      goal('wool_resting_to_uniform_imex', ratio(imex), 'at-most', 0.2),
+      goal('wool_tangential_velocity_off', off('tangential_velocity_deviation'), 'at-most', 0.01),
+      goal('wool_momentum_off', off('momentum_deviation'), 'at-most', 0.01),
+    ],
+    text: markdown(head, lines),
   };
 }
 
@@ -127,8 +205,8 @@ async function elsewhere({ repeat }) {
     ['curtain, its own fabric', (method) => shipped('curtain', method)],
     ['tablecloth, its own fabric', (method) => shipped('tablecloth', method)],
     ['swinging sheet', (method) => shipped('swinging_sheet', method)],
-    ['pendulum of denim', (method) => pendulum(10, method, 'denim')],
-    ['pendulum of silk', (method) => pendulum(10, method, 'silk')],
+    ['pendulum of denim', (method) => pendulum(10, method, { fabric: 'denim' })],
+    ['pendulum of silk', (method) => pendulum(10, method, { fabric: 'silk' })],
     [
       'pendulum, 2 substeps',
       (method) => pendulum(10, { ...method, ...(method.substeps && { substeps: 2 }) }),
@@ -163,6 +241,8 @@ async function elsewhere({ repeat }) {
 
 await runParts('imex', 'implicit where it must be, explicit where it can be', {
   pendulum: onPendulum,
-  growth,
+  contact,
+  larger,
+  finer,
   elsewhere,
 });

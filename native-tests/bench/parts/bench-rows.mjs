@@ -114,7 +114,7 @@ export function table(rows) {
  * A promised figure: `goal NAME VALUE at-most|at-least BOUND ok|short`. It is short unless both are
  * numbers and every row of `rows`, from which they come, is of a run that came to its end.
  */
-export function goal(name, value, direction, bound, rows) {
+export function goal(name, value, direction, bound, rows = []) {
   const isMeasured = rows.every(hasFinished) && Number.isFinite(value) && Number.isFinite(bound);
   const ok = isMeasured && (direction === 'at-most' ? value <= bound : value >= bound);
   return {

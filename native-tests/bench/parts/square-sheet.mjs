@@ -1,10 +1,10 @@
 // The cloth that many benches hang up.
 
-/** A section "cloth": 1 m by 1 m, n x n vertices. */
-export const squareSheet = (n, origin_m, warp_direction, weft_direction) => ({
+/** A section "cloth": a square with sides of `size` [m], n x n vertices. */
+export const squareSheet = (n, origin_m, warp_direction, weft_direction, size = 1) => ({
   sheet: {
-    width_m: 1,
-    height_m: 1,
+    width_m: size,
+    height_m: size,
     columns: n - 1,
     rows: n - 1,
     origin_m,
