@@ -1,5 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { compactJson } from './build-steps/compact-json.ts';
 import { firstFigure } from './build-steps/first-figure.ts';
 import { firstLoadBudget } from './build-steps/first-load-budget.ts';
 import { offlineCopy } from './build-steps/offline-copy.ts';
@@ -9,7 +10,7 @@ const repository = fileURLToPath(new URL('..', import.meta.url));
 
 export default defineConfig({
   base: './', // any static folder will do
-  plugins: [stepperRows(), firstFigure(), offlineCopy(), firstLoadBudget()],
+  plugins: [compactJson(), stepperRows(), firstFigure(), offlineCopy(), firstLoadBudget()],
   server: { fs: { allow: [repository] } }, // fabrics and scenes lie in assets/
   worker: { format: 'es' },
   build: {
