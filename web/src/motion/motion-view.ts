@@ -14,14 +14,13 @@ import { createCaption } from './panels/caption';
 import { createDrawingPanel } from './panels/drawing-panel';
 import { createEnergyPanel } from './panels/energy-panel';
 import { createFabricPanel } from './panels/fabric-panel';
-import { createHeatLegend } from './panels/heat-legend';
+import { later } from './panels/later';
 import { createLinkTool } from './panels/link-tool';
 import { createMethodPanel } from './panels/method-panel';
 import { motionSentence } from './panels/motion-sentence';
 import { createNumbersStrip } from './panels/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
-import { createSpringLegend } from './panels/spring-legend';
 import { createSweepPanel } from './panels/sweep-panel';
 import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
@@ -62,8 +61,16 @@ function createPicture(
   watch(store, ['invited', 'phase', 'ahead', 'busy'], ({ invited, phase, ahead, busy }) =>
     invitation.setShown(invited && phase === 'ready' && ahead === null && busy === null),
   );
-  createHeatLegend(box, store);
-  createSpringLegend(box, store);
+  const bringHeatLegend = later(store, 'The scale of the colours', async () => {
+    (await import('./panels/heat-legend')).createHeatLegend(box, store);
+  });
+  const bringSpringLegend = later(store, 'The legend of the springs', async () => {
+    (await import('./panels/spring-legend')).createSpringLegend(box, store);
+  });
+  watch(store, ['heat', 'springs'], ({ heat, springs }) => {
+    if (heat !== 'off') void bringHeatLegend();
+    if (springs) void bringSpringLegend();
+  });
   const keys: Record<string, () => void> = {
     ' ': () => (store.get().playing ? run()?.pause() : run()?.play()),
     '.': () => run()?.step(),
@@ -111,23 +118,21 @@ function createSweepTray(
   store: Store<MotionState>,
   run: MotionRun,
 ): () => void {
-  let made: Promise<void> | null = null;
-  async function make(): Promise<void> {
-    try {
+  const make = later(
+    store,
+    'The chart of the sweep',
+    async () => {
       const { createSpeedErrorView } = await import('./panels/speed-error-view');
       createSpeedErrorView(parent, store, run);
-    } catch {
-      made = null;
-      const sentence = 'The chart of the sweep could not be fetched. Try again with a network.';
-      store.set({ sweepOpen: false, problem: { source: 'link', sentence } });
-    }
-  }
+    },
+    { sweepOpen: false },
+  );
   watch(store, ['sweepOpen'], ({ sweepOpen }) => {
-    if (sweepOpen) made ??= make();
+    if (sweepOpen) void make();
   });
   return async () => {
     store.set({ sweepOpen: true });
-    await made;
+    await make();
     const isCalm = matchMedia('(prefers-reduced-motion: reduce)').matches;
     parent.scrollIntoView({ block: 'start', behavior: isCalm ? 'instant' : 'smooth' });
   };

@@ -2,6 +2,7 @@
 import { element } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
+import { later } from './later';
 
 export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
   const box = element(
@@ -10,21 +11,17 @@ export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>
     element('summary', {}, 'Energy: where it is and where it goes'),
   );
   parent.append(element('section', { 'aria-label': 'Energy' }, box));
-  let isAskedFor = false;
-
-  async function make(): Promise<void> {
-    isAskedFor = true;
-    try {
+  const make = later(
+    store,
+    'The plot of energy',
+    async () => {
       const { createEnergyFigure } = await import('./energy-figure');
       createEnergyFigure(box, store);
-    } catch {
-      isAskedFor = false;
-      const sentence = 'The plot of energy could not be fetched. Try again with a network.';
-      store.set({ energy: false, problem: { source: 'link', sentence } });
-    }
-  }
+    },
+    { energy: false },
+  );
   return watch(store, ['energy'], ({ energy }) => {
     box.open = energy;
-    if (energy && !isAskedFor) void make();
+    if (energy) void make();
   });
 }

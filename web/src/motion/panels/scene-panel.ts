@@ -3,7 +3,8 @@ import { choice, element, field } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { AT_START, type MotionState } from '../state/motion-state';
 import { PRESET_IDS, PRESETS, presetSetting } from '../state/setting';
-import { createObjPanel, type ObjActions } from './obj-panel';
+import { later } from './later';
+import type { ObjActions } from './obj-panel';
 
 export function createScenePanel(
   parent: HTMLElement,
@@ -16,10 +17,18 @@ export function createScenePanel(
   );
   const section = element('section', { 'aria-label': 'Scene' }, field('Scene', presets.control));
   parent.append(section);
-  const closeObjPanel = createObjPanel(section, store, actions);
-  const stop = watch(store, ['setting'], ({ setting }) => presets.select(setting.preset));
+  const stops: (() => void)[] = [];
+  const makeObjPanel = later(store, 'The panel of your OBJ', async () => {
+    const { createObjPanel } = await import('./obj-panel');
+    stops.push(createObjPanel(section, store, actions));
+  });
+  stops.push(
+    watch(store, ['setting', 'reading'], ({ setting, reading }) => {
+      presets.select(setting.preset);
+      if (setting.preset === 'obj' || reading !== null) void makeObjPanel();
+    }),
+  );
   return () => {
-    stop();
-    closeObjPanel();
+    for (const one of stops) one();
   };
 }
