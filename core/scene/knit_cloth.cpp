@@ -105,7 +105,7 @@ RestCloth KnitCloth::at_rest(int) const {
   RestCloth cloth = flat_rest_cloth(QuadMesh::sheet(shape));
   cloth.quads.reset();
   cloth.start_velocities = initial_velocity.replicate(1, cloth.start.cols());
-  cloth.groups = sheet_groups(shape, cloth.rest_coordinates);
+  cloth.groups = sheet_part_groups(shape, cloth.rest_coordinates);
   cloth.given_springs = GivenSprings{Eigen::VectorXd::Constant(cloth.start.cols(), particle_mass),
                                      knit_springs(*this, cloth.start),
                                      {}};

@@ -31,7 +31,7 @@ QuadMesh SheetCloth::base_quads() const { return QuadMesh::sheet(shape); }
 RestCloth SheetCloth::at_rest(QuadMesh quads) const {
   RestCloth cloth = flat_rest_cloth(std::move(quads));
   cloth.start_velocities = initial_velocity.replicate(1, cloth.start.cols());
-  cloth.groups = sheet_groups(shape, cloth.rest_coordinates);
+  cloth.groups = sheet_part_groups(shape, cloth.rest_coordinates);
   return cloth;
 }
 

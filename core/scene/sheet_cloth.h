@@ -4,7 +4,7 @@
 
 namespace pleat {
 
-/// A flat rectangle of quads. Its parts are its edges and corners (sheet_groups).
+/// A flat rectangle of quads. Its parts are its edges and corners (sheet_part_groups).
 class SheetCloth final : public QuadCloth {
  public:
   SheetCloth() = default;

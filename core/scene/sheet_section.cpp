@@ -79,7 +79,7 @@ Json json_sheet_shape(const SheetWords& words, const SheetShape& shape) {
   return json;
 }
 
-std::vector<VertexGroup> sheet_groups(const SheetShape& shape, const RestCoordinates& uv) {
+std::vector<VertexGroup> sheet_part_groups(const SheetShape& shape, const RestCoordinates& uv) {
   std::vector<VertexGroup> groups;
   for (const Word<SheetSides>& part : kSheetParts) {
     groups.push_back({part.text, {}});

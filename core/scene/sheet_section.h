@@ -26,7 +26,7 @@ Json json_sheet_shape(const SheetWords& words, const SheetShape& shape);
 /// begins).
 ///
 /// uv  2 x n [m], of any refinement
-std::vector<VertexGroup> sheet_groups(const SheetShape& shape, const RestCoordinates& uv);
+std::vector<VertexGroup> sheet_part_groups(const SheetShape& shape, const RestCoordinates& uv);
 
 /// The name of an edge or a corner. Throws InputError for any other.
 std::string read_sheet_part(const JsonReader& reader);
