@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/dynamics/stability_split.h"
 #include "core/files/obj_file.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"
@@ -279,6 +280,13 @@ class Simulation {
     if (!run_.is_loaded()) return view_of(kNoDoubles);
     return view_of(running().implicit_springs());
   }
+  /// Share of the springs that imex would take implicitly in substeps of this length [s], as the
+  /// cloth is held now.
+  std::string implicit_share(double substep) const {
+    return guarded([&](val& envelope) {
+      envelope.set("share", 1 - pleat::explicit_share(running().model(), substep));
+    });
+  }
   val exact_positions() const {
     return run_.is_loaded() ? view_of(running().state().positions) : view_of(kNoDoubles);
   }
@@ -383,5 +391,6 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("closeLedger", &Simulation::close_ledger)
       .function("energies", &Simulation::energies)
       .function("springEnds", &Simulation::spring_ends)
-      .function("implicitSprings", &Simulation::implicit_springs);
+      .function("implicitSprings", &Simulation::implicit_springs)
+      .function("implicitShare", &Simulation::implicit_share);
 }
