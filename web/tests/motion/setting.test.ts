@@ -75,7 +75,7 @@ describe('setting', () => {
     });
     const { shown, badge } = weightOf({ ...start, fabric: own.fabric }) ?? {};
     expect([shown, badge]).toEqual(['110 g/m²', 'measured']);
-    expect(weightText(own)).toBe('weight of this scene');
+    expect(weightText(own)).toBe('weight of scene');
     expect(weightText(start)).toMatch(/^weight (measured|typical|estimated)$/);
   });
 

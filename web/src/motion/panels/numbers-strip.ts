@@ -41,7 +41,7 @@ function statusText({ phase, playing, pace, ahead }: MotionState): string {
 export function weightText(setting: Setting): string {
   const { areal_density_kg_per_m2: own } = ownQuantities(setting);
   const { confidence } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
-  return own === undefined ? `weight ${confidence}` : 'weight of this scene';
+  return own === undefined ? `weight ${confidence}` : 'weight of scene';
 }
 
 const ITEMS: readonly Item[] = [
