@@ -24,7 +24,7 @@ import { createScenePanel } from './panels/scene-panel';
 import { createSweepPanel } from './panels/sweep-panel';
 import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
-import { createSweep } from './run/sweep';
+import type { Sweep } from './run/sweep';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
 import { decodeMotionLink, encodeMotionLink, linkTo } from './state/motion-link';
 import { AT_START, initialMotionState, type MotionState, shownHeat } from './state/motion-state';
@@ -109,32 +109,36 @@ function createPicture(
   }
 }
 
-/**
- * Chart and table come when the first sweep is asked for; whoever asks again tries again. Returns what
- * opens them and brings them into view.
- */
+/** Chart and table of the sweep. Returns what opens them and brings them into view. */
 function createSweepTray(
   parent: HTMLElement,
   store: Store<MotionState>,
   run: MotionRun,
 ): () => void {
-  const make = later(
-    store,
-    'The chart of the sweep',
-    async () => {
-      const { createSpeedErrorView } = await import('./panels/speed-error-view');
-      createSpeedErrorView(parent, store, run);
-    },
-    { sweepOpen: false },
-  );
-  watch(store, ['sweepOpen'], ({ sweepOpen }) => {
-    if (sweepOpen) void make();
+  const bring = later(store, 'The chart of the sweep', async () => {
+    const { createSpeedErrorView } = await import('./panels/speed-error-view');
+    return createSpeedErrorView(parent, store, run);
+  });
+  watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
+    if (sweepOpen && !(await bring())) store.set({ sweepOpen: false });
   });
   return async () => {
     store.set({ sweepOpen: true });
-    await make();
+    await bring();
     const isCalm = matchMedia('(prefers-reduced-motion: reduce)').matches;
     parent.scrollIntoView({ block: 'start', behavior: isCalm ? 'instant' : 'smooth' });
+  };
+}
+
+/** A sweep that comes with its first start. */
+function createLaterSweep(store: Store<MotionState>): Sweep {
+  const bring = later(store, 'The sweep', async () => {
+    const { createSweep } = await import('./run/sweep');
+    return createSweep(store);
+  });
+  return {
+    start: async (wish) => (await bring())?.start(wish),
+    cancel: async () => (await bring())?.cancel(),
   };
 }
 
@@ -164,7 +168,7 @@ function createPanels(
   createDrawingPanel(place('panel'), store);
   createEnergyPanel(place('panel'), store);
   const showChart = createSweepTray(place('tray'), store, run);
-  createSweepPanel(place('panel'), store, createSweep(store), showChart);
+  createSweepPanel(place('panel'), store, createLaterSweep(store), showChart);
   createKeysPanel(place('panel'));
 }
 

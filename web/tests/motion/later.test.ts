@@ -1,43 +1,37 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import { later } from '../../src/motion/panels/later';
-import { decodeMotionLink } from '../../src/motion/state/motion-link';
-import { initialMotionState } from '../../src/motion/state/motion-state';
-import { createStore } from '../../src/shared/state/store';
+import type { MotionState } from '../../src/motion/state/motion-state';
 
-function storeOfState() {
-  const { link } = decodeMotionLink('');
-  return createStore({ ...initialMotionState(link, []), energy: true });
+function store() {
+  const problems: string[] = [];
+  return {
+    problems,
+    set({ problem }: Partial<MotionState>) {
+      if (problem) problems.push(problem.sentence);
+    },
+  };
 }
 
-describe('later', () => {
-  it('makes its part once, however often it is asked for', async () => {
-    let nMade = 0;
-    const make = later(storeOfState(), 'The part', async () => {
-      nMade += 1;
-    });
-    await Promise.all([make(), make()]);
-    await make();
-    expect(nMade).toBe(1);
+describe('a part that comes later', () => {
+  it('is fetched when it is first asked for, and once', async () => {
+    const fetch = vi.fn(async () => 'chart');
+    const bring = later(store(), 'The chart', fetch);
+    expect(fetch).not.toHaveBeenCalled();
+    expect([await bring(), await bring()]).toEqual(['chart', 'chart']);
+    expect(fetch).toHaveBeenCalledTimes(1);
   });
 
-  it('says what could not be fetched, sets what goes without it, and tries again', async () => {
-    const store = storeOfState();
-    let isOffline = true;
-    let nMade = 0;
-    const make = later(
-      store,
-      'The part',
-      async () => {
-        if (isOffline) throw new Error('offline');
-        nMade += 1;
-      },
-      { energy: false },
-    );
-    await make();
-    expect(store.get().problem?.sentence).toMatch(/^The part could not be fetched\./);
-    expect(store.get().energy).toBe(false);
-    isOffline = false;
-    await make();
-    expect(nMade).toBe(1);
+  it('says what could not be fetched, and tries again when it is asked for again', async () => {
+    const page = store();
+    let isOnline = false;
+    const bring = later(page, 'The chart', async () => {
+      if (!isOnline) throw new TypeError('no network');
+      return 'chart';
+    });
+    expect(await bring()).toBeNull();
+    expect(page.problems).toEqual(['The chart could not be fetched. Try again with a network.']);
+    isOnline = true;
+    expect(await bring()).toBe('chart');
+    expect(page.problems).toHaveLength(1);
   });
 });

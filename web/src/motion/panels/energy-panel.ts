@@ -11,17 +11,12 @@ export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>
     element('summary', {}, 'Energy: where it is and where it goes'),
   );
   parent.append(element('section', { 'aria-label': 'Energy' }, box));
-  const make = later(
-    store,
-    'The plot of energy',
-    async () => {
-      const { createEnergyFigure } = await import('./energy-figure');
-      createEnergyFigure(box, store);
-    },
-    { energy: false },
-  );
-  return watch(store, ['energy'], ({ energy }) => {
+  const bring = later(store, 'The plot of energy', async () => {
+    const { createEnergyFigure } = await import('./energy-figure');
+    return createEnergyFigure(box, store);
+  });
+  return watch(store, ['energy'], async ({ energy }) => {
     box.open = energy;
-    if (energy) void make();
+    if (energy && !(await bring())) store.set({ energy: false });
   });
 }

@@ -1,25 +1,24 @@
-// A part of the page that is fetched when it is first asked for.
+// Parts of the view that are not seen at first.
 import type { Store } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
 
 /**
- * Returns what has the part made once; whoever asks again after it could not be fetched tries again. `what` begins
- * the sentence then, and `without` is set beside it.
+ * Brings a part when it is first asked for, and once. Null where it could not be fetched, which is said
+ * of `what`; whoever asks again then tries again.
  */
-export function later(
-  store: Store<MotionState>,
+export function later<Part>(
+  store: Pick<Store<MotionState>, 'set'>,
   what: string,
-  make: () => Promise<void>,
-  without: Partial<MotionState> = {},
-): () => Promise<void> {
-  let made: Promise<void> | null = null;
-  const refuse = (): void => {
-    made = null;
-    const sentence = `${what} could not be fetched. Try again with a network.`;
-    store.set({ ...without, problem: { source: 'link', sentence } });
-  };
+  fetch: () => Promise<Part>,
+): () => Promise<Part | null> {
+  let part: Promise<Part | null> | null = null;
   return () => {
-    made ??= make().catch(refuse);
-    return made;
+    part ??= fetch().catch(() => {
+      part = null;
+      const sentence = `${what} could not be fetched. Try again with a network.`;
+      store.set({ problem: { source: 'link', sentence } });
+      return null;
+    });
+    return part;
   };
 }

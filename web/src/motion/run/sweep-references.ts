@@ -4,7 +4,7 @@ import { fabricsText } from '../../shared/fabric/fabric-data';
 import { BrokenWorker, Refused } from '../../shared/workers/asked';
 import type { ReferenceKind, SweepPlan } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
-import type { SweepClient } from './motion-client';
+import type { SweepClient } from './measuring-client';
 
 type Worker = Pick<SweepClient, 'ask'>;
 type PlanOf = (reference: ReferenceKind) => SweepPlan;

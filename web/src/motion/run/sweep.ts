@@ -14,7 +14,7 @@ import {
 } from '../state/sweep-plan';
 import { type SweepState, sweptScene } from '../state/sweep-state';
 import type { FromSweep } from '../worker/sweep-protocol';
-import { type StartSweep, type SweepClient, startSweepWorker } from './motion-client';
+import { type StartSweep, type SweepClient, startSweepWorker } from './measuring-client';
 import { planSweep } from './sweep-references';
 
 /** Rows tell the time of a sixtieth of a second. */
