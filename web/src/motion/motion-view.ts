@@ -164,7 +164,7 @@ function createPanels(
   createLinkTool(place('toolbar'), store, { rest: () => run.rest(), link });
   createScenePanel(place('panel'), store, run.obj);
   createFabricPanel(place('panel'), store);
-  createMethodPanel(place('panel'), store);
+  createMethodPanel(place('panel'), store, run);
   createDrawingPanel(place('panel'), store);
   createEnergyPanel(place('panel'), store);
   const showChart = createSweepTray(place('tray'), store, run);

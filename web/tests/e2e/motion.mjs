@@ -418,6 +418,47 @@ async function checkInside({ check }, visit) {
       await eventually(async () => /are taken alike/.test(await words()), 'none of XPBD');
     }),
   );
+
+  await check('what imex saves follows the slider of substeps while it is dragged', () =>
+    visit('#scene=pendulum', async (page) => {
+      const line = page.locator('.imex-saving');
+      await eventually(async () => /drag to measure/.test(await line.textContent()), 'a share');
+      const { setting, summary } = await stateOf(page);
+      const slider = page.getByRole('slider', { name: 'Substeps' });
+      await slider.scrollIntoViewIfNeeded();
+      const { x, y, width, height } = await slider.boundingBox();
+      const dragTo = async (part) => {
+        await page.mouse.move(x + part * width, y + height / 2);
+        const { draggedSubsteps, imexSaving } = await until(
+          page,
+          ({ draggedSubsteps: n, imexSaving: known, setting: { stepS } }) =>
+            n !== null && known.substepS === stepS / n,
+        );
+        return { substeps: draggedSubsteps, ...imexSaving, words: await line.textContent() };
+      };
+      await page.mouse.move(x + 1, y + height / 2);
+      await page.mouse.down();
+      const seen = [];
+      for (const part of [0.02, 0.2, 0.4, 0.6]) seen.push(await dragTo(part));
+      const told = seen.map(({ substeps, share }) => `${substeps}: ${share}`).join(', ');
+      for (const [index, { substeps, share, words }] of seen.entries()) {
+        const before = seen[index - 1] ?? { substeps: 0, share: 1, words: '' };
+        expectThat(substeps > before.substeps && share <= before.share, told);
+        expectThat(words !== before.words, words);
+        expectThat(words.includes(`Of ${summary.n_springs} springs`), words);
+      }
+      expectThat(seen[0].share > seen.at(-1).share, told);
+      expectThat(/; measuring what a step takes/.test(seen.at(-1).words), seen.at(-1).words);
+      await until(page, ({ imexSaving }) => imexSaving.time > 0);
+      const words = await line.textContent();
+      expectThat(/; a step takes [\d.]+ of Implicit’s time\.$/.test(words), words);
+      expectThat((await stateOf(page)).setting.substeps === setting.substeps, 'it is set already');
+      await page.mouse.up();
+      await until(page, (state) => state.setting.substeps === seen.at(-1).substeps);
+      await isReady(page);
+      expectThat((await line.textContent()) === words, await line.textContent());
+    }),
+  );
 }
 
 export async function checkMotion(harness, visit) {

@@ -397,13 +397,13 @@ await check('a setting that cannot run is a sentence, and the page goes on', () 
   visit('#scene=curtain&level=1', async (page) => {
     await choice(page, 'Stepper').selectOption({ label: 'Explicit' });
     await isReady(page);
-    await page.getByLabel('Substeps').fill('1');
-    await page.getByLabel('Substeps').press('Enter');
+    await page.getByRole('spinbutton', { name: 'Substeps' }).fill('1');
+    await page.getByRole('spinbutton', { name: 'Substeps' }).press('Enter');
     await until(page, (state) => state.phase === 'refused');
     const sentence = await page.getByRole('alert').textContent();
     expectThat(/substeps/.test(sentence), `the sentence is: ${sentence}`);
-    await page.getByLabel('Substeps').fill('0');
-    await page.getByLabel('Substeps').press('Enter');
+    await page.getByRole('spinbutton', { name: 'Substeps' }).fill('0');
+    await page.getByRole('spinbutton', { name: 'Substeps' }).press('Enter');
     await isReady(page);
     expectThat((await stateOf(page)).problem === null, 'the sentence stays');
   }),

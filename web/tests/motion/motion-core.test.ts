@@ -186,6 +186,27 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(count(finer)).toBeLessThan(count(isImplicit));
   });
 
+  it('tells the share of springs that imex takes implicitly in any substep', async () => {
+    const { send, take } = open(await load());
+    const imex = withStepper(setting, 'imex');
+    send({ type: 'load', sceneText: sceneText(imex), keepMotion: false, request: 1 });
+    take('loaded');
+    const shareAt = (substeps: number) => {
+      const substepS = imex.stepS / substeps;
+      send({ type: 'readImplicitShare', substepS, request: 1 });
+      return take('implicitShare').share;
+    };
+    const shares = [1, 4, 16, 64, 256, 4096].map(shareAt);
+    expect(shares).toEqual([...shares].sort((a, b) => b - a));
+    expect(shares[0]).toBeGreaterThan(shareAt(64));
+    if (_name === 'the stand-in') return;
+    expect(shares.at(-1)).toBe(0);
+    send({ type: 'readSprings', request: 1 });
+    const { isImplicit } = take('springs');
+    const nImplicit = isImplicit.reduce((sum, one) => sum + one, 0);
+    expect(shareAt(imex.substeps)).toBeCloseTo(nImplicit / isImplicit.length, 12);
+  });
+
   it('keeps the motion when the level changes, and forgets it on a load', async () => {
     const { send, take, loaded } = open(await load());
     send({ type: 'step', count: 20, wantsNumbers: true, request: 1, buffer: loaded.buffers[1] });

@@ -9,6 +9,7 @@ import {
   presetSetting,
   type Setting,
   sceneOf,
+  sliderCounts,
   withModel,
   withStepper,
 } from '../../src/motion/state/setting';
@@ -38,6 +39,15 @@ describe('setting', () => {
     expect(method).toMatchObject({ stepper: 'explicit', substeps: 'stable' });
     const row = rowFor(1, { stepper: 'explicit', step_s: 1 / 60, substeps: 'stable' });
     expect(settingOfRow(row, start).substeps).toBe(0);
+  });
+
+  it('offers all small counts on a slider, and ever fewer beyond', () => {
+    const counts = sliderCounts(0);
+    expect(counts.slice(0, 19)).toEqual([...Array(17).keys(), 18, 20]);
+    expect(counts.at(-1)).toBe(480);
+    for (const [index, count] of counts.slice(10).entries())
+      expect(count / (counts[9 + index] ?? 0)).toBeLessThanOrEqual(1.125);
+    expect(sliderCounts(1)).toEqual(counts.slice(1));
   });
 
   it('keeps the fine print of a stepper away from the others', () => {

@@ -227,6 +227,9 @@ class FakeSimulation implements SimulationHandle {
     return Int8Array.from(this.scene?.method.stepper === 'imex' ? held : []);
   };
 
+  /** All springs in substeps of 1/60 s, and ever fewer in shorter ones. */
+  implicitShare = (substepS: number) => ok({ share: Math.min(1, 60 * substepS) });
+
   grab(vertex: number): string {
     if (vertex < 0 || vertex >= this.x.length / 3) return refuse('', `no vertex ${vertex}`);
     this.held = vertex;
@@ -369,7 +372,12 @@ export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
     fabrics = () => ok({ fabrics: [] });
     schema = () => ok({ schema: {} });
     steppers = () => ok({ steppers: [] });
-    parse = () => ok({});
+    /** Its tolerance, unless the scene has one, is that of imex. */
+    parse = (text: string) => {
+      const { method } = JSON.parse(text) as FakeScene;
+      const scene = { method: { tolerance: 1e-4, ...method } };
+      return ok({ scene, summary: { substeps: method.substeps } });
+    };
     readObj = fakeObj;
     delete(): void {
       this.onDelete();

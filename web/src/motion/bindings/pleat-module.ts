@@ -131,6 +131,8 @@ export interface SimulationHandle {
   /** The two parts of a SpringSplit. */
   springEnds(): Uint32Array;
   implicitSprings(): Int8Array;
+  /** Share of the springs that imex would take implicitly in substeps of this length [s]. */
+  implicitShare(substepS: number): string;
   /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
   setReference(bytes: Uint8Array): string;
   colliders(): string;
@@ -175,6 +177,7 @@ export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
     energies: true,
     springEnds: true,
     implicitSprings: true,
+    implicitShare: true,
     colliders: true,
     grab: true,
     moveGrab: true,

@@ -1,22 +1,15 @@
-// The choice of a method: model, level, stepper, step, and the one count that the stepper reads.
+// The choice of a method: model, level, stepper, step, and the counts that the stepper reads.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { shortTime, stepTitle } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import {
-  type Count,
-  canRun,
-  type Model,
-  STEPPERS,
-  stepperRow,
-} from '../../shared/steppers/steppers';
+import { canRun, type Model, STEPPERS, stepperRow } from '../../shared/steppers/steppers';
+import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
 import {
   COUNTS,
   LEVELS,
   MODEL_TRAITS,
   MODELS,
-  MOST_ITERATIONS,
-  MOST_SUBSTEPS,
   modelsOf,
   type Setting,
   STEPS_PER_SECOND,
@@ -24,6 +17,8 @@ import {
   withStepper,
 } from '../state/setting';
 import { type StepCost, type StepCosts, stepCostAt } from '../state/step-cost';
+import { countField } from './count-field';
+import { later } from './later';
 
 function levelPicker(onChoice: (level: number) => void) {
   const inputs = LEVELS.map((level) =>
@@ -108,41 +103,47 @@ function modelPicker(onChoice: (model: Model) => void) {
 
 export const STEPPER_CHOICES = STEPPERS.map(({ name, title }) => ({ value: name, title }));
 
-const COUNT_TITLES: Record<Count, { title: string; most: number }> = {
-  substeps: { title: 'Substeps', most: MOST_SUBSTEPS },
-  iterations: { title: 'Iterations', most: MOST_ITERATIONS },
-};
-
-/** A whole number that is there only for the steppers that listen to it. */
-function countField(count: Count, onChoice: (value: number) => void) {
-  const { title, most } = COUNT_TITLES[count];
-  const input = element('input', {
-    type: 'number',
-    max: most,
-    step: 1,
-    inputmode: 'numeric',
-    change() {
-      const value = Math.round(Number(input.value));
-      const chosen = Math.min(most, Math.max(Number(input.min), value || 0));
-      input.value = String(chosen);
-      onChoice(chosen);
-    },
+/** What imex saves is told from the first imex on. */
+function createImexTray(store: Store<MotionState>, run: MotionRun) {
+  const tray = element('div');
+  const bring = later(store, 'What imex saves', async () => {
+    const { createImexPanel } = await import('./imex-panel');
+    return createImexPanel(tray, store, run);
   });
-  const box = field(title, input);
+  let close: (() => void) | null = null;
+  const stop = watch(store, ['setting'], async ({ setting }) => {
+    if (setting.stepper === 'imex') close ??= await bring();
+  });
   return {
-    box,
-    show(setting: Setting) {
-      const trait = stepperRow(setting.stepper).settings[count];
-      box.hidden = !trait;
-      if (!trait) return;
-      input.min = String(trait.least);
-      input.value = String(setting[count]);
-      box.title = trait.meaning;
+    tray,
+    close() {
+      stop();
+      close?.();
     },
   };
 }
 
-export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+function countFields(store: Store<MotionState>) {
+  return COUNTS.map((count) =>
+    countField(count, {
+      drag(value) {
+        const { setting } = store.get();
+        const isMoved = value !== setting.substeps;
+        if (count === 'substeps') store.set({ draggedSubsteps: isMoved ? value : null });
+      },
+      choose(value) {
+        const setting = { ...store.get().setting, [count]: value };
+        store.set({ draggedSubsteps: null, setting });
+      },
+    }),
+  );
+}
+
+export function createMethodPanel(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  run: MotionRun,
+): () => void {
   function change(patch: Partial<Setting>): void {
     store.set({ setting: { ...store.get().setting, ...patch } });
   }
@@ -160,7 +161,8 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
     STEPS_PER_SECOND.map((count) => ({ value: count, title: `1/${count} s` })),
     (count) => change({ stepS: 1 / count }),
   );
-  const counts = COUNTS.map((count) => countField(count, (value) => change({ [count]: value })));
+  const counts = countFields(store);
+  const imex = createImexTray(store, run);
   const builtNote = element('p', { class: 'note' });
   const builtBox = element(
     'details',
@@ -177,6 +179,7 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
       meshNote,
       field('Stepper', stepper.control, stepperNote),
       element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
+      imex.tray,
       builtBox,
     ),
   );
@@ -220,5 +223,6 @@ export function createMethodPanel(parent: HTMLElement, store: Store<MotionState>
     stopCosts();
     stopSetting();
     stopSummary();
+    imex.close();
   };
 }

@@ -178,6 +178,17 @@ export class MotionRun {
     this.startAgain(again, `${stopped} The cloth is back at its start, at level ${level}.`);
   }
 
+  /**
+   * Share of the loaded springs that imex would take implicitly in substeps of this length [s]; null when
+   * it comes too late.
+   */
+  async implicitShare(substepS: number): Promise<number | null> {
+    const { request } = this;
+    const question = { type: 'readImplicitShare', substepS, request } as const;
+    const answer = await this.answer(this.worker.ask(question));
+    return answer?.share ?? null;
+  }
+
   grab(vertex: number): void {
     this.worker.tell({ type: 'grab', vertex });
     this.store.set({ held: true, astray: 'pulled' });

@@ -7,6 +7,7 @@ import type {
   SceneSummary,
   SpringSplit,
 } from '../bindings/pleat-module';
+import type { ImexSaving } from './imex-saving';
 import type { MotionLink } from './motion-link';
 import type { ObjMesh } from './obj-mesh';
 import type { Setting } from './setting';
@@ -62,6 +63,10 @@ export interface MotionState extends MotionLink {
   energies: readonly EnergyNumbers[];
   /** As it was when last asked for: while `springs` is on, of the loaded cloth. */
   springSplit: SpringSplit | null;
+  /** Where the slider of substeps is dragged to, until it is let go. */
+  draggedSubsteps: number | null;
+  /** What imex saves at the substeps that its slider shows; null until that is known. */
+  imexSaving: ImexSaving | null;
   /** How much of the way to the start is run through, 0 to 1; null when nothing is. */
   ahead: number | null;
   /** What the worker has been at for a while, and for how long by now [s]. */
@@ -98,6 +103,8 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     timing: null,
     energies: [],
     springSplit: null,
+    draggedSubsteps: null,
+    imexSaving: null,
     ahead: null,
     busy: null,
     astray: null,

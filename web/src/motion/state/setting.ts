@@ -67,6 +67,20 @@ export const STEPS_PER_SECOND: readonly number[] = [30, 60, 120, 240, 480, 960];
 export const MOST_SUBSTEPS = 100000;
 export const MOST_ITERATIONS = 500;
 
+/** Sliders of counts end here; fields take more. */
+const SLIDER_MOST = 480;
+
+/** The counts that a slider offers: all small ones, then ever fewer, each about an eighth more. */
+export function sliderCounts(least: number): number[] {
+  const counts: number[] = [];
+  let count = least;
+  while (count <= SLIDER_MOST) {
+    counts.push(count);
+    count += Math.max(1, 2 ** Math.floor(Math.log2(count)) / 8);
+  }
+  return counts;
+}
+
 export const MODEL_TRAITS: Record<Model, { title: string; meaning: string }> = {
   springs: { title: 'Springs', meaning: 'A fast approximation, along the threads of a sheet.' },
   membrane: {

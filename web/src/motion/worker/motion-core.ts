@@ -135,6 +135,12 @@ export class MotionCore {
     this.post({ type: 'springs', request, ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
   }
 
+  private readImplicitShare(run: SimulationHandle, substepS: number, request: number): void {
+    const answer = read<{ share: number }>(run.implicitShare(substepS));
+    if (!answer.ok) return this.refuse(request, answer);
+    this.post({ type: 'implicitShare', request, share: answer.share }, []);
+  }
+
   private open(text: string): void {
     this.simulation?.delete();
     this.simulation = new this.module.Simulation(text);
@@ -159,6 +165,8 @@ export class MotionCore {
         return this.step(this.simulation, message);
       case 'readSprings':
         return this.readSprings(this.simulation, message.request);
+      case 'readImplicitShare':
+        return this.readImplicitShare(this.simulation, message.substepS, message.request);
       case 'grab':
         this.isHeld = this.loaded !== null && read<object>(this.simulation.grab(message.vertex)).ok;
         return;

@@ -45,6 +45,8 @@ export type ToMotion =
   | StepMessage
   /** Which springs are implicit, as of now. */
   | { type: 'readSprings'; request: number }
+  /** How many of the springs of a lattice imex would take implicitly in such substeps. */
+  | { type: 'readImplicitShare'; substepS: number; request: number }
   | { type: 'grab'; vertex: number }
   | { type: 'moveGrab'; target: [number, number, number] }
   | { type: 'releaseGrab' };
@@ -88,6 +90,13 @@ export interface SpringsMessage extends SpringSplit {
   request: number;
 }
 
+export interface ImplicitShareMessage {
+  type: 'implicitShare';
+  request: number;
+  /** 0 to 1. */
+  share: number;
+}
+
 /** A reference was taken: the numbers anew. */
 export interface ReferenceSetMessage {
   type: 'referenceSet';
@@ -99,6 +108,7 @@ export type FromMotion =
   | LoadedMessage
   | FrameMessage
   | SpringsMessage
+  | ImplicitShareMessage
   | ReferenceSetMessage
   /** `request` is -1 when what was refused had none. */
   | { type: 'refused'; request: number; failure: Failure };
@@ -111,6 +121,7 @@ export interface MotionAnswers {
   setReference: ReferenceSetMessage | Done;
   step: FrameMessage | Done;
   readSprings: SpringsMessage;
+  readImplicitShare: ImplicitShareMessage;
   grab: Done;
   moveGrab: Done;
   releaseGrab: Done;

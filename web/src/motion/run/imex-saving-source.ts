@@ -1,0 +1,89 @@
+// Follows the substeps of imex, also while their slider is dragged: the share of implicit springs comes at
+// once from the cloth that is loaded, what a step saves is measured beside it once the slider rests.
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import { type Store, watch } from '../../shared/state/store';
+import { answerOf } from '../../shared/workers/asked';
+import type { ImexSaving } from '../state/imex-saving';
+import type { MotionState } from '../state/motion-state';
+import { type Setting, sceneOf } from '../state/setting';
+import { type RaceClient, type StartRace, startRaceWorker } from './measuring-client';
+
+/** A slider that stands for so long rests [ms]. */
+const REST_MS = 400;
+
+/** The setting as the slider shows it. */
+function shownSetting({ setting, draggedSubsteps }: MotionState): Setting {
+  return { ...setting, substeps: draggedSubsteps ?? setting.substeps };
+}
+
+export class ImexSavingSource {
+  private sceneText: string | null = null; // that is told of, or asked about
+  private isAsking = false;
+  private isFirst = true; // nobody has moved anything yet: nothing is measured unasked
+  private restHandle: ReturnType<typeof setTimeout> | undefined;
+  private racing: RaceClient | null = null;
+  readonly close: () => void;
+
+  constructor(
+    private readonly store: Store<MotionState>,
+    private readonly readShare: (substepS: number) => Promise<number | null>,
+    private readonly start: StartRace = startRaceWorker,
+  ) {
+    const stop = watch(store, ['setting', 'draggedSubsteps', 'phase'], () => void this.follow());
+    this.close = () => {
+      stop();
+      this.cancel();
+    };
+  }
+
+  private async follow(): Promise<void> {
+    const state = this.store.get();
+    const setting = shownSetting(state);
+    if (setting.stepper !== 'imex') return this.forget();
+    const sceneText = JSON.stringify(sceneOf(setting));
+    if (sceneText === this.sceneText) return;
+    this.cancel();
+    if (this.isAsking || state.phase !== 'ready' || !state.summary) return;
+    this.sceneText = sceneText;
+    this.isAsking = true;
+    const substepS = setting.stepS / setting.substeps;
+    const share = await this.readShare(substepS);
+    this.isAsking = false;
+    if (share === null) this.sceneText = null;
+    else this.tell({ nSprings: state.summary.n_springs, substepS, share }, sceneText);
+    void this.follow();
+  }
+
+  private tell(known: Omit<ImexSaving, 'time'>, sceneText: string): void {
+    const time = this.isFirst ? 'unasked' : 'measuring';
+    this.isFirst = false;
+    this.store.set({ imexSaving: { ...known, time } });
+    if (time === 'measuring')
+      this.restHandle = setTimeout(() => void this.measure(sceneText), REST_MS);
+  }
+
+  private async measure(sceneText: string): Promise<void> {
+    const client = this.start({});
+    this.racing = client;
+    const question = { type: 'race', fabricsText, sceneText } as const;
+    const answer = await answerOf(client.ask(question), () => undefined);
+    if (this.racing !== client) return;
+    this.cancel();
+    const { imexSaving } = this.store.get();
+    if (imexSaving) this.store.set({ imexSaving: { ...imexSaving, time: answer?.ratio ?? null } });
+  }
+
+  /** Gives up what is being measured. */
+  private cancel(): void {
+    clearTimeout(this.restHandle);
+    this.racing?.terminate();
+    this.racing = null;
+  }
+
+  private forget(): void {
+    this.cancel();
+    this.sceneText = null;
+    this.isFirst = true;
+    this.store.set({ imexSaving: null });
+  }
+}

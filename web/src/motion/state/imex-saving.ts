@@ -1,0 +1,9 @@
+// What imex saves at some length of a substep: springs that need not be implicit, and time.
+export interface ImexSaving {
+  nSprings: number;
+  substepS: number;
+  /** Of the springs, that are implicit: 0 to 1. */
+  share: number;
+  /** Of a step, in shares of a step of implicit; null where it could not be measured. */
+  time: number | 'unasked' | 'measuring' | null;
+}
