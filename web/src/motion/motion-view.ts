@@ -8,6 +8,7 @@ import { createInvitation } from '../shared/panels/invitation';
 import { createKeysPanel } from '../shared/panels/keys-panel';
 import { createRunTools } from '../shared/panels/run-tools';
 import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import type { Print } from '../shared/stage/fabric-material';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createCaption } from './panels/caption';
@@ -26,6 +27,7 @@ import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
 import type { Sweep } from './run/sweep';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
+import type { Knit } from './state/knit';
 import { decodeMotionLink, encodeMotionLink, linkTo } from './state/motion-link';
 import { AT_START, initialMotionState, type MotionState, shownHeat } from './state/motion-state';
 import { deformedMesh, holdFor } from './state/obj-mesh';
@@ -172,9 +174,29 @@ function createPanels(
   createKeysPanel(place('panel'));
 }
 
+/** The stitches come when a knit is first shown; without them it is drawn plain. */
+function drawKnit(store: Store<MotionState>, stage: MotionStage): void {
+  let drawn: Knit | undefined;
+  let printOf: ((knit: Knit) => Print) | null = null;
+  const bringStitches = later(store, 'The stitches of the knit', async () => {
+    printOf = (await import('./stage/knit-drawing')).knitPrint;
+  });
+  async function draw(knit: Knit): Promise<void> {
+    await bringStitches();
+    if (printOf && drawn === knit) stage.setPrint(printOf(knit));
+  }
+  watch(store, ['setting'], ({ setting: { knit } }) => {
+    if (knit === drawn) return;
+    drawn = knit;
+    if (knit) void draw(knit);
+    else stage.setPrint(null);
+  });
+}
+
 /** Has the picture follow what the state says of it. */
 function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
   watch(store, ['setting'], ({ setting }) => stage.setFabric(fabricNamed(setting.fabric).id));
+  drawKnit(store, stage);
   watch(store, ['colliders'], ({ colliders }) => stage.setColliders(colliders));
   watch(store, ['heat', 'heatRange', 'numbers'], (state) =>
     stage.setHeat(shownHeat(state), state.heatRange),

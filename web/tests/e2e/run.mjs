@@ -11,6 +11,7 @@ import {
   stateOf,
   until,
 } from './harness.mjs';
+import { checkKnit } from './knit.mjs';
 import { checkModes } from './modes.mjs';
 import { checkMotion } from './motion.mjs';
 import { checkRefinement } from './refinement.mjs';
@@ -39,7 +40,7 @@ const { open, check, countColours, finish } = harness;
 
 const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(harness, isReady);
 
-for (const preset of ['curtain', 'tablecloth', 'swinging-sheet', 'obj']) {
+for (const preset of ['curtain', 'tablecloth', 'swinging-sheet', 'wool', 'obj']) {
   await check(`${preset}: loads still, then moves, in positions and in pixels`, () =>
     visit(`#scene=${preset}`, async (page) => {
       const [before, still] = [await positionsOf(page), await picture(page)];
@@ -658,6 +659,7 @@ await checkWithoutModule('#scene=curtain', '**/*.wasm', 'the text stays', async 
 });
 
 await checkMotion(harness, visit);
+await checkKnit(harness, visit);
 await checkFabrics(harness);
 await checkModes(harness);
 await checkRefinement(harness);

@@ -154,6 +154,29 @@ describe.runIf(isBuilt('pleat'))('the caption of', { timeout: 60000 }, () => {
     }
   });
 
+  it('the wool: it rests where it touches the ball, and lace gives more than plain columns', async () => {
+    const module = await loadModule('pleat');
+    expect(sceneOf('wool').caption).toMatch(/rests where it touches.*lace.*give more/);
+    const { rest, at } = begin(module, sceneOf('wool'));
+    const nearTop = ({ x, z }: Vertex) => Math.hypot(x, z) < 0.05;
+    const ballTop = 0.6;
+    for (const time of [0.2, 0.3, 0.5, 1, 2, 3])
+      for (const { y } of those(rest, at(time), nearTop))
+        expect(Math.abs(y - ballTop)).toBeLessThan(3e-3);
+    // Drawn apart, its columns are as springs in a row.
+    const pins = [
+      { part: 'left_edge' },
+      { part: 'right_edge', motion: { kind: 'move', offset_m: [0.05, 0, 0], end_s: 1 } },
+    ];
+    const world = { gravity_m_per_s2: [0, 0, 0] };
+    const drawn = begin(module, { ...sceneOf('wool'), pins, world })
+      .at(2)
+      .slice(0, 24);
+    const stretchFrom = (column: number) =>
+      23 * ((drawn[column + 1]?.x ?? 0) - (drawn[column]?.x ?? 0)) - 1;
+    expect(stretchFrom(7)).toBeGreaterThan(1.3 * stretchFrom(12));
+  });
+
   it('the falling sheet: all parts alike, 4.9 m and the 8 cm of its steps, no stretch', async () => {
     const module = await loadModule('pleat');
     expect(sceneOf('falling_sheet').caption).toMatch(/4\.9 m .* 8 cm/);

@@ -1,4 +1,10 @@
-import type { BufferGeometry, LineSegments, Mesh } from 'three';
+import {
+  type BufferGeometry,
+  type LineSegments,
+  type Mesh,
+  type MeshPhysicalMaterial,
+  Texture,
+} from 'three';
 import { describe, expect, it } from 'vitest';
 import { createClothMesh } from '../../src/shared/stage/cloth-mesh';
 
@@ -91,5 +97,23 @@ describe('cloth-mesh', () => {
     cloth.update();
     expect(geometry.getAttribute('position').count).toBe(3);
     expect(geometry.getIndex()?.count).toBe(3);
+  });
+
+  it('wears a print as long as its mesh has the vertices of the print', () => {
+    const { cloth, geometry } = makeCloth(0);
+    const [front, back] = cloth.object.children as Mesh[];
+    const maps = () =>
+      [front, back].map((one) => one && (one.material as MeshPhysicalMaterial).map);
+    const texture = new Texture();
+    cloth.setPrint({ texture, coordinates: new Float32Array(2 * SIDE * SIDE).fill(0.5) });
+    expect(maps()).toEqual([texture, texture]);
+    expect(geometry.getAttribute('uv').count).toBe(SIDE * SIDE);
+    cloth.setTopology(Uint32Array.from([0, 1, 2]), 3);
+    expect(maps()).toEqual([null, null]);
+    expect(geometry.hasAttribute('uv')).toBe(false);
+    cloth.setTopology(triangles(), SIDE * SIDE);
+    expect(maps()).toEqual([texture, texture]);
+    cloth.setPrint(null);
+    expect(maps()).toEqual([null, null]);
   });
 });

@@ -8,6 +8,7 @@ import type { MotionState } from '../state/motion-state';
 import {
   COUNTS,
   LEVELS,
+  levelsOf,
   MODEL_TRAITS,
   MODELS,
   modelsOf,
@@ -19,6 +20,10 @@ import {
 import { type StepCost, type StepCosts, stepCostAt } from '../state/step-cost';
 import { countField } from './count-field';
 import { later } from './later';
+
+function hasLevels({ preset }: Setting): boolean {
+  return levelsOf(preset).length > 1;
+}
 
 function levelPicker(onChoice: (level: number) => void) {
   const inputs = LEVELS.map((level) =>
@@ -42,6 +47,7 @@ function levelPicker(onChoice: (level: number) => void) {
   return {
     group,
     show(setting: Setting, costs: StepCosts) {
+      group.hidden = !hasLevels(setting);
       LEVELS.forEach((level, index) => {
         const cost = stepCostAt(costs, setting, level);
         const [input, label, time] = [inputs[index], labels[index], times[index]];
@@ -92,10 +98,7 @@ function modelPicker(onChoice: (model: Model) => void) {
         const isPossible = possible.includes(model);
         input.checked = model === chosen;
         input.disabled = !isPossible;
-        setText(
-          note,
-          isPossible ? MODEL_TRAITS[model].meaning : 'Springs need the threads of a sheet.',
-        );
+        setText(note, isPossible ? MODEL_TRAITS[model].meaning : MODEL_TRAITS[model].need);
       }
     },
   };
@@ -203,12 +206,10 @@ export function createMethodPanel(
     const { n_vertices, n_triangles, n_springs, n_bends, built, left_out, notes } = summary;
     const isAutomatic = setting.substeps === 0;
     const substeps = isAutomatic ? ` One step takes ${summary.substeps} substeps.` : '';
-    const parts =
-      n_springs > 0 ? `${n_springs} springs, ${n_bends} bends` : `${n_triangles} triangles`;
-    setText(
-      meshNote,
-      `${n_vertices} vertices, ${parts}. Each level halves the mesh size.${substeps}`,
-    );
+    const bends = n_bends > 0 ? `, ${n_bends} bends` : '';
+    const parts = n_springs > 0 ? `${n_springs} springs${bends}` : `${n_triangles} triangles`;
+    const halving = hasLevels(setting) ? ' Each level halves the mesh size.' : '';
+    setText(meshNote, `${n_vertices} vertices, ${parts}.${halving}${substeps}`);
     const needs = [
       built.length > 0 ? `Built: ${built.join(', ')}.` : '',
       left_out.length > 0

@@ -1,4 +1,4 @@
-// Which scene, and the visitor's mesh.
+// Which scene, and the visitor's mesh or the form of a knit.
 import { choice, element, field } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { AT_START, type MotionState } from '../state/motion-state';
@@ -22,10 +22,15 @@ export function createScenePanel(
     const { createObjPanel } = await import('./obj-panel');
     stops.push(createObjPanel(section, store, actions));
   });
+  const makeKnitForm = later(store, 'The form of the knit', async () => {
+    const { createKnitForm } = await import('./knit-form');
+    stops.push(createKnitForm(section, store));
+  });
   stops.push(
     watch(store, ['setting', 'reading'], ({ setting, reading }) => {
       presets.select(setting.preset);
       if (setting.preset === 'obj' || reading !== null) void makeObjPanel();
+      if (setting.knit) void makeKnitForm();
     }),
   );
   return () => {

@@ -5,6 +5,7 @@ import { type Store, watch } from '../../shared/state/store';
 import type { Model } from '../../shared/steppers/steppers';
 import type { Sweep } from '../run/sweep';
 import type { MotionState } from '../state/motion-state';
+import { levelsOf } from '../state/setting';
 import { expectedSweepS } from '../state/sweep-cost';
 import { FINEST_SWEEP, type SweepWish, slowSteppers } from '../state/sweep-plan';
 import type { SweepState } from '../state/sweep-state';
@@ -73,6 +74,7 @@ export function createSweepPanel(
     showExpectation(store.get());
   });
   levels.select(wish.finest);
+  const levelsField = field('Levels', levels.control);
   const slow = slowPicker((withSlow) => {
     wish.withSlow = withSlow;
     showExpectation(store.get());
@@ -111,7 +113,7 @@ export function createSweepPanel(
         { class: 'note' },
         'How fast, how wrong? Runs this scene with the steppers at several levels, on this device, and compares each with a fine reference.',
       ),
-      field('Levels', levels.control),
+      levelsField,
       slow.line,
       expected,
       start,
@@ -127,6 +129,7 @@ export function createSweepPanel(
   }
   return watch(store, ['sweep', 'phase', 'setting', 'costs'], (state) => {
     slow.show(state.setting.model);
+    levelsField.hidden = levelsOf(state.setting.preset).length === 1;
     showExpectation(state);
     const { phase } = state.sweep;
     const isRunning = phase === 'running';

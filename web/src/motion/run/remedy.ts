@@ -3,16 +3,46 @@ import type { Failure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import { warningSentence } from '../../shared/panels/warning-words';
 import { stepperRow } from '../../shared/steppers/steppers';
+import { KNIT_PLACES, knitTitle, unitOf } from '../state/knit';
 import type { Remedy } from '../state/motion-state';
-import { MOST_ITERATIONS, MOST_SUBSTEPS, type Setting, withStepper } from '../state/setting';
+import {
+  MOST_ITERATIONS,
+  MOST_SUBSTEPS,
+  presetSetting,
+  type Setting,
+  withStepper,
+} from '../state/setting';
+
+interface Help {
+  sentence: string;
+  remedy: Remedy;
+}
+
+/** For a number of a knit that its reader refuses: that of the preset. */
+function remedyForKnit({ where, what }: Failure, setting: Setting): Help | null {
+  const { knit } = setting;
+  const { knit: own } = presetSetting(setting.preset);
+  if (!knit || !own || !where.startsWith('/cloth/knit')) return null;
+  const place = KNIT_PLACES.find((one) => where === `/cloth/knit/${one}`);
+  if (!place) {
+    const remedy = { title: 'Take the knit as it was', setting: { ...setting, knit: own } };
+    return { sentence: `The knit: ${what}.`, remedy };
+  }
+  const { form, scene } = unitOf(place, knit.dampingPer);
+  return {
+    sentence: `${knitTitle(place)}: ${`${what} ${scene}`.trimEnd()}.`,
+    remedy: {
+      title: `Take ${own[place]} ${form}`.trimEnd(),
+      setting: { ...setting, knit: { ...knit, [place]: own[place] } },
+    },
+  };
+}
 
 /** The sentence in place of the program's own, and what to do; null when it is not known what helps. */
-export function remedyFor(
-  failure: Failure,
-  setting: Setting,
-): { sentence: string; remedy: Remedy } | null {
+export function remedyFor(failure: Failure, setting: Setting): Help | null {
   const { title, settings } = stepperRow(setting.stepper);
-  if (failure.where !== '/method/substeps' || settings.substeps?.least !== 0) return null;
+  if (failure.where !== '/method/substeps') return remedyForKnit(failure, setting);
+  if (settings.substeps?.least !== 0) return null;
   const needed = /\((\d+) substeps would do\)/.exec(failure.what)?.[1];
   if (needed)
     return {
@@ -43,10 +73,7 @@ const HINTS: Record<
 };
 
 /** The sentence for a run that shows what its scene cannot explain, and what may help: from the start, not from the wreck. */
-export function remedyForWarning(
-  warning: RunWarning,
-  setting: Setting,
-): { sentence: string; remedy: Remedy } {
+export function remedyForWarning(warning: RunWarning, setting: Setting): Help {
   const known = Object.entries(HINTS).flatMap(([pointer, hint]) => {
     const value = warning.hints[pointer];
     return value === undefined ? [] : hint(Number(value));

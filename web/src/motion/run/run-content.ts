@@ -12,10 +12,10 @@ export function isSameScene(a: Content | null, b: Content): boolean {
   return a?.setting.preset === b.setting.preset && (!isMesh || a.mesh === b.mesh);
 }
 
-/** A free mesh has no mesh lines to carry motion along, and tension is another in another model. */
+/** A free mesh and a knit have no mesh lines to carry motion along, and tension is another in another model. */
 export function canKeepMotion(a: Content | null, b: Content): boolean {
-  const { preset, model } = b.setting;
-  return isSameScene(a, b) && preset !== 'obj' && a?.setting.model === model;
+  const { preset, model, knit } = b.setting;
+  return isSameScene(a, b) && preset !== 'obj' && !knit && a?.setting.model === model;
 }
 
 /** The scene, and where its vertices start when that is not where they rest. */

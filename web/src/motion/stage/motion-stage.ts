@@ -6,6 +6,7 @@ import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
+import type { Print } from '../../shared/stage/fabric-material';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
 import type { SpringSplit } from '../bindings/pleat-module';
@@ -37,6 +38,8 @@ export interface MotionStage {
   showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
   setColliders(colliders: Collider[]): void;
   setFabric(id: number): void;
+  /** What is painted on the cloth, once its mesh has as many vertices. */
+  setPrint(print: Print | null): void;
   setHeat(map: HeatMap, range: 'auto' | number): void;
   setEdges(isShown: boolean): void;
   /** Springs of the shown mesh; null draws none, as a new mesh does. */
@@ -98,10 +101,14 @@ function floorHeight(sphere: Sphere, colliders: Collider[]): number {
 function drawingOf(
   cloth: ClothMesh,
   redraw: () => void,
-): Pick<MotionStage, 'setFabric' | 'setHeat' | 'setEdges'> {
+): Pick<MotionStage, 'setFabric' | 'setPrint' | 'setHeat' | 'setEdges'> {
   return {
     setFabric(id) {
       cloth.setLook(lookOf(id));
+      redraw();
+    },
+    setPrint(print) {
+      cloth.setPrint(print);
       redraw();
     },
     setHeat(map, range) {

@@ -5,9 +5,10 @@ import type { Pose } from '../../shared/stage/camera-control';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { createLinkReader, type LinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { type Count, canRun, STEPPER_NAMES, stepperRow } from '../../shared/steppers/steppers';
+import { knitIn, knitText } from './knit';
 import type { Hold } from './obj-mesh';
 import {
-  LEVELS,
+  levelsOf,
   MOST_ITERATIONS,
   MOST_SUBSTEPS,
   modelsOf,
@@ -128,6 +129,7 @@ export function encodeMotionLink(link: MotionLink): string {
   if (link.energy) parts.push(['energy', 'on']);
   if (link.compare) parts.push(['compare', 'on']);
   if (link.camera) parts.push(['camera', poseText(link.camera)]);
+  if (setting.knit) parts.push(['knit', knitText(setting.knit)]);
   if (setting.preset === 'obj') parts.push(['hold', encodeURIComponent(setting.hold)]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
 }
@@ -139,6 +141,7 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const { take, finish } = reader;
   const preset = take('scene', DEFAULT_PRESET, PRESET_IDS.join(', '), oneOf(PRESET_IDS));
   const models = modelsOf(preset);
+  const levels = levelsOf(preset);
   const own = presetSetting(preset);
   const model = take('model', own.model, models.join(', '), oneOf(models));
   const usual = withModel(own, model);
@@ -155,12 +158,13 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
       return fabrics.find((fabric) => slug(fabric.name_en) === text)?.name_en;
     }),
     model,
-    level: take('level', own.level, '0 to 4', oneOf(LEVELS)),
+    level: take('level', own.level, `0 to ${levels.at(-1)}`, oneOf(levels)),
     stepper,
     stepS: take('step', start.stepS, '1/30 to 1/960', stepFraction),
     substeps: takeCount('substeps', MOST_SUBSTEPS),
     iterations: takeCount('iterations', MOST_ITERATIONS),
     hold: take('hold', own.hold, 'highest, nothing or group:NAME', holdIn),
+    ...(own.knit && { knit: take('knit', own.knit, 'the numbers of a knit', knitIn) }),
   };
   const heat = take('heat', 'off', HEAT_MAPS.join(', '), oneOf(HEAT_MAPS));
   const range = take<MotionLink['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>

@@ -5,6 +5,7 @@ import pendulumText from '../../../../assets/scenes/pendulum_10x10.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
+import woolText from '../../../../assets/scenes/wool.json?raw';
 import type { OwnQuantities } from '../../shared/fabric/fabric-data';
 import {
   type Count,
@@ -15,9 +16,10 @@ import {
   type Substeps,
   stepperRow,
 } from '../../shared/steppers/steppers';
+import { type Knit, knitOf, knitSection } from './knit';
 import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
-export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'pendulum' | 'obj';
+export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'pendulum' | 'wool' | 'obj';
 
 export interface Setting {
   preset: PresetId;
@@ -34,12 +36,14 @@ export interface Setting {
   iterations: number;
   /** The vertices that hold the mesh; of no meaning to other presets. */
   hold: Hold;
+  /** Of a preset whose cloth is knitted. */
+  knit?: Knit;
 }
 
 interface SceneFile {
   name: string;
   caption: string;
-  cloth: { sheet?: object; mesh?: object };
+  cloth: { sheet?: object; mesh?: object; knit?: Record<string, unknown> };
   fabric: { name: string; overrides?: OwnQuantities };
   world?: object;
   refinement?: { level?: number };
@@ -81,11 +85,17 @@ export function sliderCounts(least: number): number[] {
   return counts;
 }
 
-export const MODEL_TRAITS: Record<Model, { title: string; meaning: string }> = {
-  springs: { title: 'Springs', meaning: 'A fast approximation, along the threads of a sheet.' },
+/** `need`: why a scene may not have it. */
+export const MODEL_TRAITS: Record<Model, { title: string; meaning: string; need: string }> = {
+  springs: {
+    title: 'Springs',
+    meaning: 'A fast approximation, along the threads of a sheet.',
+    need: 'Springs need the threads of a sheet.',
+  },
   membrane: {
     title: 'Membrane and fitted bending',
     meaning: 'Cloth as a continuous surface: right on any mesh, and slower.',
+    need: 'A knit is particles on springs of their own.',
   },
 };
 
@@ -101,6 +111,7 @@ export const PRESETS: Record<PresetId, Preset> = {
   tablecloth: presetFrom('Tablecloth on a ball', tableclothText),
   'swinging-sheet': presetFrom('Swinging sheet', swingingSheetText),
   pendulum: presetFrom('Pendulum 10 × 10', pendulumText),
+  wool: presetFrom('Wool on a ball', woolText),
   obj: {
     title: 'Your OBJ',
     scene: {
@@ -115,9 +126,16 @@ export const PRESETS: Record<PresetId, Preset> = {
 
 export const PRESET_IDS = Object.keys(PRESETS) as PresetId[];
 
-/** The models that a preset's cloth can have: springs follow the threads of a sheet. */
+/** The models that a preset's cloth can have: springs follow the threads of a sheet, and a knit is springs. */
 export function modelsOf(preset: PresetId): Model[] {
-  return PRESETS[preset].scene.cloth.sheet ? ['springs', 'membrane'] : ['membrane'];
+  const { sheet, knit } = PRESETS[preset].scene.cloth;
+  if (knit) return ['springs'];
+  return sheet ? ['springs', 'membrane'] : ['membrane'];
+}
+
+/** The refinement levels that a preset's cloth can have: a knit has the particles that it has. */
+export function levelsOf(preset: PresetId): readonly number[] {
+  return PRESETS[preset].scene.cloth.knit ? [0] : LEVELS;
 }
 
 /** Both counts of a method, with the stepper's own start where the method says nothing. */
@@ -132,7 +150,7 @@ function countsOf(stepper: string, method: { substeps?: Substeps; iterations?: n
 
 /** The setting a preset is made for. */
 export function presetSetting(preset: PresetId): Setting {
-  const { fabric, refinement, method } = PRESETS[preset].scene;
+  const { fabric, refinement, method, cloth } = PRESETS[preset].scene;
   return {
     preset,
     fabric: fabric.name,
@@ -142,6 +160,7 @@ export function presetSetting(preset: PresetId): Setting {
     stepS: method.step_s,
     ...countsOf(method.stepper, method),
     hold: 'highest',
+    ...(cloth.knit && { knit: knitOf(cloth.knit) }),
   };
 }
 
@@ -190,6 +209,8 @@ export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<s
     refinement: { level: setting.level },
     method: methodOf(setting),
   };
+  const { knit } = PRESETS[setting.preset].scene.cloth;
+  if (knit && setting.knit) return { ...scene, cloth: { knit: knitSection(knit, setting.knit) } };
   if (setting.preset !== 'obj' || !mesh) return scene;
   const { cloth, pins, colliders } = objScene(mesh, setting.hold);
   const world = { ...PRESETS.obj.scene.world, colliders };

@@ -33,10 +33,11 @@ const LEVELS_TO_BOUND = 2;
 
 /** What the cost depends on, beside the fabric, which matters little. */
 function keyOf(setting: Setting): string {
-  const { preset, model, stepper, stepS, level } = setting;
+  const { preset, model, stepper, stepS, level, knit } = setting;
   const { settings } = stepperRow(stepper);
   const counts = COUNTS.filter((count) => settings[count]).map((count) => setting[count]);
-  return [preset, model, stepper, Math.round(1 / stepS), ...counts, level].join(' ');
+  const particles = knit ? [knit.columns * knit.rows] : [];
+  return [preset, ...particles, model, stepper, Math.round(1 / stepS), ...counts, level].join(' ');
 }
 
 export function withCost(

@@ -9,6 +9,7 @@ import {
   REPEATS,
   type SweepWish,
   settingOf,
+  sweptLevels,
 } from './sweep-plan';
 
 /** Substeps that stand for as many as the stability bound asks for. */
@@ -45,10 +46,11 @@ function finestShipped({ preset, fabric, model }: Setting): number {
 }
 
 /** Every level's own reference, where none is shipped [ms]. */
-function referencesMs(costs: StepCosts, shown: Setting, finest: number): number | null {
+function referencesMs(costs: StepCosts, shown: Setting, wish: SweepWish): number | null {
   const exact = { ...shown, stepper: 'newton', stepS: 1 / 960, substeps: 1 };
   let sum = 0;
-  for (let level = finestShipped(shown) + 1; level <= finest; ++level) {
+  const shipped = finestShipped(shown);
+  for (const level of sweptLevels(shown, wish).filter((one) => one > shipped)) {
     const ms = stepMs(costs, { ...exact, level }, shown);
     if (ms === null) return null;
     sum += ms * REFERENCE_STEPS_PER_S * durationS(shown);
@@ -58,10 +60,10 @@ function referencesMs(costs: StepCosts, shown: Setting, finest: number): number 
 
 /** Seconds for a sweep of the shown scene; null while no step of it was timed. */
 export function expectedSweepS(costs: StepCosts, shown: Setting, wish: SweepWish): number | null {
-  const references = referencesMs(costs, shown, wish.finest);
+  const references = referencesMs(costs, shown, wish);
   if (references === null) return null;
   let sum = references;
-  for (let level = 0; level <= wish.finest; ++level) {
+  for (const level of sweptLevels(shown, wish)) {
     for (const method of methodsAt(level, shown.model, wish.withSlow)) {
       const ms = stepMs(costs, settingOf(level, method, shown), shown);
       if (ms === null) return null;

@@ -9,7 +9,7 @@ import {
 } from '../../shared/steppers/steppers';
 import type { BenchMethod, BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
-import { type PresetId, type Setting, sceneOf } from './setting';
+import { levelsOf, type PresetId, type Setting, sceneOf } from './setting';
 
 export interface PlannedMethod {
   stepper: string;
@@ -99,16 +99,21 @@ export interface SweepWish {
   withSlow: boolean;
 }
 
+/** The levels that a sweep measures of those that the scene has. */
+export function sweptLevels({ preset }: Pick<Setting, 'preset'>, { finest }: SweepWish): number[] {
+  return levelsOf(preset).filter((level) => level <= finest);
+}
+
 /** Levels 0 to `finest` of the shown scene, each with every method that takes part. */
 export function sweepPlan(
   setting: Setting,
-  { finest, withSlow }: SweepWish,
+  wish: SweepWish,
   mesh: ObjMesh | null = null,
   reference: ReferenceKind = 'converged',
 ): SweepPlan {
   const settings: PlannedSetting[] = [];
-  for (let level = 0; level <= finest; ++level) {
-    for (const method of methodsAt(level, setting.model, withSlow)) {
+  for (const level of sweptLevels(setting, wish)) {
+    for (const method of methodsAt(level, setting.model, wish.withSlow)) {
       settings.push({ '/refinement/level': level, '/method': method });
     }
   }

@@ -10,7 +10,7 @@ import {
 import { frameViews, type Scalar } from '../bindings/frame';
 import type { FabricLook } from '../fabric/fabric-look';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
-import { createClothMaterials } from './fabric-material';
+import { createClothMaterials, type Print } from './fabric-material';
 import type { HeatMap, HeatScale } from './heat-map';
 import { changingTriples, showPositions } from './normals';
 
@@ -44,6 +44,8 @@ export interface ClothMesh {
   /** Takes the last frame to the screen; call before drawing. */
   update(): void;
   setLook(look: FabricLook): void;
+  /** Shown while the mesh has as many vertices as the print. */
+  setPrint(print: Print | null): void;
   /** `range` is of stretch [%]. True when that is another map or range. */
   setHeat(map: HeatMap, range: 'auto' | number): boolean;
   setEdges(isShown: boolean): void;
@@ -70,7 +72,8 @@ function createParts(geometry: BufferGeometry, edgeGeometry: BufferGeometry) {
   const object = new Group();
   object.add(front, back, heat, edges);
   for (const part of object.children) part.frustumCulled = false;
-  return { object, front, back, heat, edges, setLook: materials.setLook };
+  const { setLook, setTexture } = materials;
+  return { object, front, back, heat, edges, setLook, setTexture };
 }
 
 const NO_SCALE: HeatScale = { map: 'off', low: 0, high: 0, least: 0, most: 0 };
@@ -116,13 +119,23 @@ class HeatPaint {
 export function createClothMesh(): ClothMesh {
   const geometry = new BufferGeometry();
   const edgeGeometry = new BufferGeometry();
-  const { object, front, back, heat, edges, setLook } = createParts(geometry, edgeGeometry);
+  const parts = createParts(geometry, edgeGeometry);
+  const { object, front, back, heat, edges, setLook, setTexture } = parts;
   const heatPaint = new HeatPaint();
   let triangles = new Uint32Array(0);
   let positions: Float32Array = new Float32Array(0);
   let values: Float32Array = new Float32Array(0);
   let scalar: Scalar = 'stretch';
   let isStale = false; // the frame or the heat map changed since the last update
+  let print: Print | null = null;
+
+  function showPrint(): void {
+    const nVertices = geometry.getAttribute('position')?.count ?? 0;
+    const fitting = print?.coordinates.length === 2 * nVertices ? print : null;
+    if (fitting) geometry.setAttribute('uv', new BufferAttribute(fitting.coordinates, 2));
+    else geometry.deleteAttribute('uv');
+    setTexture(fitting?.texture ?? null);
+  }
 
   return {
     object,
@@ -139,6 +152,7 @@ export function createClothMesh(): ClothMesh {
       geometry.setIndex(new BufferAttribute(triangles, 1));
       edgeGeometry.setAttribute('position', geometry.getAttribute('position'));
       edgeGeometry.setIndex(new BufferAttribute(edgesOf(triangles), 1));
+      showPrint();
     },
     setFrame(buffer, newScalar) {
       const views = frameViews(buffer);
@@ -154,6 +168,11 @@ export function createClothMesh(): ClothMesh {
       heatPaint.paint(values, scalar, geometry.getAttribute('color') as BufferAttribute);
     },
     setLook,
+    setPrint(newPrint) {
+      if (print !== newPrint) print?.texture.dispose();
+      print = newPrint;
+      showPrint();
+    },
     setHeat(map, range) {
       if (map === heatPaint.map && range === heatPaint.range) return false;
       heatPaint.map = map;
@@ -170,6 +189,7 @@ export function createClothMesh(): ClothMesh {
     close() {
       geometry.dispose();
       edgeGeometry.dispose();
+      print?.texture.dispose();
       for (const { material } of [front, back, heat, edges]) material.dispose();
     },
   };

@@ -1,7 +1,24 @@
 // The materials of cloth: a fabric's two sides, of which the back has a tint of its own, so that
 // folds read; or colours for numbers.
-import { BackSide, DoubleSide, FrontSide, MeshBasicMaterial, MeshPhysicalMaterial } from 'three';
+import {
+  BackSide,
+  DoubleSide,
+  FrontSide,
+  MeshBasicMaterial,
+  MeshPhysicalMaterial,
+  type Texture,
+} from 'three';
 import { type FabricLook, SHEEN_ROUGHNESS } from '../fabric/fabric-look';
+
+/** What is painted on cloth, with holes where it is transparent. */
+export interface Print {
+  texture: Texture;
+  /** Where each vertex lies in it, two numbers each. */
+  coordinates: Float32Array;
+}
+
+/** Less of a yarn than this is a hole. */
+const HOLE = 0.5;
 
 export function createClothMaterials() {
   const front = new MeshPhysicalMaterial({ side: FrontSide, shadowSide: DoubleSide });
@@ -25,5 +42,15 @@ export function createClothMaterials() {
     }
   }
 
-  return { front, back, heat, setLook };
+  function setTexture(texture: Texture | null): void {
+    if (front.map === texture) return;
+    for (const material of [front, back]) {
+      material.map = texture;
+      material.bumpMap = texture;
+      material.alphaTest = texture ? HOLE : 0;
+      material.needsUpdate = true;
+    }
+  }
+
+  return { front, back, heat, setLook, setTexture };
 }
