@@ -15,6 +15,7 @@
 #include "core/files/obj_file.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"
+#include "core/run/response_study.h"
 #include "core/run/run_ledger.h"
 #include "core/scene/mesh_cloth.h"
 #include "core/scene/method_section.h"
@@ -88,6 +89,27 @@ class Scene {
                                                    {}, pleat::plain_scene_parts());
       envelope.set("scene", json_value(pleat::write_scene(scene)));
       envelope.set("summary", summary(pleat::Simulation(scene)));
+    });
+  }
+
+  /// The scene from first contact on, at rest and bouncing.
+  std::string study_response(const std::string& scene_text, double window) const {
+    return guarded([&](val& envelope) {
+      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_),
+                                                   {}, pleat::plain_scene_parts());
+      const pleat::ResponseStudy study = pleat::study_response(scene, window);
+      envelope.set("first_contact_s", study.first_contact);
+      envelope.set("substep_s", study.substep);
+      const auto set_run = [&](const char* name, const pleat::ResponseRun& run) {
+        val json = val::object();
+        json.set("normal_velocities_m_per_s", json_array(run.normal_velocities));
+        json.set("rms_normal_velocity_m_per_s", run.rms_normal_velocity);
+        json.set("n_touched", run.n_touched);
+        json.set("contact_share", run.contact_share);
+        envelope.set(name, json);
+      };
+      set_run("resting", study.resting);
+      set_run("uniform", study.uniform);
     });
   }
 
@@ -366,6 +388,7 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("schema", &Scene::schema)
       .function("steppers", &Scene::steppers)
       .function("parse", &Scene::parse)
+      .function("studyResponse", &Scene::study_response)
       .function("readObj", &Scene::read_obj);
   emscripten::class_<Simulation>("Simulation")
       .constructor<std::string>()

@@ -12,6 +12,7 @@ import type { Print } from '../shared/stage/fabric-material';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createCaption } from './panels/caption';
+import { createContactPanel } from './panels/contact-panel';
 import { createDrawingPanel } from './panels/drawing-panel';
 import { createEnergyPanel } from './panels/energy-panel';
 import { createFabricPanel } from './panels/fabric-panel';
@@ -169,6 +170,7 @@ function createPanels(
   createMethodPanel(place('panel'), store, run);
   createDrawingPanel(place('panel'), store);
   createEnergyPanel(place('panel'), store);
+  createContactPanel(place('panel'), store);
   const showChart = createSweepTray(place('tray'), store, run);
   createSweepPanel(place('panel'), store, createLaterSweep(store), showChart);
   createKeysPanel(place('panel'));

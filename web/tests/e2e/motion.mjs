@@ -394,12 +394,29 @@ async function checkInside({ check }, visit) {
       await button(page, 'Pause').click();
       const words = await box.locator('figcaption').textContent();
       expectThat(/moves with .* less by height than at 0\.00 s.*damping took/.test(words), words);
-      const lines = await box.locator('.energy-over-time .energy-line').count();
+      const lines = await box.locator('.energy-over-time .time-line').count();
       expectThat(lines >= 5, `${lines} lines`);
       await box.getByText('The same as a table').click();
       await eventually(async () => (await box.locator('tbody tr').count()) === 9, 'rows');
       await heading.click();
       await until(page, (state) => !state.energy && state.energies.length === 0);
+    }),
+  );
+
+  await check('wool at rest and bouncing are compared, and it can be let bounce', () =>
+    visit('#scene=wool', async (page) => {
+      const box = page.locator('.contact');
+      await page.getByText('Contact: cloth that rests, and cloth that bounces').click();
+      await eventually(
+        async () => /move along the normal with/.test(await box.textContent()),
+        'what contact does',
+      );
+      const lines = await box.locator('.contact-over-time .time-line').count();
+      expectThat(lines === 2, `${lines} lines`);
+      await page.getByLabel('Let the shown cloth bounce').check();
+      await eventually(async () => /response=uniform/.test(page.url()), 'a link that bounces');
+      await until(page, (state) => state.phase === 'ready' && state.setting.bounces);
+      expectThat((await box.locator('.contact-over-time .time-line').count()) === 2, 'the study');
     }),
   );
 

@@ -1,12 +1,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { savingWords } from '../../src/motion/panels/imex-panel';
 import { ImexSavingSource } from '../../src/motion/run/imex-saving-source';
-import type { StartRace } from '../../src/motion/run/measuring-client';
+import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
 import { initialMotionState, type MotionState } from '../../src/motion/state/motion-state';
 import { presetSetting, sceneOf, withStepper } from '../../src/motion/state/setting';
+import type { RacedMessage, ToRace } from '../../src/motion/worker/measuring-protocol';
 import { race } from '../../src/motion/worker/race-core';
-import type { RacedMessage, ToRace } from '../../src/motion/worker/race-protocol';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
 import { BrokenWorker } from '../../src/shared/workers/asked';
@@ -40,13 +40,13 @@ describe('imex saving source', () => {
     isEnded: boolean;
   }
   let races: Race[] = [];
-  const start: StartRace = () => {
+  const start: StartMeasuring = () => {
     let giveUp = (_: Error): void => undefined;
     const entry = { isEnded: false } as Race;
     return {
       ask: (question) =>
         new Promise((resolve, reject) => {
-          entry.question = question;
+          if (question.type === 'race') entry.question = question;
           entry.end = (ratio) => resolve({ type: 'raced', ratio } satisfies RacedMessage as never);
           giveUp = reject;
           races.push(entry);

@@ -378,6 +378,22 @@ export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
       const scene = { method: { tolerance: 1e-4, ...method } };
       return ok({ scene, summary: { substeps: method.substeps } });
     };
+    studyResponse = (text: string) => {
+      const { world } = JSON.parse(text) as { world?: { colliders?: object[] } };
+      if (!world?.colliders?.length)
+        return refuse('/world/colliders', 'expected a solid, got none');
+      const run = { n_touched: 2, contact_share: 0.2 };
+      const speeds = (mps: number) => ({
+        normal_velocities_m_per_s: [mps, mps],
+        rms_normal_velocity_m_per_s: mps,
+      });
+      return ok({
+        first_contact_s: 0.2,
+        substep_s: 0.025,
+        resting: { ...run, ...speeds(0.01) },
+        uniform: { ...run, ...speeds(1) },
+      });
+    };
     readObj = fakeObj;
     delete(): void {
       this.onDelete();

@@ -91,12 +91,32 @@ export interface ObjAnswer {
   skipped?: string;
 }
 
+/** A cloth from its first contact on, under one response. */
+export interface ResponseRun {
+  /** RMS over the vertices touched so far, after each substep. */
+  normal_velocities_m_per_s: number[];
+  rms_normal_velocity_m_per_s: number;
+  n_touched: number;
+  /** Of the time of a step. */
+  contact_share: number;
+}
+
+/** The same cloth from the same state, where its normal velocity ends and where it is turned round. */
+export interface ResponseStudy {
+  first_contact_s: number;
+  substep_s: number;
+  resting: ResponseRun;
+  uniform: ResponseRun;
+}
+
 export interface SceneHandle {
   fabrics(): string;
   schema(): string;
   /** The table of steppers, a StepperRow each. */
   steppers(): string;
   parse(sceneText: string): string;
+  /** A ResponseStudy of so long after first contact [s]. */
+  studyResponse(sceneText: string, windowS: number): string;
   /** The mesh of an OBJ file. `meshText`: the section "mesh" of a scene that names the file. */
   readObj(objText: string, meshText: string): string;
   delete(): void;
@@ -154,6 +174,7 @@ export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
     schema: true,
     steppers: true,
     parse: true,
+    studyResponse: true,
     readObj: true,
     delete: true,
   }),

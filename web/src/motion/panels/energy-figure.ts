@@ -7,8 +7,9 @@ import { type Store, watch } from '../../shared/state/store';
 import type { EnergyNumbers } from '../bindings/pleat-module';
 import type { MotionState } from '../state/motion-state';
 import { type EnergyLine, linesOf } from './energy-lines';
-import { createEnergyPlot, lineClass } from './energy-plot';
+import { energyChart, lineClass } from './energy-plot';
 import { energyWords } from './energy-words';
+import { createTimePlot } from './time-plot';
 
 /** So many times of a run are in the table. */
 const TABLE_ROWS = 9;
@@ -38,7 +39,7 @@ function fillTable(
 }
 
 export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState>): () => void {
-  const plot = createEnergyPlot();
+  const plot = createTimePlot('energy-over-time');
   const legend = element('ul', { class: 'marks energy-keys' });
   const words = element('figcaption');
   const table = createNumberTable('Energies over time', 'Energies over time', 'energy-rows');
@@ -69,7 +70,7 @@ export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState
     if (!isDrawn) return;
     const lines = linesOf(energies);
     legend.replaceChildren(...lines.map(({ kind, title }) => lineKey(lineClass(kind), title)));
-    plot.draw(energies, lines);
+    plot.draw(energyChart(energies, lines));
     if (asTable.open) fillTable(table, energies, lines);
   }
   // Energies change with each frame, and are drawn as often as numbers can be read.

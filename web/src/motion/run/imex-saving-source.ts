@@ -6,7 +6,11 @@ import { answerOf } from '../../shared/workers/asked';
 import type { ImexSaving } from '../state/imex-saving';
 import type { MotionState } from '../state/motion-state';
 import { type Setting, sceneOf } from '../state/setting';
-import { type RaceClient, type StartRace, startRaceWorker } from './measuring-client';
+import {
+  type MeasuringClient,
+  type StartMeasuring,
+  startMeasuringWorker,
+} from './measuring-client';
 
 /** A slider that stands for so long rests [ms]. */
 const REST_MS = 400;
@@ -21,13 +25,13 @@ export class ImexSavingSource {
   private isAsking = false;
   private isFirst = true; // nobody has moved anything yet: nothing is measured unasked
   private restHandle: ReturnType<typeof setTimeout> | undefined;
-  private racing: RaceClient | null = null;
+  private racing: MeasuringClient | null = null;
   readonly close: () => void;
 
   constructor(
     private readonly store: Store<MotionState>,
     private readonly readShare: (substepS: number) => Promise<number | null>,
-    private readonly start: StartRace = startRaceWorker,
+    private readonly start: StartMeasuring = startMeasuringWorker,
   ) {
     const stop = watch(store, ['setting', 'draggedSubsteps', 'phase'], () => void this.follow());
     this.close = () => {

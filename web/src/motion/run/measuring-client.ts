@@ -1,15 +1,18 @@
 // Starts the workers that measure beside the shown cloth.
 import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
-import type { RacedMessage, ToRace } from '../worker/race-protocol';
+import type { RacedMessage, StudiedMessage, ToMeasuring } from '../worker/measuring-protocol';
 import type { FromSweep, PlannedMessage, ToSweep } from '../worker/sweep-protocol';
 
-export type RaceClient = Asked<ToRace, { race: RacedMessage }>;
-export type StartRace = (listener: Listener<never>) => RaceClient;
+export type MeasuringClient = Asked<
+  ToMeasuring,
+  { race: RacedMessage; studyResponse: StudiedMessage }
+>;
+export type StartMeasuring = (listener: Listener<never>) => MeasuringClient;
 
-/** Times one scene. */
-export function startRaceWorker(listener: Listener<never>): RaceClient {
+/** Measures one scene. */
+export function startMeasuringWorker(listener: Listener<never>): MeasuringClient {
   return createAsked(
-    new Worker(new URL('../worker/race-worker.ts', import.meta.url), { type: 'module' }),
+    new Worker(new URL('../worker/measuring-worker.ts', import.meta.url), { type: 'module' }),
     listener,
   );
 }

@@ -129,6 +129,7 @@ export function encodeMotionLink(link: MotionLink): string {
   if (link.energy) parts.push(['energy', 'on']);
   if (link.compare) parts.push(['compare', 'on']);
   if (link.camera) parts.push(['camera', poseText(link.camera)]);
+  if (setting.bounces) parts.push(['response', 'uniform']);
   if (setting.knit) parts.push(['knit', knitText(setting.knit)]);
   if (setting.preset === 'obj') parts.push(['hold', encodeURIComponent(setting.hold)]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
@@ -152,6 +153,8 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
     const least = stepperRow(stepper).settings[count]?.least ?? 1;
     return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
   };
+  const responses = ['resting', 'uniform'] as const;
+  const response = take('response', 'resting', responses.join(' or '), oneOf(responses));
   const setting: Setting = {
     preset,
     fabric: take('fabric', own.fabric, 'the name of a fabric', (text) => {
@@ -164,6 +167,7 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
     substeps: takeCount('substeps', MOST_SUBSTEPS),
     iterations: takeCount('iterations', MOST_ITERATIONS),
     hold: take('hold', own.hold, 'highest, nothing or group:NAME', holdIn),
+    ...(response === 'uniform' && { bounces: true }),
     ...(own.knit && { knit: take('knit', own.knit, 'the numbers of a knit', knitIn) }),
   };
   const heat = take('heat', 'off', HEAT_MAPS.join(', '), oneOf(HEAT_MAPS));

@@ -3,6 +3,7 @@ import type { Collider } from '../../shared/bindings/geometry';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import type {
   EnergyNumbers,
+  ResponseStudy,
   RunNumbers,
   SceneSummary,
   SpringSplit,
@@ -43,6 +44,9 @@ export interface StepTiming {
   parts: { name: string; ms: number }[];
 }
 
+/** `refused`: why the scene tells nothing of responses. */
+export type ResponseStory = 'unasked' | 'coming' | { refused: string } | ResponseStudy;
+
 export interface MotionState extends MotionLink {
   phase: Phase;
   playing: boolean;
@@ -82,6 +86,8 @@ export interface MotionState extends MotionLink {
   /** The last step's solve reached its iteration cap. */
   isCutShort: boolean;
   colliders: Collider[];
+  /** What the cloth does after first contact, as it was last studied. */
+  response: ResponseStory;
   heatScale: HeatScale | null;
   problem: Problem | null;
   sweep: SweepState;
@@ -113,6 +119,7 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     pace: null,
     isCutShort: false,
     colliders: [],
+    response: 'unasked',
     heatScale: null,
     problem:
       problems.length > 0

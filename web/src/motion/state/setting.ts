@@ -38,6 +38,8 @@ export interface Setting {
   hold: Hold;
   /** Of a preset whose cloth is knitted. */
   knit?: Knit;
+  /** The cloth bounces off solids, for comparison. */
+  bounces?: boolean;
 }
 
 interface SceneFile {
@@ -45,6 +47,7 @@ interface SceneFile {
   caption: string;
   cloth: { sheet?: object; mesh?: object; knit?: Record<string, unknown> };
   fabric: { name: string; overrides?: OwnQuantities };
+  model?: object;
   world?: object;
   refinement?: { level?: number };
   method: {
@@ -200,12 +203,24 @@ export function ownQuantities(setting: Setting): OwnQuantities {
   return fabricOf(setting).overrides ?? {};
 }
 
+/** A preset's own words on its model hold for the model that it is made for. */
+function modelOf({ preset, model }: Setting): object {
+  const own = model === modelsOf(preset)[0] ? PRESETS[preset].scene.model : {};
+  return { ...own, elasticity: model };
+}
+
+function worldOf({ preset, bounces }: Setting): object | undefined {
+  const { world } = PRESETS[preset].scene;
+  return bounces ? { ...world, contact_response: 'uniform' } : world;
+}
+
 /** The scene as the module reads it; `mesh` is the cloth of the preset that is any mesh. */
 export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<string, unknown> {
   const scene: Record<string, unknown> = {
     ...PRESETS[setting.preset].scene,
     fabric: fabricOf(setting),
-    model: { elasticity: setting.model },
+    model: modelOf(setting),
+    world: worldOf(setting),
     refinement: { level: setting.level },
     method: methodOf(setting),
   };
@@ -213,7 +228,7 @@ export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<s
   if (knit && setting.knit) return { ...scene, cloth: { knit: knitSection(knit, setting.knit) } };
   if (setting.preset !== 'obj' || !mesh) return scene;
   const { cloth, pins, colliders } = objScene(mesh, setting.hold);
-  const world = { ...PRESETS.obj.scene.world, colliders };
+  const world = { ...worldOf(setting), colliders };
   return { ...scene, cloth, pins, world };
 }
 

@@ -2,7 +2,7 @@
 // The only file that calls delete() on its objects.
 import { type Answer, describe, internalFailure, read } from '../../shared/bindings/answers';
 import type { PleatModule, SceneSummary, SimulationHandle } from '../bindings/pleat-module';
-import type { FromRace, ToRace } from './race-protocol';
+import type { MeasuringRefused, RacedMessage, ToRace } from './measuring-protocol';
 
 type Module = Pick<PleatModule, 'Scene' | 'Simulation'>;
 
@@ -96,7 +96,11 @@ function ratioOf(imex: SimulationHandle, implicit: SimulationHandle, now: () => 
   return median(ratios);
 }
 
-export function race(module: Module, message: ToRace, now = () => performance.now()): FromRace {
+export function race(
+  module: Module,
+  message: ToRace,
+  now = () => performance.now(),
+): RacedMessage | MeasuringRefused {
   const { fabricsText, sceneText } = message;
   const runs: SimulationHandle[] = [];
   const load = (text: string) => {
