@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/dynamics/stability_split.h"
+#include "core/dynamics/stepper_imex.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/files/obj_file.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"
@@ -302,11 +303,18 @@ class Simulation {
     if (!run_.is_loaded()) return view_of(kNoDoubles);
     return view_of(running().implicit_springs());
   }
-  /// Share of the springs that imex would take implicitly in substeps of this length [s], as the
-  /// cloth is held now.
-  std::string implicit_share(double substep) const {
+  /// The substeps that imex would take of a step [s] when it is given so many and shall have such a
+  /// share of the springs explicit, and the share that is implicit then, as the cloth is held now.
+  std::string implicit_share(double step, int substeps, double explicit_share) const {
     return guarded([&](val& envelope) {
-      envelope.set("share", 1 - pleat::explicit_share(running().model(), substep));
+      pleat::MethodOptions method = pleat::steppers::kImex.usual_method();
+      method.step = step;
+      method.substeps = substeps;
+      method.explicit_share = explicit_share;
+      const pleat::ClothModel& model = running().model();
+      const int taken = pleat::imex_substeps(model, method);
+      envelope.set("substeps", taken);
+      envelope.set("share", 1 - pleat::explicit_share(model, step / taken));
     });
   }
   val exact_positions() const {

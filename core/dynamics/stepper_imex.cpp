@@ -12,8 +12,9 @@ bool has_share(const ClothModel& model, const MethodOptions& options, int subste
   return explicit_share(model, options.step / substeps) >= options.explicit_share;
 }
 
-/// The least number, from the given one up, with which the wanted share of springs is explicit.
-int substeps_for_share(const ClothModel& model, const MethodOptions& options) {
+}  // namespace
+
+int imex_substeps(const ClothModel& model, const MethodOptions& options) {
   int too_few = options.substeps - 1;
   int enough = options.substeps;
   if (options.explicit_share == 0) return enough;
@@ -36,10 +37,8 @@ int substeps_for_share(const ClothModel& model, const MethodOptions& options) {
   return enough;
 }
 
-}  // namespace
-
 StepperImex::StepperImex(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, substeps_for_share(model, options), ContactMemory::last_substep),
+    : Stepper(model, options, imex_substeps(model, options), ContactMemory::last_substep),
       solve_(model, make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()),
       positions_begin_(3, model.n_vertices()) {

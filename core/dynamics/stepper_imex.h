@@ -9,6 +9,10 @@
 
 namespace pleat {
 
+/// The least number of substeps, from the given one up, with which the wanted share of springs is
+/// explicit. Throws InputError where none makes it so.
+int imex_substeps(const ClothModel& model, const MethodOptions& options);
+
 /// Implicit for the springs that need it at this substep, explicit for the others:
 ///
 ///     (M + h C_I + h^2 K_I) dv = h (f_E + f_I - h K_I v),   x += h v with the new v

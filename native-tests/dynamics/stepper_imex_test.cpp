@@ -216,6 +216,7 @@ TEST_CASE("imex: it takes the fewest substeps that make the wanted share explici
     options.explicit_share = wanted;
     const int substeps = make_stepper(model, options)->substeps();
     CAPTURE(wanted, substeps);
+    CHECK(imex_substeps(model, options) == substeps);
     CHECK(share(substeps) >= wanted);
     CHECK(share(substeps - 1) < wanted);
   }

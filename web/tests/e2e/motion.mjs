@@ -476,6 +476,20 @@ async function checkInside({ check }, visit) {
       expectThat((await line.textContent()) === words, await line.textContent());
     }),
   );
+
+  await check('imex takes the substeps that the wanted share of explicit springs needs', () =>
+    visit('#scene=pendulum', async (page) => {
+      await until(page, ({ imexSaving }) => imexSaving !== null);
+      await choice(page, 'Springs that shall be explicit').selectOption({ label: 'At least 75 %' });
+      const { summary, setting } = await until(
+        page,
+        ({ phase, imexSaving }) => phase === 'ready' && imexSaving.share <= 0.25,
+      );
+      expectThat(summary.substeps > setting.substeps, `${summary.substeps} substeps`);
+      const note = page.getByText(`One step takes ${summary.substeps} substeps.`);
+      await eventually(() => note.isVisible(), 'the number of substeps');
+    }),
+  );
 }
 
 export async function checkMotion(harness, visit) {

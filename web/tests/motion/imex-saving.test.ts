@@ -4,7 +4,7 @@ import { ImexSavingSource } from '../../src/motion/run/imex-saving-source';
 import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
 import { initialMotionState, type MotionState } from '../../src/motion/state/motion-state';
-import { presetSetting, sceneOf, withStepper } from '../../src/motion/state/setting';
+import { presetSetting, type Setting, sceneOf, withStepper } from '../../src/motion/state/setting';
 import type { RacedMessage, ToRace } from '../../src/motion/worker/measuring-protocol';
 import { race } from '../../src/motion/worker/race-core';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
@@ -65,10 +65,12 @@ describe('imex saving source', () => {
     const store = createStore<MotionState>({ ...state, phase: 'ready', summary: FEW });
     const asked: number[] = [];
     let isLate = false;
-    const readShare = async (substepS: number) => {
-      asked.push(substepS);
+    /** Twice as many substeps where a share is asked for. */
+    const readShare = async ({ stepS, substeps: given, explicitShare }: Setting) => {
+      asked.push(given);
       await new Promise((resume) => setTimeout(resume, 5));
-      return isLate ? null : 100 * substepS;
+      const substeps = explicitShare > 0 ? 2 * given : given;
+      return isLate ? null : { substeps, share: 100 * (stepS / substeps) };
     };
     const source = new ImexSavingSource(store, readShare, start);
     return {
@@ -103,6 +105,14 @@ describe('imex saving source', () => {
     expect(page.saving()).toEqual({ ...known(7), time: 'unasked' });
     await pass(5000);
     expect(races).toEqual([]);
+  });
+
+  it('tells the substeps that are taken for a share', async () => {
+    const page = follow();
+    await pass(5);
+    page.store.set({ setting: { ...pendulum, explicitShare: 0.5 } });
+    await pass(5);
+    expect(page.saving()).toEqual({ ...known(14), time: 'measuring' });
   });
 
   it('follows a drag with one question at a time, and measures where it rests', async () => {
@@ -244,6 +254,13 @@ describe('race of imex and implicit', () => {
       tolerance: 1e-4,
     });
     expect(alive()).toBe(0);
+  });
+
+  it('meets solids alike in both', () => {
+    const { module, methods, now } = timedModule(1, 1);
+    const method = { ...JSON.parse(question().sceneText).method, first_contact_m: 1e-6 };
+    race(module, question({ method }), now);
+    expect(methods.implicit).toMatchObject({ first_contact_m: 1e-6 });
   });
 
   it('has fewer rounds where steps take long', () => {

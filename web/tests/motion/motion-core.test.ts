@@ -192,10 +192,19 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     send({ type: 'load', sceneText: sceneText(imex), keepMotion: false, request: 1 });
     take('loaded');
     const shareAt = (substeps: number) => {
-      const substepS = imex.stepS / substeps;
-      send({ type: 'readImplicitShare', substepS, request: 1 });
-      return take('implicitShare').share;
+      const { stepS } = imex;
+      send({ type: 'readImplicitShare', stepS, substeps, explicitShare: 0, request: 1 });
+      const answer = take('implicitShare');
+      expect(answer.substeps).toBe(substeps);
+      return answer.share;
     };
+    const { stepS } = imex;
+    const wanted = { substeps: 2, explicitShare: 0.75 };
+    send({ type: 'readImplicitShare', stepS, ...wanted, request: 1 });
+    const taken = take('implicitShare');
+    expect(taken.share).toBeLessThanOrEqual(0.25);
+    expect(shareAt(taken.substeps)).toBe(taken.share);
+    expect(shareAt(taken.substeps - 1)).toBeGreaterThan(0.25);
     const shares = [1, 4, 16, 64, 256, 4096].map(shareAt);
     expect(shares).toEqual([...shares].sort((a, b) => b - a));
     expect(shares[0]).toBeGreaterThan(shareAt(64));

@@ -26,6 +26,7 @@ const link: MotionLink = {
     stepS: 1 / 120,
     substeps: 45,
     iterations: 2,
+    explicitShare: 0.25,
     hold: 'highest',
   },
   heat: 'signed',

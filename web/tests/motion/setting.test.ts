@@ -41,6 +41,16 @@ describe('setting', () => {
     expect(settingOfRow(row, start).substeps).toBe(0);
   });
 
+  it('asks for a share of explicit springs of imex alone, and only where there is one', () => {
+    const half = { ...presetSetting('pendulum'), explicitShare: 0.5 };
+    expect(sceneOf(half).method).toMatchObject({ stepper: 'imex', explicit_share: 0.5 });
+    expect(sceneOf({ ...half, explicitShare: 0 }).method).not.toHaveProperty('explicit_share');
+    const implicit = withStepper(half, 'implicit');
+    expect(sceneOf(implicit).method).not.toHaveProperty('explicit_share');
+    expect(isSameMethod(half, { ...half, explicitShare: 0 })).toBe(false);
+    expect(isSameMethod(implicit, { ...implicit, explicitShare: 0 })).toBe(true);
+  });
+
   it('offers all small counts on a slider, and ever fewer beyond', () => {
     const counts = sliderCounts(0);
     expect(counts.slice(0, 19)).toEqual([...Array(17).keys(), 18, 20]);

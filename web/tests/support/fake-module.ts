@@ -228,7 +228,11 @@ class FakeSimulation implements SimulationHandle {
   };
 
   /** All springs in substeps of 1/60 s, and ever fewer in shorter ones. */
-  implicitShare = (substepS: number) => ok({ share: Math.min(1, 60 * substepS) });
+  implicitShare(stepS: number, substeps: number, explicitShare: number): string {
+    const enough = Math.ceil((60 * stepS) / Math.max(1e-6, 1 - explicitShare));
+    const taken = explicitShare > 0 ? Math.max(substeps, enough) : substeps;
+    return ok({ substeps: taken, share: Math.min(1, (60 * stepS) / taken) });
+  }
 
   grab(vertex: number): string {
     if (vertex < 0 || vertex >= this.x.length / 3) return refuse('', `no vertex ${vertex}`);

@@ -76,6 +76,14 @@ export interface SpringSplit {
   isImplicit: Int8Array;
 }
 
+/** How imex would take the springs of a mesh. */
+export interface ImexShare {
+  /** As many as it is given, or as it takes for the share that shall be explicit. */
+  substeps: number;
+  /** Of the springs, that are implicit: 0 to 1. */
+  share: number;
+}
+
 /** The answer of `readObj`. */
 export interface ObjAnswer {
   /** The section "cloth" of a scene, with the mesh written out. */
@@ -151,8 +159,8 @@ export interface SimulationHandle {
   /** The two parts of a SpringSplit. */
   springEnds(): Uint32Array;
   implicitSprings(): Int8Array;
-  /** Share of the springs that imex would take implicitly in substeps of this length [s]. */
-  implicitShare(substepS: number): string;
+  /** An ImexShare, when imex is given so many substeps of a step [s] and a least share of explicit springs. */
+  implicitShare(stepS: number, substeps: number, explicitShare: number): string;
   /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
   setReference(bytes: Uint8Array): string;
   colliders(): string;

@@ -14,6 +14,7 @@ import {
   modelsOf,
   type Setting,
   STEPS_PER_SECOND,
+  wantedShare,
   withModel,
   withStepper,
 } from '../state/setting';
@@ -204,7 +205,7 @@ export function createMethodPanel(
   const stopSummary = watch(store, ['summary'], ({ summary, setting }) => {
     if (!summary) return;
     const { n_vertices, n_triangles, n_springs, n_bends, built, left_out, notes } = summary;
-    const isAutomatic = setting.substeps === 0;
+    const isAutomatic = setting.substeps === 0 || wantedShare(setting) > 0;
     const substeps = isAutomatic ? ` One step takes ${summary.substeps} substeps.` : '';
     const bends = n_bends > 0 ? `, ${n_bends} bends` : '';
     const parts = n_springs > 0 ? `${n_springs} springs${bends}` : `${n_triangles} triangles`;

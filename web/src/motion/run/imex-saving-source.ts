@@ -3,6 +3,7 @@
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { type Store, watch } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
+import type { ImexShare } from '../bindings/pleat-module';
 import type { ImexSaving } from '../state/imex-saving';
 import type { MotionState } from '../state/motion-state';
 import { type Setting, sceneOf } from '../state/setting';
@@ -30,7 +31,7 @@ export class ImexSavingSource {
 
   constructor(
     private readonly store: Store<MotionState>,
-    private readonly readShare: (substepS: number) => Promise<number | null>,
+    private readonly readShare: (setting: Setting) => Promise<ImexShare | null>,
     private readonly start: StartMeasuring = startMeasuringWorker,
   ) {
     const stop = watch(store, ['setting', 'draggedSubsteps', 'phase'], () => void this.follow());
@@ -50,11 +51,14 @@ export class ImexSavingSource {
     if (this.isAsking || state.phase !== 'ready' || !state.summary) return;
     this.sceneText = sceneText;
     this.isAsking = true;
-    const substepS = setting.stepS / setting.substeps;
-    const share = await this.readShare(substepS);
+    const answer = await this.readShare(setting);
     this.isAsking = false;
-    if (share === null) this.sceneText = null;
-    else this.tell({ nSprings: state.summary.n_springs, substepS, share }, sceneText);
+    if (answer === null) this.sceneText = null;
+    else {
+      const { substeps, share } = answer;
+      const nSprings = state.summary.n_springs;
+      this.tell({ nSprings, substepS: setting.stepS / substeps, share }, sceneText);
+    }
     void this.follow();
   }
 

@@ -4,10 +4,10 @@ import type { Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { EnergyNumbers } from '../bindings/pleat-module';
+import type { EnergyNumbers, ImexShare } from '../bindings/pleat-module';
 import { withSample } from '../state/energy-samples';
 import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
-import { presetSetting } from '../state/setting';
+import { presetSetting, type Setting } from '../state/setting';
 import { withCost } from '../state/step-cost';
 import type {
   FrameMessage,
@@ -178,15 +178,11 @@ export class MotionRun {
     this.startAgain(again, `${stopped} The cloth is back at its start, at level ${level}.`);
   }
 
-  /**
-   * Share of the loaded springs that imex would take implicitly in substeps of this length [s]; null when
-   * it comes too late.
-   */
-  async implicitShare(substepS: number): Promise<number | null> {
+  /** How imex would take the loaded springs with such a setting; null when that comes too late. */
+  implicitShare({ stepS, substeps, explicitShare }: Setting): Promise<ImexShare | null> {
     const { request } = this;
-    const question = { type: 'readImplicitShare', substepS, request } as const;
-    const answer = await this.answer(this.worker.ask(question));
-    return answer?.share ?? null;
+    const method = { stepS, substeps, explicitShare };
+    return this.answer(this.worker.ask({ type: 'readImplicitShare', ...method, request }));
   }
 
   grab(vertex: number): void {

@@ -8,6 +8,7 @@ import { type Count, canRun, STEPPER_NAMES, stepperRow } from '../../shared/step
 import { knitIn, knitText } from './knit';
 import type { Hold } from './obj-mesh';
 import {
+  EXPLICIT_SHARES,
   levelsOf,
   MOST_ITERATIONS,
   MOST_SUBSTEPS,
@@ -125,6 +126,7 @@ export function encodeMotionLink(link: MotionLink): string {
     ['edges', link.edges ? 'on' : 'off'],
     ['steps', String(link.startSteps)],
   ];
+  if (setting.explicitShare > 0) parts.push(['explicit', String(100 * setting.explicitShare)]);
   if (link.springs) parts.push(['springs', 'on']);
   if (link.energy) parts.push(['energy', 'on']);
   if (link.compare) parts.push(['compare', 'on']);
@@ -166,6 +168,9 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
     stepS: take('step', start.stepS, '1/30 to 1/960', stepFraction),
     substeps: takeCount('substeps', MOST_SUBSTEPS),
     iterations: takeCount('iterations', MOST_ITERATIONS),
+    explicitShare: take('explicit', start.explicitShare, 'one of the shares offered', (text) =>
+      EXPLICIT_SHARES.find((share) => text === String(100 * share)),
+    ),
     hold: take('hold', own.hold, 'highest, nothing or group:NAME', holdIn),
     ...(response === 'uniform' && { bounces: true }),
     ...(own.knit && { knit: take('knit', own.knit, 'the numbers of a knit', knitIn) }),

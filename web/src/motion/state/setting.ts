@@ -34,6 +34,8 @@ export interface Setting {
   /** 0: as many as the stability bound asks for. */
   substeps: number;
   iterations: number;
+  /** imex: share of the springs that shall be explicit at least, for which it takes more substeps. */
+  explicitShare: number;
   /** The vertices that hold the mesh; of no meaning to other presets. */
   hold: Hold;
   /** Of a preset whose cloth is knitted. */
@@ -55,6 +57,7 @@ interface SceneFile {
     step_s: number;
     substeps?: Substeps;
     iterations?: number;
+    explicit_share?: number;
     [detail: string]: unknown;
   };
   duration_s?: number;
@@ -73,6 +76,9 @@ export const LEVELS: readonly number[] = [0, 1, 2, 3, 4];
 export const STEPS_PER_SECOND: readonly number[] = [30, 60, 120, 240, 480, 960];
 export const MOST_SUBSTEPS = 100000;
 export const MOST_ITERATIONS = 500;
+
+/** Least shares of explicit springs that are offered. */
+export const EXPLICIT_SHARES: readonly number[] = [0, 0.25, 0.5, 0.75, 0.9, 1];
 
 /** Sliders of counts end here; fields take more. */
 const SLIDER_MOST = 480;
@@ -162,6 +168,7 @@ export function presetSetting(preset: PresetId): Setting {
     stepper: method.stepper,
     stepS: method.step_s,
     ...countsOf(method.stepper, method),
+    explicitShare: method.explicit_share ?? 0,
     hold: 'highest',
     ...(cloth.knit && { knit: knitOf(cloth.knit) }),
   };
@@ -180,6 +187,11 @@ export function withModel(setting: Setting, model: Model): Setting {
   return { ...(isOther ? withStepper(setting, stepper) : setting), model };
 }
 
+/** Share of the springs that shall be explicit at least, of a stepper that parts them. */
+export function wantedShare({ stepper, explicitShare }: Setting): number {
+  return stepper === 'imex' ? explicitShare : 0;
+}
+
 /** The `method` part of a scene: only what the stepper listens to, and the preset's fine print. */
 export function methodOf(setting: Setting): Record<string, unknown> {
   const own = PRESETS[setting.preset].scene.method;
@@ -189,6 +201,7 @@ export function methodOf(setting: Setting): Record<string, unknown> {
   method.step_s = setting.stepS;
   for (const count of COUNTS) if (settings[count]) method[count] = setting[count];
   if (method.substeps === 0) method.substeps = STABLE_SUBSTEPS;
+  if (wantedShare(setting) > 0) method.explicit_share = setting.explicitShare;
   return method;
 }
 
@@ -240,6 +253,7 @@ export function isSameMethod(a: Setting, b: Setting): boolean {
   return (
     a.stepper === b.stepper &&
     isSameStep &&
+    wantedShare(a) === wantedShare(b) &&
     COUNTS.every((count) => !settings[count] || a[count] === b[count])
   );
 }

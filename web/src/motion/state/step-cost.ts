@@ -1,6 +1,6 @@
 // What a step costs on this device at each level: as measured, or as expected from another level.
 import { stepperRow } from '../../shared/steppers/steppers';
-import { COUNTS, type Setting } from './setting';
+import { COUNTS, type Setting, wantedShare } from './setting';
 
 export interface StepCost {
   ms: number;
@@ -37,7 +37,9 @@ function keyOf(setting: Setting): string {
   const { settings } = stepperRow(stepper);
   const counts = COUNTS.filter((count) => settings[count]).map((count) => setting[count]);
   const particles = knit ? [knit.columns * knit.rows] : [];
-  return [preset, ...particles, model, stepper, Math.round(1 / stepS), ...counts, level].join(' ');
+  const share = wantedShare(setting);
+  const steps = [Math.round(1 / stepS), ...counts, share];
+  return [preset, ...particles, model, stepper, ...steps, level].join(' ');
 }
 
 export function withCost(

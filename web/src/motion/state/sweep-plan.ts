@@ -145,6 +145,7 @@ export function settingOf(
     stepS: step_s,
     substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
     iterations: iterations ?? present.iterations,
+    explicitShare: 0,
   };
 }
 

@@ -14,12 +14,20 @@ import type { Post } from '../../shared/workers/serve';
 import {
   ENERGY_NUMBERS,
   type EnergyNumbers,
+  type ImexShare,
   type PleatModule,
   type RunNumbers,
   type SceneSummary,
   type SimulationHandle,
 } from '../bindings/pleat-module';
-import type { FromMotion, LoadMessage, RunReport, StepMessage, ToMotion } from './motion-protocol';
+import type {
+  FromMotion,
+  ImplicitShareQuestion,
+  LoadMessage,
+  RunReport,
+  StepMessage,
+  ToMotion,
+} from './motion-protocol';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
 function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
@@ -135,10 +143,12 @@ export class MotionCore {
     this.post({ type: 'springs', request, ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
   }
 
-  private readImplicitShare(run: SimulationHandle, substepS: number, request: number): void {
-    const answer = read<{ share: number }>(run.implicitShare(substepS));
+  private readImplicitShare(run: SimulationHandle, message: ImplicitShareQuestion): void {
+    const { stepS, substeps, explicitShare, request } = message;
+    const answer = read<ImexShare>(run.implicitShare(stepS, substeps, explicitShare));
     if (!answer.ok) return this.refuse(request, answer);
-    this.post({ type: 'implicitShare', request, share: answer.share }, []);
+    const { substeps: taken, share } = answer;
+    this.post({ type: 'implicitShare', request, substeps: taken, share }, []);
   }
 
   private open(text: string): void {
@@ -166,7 +176,7 @@ export class MotionCore {
       case 'readSprings':
         return this.readSprings(this.simulation, message.request);
       case 'readImplicitShare':
-        return this.readImplicitShare(this.simulation, message.substepS, message.request);
+        return this.readImplicitShare(this.simulation, message);
       case 'grab':
         this.isHeld = this.loaded !== null && read<object>(this.simulation.grab(message.vertex)).ok;
         return;

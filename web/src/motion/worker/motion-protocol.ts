@@ -6,6 +6,7 @@ import type { Collider } from '../../shared/bindings/geometry';
 import type { Done } from '../../shared/workers/asked';
 import type {
   EnergyNumbers,
+  ImexShare,
   RunNumbers,
   SceneSummary,
   SpringSplit,
@@ -33,6 +34,15 @@ export interface LoadMessage {
   start?: Float64Array;
 }
 
+export interface ImplicitShareQuestion {
+  type: 'readImplicitShare';
+  stepS: number;
+  substeps: number;
+  /** Of the springs, that shall be explicit at least. */
+  explicitShare: number;
+  request: number;
+}
+
 export type ToMotion =
   /** First message: opens the module's objects with the fabric file's text. */
   | { type: 'open'; fabricsText: string }
@@ -45,8 +55,8 @@ export type ToMotion =
   | StepMessage
   /** Which springs are implicit, as of now. */
   | { type: 'readSprings'; request: number }
-  /** How many of the springs of a lattice imex would take implicitly in such substeps. */
-  | { type: 'readImplicitShare'; substepS: number; request: number }
+  /** How imex would take the springs of a lattice. */
+  | ImplicitShareQuestion
   | { type: 'grab'; vertex: number }
   | { type: 'moveGrab'; target: [number, number, number] }
   | { type: 'releaseGrab' };
@@ -90,11 +100,9 @@ export interface SpringsMessage extends SpringSplit {
   request: number;
 }
 
-export interface ImplicitShareMessage {
+export interface ImplicitShareMessage extends ImexShare {
   type: 'implicitShare';
   request: number;
-  /** 0 to 1. */
-  share: number;
 }
 
 /** A reference was taken: the numbers anew. */

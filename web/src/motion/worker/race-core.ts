@@ -15,7 +15,7 @@ const N_ROUNDS = 5;
 const LAST_BEGIN_MS = 3000;
 
 interface ParsedScene {
-  scene: { method: { step_s: number; tolerance: number } };
+  scene: { method: { step_s: number; tolerance: number; first_contact_m: number } };
   summary: SceneSummary;
 }
 
@@ -30,9 +30,10 @@ function parse(module: Module, { fabricsText, sceneText }: ToRace): Answer<Parse
 
 /** The scene with as many substeps of implicit, solved to the same tolerance. */
 function implicitText(sceneText: string, { scene, summary }: ParsedScene): string {
-  const { step_s, tolerance } = scene.method;
+  const { step_s, tolerance, first_contact_m } = scene.method;
   const { substeps } = summary;
-  const method = { stepper: 'implicit', step_s, substeps, solver: 'cg', tolerance };
+  const own = { step_s, tolerance, first_contact_m };
+  const method = { stepper: 'implicit', substeps, solver: 'cg', ...own };
   return JSON.stringify({ ...JSON.parse(sceneText), method });
 }
 
