@@ -4,6 +4,7 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
+import { element } from '../shared/panels/element';
 import { createInvitation } from '../shared/panels/invitation';
 import { createKeysPanel } from '../shared/panels/keys-panel';
 import { createRunTools } from '../shared/panels/run-tools';
@@ -12,7 +13,6 @@ import type { Print } from '../shared/stage/fabric-material';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createCaption } from './panels/caption';
-import { createContactPanel } from './panels/contact-panel';
 import { createDrawingPanel } from './panels/drawing-panel';
 import { createEnergyPanel } from './panels/energy-panel';
 import { createFabricPanel } from './panels/fabric-panel';
@@ -145,6 +145,19 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
   };
 }
 
+/** What contact does is told where there are solids. */
+function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
+  const section = element('section', { 'aria-label': 'Contact' });
+  parent.append(section);
+  const bring = later(store, 'The panel of contact', async () => {
+    const { createContactPanel } = await import('./panels/contact-panel');
+    return createContactPanel(section, store);
+  });
+  watch(store, ['colliders'], ({ colliders }) => {
+    if (colliders.length > 0) void bring();
+  });
+}
+
 function createPanels(
   place: Place,
   store: Store<MotionState>,
@@ -170,7 +183,7 @@ function createPanels(
   createMethodPanel(place('panel'), store, run);
   createDrawingPanel(place('panel'), store);
   createEnergyPanel(place('panel'), store);
-  createContactPanel(place('panel'), store);
+  createLaterContact(place('panel'), store);
   const showChart = createSweepTray(place('tray'), store, run);
   createSweepPanel(place('panel'), store, createLaterSweep(store), showChart);
   createKeysPanel(place('panel'));

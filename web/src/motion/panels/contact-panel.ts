@@ -4,14 +4,13 @@ import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
 import { later } from './later';
 
-export function createContactPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createContactPanel(section: HTMLElement, store: Store<MotionState>): () => void {
   const box = element(
     'details',
     { class: 'contact', toggle: () => void open() },
     element('summary', {}, 'Contact: cloth that rests, and cloth that bounces'),
   );
-  const section = element('section', { 'aria-label': 'Contact' }, box);
-  parent.append(section);
+  section.append(box);
   const bring = later(store, 'The figure of contact', async () => {
     const { createContactFigure } = await import('./contact-figure');
     return createContactFigure(box, store);

@@ -1,4 +1,5 @@
 // Quantities over time, as lines.
+import './time-plot.css';
 import { type SpanScale, spanScale } from '../../shared/chart/linear-scale';
 import { pathThrough } from '../../shared/chart/path-through';
 import { svg } from '../../shared/panels/element';
