@@ -31,7 +31,7 @@ describe('words of contact', () => {
     const words = contactWords(STUDY).replaceAll('\u00a0', ' ');
     expect(words).toContain('First contact comes at 0.173 s.');
     expect(words).toContain('16 vertices touched so far move along the normal with 3.0 mm/s');
-    expect(words).toContain('1200 mm/s where it bounces: 0.25 % of it.');
+    expect(words).toContain('1.2 m/s where it bounces: 0.25 % of it.');
     expect(words).toContain('Contact takes 24 % of a step.');
   });
 

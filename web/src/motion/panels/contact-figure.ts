@@ -14,6 +14,7 @@ const WINDOW_MS = 1000 * WINDOW_S;
 const MOST_POINTS = 300;
 
 function speed(metresPerSecond: number): string {
+  if (metresPerSecond >= 0.1) return `${digits(metresPerSecond, 2)}\u00a0m/s`;
   return `${digits(1000 * metresPerSecond, 2)}\u00a0mm/s`;
 }
 
