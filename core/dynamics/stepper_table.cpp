@@ -76,7 +76,6 @@ constinit const StepperType steppers::kImex = {
     .settings = kImexSettings,
     .substeps_meaning = "The more substeps, the fewer springs are implicit.",
     .start = {4, 1},
-    .solver = SolverKind::sor,
     .tolerance = 1e-4,
     .needs_springs = true,
     .solves_equations = true,

@@ -215,6 +215,10 @@ MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
   if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
   for (const MethodSetting setting : type.settings)
     if (const auto at = reader.find(key(setting))) read_setting(setting, *at, method);
+  if (method.omega > 0 && method.solver != SolverKind::sor)
+    reader.at(key(MethodSetting::omega))
+        .fail(std::string("no such key beside the solver ") +
+              word_for(kSolvers, method.solver) + ", but beside sor");
   return method;
 }
 

@@ -349,6 +349,8 @@ const BadScene kBadScenes[] = {
      "expected a number between 0.0 and 2.0, both excluded, got 2"},
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "imex", "omega": "best"}})", "/method/omega",
      R"(expected a number or "estimated", got "best")"},
+    {R"({"cloth": {"sheet": {}}, "method": {"stepper": "imex", "omega": 1.5}})", "/method/omega",
+     "expected no such key beside the solver cg, but beside sor, got 1.5"},
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "implicit", "omega": 1.5}})",
      "/method/omega", "expected no such key, as implicit does not read it, got 1.5"},
     {R"({"cloth": {"sheet": {}}, "method": {"stepper": "xpbd", "constraints": true}})",
