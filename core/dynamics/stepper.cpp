@@ -109,14 +109,17 @@ bool Stepper::awaits_contact() const {
 void Stepper::begin_again(State& state) {
   state = before_contact_;
   touches_.clear();
-  contact_forces_.setZero();
+  contact_forces_ = forces_before_contact_;
 }
 
 // Shorter substeps are tried from the same state until one ends untouched and near enough; what is
 // left of the whole begins at the contact. Cloth that touches from the beginning is not parted.
+// What ends a fall is an impulse: as a force over the whole substeps that follow it is less than it
+// was over the rest of this one.
 SolveReport Stepper::substep_to_contact(State& state, double time_end, double h) {
   const double time_begin = time_end - h;
   before_contact_ = state;
+  forces_before_contact_ = contact_forces_;
   SolveReport report = substep_with_solids(state, time_end, h);
   if (!is_touched_ || report.ends_run()) return report;
   double free = 0;
@@ -134,6 +137,7 @@ SolveReport Stepper::substep_to_contact(State& state, double time_end, double h)
   first_contact_ = time_begin + free;
   if (is_near) {
     report.add(substep_with_solids(state, time_end, h - free));
+    contact_forces_ *= (h - free) / h;
     return report;
   }
   begin_again(state);

@@ -131,7 +131,8 @@ class Stepper {
   std::vector<char> is_exempt_;  // of contact, for each vertex
   bool is_touched_ = false;      // in the last substep
   std::optional<double> first_contact_;
-  State before_contact_;         // where first contact is looked for
+  State before_contact_;  // where first contact is looked for
+  Positions forces_before_contact_;
   Positions solved_velocities_;  // before contact [m/s]; of steppers that remember
   State last_finite_;
 };

@@ -25,6 +25,27 @@ ClothModel particle_on(const Collider& collider) {
   return model;
 }
 
+constexpr double kStringStiffness = 1e5;  // [N/m]: h^2 k is 1000 times the mass below
+
+/// Two springs from pins at (-+1, -0.1, 0) to a particle that the floor holds up.
+ClothModel string_over_floor() {
+  ClothModel model = particle_on(floor_collider(0.5));
+  model.masses = Eigen::VectorXd::Constant(3, 0.01);
+  model.gravity = Vec3::Zero();
+  model.springs = {{VertexId(0), VertexId(1), kStringStiffness, 1},
+                   {VertexId(1), VertexId(2), kStringStiffness, 1}};
+  model.pins = {Pin{VertexId(0), Vec3(-1, -0.1, 0), {}}, Pin{VertexId(2), Vec3(1, -0.1, 0), {}}};
+  return model;
+}
+
+State string_state() {
+  State state;
+  state.positions.resize(3, 3);
+  state.positions << -1, 0, 1, -0.1, 0, -0.1, 0, 0, 0;
+  state.velocities = Positions::Zero(3, 3);
+  return state;
+}
+
 State state_at(const Vec3& position) { return {position, Positions::Zero(3, 1)}; }
 
 void advance(Stepper& stepper, State& state, int from, int to) {
@@ -178,23 +199,54 @@ TEST_CASE("contact: looking for first contact changes nothing before it, nor clo
   CHECK(with.velocities == without.velocities);
 }
 
+TEST_CASE("contact: looking for first contact keeps the forces that cloth was carried over with",
+          "[contact]") {
+  MethodOptions options = GENERATE(&steppers::kImplicitEuler, &steppers::kImex)->usual_method();
+  options.step = 0.01;
+  options.substeps = 1;
+  ClothModel model = string_over_floor();
+  State state = string_state();
+  const auto before = make_stepper(model, options);
+  advance(*before, state, 0, 40);
+  options.first_contact = 1e-6;
+  const auto stepper = make_stepper(model, options);
+  stepper->start_from_contact_forces(before->contact_forces());
+  advance(*stepper, state, 40, 41);
+  CHECK(stepper->first_contact().has_value());
+  CHECK(stepper->contact_forces()(1, 1) == Approx(before->contact_forces()(1, 1)).epsilon(1e-6));
+}
+
+// Two particles, one over the other on a stiff spring, fall on a floor without weight. What is left
+// of the parted substep is a hundredth of it, and the force that ends the fall there a hundred
+// times that of a whole one.
+TEST_CASE("contact: first contact late in a substep throws nothing back", "[contact]") {
+  MethodOptions options = GENERATE(&steppers::kImplicitEuler, &steppers::kImex)->usual_method();
+  options.step = 0.001;
+  options.substeps = 1;
+  options.first_contact = 1e-6;
+  ClothModel model = particle_on(floor_collider(0.3));
+  model.masses = Eigen::VectorXd::Constant(2, 0.001);
+  model.gravity = Vec3::Zero();
+  model.springs = {{VertexId(0), VertexId(1), 1e4, 1}};
+  State state;
+  state.positions.resize(3, 2);
+  state.positions << 0, 0, 0.00999, 1.00999, 0, 0;
+  state.velocities = Vec3(0, -1, 0).replicate(1, 2);
+  const auto stepper = make_stepper(model, options);
+  for (int s = 0; s < 20; ++s) {
+    advance(*stepper, state, s, s + 1);
+    CHECK(state.velocities.cwiseAbs().maxCoeff() <= 1 + 1e-6);
+  }
+  CHECK(*stepper->first_contact() == Approx(0.00999).margin(1e-6));
+}
+
 TEST_CASE(
     "contact: implicit and imex find in a few substeps with what force a floor holds a stiff "
     "string "
     "up",
     "[contact]") {
-  // Two springs from pins at (-+1, -0.1, 0) below the floor to a particle that it holds up.
-  const double stiffness = 1e5;  // [N/m]: h^2 k is 1000 times the mass
-  ClothModel model = particle_on(floor_collider(0.5));
-  model.masses = Eigen::VectorXd::Constant(3, 0.01);
-  model.gravity = Vec3::Zero();
-  model.springs = {{VertexId(0), VertexId(1), stiffness, 1},
-                   {VertexId(1), VertexId(2), stiffness, 1}};
-  model.pins = {Pin{VertexId(0), Vec3(-1, -0.1, 0), {}}, Pin{VertexId(2), Vec3(1, -0.1, 0), {}}};
-  State state;
-  state.positions.resize(3, 3);
-  state.positions << -1, 0, 1, -0.1, 0, -0.1, 0, 0, 0;
-  state.velocities = Positions::Zero(3, 3);
+  ClothModel model = string_over_floor();
+  State state = string_state();
   MethodOptions options = GENERATE(&steppers::kImplicitEuler, &steppers::kImex)->usual_method();
   options.step = 0.01;
   options.substeps = 1;
@@ -203,7 +255,7 @@ TEST_CASE(
   const double length = std::hypot(1, 0.1);
   CHECK(std::abs(state.positions(1, 1)) < 1e-12);
   CHECK(stepper->contact_forces()(1, 1) ==
-        Approx(2 * stiffness * (length - 1) * 0.1 / length).epsilon(1e-6));
+        Approx(2 * kStringStiffness * (length - 1) * 0.1 / length).epsilon(1e-6));
 }
 
 }  // namespace pleat
