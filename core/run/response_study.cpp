@@ -7,6 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/files/json_text.h"
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
@@ -158,7 +159,7 @@ void check_report(const SolveReport& report) {
 ResponseRun run_from_contact(const Scene& scene, double window, State& at, double& first_contact) {
   Simulation simulation(scene);
   const auto n_steps = std::llround(scene.duration / scene.method.step);
-  const auto n_window = std::llround(window / scene.method.step);
+  const auto n_window = std::max(1LL, std::llround(window / scene.method.step));
   ResponseRun run;
   std::optional<FrictionWatch> friction;
   if (!simulation.remembers_contact_forces()) friction.emplace(scene, simulation);
@@ -179,6 +180,11 @@ ResponseRun run_from_contact(const Scene& scene, double window, State& at, doubl
   if (!simulation.first_contact())
     throw InputError("/duration_s", "expected a time in which the cloth meets a solid");
   first_contact = *simulation.first_contact();
+  if (n_left > 0)
+    throw InputError("/duration_s", "expected at least " + Json(first_contact + window).dump() +
+                                        " s, first contact and the time that is looked at after "
+                                        "it, got " +
+                                        Json(scene.duration).dump() + " s");
   run.contact_share = timed.parts().total(Stage::contact) / timed.seconds();
   if (friction) run.friction = friction->result();
   return run;

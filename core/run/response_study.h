@@ -37,9 +37,9 @@ struct ResponseStudy {
 /// Runs the scene twice, from the same state at first contact, which is found to 1 um or what the
 /// scene says.
 ///
-/// window  after first contact [s], positive
+/// window  after first contact [s], positive, at least one substep of it
 /// Throws InputError for a scene without solids or with moving ones, for a method that cannot part
-/// a substep at first contact, and where no contact comes within the scene's duration.
+/// a substep at first contact, and where the scene's duration ends before contact or the window.
 ResponseStudy study_response(Scene scene, double window);
 
 }  // namespace pleat

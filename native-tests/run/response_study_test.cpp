@@ -62,9 +62,9 @@ TEST_CASE("response_study: of implicit the law is left out where forces are reme
 }
 
 TEST_CASE("response_study: it refuses scenes that tell nothing of responses", "[run]") {
-  const auto refusal = [](const Scene& scene) {
+  const auto refusal = [](const Scene& scene, double window = 0.02) {
     try {
-      study_response(scene, 0.02);
+      study_response(scene, window);
     } catch (const InputError& error) {
       return error.where();
     }
@@ -80,6 +80,11 @@ TEST_CASE("response_study: it refuses scenes that tell nothing of responses", "[
   unfit.method = steppers::kXpbd.usual_method();
   CHECK(refusal(unfit) == "/method/stepper");
   CHECK(refusal(falling_scene(0.02)) == "/duration_s");
+  CHECK(refusal(falling_scene(0.11), 0.05) == "/duration_s");
+}
+
+TEST_CASE("response_study: a window shorter than a substep is one", "[run]") {
+  CHECK(study_response(falling_scene(), 1e-9).resting.normal_velocities.size() == 1);
 }
 
 }  // namespace pleat
