@@ -175,6 +175,13 @@ std::optional<ImplicitCount> implicit_count(const Simulation& simulation) {
                        is_implicit.size()};
 }
 
+/// A 1 for each spring that is implicit, a 0 for others, in the order of the model's springs.
+std::string implicit_map(const Simulation& simulation) {
+  std::string map;
+  for (const char is_implicit : simulation.implicit_springs()) map += is_implicit != 0 ? '1' : '0';
+  return map;
+}
+
 Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                   const Watchers& watchers) {
   const Scene& scene = simulation.scene();
@@ -212,8 +219,10 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
     json["largest_crossings"] = summary.largest_crossings;
   }
   if (const auto springs = implicit_count(simulation))
-    json["implicit_springs"] = {
-        {"count", springs->count}, {"all", springs->all}, {"share", springs->share()}};
+    json["implicit_springs"] = {{"count", springs->count},
+                                {"all", springs->all},
+                                {"share", springs->share()},
+                                {"map", implicit_map(simulation)}};
   if (const auto bound = simulation.stability_bound()) json["stability_bound_s"] = *bound;
   if (const auto contact = simulation.first_contact()) json["first_contact_s"] = *contact;
   if (watchers.ledger != nullptr) json["energy"] = drift_json(watchers.ledger->account());
@@ -238,9 +247,14 @@ void print_beginning(const Simulation& simulation) {
   const double substep = method.step / simulation.substeps();
   std::fprintf(stderr, "%s, %d substeps per step, %d vertices\n", method.stepper->name,
                simulation.substeps(), simulation.model().n_vertices());
-  if (const auto bound = simulation.stability_bound())
+  const auto bound = simulation.stability_bound();
+  if (!bound) return;
+  if (*bound > 0)
     std::fprintf(stderr, "stable in substeps of up to %.3g s; these are of %.3g s%s\n", *bound,
                  substep, substep > *bound ? ", and the run may end early" : "");
+  else
+    std::fprintf(stderr, "no substep is stable; these are of %.3g s, and the run may end early\n",
+                 substep);
 }
 
 void print_summary(const Simulation& simulation, const RunSummary& summary,

@@ -89,7 +89,7 @@ class FrictionWatch {
         return (v - touch.normal.dot(v) * touch.normal).squaredNorm();
       };
       deviations_ += along(deviation);
-      squares_ += along(law);
+      squares_ += along(before);
       expected_ += model_.masses[touch.vertex] * (law - before);
     }
   }
@@ -97,7 +97,7 @@ class FrictionWatch {
   FrictionCheck result() const {
     const Vec3 reached = momentum(model_, simulation_.state().velocities);
     return {deviations_ == 0 ? 0 : std::sqrt(deviations_ / squares_),
-            (reached - expected_).norm() / first_.norm()};
+            (reached - expected_).norm() / std::max(first_.norm(), expected_.norm())};
   }
 
  private:

@@ -11,8 +11,9 @@ namespace pleat {
 /// response takes or turns its normal velocity and Coulomb's friction, of the normal change, brakes
 /// the rest.
 struct FrictionCheck {
-  double tangential_velocity;  ///< RMS deviation over touches, in shares of the RMS itself
-  double momentum;             ///< deviation at the end, in shares of what it was at first contact
+  double tangential_velocity;  ///< RMS deviation over touches, in shares of the RMS before them
+  double momentum;  ///< deviation at the end, in shares of the larger of what it was at first
+                    ///< contact and should be then
 };
 
 /// A cloth from its first contact on, under one response.

@@ -185,7 +185,7 @@ async function contact() {
   const ratio = ({ resting, uniform }) =>
     resting.rms_normal_velocity_m_per_s / uniform.rms_normal_velocity_m_per_s;
   const off = (key) =>
-    Math.max(...[explicit, thrown].flatMap(({ resting, uniform }) => [resting[key], uniform[key]]));
+    Math.max(...rows.flatMap(({ resting, uniform }) => [resting[key] ?? 0, uniform[key] ?? 0]));
   return {
     rows,
     goals: [

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -95,6 +96,9 @@ TEST_CASE("command: a run tells the energy by its kinds, and which springs are i
   CHECK(springs.at("count") > 0);
   CHECK(springs.at("share").get<double>() ==
         Approx(springs.at("count").get<double>() / springs.at("all").get<double>()));
+  const auto map = springs.at("map").get<std::string>();
+  CHECK(map.size() == springs.at("all").get<std::size_t>());
+  CHECK(std::count(map.begin(), map.end(), '1') == springs.at("count").get<std::ptrdiff_t>());
   CHECK_FALSE(parse_json(SmallScene().run({"run", "--json"}).out).contains("implicit_springs"));
 }
 
