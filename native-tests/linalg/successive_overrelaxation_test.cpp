@@ -28,7 +28,7 @@ SolveReport solved(const SparseMatrix& lower, const SolverOptions& options,
   Random random(3);
   const Eigen::MatrixXd rhs = random_columns(lower.rows(), 1, random);
   solution = Eigen::MatrixXd::Zero(lower.rows(), 1);
-  const SolveReport report = solver->solve(rhs, solution);
+  SolveReport report = solver->solve(rhs, solution);
   const Eigen::MatrixXd rest = rhs - full_of(lower) * solution;
   CHECK(report.relative_residual == Approx(rest.norm() / rhs.norm()).epsilon(1e-3));
   return report;
