@@ -217,8 +217,8 @@ MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
     if (const auto at = reader.find(key(setting))) read_setting(setting, *at, method);
   if (method.omega > 0 && method.solver != SolverKind::sor)
     reader.at(key(MethodSetting::omega))
-        .fail(std::string("no such key beside the solver ") +
-              word_for(kSolvers, method.solver) + ", but beside sor");
+        .fail(std::string("no such key beside the solver ") + word_for(kSolvers, method.solver) +
+              ", but beside sor");
   return method;
 }
 

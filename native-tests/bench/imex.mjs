@@ -41,6 +41,13 @@ function shipped(file, method, changes = {}) {
   return { ...scene, ...changes, method: { step_s: kStep, ...method } };
 }
 
+/** A skirt on a walking figure; a file of its own finds the motion nowhere else. */
+function skirt(method) {
+  const motion = join(root, 'assets', 'motions', 'walk_normal.json');
+  const figure = { build: 'slim', motion };
+  return shipped(join('garments', 'skirt_walk'), method, { figure, refinement: { level: 0 } });
+}
+
 /**
  * The scene by several methods in turn, against `newton` with `exactSteps` of a frame.
  *
@@ -204,6 +211,7 @@ async function elsewhere({ repeat }) {
   const kScenes = [
     ['curtain, its own fabric', (method) => shipped('curtain', method)],
     ['tablecloth, its own fabric', (method) => shipped('tablecloth', method)],
+    ['skirt in a walk', skirt],
     ['swinging sheet', (method) => shipped('swinging_sheet', method)],
     ['pendulum of denim', (method) => pendulum(10, method, { fabric: 'coarse cotton (denim)' })],
     ['pendulum of silk', (method) => pendulum(10, method, { fabric: 'silk' })],
