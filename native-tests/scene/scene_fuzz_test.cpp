@@ -35,9 +35,9 @@ bool is_scene(const std::string& text, const std::string& obj = kObj) {
 
 /// One to four small changes of the kind that hands and wires make.
 std::string mutated(std::string text, Random& random) {
-  static const char* const kPieces[] = {"-",  "1e309", "null", "[",     "]",        "{",
-                                        "}",  "\"",    ",",    "NaN",   "0",        "-1",
-                                        "[]", "{}",    "true", "\\u00", "\xff\xfe", "99999999999"};
+  static constexpr const char* kPieces[] = {
+      "-",   "1e309", "null", "[",  "]",  "{",    "}",     "\"",       ",",
+      "NaN", "0",     "-1",   "[]", "{}", "true", "\\u00", "\xff\xfe", "99999999999"};
   for (std::int64_t n = 1 + random.below(4); n > 0; --n) {
     const auto at =
         static_cast<std::size_t>(random.below(static_cast<std::int64_t>(text.size()) + 1));

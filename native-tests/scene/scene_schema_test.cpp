@@ -96,28 +96,29 @@ TEST_CASE("scene schema: what the reader accepts and the writer writes is valid"
   std::vector<std::string> texts(std::begin(kShortScenes), std::end(kShortScenes));
   texts.insert(texts.end(), std::begin(kFurtherScenes), std::end(kFurtherScenes));
   for (const char* name : kSceneFiles) texts.push_back(scene_text(name));
-  CHECK(walk.violation(json::parse(scene_text("skirt"))) == "");
+  CHECK_THAT(walk.violation(json::parse(scene_text("skirt"))), Catch::Equals(""));
   for (const std::string& text : texts) {
     CAPTURE(text);
-    CHECK(walk.violation(json::parse(text)) == "");
-    CHECK(walk.violation(written(text)) == "");
+    CHECK_THAT(walk.violation(json::parse(text)), Catch::Equals(""));
+    CHECK_THAT(walk.violation(written(text)), Catch::Equals(""));
   }
 }
 
 TEST_CASE("scene schema: every property of the schema is read", "[scene]") {
   const json document = schema();
   SchemaWalk walk(document);
-  for (const char* text : kShortScenes) CHECK(walk.violation(written(text)) == "");
+  for (const char* text : kShortScenes)
+    CHECK_THAT(walk.violation(written(text)), Catch::Equals(""));
   for (const char* text : kFurtherScenes) {
-    CHECK(walk.violation(json::parse(text)) == "");
-    CHECK(walk.violation(written(text)) == "");
+    CHECK_THAT(walk.violation(json::parse(text)), Catch::Equals(""));
+    CHECK_THAT(walk.violation(written(text)), Catch::Equals(""));
   }
   CHECK(walk.all_properties().size() > 70);
   std::vector<std::string> unread;
   std::set_difference(walk.all_properties().begin(), walk.all_properties().end(),
                       walk.seen_properties().begin(), walk.seen_properties().end(),
                       std::back_inserter(unread));
-  CHECK(unread == std::vector<std::string>{});
+  CHECK_THAT(unread, Catch::Equals(std::vector<std::string>{}));
 }
 
 TEST_CASE("scene schema: its defaults are those of the structs", "[scene]") {
@@ -132,7 +133,7 @@ TEST_CASE("scene schema: its defaults are those of the structs", "[scene]") {
       ++n_defaults;
       CHECK(value == property["default"]);
     };
-    CHECK(walk.violation(written(text)) == "");
+    CHECK_THAT(walk.violation(written(text)), Catch::Equals(""));
   }
   CHECK(n_defaults > 60);
 }

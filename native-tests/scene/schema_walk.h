@@ -8,12 +8,12 @@
 
 namespace pleat {
 
+using nlohmann::json;
+
 /// Holds a JSON value against the part of JSON Schema 2020-12 that the scene's schema uses,
 /// independently of the reader.
 class SchemaWalk {
  public:
-  using json = nlohmann::json;
-
   explicit SchemaWalk(const json& schema) : root_(schema) { check_keywords(root_, "#"); }
 
   /// Empty when the value is valid, else the pointer and keyword of the first violation.
@@ -105,7 +105,7 @@ class SchemaWalk {
       return pointer + " maxItems";
     if (!schema.contains("items")) return "";
     for (std::size_t k = 0; k < value.size(); ++k) {
-      const std::string found =
+      std::string found =
           check(schema["items"], place + "/items", value[k], pointer + "/" + std::to_string(k));
       if (!found.empty()) return found;
     }
@@ -132,7 +132,7 @@ class SchemaWalk {
       const json& property = is_named ? properties[item.key()] : others;
       const std::string inner =
           place + (is_named ? "/properties/" + item.key() : "/additionalProperties");
-      const std::string found = check(property, inner, item.value(), pointer + "/" + item.key());
+      std::string found = check(property, inner, item.value(), pointer + "/" + item.key());
       if (!found.empty()) return found;
       if (n_trials_ > 0) continue;
       if (is_named) seen_.insert(inner);
@@ -160,7 +160,7 @@ class SchemaWalk {
                     const std::string& pointer) {
     if (schema.contains("$ref")) {
       const std::string target = schema["$ref"].get<std::string>();
-      const std::string found =
+      std::string found =
           check(root_.at(json::json_pointer(target.substr(1))), target, value, pointer);
       if (!found.empty()) return found;
     }
@@ -171,7 +171,7 @@ class SchemaWalk {
       return pointer + " enum";
     for (const char* group : {"oneOf", "anyOf"}) {
       if (!schema.contains(group)) continue;
-      const std::string found = check_choices(schema[group], place + "/" + group, value, pointer);
+      std::string found = check_choices(schema[group], place + "/" + group, value, pointer);
       if (!found.empty()) return found;
     }
     if (value.is_number()) return check_number(schema, value.get<double>(), pointer);
