@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "core/base/check.h"
 #include "core/linalg/linear_solver.h"
@@ -75,6 +77,70 @@ class ShiftInverse {
   mutable SolveReport report_;
 };
 
+Eigen::MatrixXd joined(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd columns(b.rows(), a.cols() + b.cols());
+  columns << a, b;
+  return columns;
+}
+
+/// Modes in the coordinates of ShiftInverse, softest first.
+struct Pairs {
+  Eigen::VectorXd values;   // lambda
+  Eigen::MatrixXd vectors;  // orthonormal
+  Eigen::Index n_operations = 0;
+  SolveReport report;
+
+  Eigen::Index size() const { return values.size(); }
+
+  /// As many as before, the softest of both. False when none of `others` is softer than the
+  /// stiffest here.
+  bool take_softer(const Pairs& others) {
+    constexpr double kRounding = 1e-9;  // of equal modes
+    const double stiffest = values[size() - 1];
+    if (others.size() == 0 || others.values[0] >= stiffest - kRounding * std::abs(stiffest))
+      return false;
+    Eigen::VectorXd all_values(size() + others.size());
+    all_values << values, others.values;
+    const Eigen::MatrixXd all_vectors = joined(vectors, others.vectors);
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(all_values.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return all_values[a] < all_values[b]; });
+    order.resize(static_cast<std::size_t>(size()));
+    values = all_values(order);
+    vectors = all_vectors(Eigen::all, order);
+    return true;
+  }
+};
+
+/// Finds modes by shift and invert.
+struct Softest {
+  LinearSolver& solver;
+  const Eigen::VectorXd& root_masses;
+  double shift;
+
+  /// So many, or those of them that converged, perpendicular to the orthonormal columns `known`.
+  Pairs operator()(const Eigen::MatrixXd& known, Eigen::Index count) const {
+    ShiftInverse inverse(solver, root_masses, known);
+    // A Krylov space of twice the wanted size, as ARPACK's guide has it, but never more than there
+    // is.
+    const Eigen::Index n = root_masses.size();
+    const Eigen::Index space = std::min<Eigen::Index>(n, std::max<Eigen::Index>(2 * count + 1, 20));
+    Spectra::SymEigsShiftSolver<ShiftInverse> eigen(inverse, count, space, shift);
+    eigen.init();
+    eigen.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kTolerance,
+                  Spectra::SortRule::LargestMagn);
+    Pairs pairs{eigen.eigenvalues(), eigen.eigenvectors(), eigen.num_operations(),
+                inverse.report()};
+    const Eigen::Index last = pairs.size() - 1;
+    if (last > 0 && pairs.values[0] > pairs.values[last]) {
+      pairs.values.reverseInPlace();
+      pairs.vectors = pairs.vectors.rowwise().reverse().eval();
+    }
+    return pairs;
+  }
+};
+
 SparseMatrix shifted(const SparseMatrix& stiffness, const Eigen::VectorXd& masses, double shift) {
   std::vector<Eigen::Triplet<double, int>> diagonal;
   diagonal.reserve(static_cast<std::size_t>(masses.size()));
@@ -142,37 +208,30 @@ SolveReport lowest_modes(const SparseMatrix& stiffness, const Eigen::VectorXd& m
   }
 
   const Eigen::MatrixXd rigid = orthonormal_in_order(root_masses.asDiagonal() * null_space);
-  ShiftInverse inverse(*solver, root_masses, rigid);
-  // A Krylov space of twice the wanted size, as ARPACK's guide has it, but never more than there
-  // is.
   const Eigen::Index wanted = std::min<Eigen::Index>(count, n - 1);
-  const Eigen::Index space = std::min<Eigen::Index>(n, std::max<Eigen::Index>(2 * wanted + 1, 20));
-  Spectra::SymEigsShiftSolver<ShiftInverse> eigen(inverse, wanted, space, -shift);
-  eigen.init();
-  const Eigen::Index found = eigen.compute(Spectra::SortRule::LargestMagn, kMostRestarts,
-                                           kTolerance, Spectra::SortRule::LargestMagn);
-  if (inverse.report().ends_run()) return inverse.report();
-
-  const Eigen::VectorXd values = eigen.eigenvalues();
-  const Eigen::MatrixXd vectors = eigen.eigenvectors();
-  modes.n_rigid = static_cast<int>(n_null);
-  modes.stiffness = Eigen::VectorXd::Zero(n_null + values.size());
-  modes.shapes.resize(n, n_null + values.size());
-  modes.shapes.leftCols(n_null) = rigid;
-  // Softest first.
-  for (Eigen::Index m = 0; m < values.size(); ++m) {
-    const Eigen::Index from = values.size() - 1 - m;
-    const bool ascends = values.size() < 2 || values[0] < values[values.size() - 1];
-    modes.stiffness[n_null + m] = values[ascends ? m : from];
-    modes.shapes.col(n_null + m) = vectors.col(ascends ? m : from);
+  const Softest softest{*solver, root_masses, -shift};
+  Pairs pairs = softest(rigid, wanted);
+  if (pairs.report.ends_run()) return pairs.report;
+  const bool all_converged = pairs.size() == wanted;
+  // The Krylov space of one vector has, but for rounding, one of each modes of equal stiffness. The
+  // others are perpendicular to it.
+  while (n_null + pairs.size() < n && pairs.size() > 0) {
+    const Pairs missed = softest(joined(rigid, pairs.vectors), 1);
+    if (missed.report.ends_run()) return missed.report;
+    pairs.n_operations += missed.n_operations;
+    if (!pairs.take_softer(missed)) break;
   }
-  modes.shapes = root_masses.cwiseInverse().asDiagonal() * modes.shapes;
+
+  modes.n_rigid = static_cast<int>(n_null);
+  modes.stiffness = Eigen::VectorXd::Zero(n_null + pairs.size());
+  modes.stiffness.tail(pairs.size()) = pairs.values;
+  modes.shapes = root_masses.cwiseInverse().asDiagonal() * joined(rigid, pairs.vectors);
   set_residuals(stiffness, masses, sums.maxCoeff(), modes);
 
   SolveReport report;
-  report.iterations = static_cast<int>(eigen.num_operations());
+  report.iterations = static_cast<int>(pairs.n_operations);
   report.relative_residual = modes.residuals.size() ? modes.residuals.maxCoeff() : 0;
-  if (found < wanted) {
+  if (!all_converged) {
     report.status = SolveStatus::not_converged;
     report.message = "fewer modes converged than were asked for";
   }

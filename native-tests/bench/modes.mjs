@@ -199,7 +199,13 @@ async function large({ repeat, scale }) {
     return {
       rows,
       goals: [
-        goal('middle_10000_ms', most((row) => row.middle_ms), 'at-most', 10 * scale, rows),
+        goal(
+          'middle_10000_ms',
+          most((row) => row.middle_ms),
+          'at-most',
+          10 * scale,
+          rows,
+        ),
         goal(
           'frames_120_of_8_keys_ms_native',
           most((row) => row.middles_ms),

@@ -5,8 +5,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/mesh/sheet_pattern.h"
 #include "core/modal/arap_energy.h"
 #include "core/modal/carrying_volume.h"
+#include "core/modal/shown_modes.h"
 #include "native-tests/support/bars.h"
 
 using namespace pleat;
@@ -97,6 +99,16 @@ TEST_CASE("modes: they are those of a dense solver, orthonormal, rigid ones firs
       Eigen::MatrixXd(masses.asDiagonal()));
   for (int m = 6; m < 18; ++m)
     CHECK(modes.stiffness[m] == Approx(dense.eigenvalues()[m]).epsilon(1e-9));
+}
+
+TEST_CASE("modes: both modes of a square's equal two are found, however few are asked for",
+          "[modal]") {
+  const TriangleMesh square = patterned_sheet({.columns = 6, .rows = 6}, SheetPattern::alternating);
+  const int count = GENERATE(3, 4, 5, 8);
+  CAPTURE(count);
+  const SurfaceModes modes = surface_modes(square.rest_positions, square.triangles, count);
+  REQUIRE(modes.size() >= 2);
+  CHECK(modes.stiffness[1] == Approx(modes.stiffness[0]).epsilon(1e-6));
 }
 
 TEST_CASE("modes: disconnected parts have six rigid motions each, and their own shapes twice",
