@@ -27,6 +27,8 @@ class Arguments {
   /// The next word, once no option is left; `what` names it when it is missing.
   std::string word(const char* what);
 
+  /// Those that nobody has asked for yet.
+  const std::vector<std::string>& words() const { return words_; }
   bool has_words() const { return !words_.empty(); }
   /// Of any word that is left.
   bool has_word_ending(std::string_view ending) const;

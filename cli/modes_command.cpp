@@ -14,6 +14,7 @@
 #include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
@@ -75,6 +76,7 @@ ModeTable surface_table(const KeySurfaces& mesh, int count) {
 
 /// About the state at the end of the scene's time; the motion until then is compared with it.
 ModeTable cloth_table(const Scene& scene, int count) {
+  expect_whole(scene);
   Simulation simulation(scene);
   TimedRun run(simulation, TimedRun::Parts::untimed);
   std::vector<Positions> frames{simulation.state().positions};

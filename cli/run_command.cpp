@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/overwriting.h"
@@ -21,6 +22,7 @@
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
 #include "core/scene/method_section.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
@@ -98,12 +100,26 @@ void add_step(const Simulation& simulation, RunSummary& summary) {
   summary.rms_stretch_sum += summary.last_stretch.rms;
 }
 
+FrameMesh frame_mesh(const Simulation& simulation) {
+  return {simulation.model().rest_coordinates, simulation.triangles()};
+}
+
+SelfCrossings crossings_of(const Simulation& simulation) {
+  return {simulation.triangles(), simulation.rest_positions(), simulation.model().hanging};
+}
+
 /// Who watches a run; any may be null.
 struct Watchers {
   FrameWriter* frames = nullptr;
   SelfCrossings* crossings = nullptr;
   RunLedger* ledger = nullptr;
 };
+
+/// Shows a mesh that a tear has changed to those who keep one.
+void show_mesh(const Simulation& simulation, const Watchers& watchers) {
+  if (watchers.frames != nullptr) watchers.frames->set_mesh(frame_mesh(simulation));
+  if (watchers.crossings != nullptr) *watchers.crossings = crossings_of(simulation);
+}
 
 /// Hands a frame to everything that watches them.
 void add_frame(const Simulation& simulation, const Watchers& watchers, RunSummary& summary) {
@@ -125,8 +141,10 @@ RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
   RunWatch watch(simulation);
   Progress progress;
   add_frame(simulation, watchers, summary);
+  std::int64_t topology = simulation.topology();
   while (simulation.n_steps() < n_steps) {
     const SolveReport step_report = run.step();
+    if (std::exchange(topology, simulation.topology()) != topology) show_mesh(simulation, watchers);
     const bool ended = run.has_ended();
     add_step(simulation, summary);
     watch.look(simulation, step_report);
@@ -155,7 +173,8 @@ Json drift_json(const EnergyLedger& ledger) {
           {"work_of_damping_j", works.damping},
           {"work_of_air_j", works.air},
           {"work_of_pins_j", works.pins},
-          {"work_of_contact_j", works.contact}};
+          {"work_of_contact_j", works.contact},
+          {"work_of_tears_j", works.tears}};
 }
 
 /// How many springs of all are implicit.
@@ -200,6 +219,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                {"n_pins", model.pins.size()},
                {"mass_kg", model.masses.sum()},
                {"built", built.built},
+               {"built_bytes", built.bytes},
                {"left_out", built.left_out},
                {"status", name(summary.report.status)},
                {"message", summary.report.message},
@@ -213,7 +233,12 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                {"largest_stretch_at_end", summary.last_stretch.largest},
                {"mean_rms_stretch", summary.rms_stretch_sum / n_steps},
                {"largest_stretch", summary.largest_stretch}};
+  if (scene.model.tearing) json["n_splits"] = simulation.tear_origins().size();
   json["warnings"] = json_warnings(summary.warnings);
+  if (const StrainLimitStage* limit = simulation.strain_limit()) {
+    json["strain_limit_sweeps_per_step"] = static_cast<double>(limit->n_sweeps()) / n_steps;
+    json["n_strain_limit_capped"] = limit->n_capped();
+  }
   if (watchers.crossings != nullptr) {
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
@@ -280,6 +305,8 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
                 100 * springs->share());
   if (const auto contact = simulation.first_contact())
     std::printf("first contact at %.10g s\n", *contact);
+  if (scene.model.tearing)
+    std::printf("tears: %zu vertices were split\n", simulation.tear_origins().size());
   if (watchers.crossings != nullptr)
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),
@@ -302,6 +329,7 @@ struct RunOptions {
 Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriting& overwriting) {
   const auto& [for_machines, checks, wants_drift, out, dump] = options;
   if (out) check_frame_count(scene);
+  if (dump) expect_whole(scene);
   Simulation simulation(scene);
   if (dump) dump->prepare(overwriting);
   if (out) out->prepare(overwriting);
@@ -313,15 +341,12 @@ Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriti
   std::optional<FrameWriter> frames;
   if (out) {
     for (const std::filesystem::path& file : out->old_files()) remove_file(file);
-    frames.emplace(out->folder.string(), scene.record.format,
-                   FrameMesh{simulation.model().rest_coordinates, simulation.triangles()});
+    frames.emplace(out->folder.string(), scene.record.format, frame_mesh(simulation));
   }
   std::optional<RunLedger> ledger;
   if (wants_drift) ledger.emplace(simulation);
   std::optional<SelfCrossings> crossings;
-  if (frames || scene.cloth->is_worn())
-    crossings.emplace(simulation.triangles(), simulation.rest_positions(),
-                      simulation.model().hanging);
+  if (frames || scene.cloth->is_worn()) crossings = crossings_of(simulation);
   const Watchers watchers{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,
                           ledger ? &*ledger : nullptr};
   RunSummary summary = run_to_end(simulation, watchers);

@@ -22,6 +22,7 @@
 #include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_schema.h"
+#include "core/scene/tearing.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
 #include "wasm/page_run.h"
@@ -35,6 +36,13 @@ using pleat::json_triple;
 using pleat::json_value;
 using pleat::positions_in;
 using pleat::view_of;
+
+/// What may be shown: all that is plain, and tears.
+pleat::SceneParts shown_parts() {
+  pleat::SceneParts parts = pleat::scene_parts_with_files();
+  parts.read_tearing = pleat::read_tearing;
+  return parts;
+}
 
 val summary(const pleat::Simulation& simulation) {
   const pleat::ClothModel& model = simulation.model();
@@ -86,8 +94,8 @@ class Scene {
 
   std::string parse(const std::string& scene_text) const {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_),
-                                                   {}, pleat::plain_scene_parts());
+      const pleat::Scene scene =
+          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, shown_parts());
       envelope.set("scene", json_value(pleat::write_scene(scene)));
       envelope.set("summary", summary(pleat::Simulation(scene)));
     });
@@ -96,8 +104,8 @@ class Scene {
   /// The scene from first contact on, at rest and bouncing.
   std::string study_response(const std::string& scene_text, double window) const {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_),
-                                                   {}, pleat::plain_scene_parts());
+      const pleat::Scene scene =
+          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, shown_parts());
       const pleat::ResponseStudy study = pleat::study_response(scene, window);
       envelope.set("first_contact_s", study.first_contact);
       envelope.set("substep_s", study.substep);
@@ -121,7 +129,7 @@ class Scene {
       const auto file = [&](const std::string&) { return obj_text; };
       const pleat::Scene scene =
           pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
-                            pleat::read_fabrics(fabrics_json_), file, pleat::plain_scene_parts());
+                            pleat::read_fabrics(fabrics_json_), file, shown_parts());
       const auto& cloth = *scene.cloth.as<pleat::MeshCloth>();
       const pleat::Positions& x = cloth.mesh.rest_positions;
       envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
@@ -155,10 +163,11 @@ class Simulation {
     });
   }
 
+  /// Of torn cloth nothing is carried over: the new one starts whole.
   std::string carry_over(const std::string& scene_text) {
     return guarded([&](val& envelope) {
       auto fresh = build(scene_text);
-      fresh->carry_over(running());
+      if (running().tear_origins().empty()) fresh->carry_over(running());
       take(std::move(fresh));
       envelope.set("summary", summary(running()));
     });
@@ -274,19 +283,25 @@ class Simulation {
     return view_of(reference_->distances());
   }
   /// Time [s]; energy of motion, elastic, and by height above that at the start of the account;
-  /// works of damping, air, contact and pins; drift; energy of motion and elastic at the start [J].
-  /// Empty without an account.
+  /// works of damping, air, contact, pins and tears; drift; energy of motion and elastic at the
+  /// start [J]. Empty without an account.
   val energies() {
     if (!ledger_) return view_of(kNoDoubles);
     const pleat::EnergyLedger& account = ledger_->account();
     const pleat::EnergyParts& first = account.first_parts();
     const pleat::EnergyParts& now = account.parts();
     const pleat::EnergyLedger::Works& works = account.works();
-    energies_ = {running().time(), now.kinetic,
-                 now.elastic,      now.gravity - first.gravity,
-                 works.damping,    works.air,
-                 works.contact,    works.pins,
-                 account.drift(),  first.kinetic + first.elastic};
+    energies_ = {running().time(),
+                 now.kinetic,
+                 now.elastic,
+                 now.gravity - first.gravity,
+                 works.damping,
+                 works.air,
+                 works.contact,
+                 works.pins,
+                 works.tears,
+                 account.drift(),
+                 first.kinetic + first.elastic};
     return view_of(energies_);
   }
   /// Two vertices a spring.
@@ -331,8 +346,8 @@ class Simulation {
   pleat::Simulation& running() const { return run_.running(); }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
-    return std::make_unique<pleat::Simulation>(pleat::read_scene(
-        scene_text, pleat::read_fabrics(fabrics_json_), {}, pleat::plain_scene_parts()));
+    return std::make_unique<pleat::Simulation>(
+        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, shown_parts()));
   }
 
   /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state
@@ -341,11 +356,16 @@ class Simulation {
     run_.take(std::move(fresh));
     begin_ledger();
     match();
+    take_mesh();
+    frame();
+  }
+
+  void take_mesh() {
+    topology_ = running().topology();
     strain_map_.emplace(running().gauge(), running().model().n_vertices());
     triangles_.clear();
     for (const pleat::Triangle& t : running().triangles())
       for (const pleat::VertexId v : t) triangles_.push_back(static_cast<std::uint32_t>(v.value));
-    frame();
   }
 
   void begin_ledger() {
@@ -370,6 +390,7 @@ class Simulation {
   }
 
   void frame() {
+    if (topology_ != running().topology()) take_mesh();
     const pleat::Positions& x = running().state().positions;
     positions_.assign(x.data(), x.data() + x.size());
   }
@@ -378,8 +399,9 @@ class Simulation {
   pleat::PageRun run_;
   bool wants_ledger_ = false;
   std::optional<pleat::RunLedger> ledger_;
-  std::array<double, 10> energies_{};
+  std::array<double, 11> energies_{};
   std::optional<pleat::StrainMap> strain_map_;
+  std::int64_t topology_ = 0;  // of the strain map and the triangles
   std::optional<pleat::ReferenceTrack> reference_;
   bool matches_ = false;          // it is of the loaded scene
   std::vector<float> positions_;  // 3 per vertex [m]

@@ -13,7 +13,7 @@ Scene read_scene_with(const std::string& scene_text, const val& files,
     if (!text.isString()) throw InputError(name, "expected a file handed over, got none");
     return text.as<std::string>();
   };
-  return read_scene(scene_text, read_fabrics(fabrics_json), source);
+  return read_scene(scene_text, read_fabrics(fabrics_json), source, worn_scene_parts());
 }
 
 }  // namespace pleat

@@ -16,6 +16,8 @@ const char* name(Stage stage) {
       return "solve";
     case Stage::contact:
       return "contact";
+    case Stage::strain_limit:
+      return "strain limit";
   }
   return "";
 }

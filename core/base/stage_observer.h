@@ -10,8 +10,9 @@ enum class Stage {
   factor,    ///< numeric factorisation
   solve,     ///< linear solve or constraint projection
   contact,
+  strain_limit,
 };
-constexpr int kStageCount = 6;
+constexpr int kStageCount = 7;
 
 const char* name(Stage stage);
 

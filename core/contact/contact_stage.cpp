@@ -350,6 +350,11 @@ std::vector<ContactStage::Support> ContactStage::supports(
   return found;
 }
 
+std::size_t ContactStage::bytes() const {
+  return colliders_.size() * (sizeof(Collider) + sizeof(Solid) + 2 * sizeof(Pose)) +
+         static_cast<std::size_t>(options_.face_radii.size()) * sizeof(double);
+}
+
 Penetration ContactStage::penetration(const Eigen::Ref<const Positions>& positions,
                                       double time) const {
   std::vector<SweptSolid> solids;

@@ -124,6 +124,9 @@ class ContactStage {
   /// kTouchDistance; once for each solid. It knows positions alone, and nothing of substeps.
   std::vector<Support> supports(const Eigen::Ref<const Positions>& positions, double time) const;
 
+  /// What its solids and the sizes of faces take, without what it keeps of touches.
+  std::size_t bytes() const;
+
   /// Rounded cones come last.
   const std::vector<Collider>& colliders() const { return colliders_; }
   /// The solid's shape at a time [s].

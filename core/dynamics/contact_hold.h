@@ -21,12 +21,26 @@ namespace pleat {
 /// Applications 4, 1969; docs/methods/contact.md.
 class ContactHold {
  public:
-  explicit ContactHold(const ClothModel& model);
+  /// share  of what a vertex resists with alone, with which it is held
+  explicit ContactHold(const ClothModel& model, double share = 1);
 
-  /// A dv = rhs is a linearised step of h [s] from this state, A [kg] as far as it is assembled;
-  /// the contact stage is at this substep. Adds what holds the touched vertices.
-  void add(std::span<const ContactStage::Touch> touches, const State& state, SystemMatrix& matrix,
-           Eigen::Ref<Positions> rhs);
+  /// What holds a touched vertex: the force R (u - v)/h at its velocity v.
+  struct Held {
+    VertexId vertex;
+    Mat3 resistance;  // R [kg]
+    Vec3 velocity;    // u [m/s]
+  };
+
+  /// From the matrix of a substep without what holds; mass_unit turns its entries into kg.
+  void set_resistances(const SystemMatrix& matrix, double mass_unit = 1);
+  void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
+
+  /// Says which vertices are held in the substep that the contact stage is at.
+  void choose(std::span<const ContactStage::Touch> touches, const Positions& positions_begin);
+  std::span<const Held> held() const { return held_; }
+
+  /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.
+  void add(const Positions& velocities, SystemMatrix& matrix, Eigen::Ref<Positions> rhs) const;
 
   /// Adds the forces that they exert at the velocities of the solution [m/s].
   void add_forces(const Positions& velocities, double h, Positions& forces) const;
@@ -35,13 +49,8 @@ class ContactHold {
   const Eigen::VectorXd& resistances() const { return resistances_; }
 
  private:
-  struct Held {
-    VertexId vertex;
-    Mat3 resistance;  // [kg]
-    Vec3 velocity;    // to which it is held [m/s]
-  };
-
   const ContactStage& contact_;
+  double share_;
   Eigen::VectorXd resistances_;
   std::vector<Held> held_;
 };

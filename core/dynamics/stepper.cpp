@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
+#include "core/model/system_matrix.h"
 
 namespace pleat {
 namespace {
@@ -38,6 +39,19 @@ SolveReport lost_report(VertexId vertex, double time) {
   return report;
 }
 
+/// Adds the touches of vertices that are not among them yet; both in the order of the vertices.
+void join_touches(std::span<const ContactStage::Touch> more,
+                  std::vector<ContactStage::Touch>& touches) {
+  const auto is_before = [](const ContactStage::Touch& a, const ContactStage::Touch& b) {
+    return a.vertex < b.vertex;
+  };
+  const auto n_known = static_cast<std::ptrdiff_t>(touches.size());
+  for (const ContactStage::Touch& touch : more)
+    if (!std::binary_search(touches.begin(), touches.begin() + n_known, touch, is_before))
+      touches.push_back(touch);
+  std::inplace_merge(touches.begin(), touches.begin() + n_known, touches.end(), is_before);
+}
+
 }  // namespace
 
 Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
@@ -50,6 +64,8 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
                   : ContactMemory::none) {
   options.validate();
   model.validate();
+  if (model.strain_limit) strain_limit_.emplace(model);
+  if (model.air && model.air->has_wind()) air_forces_ = Positions::Zero(3, model.n_vertices());
   if (!model.contact) return;
   const auto n_vertices = static_cast<std::size_t>(model.n_vertices());
   is_exempt_.resize(n_vertices);
@@ -81,7 +97,7 @@ SolveReport Stepper::advance(State& state, double time) {
   for (int s = 1; s <= substeps_; ++s) {
     const double time_end = time + options_.step * s / substeps_;
     SolveReport part = awaits_contact() ? substep_to_contact(state, time_end, h)
-                                        : substep_with_solids(state, time_end, h);
+                                        : substep_in_world(state, time_end, h);
     const double last_residual = part.relative_residual;
     report.add(std::move(part));
     report.relative_residual = last_residual;
@@ -94,8 +110,9 @@ SolveReport Stepper::advance(State& state, double time) {
   return report;
 }
 
-SolveReport Stepper::substep_with_solids(State& state, double time_end, double h) {
+SolveReport Stepper::substep_in_world(State& state, double time_end, double h) {
   place_solids(time_end - h, time_end);
+  if (model_.air) model_.air->set_time(time_end);
   is_touched_ = false;
   SolveReport report = substep(state, time_end, h);
   place_between_parents(model_.hanging, state);
@@ -120,7 +137,7 @@ SolveReport Stepper::substep_to_contact(State& state, double time_end, double h)
   const double time_begin = time_end - h;
   before_contact_ = state;
   forces_before_contact_ = contact_forces_;
-  SolveReport report = substep_with_solids(state, time_end, h);
+  SolveReport report = substep_in_world(state, time_end, h);
   if (!is_touched_ || report.ends_run()) return report;
   double free = 0;
   double touched = h;
@@ -128,7 +145,7 @@ SolveReport Stepper::substep_to_contact(State& state, double time_end, double h)
   while (!is_near && touched - free > kLeastShare * h) {
     const double part = free + (touched - free) / 2;
     begin_again(state);
-    report = substep_with_solids(state, time_begin + part, part);
+    report = substep_in_world(state, time_begin + part, part);
     if (report.ends_run()) return report;
     (is_touched_ ? touched : free) = part;
     is_near = !is_touched_ &&
@@ -136,12 +153,12 @@ SolveReport Stepper::substep_to_contact(State& state, double time_end, double h)
   }
   first_contact_ = time_begin + free;
   if (is_near) {
-    report.add(substep_with_solids(state, time_end, h - free));
+    report.add(substep_in_world(state, time_end, h - free));
     contact_forces_ *= (h - free) / h;
     return report;
   }
   begin_again(state);
-  return substep_with_solids(state, time_end, h);
+  return substep_in_world(state, time_end, h);
 }
 
 void Stepper::place_solids(double time_begin, double time_end) {
@@ -166,22 +183,40 @@ void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) {
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void Stepper::set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces) {
+void Stepper::set_external_forces(const State& state, Eigen::Ref<Positions> forces) {
   const StageScope scope(observer_, Stage::forces);
   set_steady_forces(forces);
-  if (model_.air)
-    model_.air->add_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
-                           forces);
+  if (model_.air) model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces);
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
+void Stepper::set_damped_external_forces(const State& state, double h,
+                                         Eigen::Ref<Positions> forces) {
+  const StageScope scope(observer_, Stage::forces);
+  set_steady_forces(forces);
+  if (model_.air) add_damped_air(state, h, forces);
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
+void Stepper::add_damped_air(const State& state, double h, Eigen::Ref<Positions> forces) {
+  model_.air->add_damped_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
+                                air_forces_, forces);
+}
+
+void Stepper::add_air_resistance(double h, SystemMatrix& matrix) const {
+  if (!model_.air) return;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    matrix.add_diagonal(VertexId(i), h * model_.air->resistance(VertexId(i)));
 }
 
 std::span<const ContactStage::Touch> Stepper::correct_for_contact(const Positions& positions_begin,
-                                                                  Positions& positions,
-                                                                  Positions& velocities) {
+                                                                  State& state) {
   std::fill(is_exempt_.begin(), is_exempt_.end(), char{0});
   for (const HangingVertex& h : model_.hanging) is_exempt_[h.vertex] = 1;
   for (const Pin& pin : model_.pins) is_exempt_[pin.vertex] = 1;
-  const auto touches = model_.contact->resolve(positions_begin, is_exempt_, positions, velocities);
-  is_touched_ = !touches.empty();
+  const auto touches =
+      model_.contact->resolve(positions_begin, is_exempt_, state.positions, state.velocities);
+  is_touched_ = is_touched_ || !touches.empty();
   return touches;
 }
 
@@ -201,31 +236,68 @@ void Stepper::let_go(State& state, double h, const Eigen::VectorXd& resistances,
   }
 }
 
-void Stepper::remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
-                       double h) {
-  touches_.assign(touches.begin(), touches.end());
+void Stepper::forget_untouched(std::span<const ContactStage::Touch> touches) {
   Eigen::Index first_untouched = 0;
   const auto forget_until = [&](Eigen::Index end) {
     contact_forces_.middleCols(first_untouched, end - first_untouched).setZero();
   };
   for (const ContactStage::Touch& touch : touches) {
-    const VertexId v = touch.vertex;
-    forget_until(v);
-    contact_forces_.col(v) +=
-        model_.masses[v] / h * (velocities.col(v) - solved_velocities_.col(v));
-    first_untouched = v + 1;
+    forget_until(touch.vertex);
+    first_untouched = touch.vertex + 1;
   }
   forget_until(contact_forces_.cols());
 }
 
-void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double time_end,
-                               double h, const Eigen::VectorXd& resistances, double travel_share) {
-  if (!model_.contact) return;
+void Stepper::remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
+                       double h) {
+  for (const ContactStage::Touch& touch : touches)
+    contact_forces_.col(touch.vertex) +=
+        model_.masses[touch.vertex] / h *
+        (velocities.col(touch.vertex) - solved_velocities_.col(touch.vertex));
+}
+
+void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double h,
+                               const Eigen::VectorXd& resistances, double travel_share) {
   const StageScope scope(observer_, Stage::contact);
   const bool remembers = memory_ != ContactMemory::none;
   if (remembers) let_go(state, h, resistances, travel_share);
-  const auto touches = correct_for_contact(positions_begin, state.positions, state.velocities);
-  if (remembers) remember(touches, state.velocities, h);
+  const auto touches = correct_for_contact(positions_begin, state);
+  if (!remembers) return;
+  touches_.assign(touches.begin(), touches.end());
+  forget_untouched(touches);
+  remember(touches, state.velocities, h);
+}
+
+// Solids push cloth beyond its limits, and limits pull it into solids: each in turn, contact last.
+void Stepper::limit_among_contacts(const Positions& positions_begin, State& state, double h,
+                                   double travel_share) {
+  constexpr int kMaxRounds = 3;
+  for (int round = 0; round < kMaxRounds && strain_limit_->is_exceeded(state.positions); ++round) {
+    {
+      const StageScope scope(observer_, Stage::strain_limit);
+      strain_limit_->limit_again(state, travel_share * h, model_.contact->touches());
+    }
+    const StageScope scope(observer_, Stage::contact);
+    const bool remembers = memory_ != ContactMemory::none;
+    if (remembers) solved_velocities_ = state.velocities;
+    const auto touches = correct_for_contact(positions_begin, state);
+    if (!remembers) continue;
+    remember(touches, state.velocities, h);
+    join_touches(touches, touches_);
+  }
+}
+
+void Stepper::correct(const Positions& positions_begin, State& state, double time_end, double h,
+                      const Eigen::VectorXd& resistances, double travel_share) {
+  if (!has_corrections()) return;
+  if (strain_limit_) {
+    const StageScope scope(observer_, Stage::strain_limit);
+    strain_limit_->limit(state, travel_share * h);
+  }
+  if (model_.contact) {
+    resolve_contacts(positions_begin, state, h, resistances, travel_share);
+    if (strain_limit_) limit_among_contacts(positions_begin, state, h, travel_share);
+  }
   for (const Pin& pin : model_.pins) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) =

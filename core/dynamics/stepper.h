@@ -8,10 +8,13 @@
 
 #include "core/base/stage_observer.h"
 #include "core/dynamics/method_options.h"
+#include "core/dynamics/strain_limit_stage.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
 
 namespace pleat {
+
+class SystemMatrix;
 
 /// Further from the origin [m], or faster [m/s], than any cloth: a run that has come here has
 /// diverged, though its numbers are finite still.
@@ -29,10 +32,10 @@ class Stepper {
 
   /// Steps from `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at
   /// their pins, hanging ones in the middle of their parents, where they are put to begin with.
-  /// After each substep the model's contact corrects the result. The report's residual is that of
-  /// the last substep's own equations, its iterations the sum. A state that is not finite, or
-  /// beyond kLargestCoordinate, ends the step: `state` then holds the last good one. Allocates
-  /// nothing after the first call but messages.
+  /// After each substep the model's strain limit and contact correct the result. The report's
+  /// residual is that of the last substep's own equations, its iterations the sum. A state that is
+  /// not finite, or beyond kLargestCoordinate, ends the step: `state` then holds the last good one.
+  /// Allocates nothing after the first call but messages.
   SolveReport advance(State& state, double time);
 
   virtual void refresh() = 0;
@@ -53,6 +56,9 @@ class Stepper {
   /// MethodOptions::first_contact asks for [s]; nothing before, and where none is asked for.
   std::optional<double> first_contact() const { return first_contact_; }
 
+  /// Null where the model has none.
+  const StrainLimitStage* strain_limit() const { return strain_limit_ ? &*strain_limit_ : nullptr; }
+
   void observe(StageObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }
   int substeps() const { return substeps_; }
@@ -71,31 +77,33 @@ class Stepper {
   /// computing once per step only.
   virtual void load(const State& state);
   virtual void store(State& state, SolveReport& report);
-  /// One substep of h [s] ending at time_end, contact included, whose solids are placed. Hanging
-  /// vertices follow by themselves.
+  /// One substep of h [s] ending at time_end, corrections included; solids are placed, and the wind
+  /// is that of its end. Hanging vertices follow by themselves.
   virtual SolveReport substep(State& state, double time_end, double h) = 0;
 
-  /// Contact on all vertices that neither hang nor are pinned, for what the stepper proposes at the
-  /// end of the substep. Returns how they were touched; valid until the next call. The model has
-  /// contact.
-  std::span<const ContactStage::Touch> correct_for_contact(const Positions& positions_begin,
-                                                           Positions& positions,
-                                                           Positions& velocities);
-  /// The shared way a substep ends for steppers that work on `State` itself: contact, and pins,
-  /// which win over solids.
+  /// True when what a stepper proposes for the end of a substep may need to be corrected.
+  bool has_corrections() const { return model_.contact || strain_limit_; }
+  /// The shared way a substep ends: strain limit, contact on all vertices that neither hang nor are
+  /// pinned, and pins, which win over both.
   ///
   /// resistances   how much each vertex resists a change of its velocity [kg]
   /// travel_share  how far a force f moves a vertex within the substep, in shares of h^2 f / its
   ///               resistance
-  void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h,
-                        const Eigen::VectorXd& resistances, double travel_share = 1);
+  void correct(const Positions& positions_begin, State& state, double time_end, double h,
+               const Eigen::VectorXd& resistances, double travel_share = 1);
   /// The same with the masses alone.
-  void resolve_contacts(const Positions& positions_begin, State& state, double time_end, double h) {
-    resolve_contacts(positions_begin, state, time_end, h, model_.masses);
+  void correct(const Positions& positions_begin, State& state, double time_end, double h) {
+    correct(positions_begin, state, time_end, h, model_.masses);
   }
-  /// Everything but elasticity and damping: weight, air with its implicit drag for a substep of h
-  /// [s] (0: explicit), remembered contact [N]. Nothing where vertices hang.
-  void set_external_forces(const State& state, double h, Eigen::Ref<Positions> forces);
+  /// Everything but elasticity and damping: weight, air, remembered contact [N]. Nothing where
+  /// vertices hang.
+  void set_external_forces(const State& state, Eigen::Ref<Positions> forces);
+  /// The same for steppers whose substep of h [s] does not solve for drag.
+  void set_damped_external_forces(const State& state, double h, Eigen::Ref<Positions> forces);
+  void add_damped_air(const State& state, double h, Eigen::Ref<Positions> forces);
+  /// Adds what makes drag at the end of a substep of h [s] part of its equations, to the matrix
+  /// that multiplies the change of velocity.
+  void add_air_resistance(double h, SystemMatrix& matrix) const;
   /// The same without air.
   void set_steady_forces(Eigen::Ref<Positions> forces);
 
@@ -116,21 +124,30 @@ class Stepper {
   std::vector<ContactStage::Touch> touches_;
 
  private:
-  SolveReport substep_with_solids(State& state, double time_end, double h);
+  SolveReport substep_in_world(State& state, double time_end, double h);
   SolveReport substep_to_contact(State& state, double time_end, double h);
   bool awaits_contact() const;
   void begin_again(State& state);
   void place_solids(double time_begin, double time_end);
+  void resolve_contacts(const Positions& positions_begin, State& state, double h,
+                        const Eigen::VectorXd& resistances, double travel_share);
+  void limit_among_contacts(const Positions& positions_begin, State& state, double h,
+                            double travel_share);
+  std::span<const ContactStage::Touch> correct_for_contact(const Positions& positions_begin,
+                                                           State& state);
   void let_go(State& state, double h, const Eigen::VectorXd& resistances, double travel_share);
+  void forget_untouched(std::span<const ContactStage::Touch> touches);
   void remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
                 double h);
 
   MethodOptions options_;
   int substeps_;
   ContactMemory memory_;
+  std::optional<StrainLimitStage> strain_limit_;
   std::vector<char> is_exempt_;  // of contact, for each vertex
   bool is_touched_ = false;      // in the last substep
   std::optional<double> first_contact_;
+  Positions air_forces_;  // of the last substep, where steppers need it [N]
   State before_contact_;  // where first contact is looked for
   Positions forces_before_contact_;
   Positions solved_velocities_;  // before contact [m/s]; of steppers that remember

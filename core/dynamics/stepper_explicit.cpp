@@ -16,7 +16,7 @@ StepperExplicit::StepperExplicit(ClothModel& model, const MethodOptions& options
 
 SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
-  set_external_forces(state, 0, forces_);
+  set_external_forces(state, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
     add_internal_forces(model_, state.positions, state.velocities, forces_);
@@ -34,7 +34,7 @@ SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
     if (options().euler == EulerRule::symplectic) state.positions += h * state.velocities;
     for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
   }
-  resolve_contacts(positions_begin_, state, time_end, h);
+  correct(positions_begin_, state, time_end, h);
   return {};
 }
 

@@ -71,19 +71,20 @@ void StepperImex::assemble(const State& state, double h) {
 
 SolveReport StepperImex::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
-  set_external_forces(state, h, forces_);
+  set_external_forces(state, forces_);
   assemble(state, h);
+  add_air_resistance(h, *matrix_);
   matrix_->reduce_to_parents(flat(forces_));
   if (hold_) {
     const StageScope scope(observer_, Stage::contact);
-    hold_->add(touches_, state, *matrix_, forces_);
+    hold_->set_resistances(*matrix_);
+    hold_->choose(touches_, state.positions);
+    hold_->add(state.velocities, *matrix_, forces_);
   }
   SolveReport report = solve_.advance(*matrix_, forces_, state, time_end, h, observer_);
   if (report.ends_run()) return report;
-  if (hold_) {
-    hold_->add_forces(state.velocities, h, contact_forces_);
-    resolve_contacts(positions_begin_, state, time_end, h, hold_->resistances());
-  }
+  if (hold_) hold_->add_forces(state.velocities, h, contact_forces_);
+  correct(positions_begin_, state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
   return report;
 }
 

@@ -45,9 +45,13 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
   if (is_at_rest() && model.contact)
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint beside solids, got equilibrium");
+  if (is_at_rest() && model.air && model.air->has_wind())
+    throw InputError("/method/rule",
+                     "expected backward_euler or midpoint in wind, got equilibrium");
   if (is_at_rest() && model.pins.empty() && !model.gravity.isZero(0))
     throw InputError("/pins", "expected something held, as weight alone has no rest, got nothing");
   refuse_jumping_forces(model, "newton");
+  if (model_.contact && options.rule == NewtonRule::backward_euler) hold_.emplace(model_);
   solver_ = make_solver(options);
   solver_->analyze(matrix_.lower());
   base_ = matrix_.lower();
@@ -84,6 +88,19 @@ void StepperNewton::set_up(const State& state, double h) {
     if (options().rule == NewtonRule::midpoint) trial_ += interval_ * state.velocities;
     matrix_.add_elasticity(trial_, 0, rate, ElementHessian::projected);
     loads_ += rate * state.velocities * model_.masses.asDiagonal();
+  }
+  base_.coeffs() = matrix_.lower().coeffs();
+  if (hold_) hold();
+}
+
+void StepperNewton::hold() {
+  matrix_.add_elasticity(begin_, 1, 0, ElementHessian::projected);
+  hold_->set_resistances(matrix_, interval_ * interval_);
+  hold_->choose(touches_, begin_);
+  matrix_.set_values(base_);
+  for (const ContactHold::Held& held : hold_->held()) {
+    matrix_.add_diagonal(held.vertex, held.resistance / (interval_ * interval_));
+    loads_.col(held.vertex) += held.resistance * held.velocity / interval_;
   }
   base_.coeffs() = matrix_.lower().coeffs();
 }
@@ -305,10 +322,15 @@ SolveReport StepperNewton::minimise() {
 
 SolveReport StepperNewton::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
+  if (model_.air && options().rule == NewtonRule::midpoint) model_.air->set_time(time_end - h / 2);
   set_up(state, h);
   place_first_guess(state, time_end);
   SolveReport report = minimise();
   if (report.ends_run()) return report;
+  if (hold_) {
+    velocities_ = (positions_ - begin_) / interval_;
+    hold_->add_forces(velocities_, interval_, contact_forces_);
+  }
   switch (options().rule) {
     case NewtonRule::backward_euler:
       state.velocities = (positions_ - begin_) / interval_;
@@ -328,7 +350,8 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
     state.velocities.col(pin.vertex) = is_at_rest() ? Vec3(Vec3::Zero()) : pin.velocity(time_end);
   }
   const double travel_share = options().rule == NewtonRule::midpoint ? 0.5 : 1;
-  resolve_contacts(positions_begin_, state, time_end, h, model_.masses, travel_share);
+  correct(positions_begin_, state, time_end, h, hold_ ? hold_->resistances() : model_.masses,
+          travel_share);
   return report;
 }
 

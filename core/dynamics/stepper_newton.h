@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/dynamics/contact_hold.h"
 #include "core/dynamics/stepper.h"
 #include "core/model/system_matrix.h"
 
@@ -34,6 +35,7 @@ class StepperNewton final : public Stepper {
 
  private:
   void set_up(const State& state, double h);
+  void hold();
   void place_first_guess(const State& state, double time_end);
   SolveReport minimise();
   bool is_stable();
@@ -51,6 +53,7 @@ class StepperNewton final : public Stepper {
   bool is_at_rest() const { return options().rule == NewtonRule::equilibrium; }
 
   SystemMatrix matrix_;
+  std::optional<ContactHold> hold_;  // by backward Euler, of models with contact
   std::unique_ptr<LinearSolver> solver_;
   SparseMatrix base_;               // M/k^2 + C/k, fixed during a substep [N/m]
   double interval_ = 0;             // k [s]

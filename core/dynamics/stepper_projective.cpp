@@ -1,7 +1,9 @@
 #include "core/dynamics/stepper_projective.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/check.h"
 #include "core/model/elasticity.h"
@@ -11,6 +13,10 @@ namespace pleat {
 namespace {
 
 constexpr int kNotPinned = -1;
+
+/// With how much of what it resists with alone a vertex is held: the more, the fewer substeps until
+/// the remembered force is what it should be, and the more rounds until one that may slip has.
+constexpr double kHeldShare = 0.1;
 
 bool damps_along_spring(const ClothModel& model) {
   return model.damping_direction == DampingDirection::along_spring;
@@ -35,6 +41,7 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     steady_side_.resize(model.n_vertices(), 3);
     proposed_.resize(3, model.n_vertices());
   }
+  if (model_.contact) hold_.emplace(model_, kHeldShare);
   refresh();
 }
 
@@ -48,6 +55,7 @@ void StepperProjective::refresh() {
   for (std::size_t p = 0; p < model_.pins.size(); ++p)
     pin_of[model_.pins[p].vertex] = static_cast<int>(p);
 
+  is_free_.resize(static_cast<std::size_t>(n));
   std::vector<Eigen::Triplet<double>> entries;
   pinned_entries_.clear();
   const auto add = [&](VertexId a, VertexId b, double value) {
@@ -67,8 +75,8 @@ void StepperProjective::refresh() {
             weight * sum.terms[i].factor * sum.terms[j].factor);
   };
   for (int i = 0; i < n; ++i) {
-    const bool is_unknown = pin_of[i] == kNotPinned && !model_.hangs(VertexId(i));
-    entries.emplace_back(i, i, is_unknown ? model_.masses[i] / (h * h) : 1);
+    is_free_[i] = pin_of[i] == kNotPinned && !model_.hangs(VertexId(i));
+    entries.emplace_back(i, i, is_free_[i] ? model_.masses[i] / (h * h) : 1);
   }
   constexpr std::array<double, 2> kDifference = {1, -1};
   for (const Spring& spring : model_.springs)
@@ -78,7 +86,25 @@ void StepperProjective::refresh() {
     add_square(in_free_vertices(bend.vertices, bend.weights), bend.stiffness);
   matrix_.resize(n, n);
   matrix_.setFromTriplets(entries.begin(), entries.end());
+  diagonal_ = matrix_.diagonal();
   solver_->analyze(matrix_);
+  factor_report_ = solver_->factorize(matrix_);
+  if (!hold_) return;
+  hold_->set_resistances(h * h * diagonal_);
+  is_held_.assign(static_cast<std::size_t>(n), char{0});
+}
+
+void StepperProjective::hold() {
+  const StageScope scope(observer_, Stage::contact);
+  was_held_ = is_held_;
+  std::fill(is_held_.begin(), is_held_.end(), char{0});
+  for (const ContactStage::Touch& touch : touches_) is_held_[touch.vertex] = is_free_[touch.vertex];
+  hold_->choose(touches_, positions_begin_);
+  if (is_held_ == was_held_) return;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
+        (is_held_[i] ? 1 + kHeldShare : 1) * diagonal_[i];
+  const StageScope factor_scope(observer_, Stage::factor);
   factor_report_ = solver_->factorize(matrix_);
 }
 
@@ -111,6 +137,11 @@ void StepperProjective::add_up(double time_end, double h, const PullOfSpring& pu
     side.row(model_.springs[s].b) -= pull.transpose();
   }
   pull_to_parents(model_.hanging, side.transpose());
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held())
+      side.row(held.vertex) +=
+          (held.resistance / (h * h) * (positions_begin_.col(held.vertex) + h * held.velocity))
+              .transpose();
   for (const PinnedEntry& entry : pinned_entries_)
     side.row(entry.free_vertex) -=
         entry.value * model_.pins[entry.pin].position(time_end).transpose();
@@ -125,6 +156,15 @@ void StepperProjective::set_right_side(double time_end, double h) {
     return scale * d + target.damped;
   };
   add_up(time_end, h, projected, right_side_);
+  if (!hold_) return;
+  for (const ContactHold::Held& held : hold_->held())
+    if (is_held_[held.vertex])
+      right_side_.row(held.vertex) += (freedom(held, h) * positions_.col(held.vertex)).transpose();
+}
+
+/// What the matrix has too much of, where the held vertex may slip [N/m].
+Mat3 StepperProjective::freedom(const ContactHold::Held& held, double h) const {
+  return kHeldShare * diagonal_[held.vertex] * Mat3::Identity() - held.resistance / (h * h);
 }
 
 void StepperProjective::start_acceleration(double time_end, double h) {
@@ -140,7 +180,7 @@ void StepperProjective::start_acceleration(double time_end, double h) {
 // The rounds lower x.Ax/2 - x.b_0 - sum k L l(x): b(x) = b_0 + sum S^T p is where the last term
 // pulls. At the image x of a round, A x = b, so that from x to x + d this changes by
 // d.(b - b_0) + d.Ad/2 - sum k L (l(x + d) - l(x)), in which nothing large cancels.
-double StepperProjective::energy_change(const LoadedRows& change) const {
+double StepperProjective::energy_change(const LoadedRows& change, double h) const {
   double sum = places(change).cwiseProduct(right_side_ - steady_side_ + loads(change) / 2).sum();
   for (std::size_t s = 0; s < model_.springs.size(); ++s) {
     const Spring& spring = model_.springs[s];
@@ -150,15 +190,21 @@ double StepperProjective::energy_change(const LoadedRows& change) const {
     if (lengths > 0)
       sum -= targets_[s].weight * targets_[s].length * (end - begin).dot(end + begin) / lengths;
   }
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held()) {
+      const Vec3 begin = positions_.col(held.vertex);
+      const Vec3 end = proposed_.col(held.vertex);
+      if (is_held_[held.vertex]) sum -= (end - begin).dot(freedom(held, h) * (end + begin)) / 2;
+    }
   return sum;
 }
 
-void StepperProjective::accelerate() {
+void StepperProjective::accelerate(double h) {
   const auto* change = acceleration_->propose(solution_, right_side_);
   if (change == nullptr) return;
   proposed_ = (solution_ + places(*change)).transpose();
   place_between_parents(model_.hanging, proposed_);
-  if (energy_change(*change) < 0) {
+  if (energy_change(*change, h) < 0) {
     positions_.swap(proposed_);
     acceleration_->accept();
   } else {
@@ -166,10 +212,31 @@ void StepperProjective::accelerate() {
   }
 }
 
+/// Without what remembered forces alone would do: thrown far away from its neighbours by its mass.
+void StepperProjective::place_first_guess(double time_end, double h) {
+  positions_ = predicted_;
+  if (contact_forces_.cols() > 0)
+    for (int i = 0; i < model_.n_vertices(); ++i)
+      if (!model_.hangs(VertexId(i)))
+        positions_.col(i) -= h * h / model_.masses[i] * contact_forces_.col(i);
+  for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
+  place_between_parents(model_.hanging, positions_);
+  first_change_ = positions_;
+  if (!hold_) return;
+  for (const ContactHold::Held& held : hold_->held()) {
+    const VertexId v = held.vertex;
+    if (!is_held_[v]) continue;
+    const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
+    positions_.col(v) += held.resistance * way / (kHeldShare * hold_->resistances()[v]);
+  }
+}
+
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
   if (!factor_report_.ok()) return factor_report_;
   positions_begin_ = state.positions;
-  set_external_forces(state, h, forces_);
+  if (hold_) hold();
+  if (!factor_report_.ok()) return factor_report_;
+  set_damped_external_forces(state, h, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
     for (int i = 0; i < model_.n_vertices(); ++i) {
@@ -177,9 +244,7 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
       predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
                           h * h / model_.masses[i] * forces_.col(i);
     }
-    positions_ = predicted_;
-    for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
-    place_between_parents(model_.hanging, positions_);
+    place_first_guess(time_end, h);
     set_targets(h);
     if (acceleration_) start_acceleration(time_end, h);
   }
@@ -192,27 +257,31 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     const StageScope scope(observer_, Stage::solve);
     report = solver_->solve(right_side_, solution_);
     if (!report.ok()) return report;
-    if (round == 0) first_change_ = solution_.transpose() - positions_;
+    if (round == 0) first_change_ = solution_.transpose() - first_change_;
     positions_ = solution_.transpose();
     place_between_parents(model_.hanging, positions_);
-    if (acceleration_) accelerate();
+    if (acceleration_) accelerate(h);
   }
   report.iterations = options().iterations;
   time_end_ = time_end;
   state.positions = positions_;
   state.velocities = (positions_ - positions_begin_) / h;
-  resolve_contacts(positions_begin_, state, time_end, h);
+  if (hold_) hold_->add_forces(state.velocities, h, contact_forces_);
+  correct(positions_begin_, state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
   return report;
 }
 
-/// |b(x) - A x| over its value at the predicted positions, for the last substep.
+/// |b(x) - A x| over its value where neither springs nor solids act, for the last substep. Cloth
+/// that only falls is predicted to rounding: what rounding makes of A x is nothing to be solved.
 void StepperProjective::store(State&, SolveReport& report) {
   if (!report.ok()) return;
   set_right_side(time_end_, options().step / substeps());
   const auto A = matrix_.selfadjointView<Eigen::Lower>();
   solution_ = first_change_.transpose();
+  constexpr double kRounding = 100 * std::numeric_limits<double>::epsilon();
   double first = 0;
   double last = 0;
+  double rounding = 0;
   const auto clear_hanging = [this] {
     for (const HangingVertex& vertex : model_.hanging) column_[vertex.vertex] = 0;
   };
@@ -221,12 +290,13 @@ void StepperProjective::store(State&, SolveReport& report) {
     clear_hanging();
     first += column_.squaredNorm();
     solution_.col(c) = positions_.row(c).transpose();
+    rounding += kRounding * kRounding * solution_.col(c).cwiseProduct(diagonal_).squaredNorm();
     column_ = right_side_.col(c);
     column_.noalias() -= A * solution_.col(c);
     clear_hanging();
     last += column_.squaredNorm();
   }
-  report.relative_residual = first > 0 ? std::sqrt(last / first) : 0;
+  report.relative_residual = first > 0 ? std::sqrt(last / std::max(first, rounding)) : 0;
 }
 
 }  // namespace pleat

@@ -18,7 +18,8 @@ void StepperRk4::evaluate(State& state, double time, State& rates) {
   }
   place_between_parents(model_.hanging, state);
   rates.positions = state.velocities;
-  set_external_forces(state, 0, rates.velocities);
+  if (model_.air) model_.air->set_time(time);
+  set_external_forces(state, rates.velocities);
   const StageScope scope(observer_, Stage::forces);
   add_internal_forces(model_, state.positions, state.velocities, rates.velocities);
   pull_to_parents(model_.hanging, rates.velocities);
@@ -46,7 +47,7 @@ SolveReport StepperRk4::substep(State& state, double time_end, double h) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) = pin.velocity(time_end);
   }
-  resolve_contacts(positions_begin_, state, time_end, h);
+  correct(positions_begin_, state, time_end, h);
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/refinement/mesh_match.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
@@ -154,8 +155,10 @@ SideBySide::SideBySide(const std::vector<Contestant>& contestants, const FrameOp
     : options_(options) {
   PLEAT_CHECK(!contestants.empty(), "runs side by side are at least one");
   options_.validate();
-  for (const Contestant& contestant : contestants)
+  for (const Contestant& contestant : contestants) {
+    expect_whole(contestant.scene);
     runs_.push_back(std::make_unique<Run>(contestant, options_));
+  }
   for (const auto& run : runs_)
     if (run->cloth->mesh() == nullptr)
       throw InputError("/cloth", "expected a sheet or a garment, got cloth that is not of quads");

@@ -110,10 +110,17 @@ void FrameWriter::append_binary(const Positions& positions, double time) {
   if (!binary_) throw LostOutput(path, "but " + std::to_string(n_frames_) + " frames were");
 }
 
+void FrameWriter::set_mesh(FrameMesh mesh) {
+  PLEAT_CHECK(format_ != FrameFormat::binary || n_frames_ == 0,
+              "all frames of frames.bin have the same vertices");
+  mesh_ = std::move(mesh);
+  n_vertices_ = -1;
+}
+
 void FrameWriter::write(const Positions& positions, double time) {
   PLEAT_CHECK(n_frames_ < kMaxFrames, "a frame's number has six digits");
-  if (n_frames_ == 0) n_vertices_ = positions.cols();
-  PLEAT_CHECK(positions.cols() == n_vertices_, "every frame has the same vertices");
+  if (n_vertices_ < 0) n_vertices_ = positions.cols();
+  PLEAT_CHECK(positions.cols() == n_vertices_, "every frame of a mesh has the same vertices");
   PLEAT_CHECK(mesh_.rest_coordinates.cols() == 0 || mesh_.rest_coordinates.cols() == n_vertices_,
               "every vertex has rest coordinates, or none");
   PLEAT_CHECK(positions.allFinite(), "a frame is finite");

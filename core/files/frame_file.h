@@ -38,8 +38,12 @@ class FrameWriter {
   /// Throws FileError naming the folder or file that cannot be written.
   FrameWriter(std::string folder, FrameFormat format, FrameMesh mesh);
 
-  /// Throws ContractError unless the frame is finite, all frames have as many vertices as the mesh
-  /// and there are at most kMaxFrames, LostOutput when the file cannot take it.
+  /// The next frames have another mesh. Not for frames.bin, whose frames all have the same
+  /// vertices.
+  void set_mesh(FrameMesh mesh);
+
+  /// Throws ContractError unless the frame is finite, has as many vertices as those before and
+  /// there are at most kMaxFrames, LostOutput when the file cannot take it.
   void write(const Positions& positions, double time);
 
   /// No frame comes any more. Throws LostOutput when frames.bin cannot be ended.
@@ -54,7 +58,7 @@ class FrameWriter {
   FrameFormat format_;
   FrameMesh mesh_;
   std::ofstream binary_;
-  Eigen::Index n_vertices_ = -1;  // known from the first frame on
+  Eigen::Index n_vertices_ = -1;  // known from the first frame of the mesh on
   int n_frames_ = 0;
 };
 

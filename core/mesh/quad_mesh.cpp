@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/mesh/cut_faces.h"
 #include "core/mesh/edge_key.h"
 
 namespace pleat {
@@ -208,6 +209,21 @@ void QuadMesh::refine_uniformly(int levels) {
     }
   }
   trim();
+}
+
+void QuadMesh::tear(std::span<const VertexId> corners, std::span<const VertexId> origins) {
+  PLEAT_CHECK(hanging_vertices().empty(), "hanging vertices are not torn");
+  auto corner = corners.begin();
+  for (QuadFace& face : faces_) {
+    if (!face.active()) continue;
+    PLEAT_CHECK(corners.end() - corner >= 4, "four corners for every active face");
+    std::copy(corner, corner + 4, face.corners.begin());
+    corner += 4;
+  }
+  parents_.resize(parents_.size() + origins.size());
+  rest_positions_ = with_split(rest_positions_, origins);
+  rest_coordinates_ = with_split(rest_coordinates_, origins);
+  edge_faces_.reset();
 }
 
 std::vector<Triangle> QuadMesh::triangles() const {

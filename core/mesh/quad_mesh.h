@@ -83,6 +83,13 @@ class QuadMesh {
   /// The faces that refining an active one would split, in that order: it is the last.
   std::vector<FaceId> balanced_splits(FaceId face);
 
+  /// Parts the active faces: they get other corners, some of them vertices that are appended. Rest
+  /// areas, threads and diagonals stay. Throws ContractError when vertices hang.
+  ///
+  /// corners  four for each active face
+  /// origins  for each appended vertex the one before it where it is
+  void tear(std::span<const VertexId> corners, std::span<const VertexId> origins);
+
   int n_vertices() const { return static_cast<int>(parents_.size()); }
   std::span<const QuadFace> faces() const { return faces_; }
   const Positions& rest_positions() const { return rest_positions_; }

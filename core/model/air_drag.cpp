@@ -16,6 +16,10 @@ AirDrag::AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int
   PLEAT_CHECK(options.density > 0, "air has a positive density");
   PLEAT_CHECK(options.normal_coefficient >= 0 && options.tangent_coefficient >= 0,
               "drag coefficients are not negative");
+  PLEAT_CHECK(options.wind.gust_intensity >= 0 && options.wind.velocity.allFinite(),
+              "wind is finite, and its gusts are not negative");
+  if (!options.wind.is_still()) wind_.emplace(options.wind);
+  set_time(0);
 }
 
 void AirDrag::evaluate(const Eigen::Ref<const Positions>& positions,
@@ -26,7 +30,8 @@ void AirDrag::evaluate(const Eigen::Ref<const Positions>& positions,
     const Vec3 x0 = positions.col(t[0]);
     const Vec3 doubled_area = (positions.col(t[1]) - x0).cross(positions.col(t[2]) - x0);
     const double area = 0.5 * doubled_area.norm();
-    const Vec3 u = -(velocities.col(t[0]) + velocities.col(t[1]) + velocities.col(t[2])) / 3;
+    const Vec3 u =
+        wind_velocity_ - (velocities.col(t[0]) + velocities.col(t[1]) + velocities.col(t[2])) / 3;
     const double speed = u.norm();
     if (area == 0 || speed == 0) continue;
     const Vec3 normal = doubled_area / (2 * area);
@@ -49,6 +54,11 @@ void AirDrag::evaluate(const Eigen::Ref<const Positions>& positions,
   }
 }
 
+std::size_t AirDrag::bytes() const {
+  const auto n_numbers = static_cast<std::size_t>(drag_.size() + resistance_.size());
+  return triangles_.size() * sizeof(Triangle) + n_numbers * sizeof(double);
+}
+
 Mat3 AirDrag::resistance(VertexId vertex) const {
   const auto d = resistance_.col(vertex);
   Mat3 resistance;
@@ -58,20 +68,31 @@ Mat3 AirDrag::resistance(VertexId vertex) const {
 
 void AirDrag::add_forces(const Eigen::Ref<const Positions>& positions,
                          const Eigen::Ref<const Positions>& velocities,
-                         const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,
-                         double h, Eigen::Ref<Positions> forces) {
+                         std::span<const HangingVertex> hanging, Eigen::Ref<Positions> forces) {
   evaluate(positions, velocities);
   // S^T D S lumped to its diagonal gives each parent half of a hanging vertex's D.
   pull_to_parents(hanging, drag_);
   pull_to_parents(hanging, resistance_);
-  if (h == 0) {
-    forces += drag_;
-    return;
-  }
+  forces += drag_;
+}
+
+void AirDrag::add_damped_forces(const Eigen::Ref<const Positions>& positions,
+                                const Eigen::Ref<const Positions>& velocities,
+                                const Eigen::VectorXd& masses,
+                                std::span<const HangingVertex> hanging, double h,
+                                Positions& applied, Eigen::Ref<Positions> forces) {
+  evaluate(positions, velocities);
+  pull_to_parents(hanging, drag_);
+  pull_to_parents(hanging, resistance_);
   for (Eigen::Index i = 0; i < drag_.cols(); ++i) {
     if (masses[i] == 0) continue;
     const Mat3 damped = Mat3::Identity() + h / masses[i] * resistance(VertexId(i));
-    forces.col(i) += damped.inverse() * drag_.col(i);
+    if (!wind_) {
+      forces.col(i) += damped.inverse() * drag_.col(i);
+      continue;
+    }
+    applied.col(i) += damped.inverse() * (drag_.col(i) - applied.col(i));
+    forces.col(i) += applied.col(i);
   }
 }
 

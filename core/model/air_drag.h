@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/mesh/quad_mesh.h"
+#include "core/model/wind.h"
 
 namespace pleat {
 
@@ -11,15 +13,22 @@ struct AirOptions {
   double density = 1.2;              ///< rho [kg/m^3], positive
   double normal_coefficient = 1;     ///< C_n, not negative
   double tangent_coefficient = 0.1;  ///< C_t, not negative
+  WindOptions wind;
 };
 
-/// Drag of still air, per triangle: f = 1/2 rho A |u| (C_n u_n + C_t u_t), where u is minus the
+/// Drag of air, per triangle: f = 1/2 rho A |u| (C_n u_n + C_t u_t), where u is the wind minus the
 /// triangle's velocity and u_n, u_t its normal and tangential parts; a third of f on each corner.
 class AirDrag {
  public:
   /// share  of each triangle's area that counts: 1/2 for triangles that cover the cloth twice.
   AirDrag(std::vector<Triangle> triangles, const AirOptions& options, int n_vertices,
           double share = 1);
+
+  /// Lets the wind be what it is at a time [s]; of no effect in still air.
+  void set_time(double time) {
+    if (wind_) wind_velocity_ = wind_->velocity(time);
+  }
+  bool has_wind() const { return wind_.has_value(); }
 
   /// Takes the law above at these places and velocities, for `forces` and `resistance`.
   void evaluate(const Eigen::Ref<const Positions>& positions,
@@ -29,15 +38,22 @@ class AirDrag {
   /// D >= -df/dv lumped to the vertex [N s/m].
   Mat3 resistance(VertexId vertex) const;
 
-  /// Evaluates, and adds drag to `forces` [N]; what acts on vertices that hang, to their parents'.
-  ///
-  /// h  0 gives the law above. Positive gives the force that a linearly implicit step of h [s]
-  /// applies,
-  ///    (I + h D/m)^-1 f with the lumped D: first-order consistent and never
-  ///    overshooting, so that light cloth may take large steps.
+  /// Evaluates, and adds the law to `forces` [N]; what acts on vertices that hang, to their
+  /// parents', also in `resistance`.
   void add_forces(const Eigen::Ref<const Positions>& positions,
-                  const Eigen::Ref<const Positions>& velocities, const Eigen::VectorXd& masses,
-                  std::span<const HangingVertex> hanging, double h, Eigen::Ref<Positions> forces);
+                  const Eigen::Ref<const Positions>& velocities,
+                  std::span<const HangingVertex> hanging, Eigen::Ref<Positions> forces);
+
+  /// The same for steps of h [s], positive, that do not solve for drag: adds F instead of the law's
+  /// f, with F <- F + (I + h D/m)^-1 (f - F) from step to step. First-order consistent, stable for
+  /// any h, and equal to f where motion is steady. In still air F begins at zero in each step, so
+  /// that drag never turns motion round.
+  ///
+  /// applied  F, one column a vertex, zero to begin with [N]; not used in still air
+  void add_damped_forces(const Eigen::Ref<const Positions>& positions,
+                         const Eigen::Ref<const Positions>& velocities,
+                         const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,
+                         double h, Positions& applied, Eigen::Ref<Positions> forces);
 
   /// Factor on the force, 1 to begin with: lets drag keep up while motion is carried over to cloth
   /// of another weight.
@@ -45,12 +61,16 @@ class AirDrag {
   double strength() const { return strength_; }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// What its triangles, forces and resistances take.
+  std::size_t bytes() const;
 
  private:
   std::vector<Triangle> triangles_;
   AirOptions options_;
   double share_;
   double strength_ = 1;
+  std::optional<Wind> wind_;                             // none in still air
+  Vec3 wind_velocity_{0, 0, 0};                          // [m/s]
   Positions drag_;                                       // force of the air alone [N]
   Eigen::Matrix<double, 6, Eigen::Dynamic> resistance_;  // lumped D, xx yy zz xy xz yz [N s/m]
 };

@@ -55,6 +55,12 @@ void ClothModel::validate() const {
     PLEAT_CHECK(!hangs(pin.vertex), "a pin holds no hanging vertex but its parents");
     pinned[pin.vertex] = true;
   }
+  if (strain_limit) {
+    strain_limit->options.validate();
+    for (const GaugeEdge& edge : strain_limit->edges)
+      PLEAT_CHECK(exists(edge.a) && exists(edge.b) && edge.a != edge.b && edge.rest_length > 0,
+                  "an edge with limits joins vertices of the model and has a length");
+  }
   PLEAT_CHECK(rest_coordinates.cols() == 0 || rest_coordinates.cols() == n,
               "rest coordinates for all or none");
 }

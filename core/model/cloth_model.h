@@ -11,6 +11,7 @@
 #include "core/fabric/spring_lattice.h"
 #include "core/linalg/sparse.h"
 #include "core/model/air_drag.h"
+#include "core/model/strain_limit.h"
 
 namespace pleat {
 
@@ -47,6 +48,7 @@ struct ClothModel {
   std::vector<Pin> pins;      ///< at most one per vertex, none where it hangs
   std::optional<AirDrag> air;
   std::optional<ContactStage> contact;
+  std::optional<StrainLimit> strain_limit;
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
 
   int n_vertices() const { return static_cast<int>(masses.size()); }

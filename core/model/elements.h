@@ -7,6 +7,11 @@
 
 namespace pleat {
 
+template <class Element>
+std::size_t bytes_of(const std::vector<Element>& elements) {
+  return elements.size() * sizeof(Element);
+}
+
 /// Length and direction of a spring; at zero length the direction is zero, so that it pulls
 /// nowhere.
 struct SpringAxis {
@@ -55,7 +60,8 @@ struct RowSums {
 ///
 ///     empty()                             whether the model has none
 ///     check()                             ContractError where an element breaks its promises
-///     for_each_part(note)                 note(is_built, name) for what the build report tells
+///     for_each_part(note)                 note(is_built, name, bytes) for what the build report
+///                                         tells; 0 where others have its bytes
 ///     for_each_pair(join)                 join(a, b) for all pairs of vertices of an element
 ///     add_energy(x, energy)               [J], element by element
 ///     add_forces(x, forces)               -dE/dx [N]
@@ -97,13 +103,13 @@ struct SpringElements : ElementKind {
   void check() const;
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "springs");
+    note(!empty(), "springs", bytes_of(model_.springs));
     note(std::any_of(model_.springs.begin(), model_.springs.end(),
                      [](const Spring& spring) { return spring.damping > 0; }),
-         "dampers");
+         "dampers", 0);
     if (std::any_of(model_.springs.begin(), model_.springs.end(),
                     [](const Spring& spring) { return spring.kind == SpringKind::bend; }))
-      note(true, "bending");
+      note(true, "bending", 0);
   }
   template <class Join>
   void for_each_pair(Join&& join) const {
@@ -139,7 +145,7 @@ struct TautSpringElements : ElementKind {
   void check() const;
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "stretch stiffening");
+    note(!empty(), "stretch stiffening", bytes_of(model_.taut_springs));
   }
   template <class Join>
   void for_each_pair(Join&& join) const {
@@ -171,7 +177,7 @@ struct BendElements : ElementKind {
   void check() const;
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "bending");
+    note(!empty(), "bending", bytes_of(model_.bends));
   }
   template <class Join>
   void for_each_pair(Join&& join) const {
@@ -201,7 +207,7 @@ struct ChordElements : ElementKind {
   bool empty() const { return model_.chord_bends.empty(); }
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "bending");
+    note(!empty(), "bending", bytes_of(model_.chord_bends));
   }
   template <class Join>
   void for_each_pair(Join&& join) const {
@@ -227,9 +233,9 @@ struct MembraneElements : ElementKind {
   void check() const;
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "membrane");
-    note(!empty() && model_.membrane_relaxation > 0, "dampers");
-    note(!empty() && model_.membrane.law.stiffening_strain > 0, "stretch stiffening");
+    note(!empty(), "membrane", bytes_of(model_.membrane.elements));
+    note(!empty() && model_.membrane_relaxation > 0, "dampers", 0);
+    note(!empty() && model_.membrane.law.stiffening_strain > 0, "stretch stiffening", 0);
   }
   template <class Join>
   void for_each_pair(Join&& join) const {
@@ -264,7 +270,7 @@ struct HingeElements : ElementKind {
   bool empty() const { return model_.hinges.empty(); }
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "bending");
+    note(!empty(), "bending", bytes_of(model_.hinges));
   }
   template <class Join>
   void for_each_pair(Join&& join) const {
@@ -291,7 +297,9 @@ struct FittedBendingElements : ElementKind {
   void check() const;
   template <class Note>
   void for_each_part(Note&& note) const {
-    note(!empty(), "bending");
+    note(!empty(), "bending",
+         static_cast<std::size_t>(model_.fitted_bending.nonZeros()) *
+             (sizeof(double) + sizeof(int)));
   }
   template <class Join>
   void for_each_pair(Join&& join) const {

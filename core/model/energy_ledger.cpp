@@ -23,16 +23,27 @@ Vec3 coulomb_part(const Vec3& impulse, const Vec3& normal, double friction) {
 
 EnergyLedger::EnergyLedger(const ClothModel& model, const State& state)
     : model_(model),
-      air_(model.air),
-      is_pinned_(static_cast<std::size_t>(model.n_vertices())),
       first_parts_(energy_parts(model, state)),
       parts_(first_parts_),
       largest_kinetic_energy_(first_parts_.kinetic) {
-  for (Loads* loads : {&begin_, &end_}) loads->forces.resize(3, model.n_vertices());
-  part_.resize(3, model.n_vertices());
+  take_vertices();
 }
 
-void EnergyLedger::evaluate(const State& state, Loads& loads) {
+void EnergyLedger::take_vertices() {
+  air_ = model_.air;
+  is_pinned_.resize(static_cast<std::size_t>(model_.n_vertices()));
+  for (Loads* loads : {&begin_, &end_}) loads->forces.resize(3, model_.n_vertices());
+  part_.resize(3, model_.n_vertices());
+}
+
+void EnergyLedger::record_tear(const State& state) {
+  take_vertices();
+  const EnergyParts torn = energy_parts(model_, state);
+  works_.tears += torn.sum() - parts_.sum();
+  parts_ = torn;
+}
+
+void EnergyLedger::evaluate(const State& state, double time, Loads& loads) {
   const auto& v = state.velocities;
   loads.forces.setZero();
   add_elastic_forces(model_, state.positions, loads.forces);
@@ -44,7 +55,8 @@ void EnergyLedger::evaluate(const State& state, Loads& loads) {
   loads.air_power = 0;
   if (air_) {
     part_.setZero();
-    air_->add_forces(state.positions, v, model_.masses, model_.hanging, 0, part_);
+    air_->set_time(time);
+    air_->add_forces(state.positions, v, model_.hanging, part_);
     loads.air_power = part_.cwiseProduct(v).sum();
     loads.forces += part_;
   }
@@ -75,8 +87,8 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
   PLEAT_CHECK(
       begin.positions.cols() == model_.n_vertices() && end.positions.cols() == model_.n_vertices(),
       "a ledger keeps its number of vertices");
-  evaluate(begin, begin_);
-  evaluate(end, end_);
+  evaluate(begin, time_end - step, begin_);
+  evaluate(end, time_end, end_);
   works_.damping += step / 2 * (begin_.damping_power + end_.damping_power);
   works_.air += step / 2 * (begin_.air_power + end_.air_power);
   std::fill(is_pinned_.begin(), is_pinned_.end(), char{0});

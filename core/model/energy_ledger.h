@@ -23,16 +23,22 @@ class EnergyLedger {
     double air = 0;
     double pins = 0;
     double contact = 0;
+    double tears = 0;
 
-    double sum() const { return damping + air + pins + contact; }
+    double sum() const { return damping + air + pins + contact + tears; }
   };
 
-  /// model  outlives the ledger; its pins and colliders may move as their motions say.
+  /// model  outlives the ledger; its pins and colliders may move as their motions say, and tears
+  ///        may change it (record_tear)
   /// state  at the beginning.
   EnergyLedger(const ClothModel& model, const State& state);
 
   /// time_end  of the step [s];  step  its length [s], positive.
   void record(const State& begin, const State& end, double time_end, double step);
+
+  /// The model has become that of torn cloth; what its threads no longer store is work of the tear.
+  /// state  that of the last record or of the beginning, on the vertices of now
+  void record_tear(const State& state);
 
   const Works& works() const { return works_; }
   const EnergyParts& parts() const { return parts_; }  ///< after the last step
@@ -50,7 +56,8 @@ class EnergyLedger {
     double air_power = 0;
   };
 
-  void evaluate(const State& state, Loads& loads);
+  void take_vertices();
+  void evaluate(const State& state, double time, Loads& loads);
   Vec3 missing_impulse(VertexId vertex, const State& begin, const State& end, double step) const;
   void record_contact(const State& begin, const State& end, double time_end, double step);
 

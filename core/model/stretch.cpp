@@ -7,14 +7,10 @@
 #include "core/mesh/mesh_lines.h"
 
 namespace pleat {
-namespace {
 
-/// l/L - 1.
 double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& positions) {
   return (positions.col(edge.a) - positions.col(edge.b)).norm() / edge.rest_length - 1;
 }
-
-}  // namespace
 
 std::vector<GaugeEdge> gauge_edges(const QuadMesh& mesh) {
   std::vector<GaugeEdge> edges;

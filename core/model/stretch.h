@@ -24,6 +24,9 @@ std::vector<GaugeEdge> gauge_edges(const TriangleMesh& mesh);
 /// Structural springs that have a length.
 std::vector<GaugeEdge> gauge_edges(std::span<const Spring> springs);
 
+/// l/L - 1.
+double strain(const GaugeEdge& edge, const Eigen::Ref<const Positions>& positions);
+
 /// |l/L - 1| over the edges of a gauge; 0 without any.
 struct Stretch {
   double rms = 0;

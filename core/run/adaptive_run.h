@@ -15,7 +15,8 @@ namespace pleat {
 class AdaptiveRun final : public MovingCloth {
  public:
   /// scene  of a sheet or garment; it begins unrefined, whatever its level or plan
-  /// Throws InputError for other cloth, options out of range and when the method cannot run on it.
+  /// Throws InputError for other cloth, cloth that tears, options out of range and when the method
+  /// cannot run on it.
   AdaptiveRun(const Scene& scene, const DynamicOptions& options);
 
   /// Begins a frame. Returns true when the mesh has changed. Throws InputError as

@@ -12,6 +12,7 @@
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
 #include "core/scene/rest_cloth.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
@@ -195,6 +196,7 @@ ResponseRun run_from_contact(const Scene& scene, double window, State& at, doubl
 ResponseStudy study_response(Scene scene, double window) {
   PLEAT_CHECK(window > 0, "a window is positive");
   check_scene(scene);
+  expect_whole(scene);
   scene = with_short_steps(scene);
   ResponseStudy study;
   study.substep = scene.method.step;

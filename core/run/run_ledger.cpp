@@ -1,5 +1,7 @@
 #include "core/run/run_ledger.h"
 
+#include "core/scene/tearing.h"
+
 namespace pleat {
 
 RunLedger::RunLedger(const Simulation& simulation)
@@ -10,6 +12,15 @@ RunLedger::RunLedger(const Simulation& simulation)
 
 void RunLedger::look() {
   if (simulation_.time() == time_begin_) return;
+  const auto n_before = static_cast<std::size_t>(begin_.positions.cols());
+  const auto n_now = static_cast<std::size_t>(simulation_.state().positions.cols());
+  if (n_now > n_before) {
+    const auto origins = simulation_.tear_origins().last(n_now - n_before);
+    const Tearing& tearing = *simulation_.scene().model.tearing;
+    begin_.positions = tearing.split(begin_.positions, origins);
+    begin_.velocities = tearing.split(begin_.velocities, origins);
+    account_.record_tear(begin_);
+  }
   account_.record(begin_, simulation_.state(), simulation_.time(), simulation_.scene().method.step);
   begin_ = simulation_.state();
   time_begin_ = simulation_.time();

@@ -5,7 +5,7 @@
 
 namespace pleat {
 
-/// Accounts for the energy of a running simulation.
+/// Accounts for the energy of a running simulation, which may tear.
 class RunLedger {
  public:
   /// simulation  outlives this; the account begins with its present state

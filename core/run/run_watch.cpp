@@ -249,10 +249,9 @@ void RunWatch::look_at_stretch(const Simulation& simulation) {
                      load_stretch_ + start_stretch_,
                      {}};
   for (const GaugeEdge& edge : simulation.gauge()) {
-    const double length = (positions.col(edge.a) - positions.col(edge.b)).norm();
-    const double strain = std::abs(length / edge.rest_length - 1);
-    if (strain > warning.value) {
-      warning.value = strain;
+    const double stretched = std::abs(strain(edge, positions));
+    if (stretched > warning.value) {
+      warning.value = stretched;
       warning.vertex = edge.a;
     }
   }

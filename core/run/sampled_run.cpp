@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
@@ -28,6 +29,7 @@ SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts part
       run_(simulation_,
            parts == Parts::timed_with_ledger ? TimedRun::Parts::timed : TimedRun::Parts::untimed),
       times_(std::move(times)) {
+  expect_whole(scene);
   PLEAT_CHECK(!times_.empty() && times_.front() > 0 && std::is_sorted(times_.begin(), times_.end()),
               "sample times are positive and ascend");
   if (parts == Parts::timed_with_ledger) ledger_.emplace(simulation_);

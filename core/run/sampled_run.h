@@ -38,7 +38,7 @@ class SampledRun {
   };
 
   /// times  [s], positive, ascending, at least one.
-  /// Throws InputError when the scene's method cannot run on it.
+  /// Throws InputError when the scene's method cannot run on it, and for cloth that tears.
   SampledRun(const Scene& scene, std::vector<double> times, Parts parts);
   SampledRun(const SampledRun&) = delete;
   SampledRun& operator=(const SampledRun&) = delete;

@@ -123,31 +123,45 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
                                  scene.contact_response};
     model.contact.emplace(std::move(colliders), options);
   }
+  if (scene.model.strain_limit)
+    model.strain_limit = StrainLimit{*scene.model.strain_limit,
+                                     in_lines(gauge_edges(cloth), cloth.mesh.rest_positions)};
   return model;
 }
 
 BuildReport build_report(const ClothModel& model) {
   BuildReport report;
-  const auto note = [&report](bool is_built, std::string_view part) {
+  const auto note = [&report](bool is_built, std::string_view part, std::size_t bytes) {
     (is_built ? report.built : report.left_out).emplace_back(part);
+    if (is_built) report.bytes.push_back(bytes);
   };
   // Several kinds of element may build the same part.
-  std::vector<std::pair<std::string_view, bool>> parts;
+  struct Part {
+    std::string_view name;
+    bool is_built;
+    std::size_t bytes;
+  };
+  std::vector<Part> parts;
   for_each_element_kind(model, [&parts](const auto& kind) {
-    kind.for_each_part([&parts](bool is_built, std::string_view name) {
+    kind.for_each_part([&parts](bool is_built, std::string_view name, std::size_t bytes) {
       const auto known = std::find_if(parts.begin(), parts.end(),
-                                      [&](const auto& part) { return part.first == name; });
-      if (known == parts.end())
-        parts.emplace_back(name, is_built);
-      else
-        known->second = known->second || is_built;
+                                      [&](const Part& part) { return part.name == name; });
+      if (known == parts.end()) {
+        parts.push_back({name, is_built, bytes});
+      } else {
+        known->is_built = known->is_built || is_built;
+        known->bytes += bytes;
+      }
     });
   });
-  for (const auto& [name, is_built] : parts) note(is_built, name);
-  note(!model.gravity.isZero(), "gravity");
-  note(!model.pins.empty(), "pins");
-  note(model.air.has_value(), "air drag");
-  note(model.contact.has_value(), "contact");
+  for (const Part& part : parts) note(part.is_built, part.name, part.bytes);
+  note(!model.gravity.isZero(), "gravity", sizeof model.gravity);
+  note(!model.pins.empty(), "pins", bytes_of(model.pins));
+  note(model.air.has_value(), "air drag", model.air ? model.air->bytes() : 0);
+  note(model.air && model.air->has_wind(), "wind", 0);
+  note(model.contact.has_value(), "contact", model.contact ? model.contact->bytes() : 0);
+  note(model.strain_limit.has_value(), "strain limit",
+       model.strain_limit ? bytes_of(model.strain_limit->edges) : 0);
   return report;
 }
 

@@ -19,6 +19,8 @@ State scene_state(const RestCloth& cloth);
 /// What scene_model built, and what it left out because the scene does not ask for it.
 struct BuildReport {
   std::vector<std::string> built;
+  std::vector<std::size_t>
+      bytes;  ///< that the model keeps for each part built, without what steppers add
   std::vector<std::string> left_out;
 };
 

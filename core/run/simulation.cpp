@@ -1,11 +1,13 @@
 #include "core/run/simulation.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/dynamics/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/run/content_id.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 
@@ -38,16 +40,58 @@ void Simulation::observe(StageObserver* observer) {
 void Simulation::reset() {
   release_grab();
   end_transition();
+  make_whole();
   start();
 }
 
+/// Pins stay, and what the contact stage has counted.
+void Simulation::take_cloth(RestCloth cloth) {
+  stepper_.reset();  // it refers to the model
+  cloth_ = std::move(cloth);
+  std::vector<Pin> pins = std::move(model_.pins);
+  std::optional<ContactStage> contact = std::move(model_.contact);
+  model_ = scene_model(scene_, cloth_);
+  model_.pins = std::move(pins);
+  if (contact) contact->set_options(model_.contact->options());
+  model_.contact = std::move(contact);
+  gauge_ = gauge_edges(cloth_);
+  ++topology_;
+}
+
+void Simulation::make_whole() {
+  if (tear_origins_.empty()) return;
+  tear_origins_.clear();
+  take_cloth(rest_cloth(scene_));
+}
+
+/// What a vertex splits into goes on with its velocity and shares its mass and what held it against
+/// solids: momentum and forces add up to what they were.
+void Simulation::tear() {
+  const Tearing& tearing = *scene_.model.tearing;
+  std::optional<TornCloth> torn = tearing.torn(cloth_, gauge_, state_.positions, model_.pins);
+  if (!torn) return;
+  const Positions forces = stepper_->contact_forces();
+  const Eigen::VectorXd masses = model_.masses;
+  take_cloth(std::move(torn->cloth));
+  state_.positions = tearing.split(state_.positions, torn->origins);
+  state_.velocities = tearing.split(state_.velocities, torn->origins);
+  stepper_ = make_stepper(model_, scene_.method);
+  stepper_->observe(observer_);
+  if (forces.cols() > 0)
+    stepper_->start_from_contact_forces(
+        tearing.shared(forces, masses, model_.masses, torn->origins));
+  tear_origins_.insert(tear_origins_.end(), torn->origins.begin(), torn->origins.end());
+}
+
 void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
-  if (positions.cols() != model_.n_vertices() || !positions.allFinite())
-    throw InputError("", "expected a finite place for each of " +
-                             std::to_string(model_.n_vertices()) + " vertices, got " +
-                             std::to_string(positions.cols()) + " places");
+  const auto n_vertices = static_cast<Eigen::Index>(model_.masses.size()) -
+                          static_cast<Eigen::Index>(tear_origins_.size());
+  if (positions.cols() != n_vertices || !positions.allFinite())
+    throw InputError("", "expected a finite place for each of " + std::to_string(n_vertices) +
+                             " vertices, got " + std::to_string(positions.cols()) + " places");
   release_grab();
   end_transition();
+  make_whole();
   start_positions_ = positions;
   for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
   start();
@@ -60,7 +104,6 @@ std::optional<double> Simulation::stability_bound() const {
 
 SolveReport Simulation::step() {
   if (ended_.ends_run()) return ended_;
-  if (grab_) place_grab_pins();
   if (transition_) {
     const double since = time() - time_begin_;
     if (since < kTransitionTime)
@@ -68,6 +111,8 @@ SolveReport Simulation::step() {
     else
       end_transition();
   }
+  if (scene_.model.tearing && !transition_) tear();
+  if (grab_) place_grab_pins();
   ended_ = stepper_->advance(state_, time());
   if (!ended_.ends_run()) ++n_steps_;
   return ended_;
@@ -79,6 +124,7 @@ void Simulation::carry_over(const Simulation& old) {
   PLEAT_CHECK(own && olds && own->shape.columns == olds->shape.columns &&
                   own->shape.rows == olds->shape.rows,
               "motion is carried over between refinements of one sheet");
+  PLEAT_CHECK(old.tear_origins().empty(), "what is torn is not carried over");
   end_transition();
   const MovingSheet from{*old.cloth_.quads, old.model_, old.state_};
   state_ = carried_state(from, *cloth_.quads);

@@ -20,9 +20,11 @@ class Simulation final : public MovingCloth {
   /// Throws InputError when the scene's method cannot run on it.
   explicit Simulation(const Scene& scene);
 
-  /// One step of scene.method.step. After a report that is not ok or not_converged the state is the
+  /// One step of scene.method.step. Cloth that tears does so first, where it is overloaded. After a
+  /// report that is not ok or not_converged the state is the
   /// last finite one and further steps return the same report.
   SolveReport step() override;
+  /// Starts anew, whole.
   void reset();
 
   /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
@@ -32,7 +34,8 @@ class Simulation final : public MovingCloth {
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
   /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
-  /// shake the cloth. Throws ContractError unless both are sheets with the same base mesh.
+  /// shake the cloth; until then it does not tear. Throws ContractError unless both are sheets with
+  /// the same base mesh, and `old` is whole.
   void carry_over(const Simulation& old);
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of
@@ -58,6 +61,11 @@ class Simulation final : public MovingCloth {
   const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
   /// Positions in which the scene starts [m].
   const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
+  /// For each vertex that tears have appended since the start the one before it that it was split
+  /// from: the vertices before are those of the whole cloth.
+  std::span<const VertexId> tear_origins() const { return tear_origins_; }
+  /// Another number after each change of vertices and triangles.
+  std::int64_t topology() const { return topology_; }
   /// The rest area of each vertex [m^2]; particles count by their mass.
   Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
   std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
@@ -69,6 +77,8 @@ class Simulation final : public MovingCloth {
   std::optional<double> first_contact() const { return stepper_->first_contact(); }
   /// See Stepper::contact_forces.
   bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
+  /// See Stepper::strain_limit.
+  const StrainLimitStage* strain_limit() const { return stepper_->strain_limit(); }
   /// The longest substep that is surely stable [s]; nothing where the method has no bound.
   std::optional<double> stability_bound() const;
   /// See Stepper::implicit_springs.
@@ -83,13 +93,18 @@ class Simulation final : public MovingCloth {
   };
 
   void start();
+  void take_cloth(RestCloth cloth);
+  void tear();
+  void make_whole();
   void place_grab_pins();
   void end_transition();
 
   Scene scene_;
   RestCloth cloth_;
   ClothModel model_;
-  const std::vector<GaugeEdge> gauge_;
+  std::vector<GaugeEdge> gauge_;
+  std::vector<VertexId> tear_origins_;
+  std::int64_t topology_ = 0;
   std::optional<Positions> start_positions_;  // when not those of the scene [m]
   State state_;
   std::unique_ptr<Stepper> stepper_;

@@ -8,7 +8,7 @@
 #include "core/deform/fabric_weights.h"
 #include "core/deform/held_parts.h"
 #include "core/mesh/sheet_pattern.h"
-#include "core/scene/mesh_cloth.h"
+#include "core/scene/obj_cloth.h"
 #include "core/scene/target_section.h"
 #include "core/scene/vertex_place.h"
 

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "core/files/file_source.h"
 #include "core/scene/cloth_source.h"
 
 namespace pleat {
@@ -28,7 +27,10 @@ class MeshCloth final : public ClothSource {
   std::vector<VertexId> base_part(const std::string& name) const override;
 };
 
-/// The section "mesh" of a scene's cloth: a mesh written out, or the name of an OBJ file.
+/// The key "initial_velocity_m_per_s" [m/s]; rest without it.
+Vec3 read_initial_velocity(const JsonReader& reader);
+
+/// The section "mesh" of a scene's cloth where the mesh is written out.
 ///
 /// Warp runs along the direction in which the first texture coordinate grows while the second
 /// stays. Where a triangle has no texture coordinates, or they have no area, it is the direction
@@ -38,8 +40,7 @@ class MeshCloth final : public ClothSource {
 /// wound like the face.
 ///
 /// usual_warp  takes the place of a "warp_direction" that is not there
-/// Faults of an OBJ file are InputErrors at "name: line N".
-MeshCloth read_mesh_cloth(const JsonReader& reader, const FileSource& files,
-                          const std::optional<Vec3>& usual_warp = std::nullopt);
+MeshCloth read_written_mesh(const JsonReader& reader,
+                            const std::optional<Vec3>& usual_warp = std::nullopt);
 
 }  // namespace pleat

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/tearing.h"
+
 namespace pleat {
 namespace {
 
@@ -17,6 +19,10 @@ constexpr std::array<Word<BendingModel>, 6> kBendingModels{{{"quadratic", Bendin
 
 constexpr std::array<Word<DampingDirection>, 2> kDampingDirections{
     {{"along_spring", DampingDirection::along_spring}, {"isotropic", DampingDirection::isotropic}}};
+
+constexpr std::array<Word<StrainLimitLaw>, 2> kStrainLimitLaws{
+    {{"velocity", StrainLimitLaw::velocity}, {"provot", StrainLimitLaw::provot}}};
+constexpr int kMostSweeps = 10000;
 
 bool is_quads(const Scene& scene) { return scene.cloth->quads() != nullptr; }
 bool is_mesh(const Scene& scene) { return scene.cloth->is_surface() && !is_quads(scene); }
@@ -52,6 +58,29 @@ void check_bending(const JsonReader& reader, const Scene& scene) {
               (scene.cloth->is_surface() ? "" : " of particles"));
 }
 
+StrainLimitOptions read_strain_limit(const JsonReader& reader) {
+  reader.allow_keys({"law", "stretch", "compression", "max_sweeps"});
+  StrainLimitOptions limit;
+  if (const auto at = reader.find("law")) limit.law = at->word(kStrainLimitLaws);
+  if (const auto at = reader.find("stretch")) limit.stretch = at->number(kPositive);
+  if (const auto at = reader.find("compression")) {
+    limit.compression = at->number(kPositive);
+    if (limit.compression > 1) at->fail("1 or less, as an edge has no negative length");
+  }
+  if (const auto at = reader.find("max_sweeps"))
+    limit.max_sweeps = static_cast<int>(at->integer(1, kMostSweeps));
+  return limit;
+}
+
+Json json_strain_limit(const StrainLimitOptions& limit) {
+  Json json;
+  json["law"] = word_for(kStrainLimitLaws, limit.law);
+  json["stretch"] = limit.stretch;
+  json["compression"] = limit.compression;
+  json["max_sweeps"] = limit.max_sweeps;
+  return json;
+}
+
 }  // namespace
 
 ModelOptions usual_model(const Scene& scene) {
@@ -61,9 +90,9 @@ ModelOptions usual_model(const Scene& scene) {
   return model;
 }
 
-void read_model(const JsonReader& reader, Scene& scene) {
+void read_model(const JsonReader& reader, const SceneParts& parts, Scene& scene) {
   reader.allow_keys({"elasticity", "bending", "shear", "damping", "stiffening_strain", "torsion",
-                     "stiffness_exponent"});
+                     "stiffness_exponent", "strain_limit", "tearing"});
   ModelOptions& model = scene.model;
   if (const auto at = reader.find("elasticity")) {
     model.elasticity = at->word(kElasticities);
@@ -95,6 +124,11 @@ void read_model(const JsonReader& reader, Scene& scene) {
     model.torsion = at->number(kNotNegative);
     if (model.bending != BendingModel::fitted) at->fail("no such key without fitted bending");
   }
+  if (const auto at = reader.find("strain_limit")) model.strain_limit = read_strain_limit(*at);
+  if (const auto at = reader.find("tearing")) {
+    if (parts.read_tearing == nullptr) refuse_part(*at, "tearing");
+    model.tearing = parts.read_tearing(*at);
+  }
 }
 
 Json json_model(const ModelOptions& model) {
@@ -108,6 +142,8 @@ Json json_model(const ModelOptions& model) {
   if (model.stiffness_exponent > 0) json["stiffness_exponent"] = model.stiffness_exponent;
   if (model.stiffening_strain > 0) json["stiffening_strain"] = model.stiffening_strain;
   if (model.bending == BendingModel::fitted) json["torsion"] = model.torsion;
+  if (model.strain_limit) json["strain_limit"] = json_strain_limit(*model.strain_limit);
+  if (model.tearing) json["tearing"] = model.tearing->json();
   return json;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/files/json_reader.h"
 #include "core/scene/scene.h"
+#include "core/scene/scene_parts.h"
 
 namespace pleat {
 
@@ -11,7 +12,7 @@ ModelOptions usual_model(const Scene& scene);
 
 /// The section "model" of a scene file: what holds the cloth together. The scene has its cloth and
 /// its usual model. Refuses laws that do not go together or that this cloth cannot have.
-void read_model(const JsonReader& reader, Scene& scene);
+void read_model(const JsonReader& reader, const SceneParts& parts, Scene& scene);
 Json json_model(const ModelOptions& model);
 
 }  // namespace pleat

@@ -49,6 +49,8 @@ enum class BendingModel {
   hinge,      ///< of edges, with a membrane: for comparison
 };
 
+class Tearing;
+
 struct ModelOptions {
   Elasticity elasticity = Elasticity::springs;
   BendingModel bending = BendingModel::quadratic;
@@ -58,6 +60,8 @@ struct ModelOptions {
       0;               ///< along the threads; beyond it kTautFactor times as stiff; 0: never
   double torsion = 1;  ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
   double stiffness_exponent = 0;  ///< springs of faces of level l are 2^(this l) times as stiff
+  std::optional<StrainLimitOptions> strain_limit;
+  std::shared_ptr<const Tearing> tearing;  ///< or null: the cloth holds whatever pulls at it
 };
 
 struct RecordOptions {

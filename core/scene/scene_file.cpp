@@ -9,6 +9,7 @@
 #include "core/scene/fabric_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
+#include "core/scene/tearing.h"
 #include "core/scene/world_section.h"
 
 namespace pleat {
@@ -71,7 +72,7 @@ Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const Fil
   read_cloth(root.at("cloth"), files, parts, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
   scene.model = usual_model(scene);
-  if (const auto at = root.find("model")) read_model(*at, scene);
+  if (const auto at = root.find("model")) read_model(*at, parts, scene);
   if (const auto at = root.find("refinement")) read_refinement(*at, files, parts, scene);
   if (const auto at = root.find("pins")) read_pins(*at, parts, scene);
   if (const auto at = root.find("world")) read_world(*at, scene);
@@ -79,6 +80,7 @@ Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const Fil
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);
   check_duration(scene.duration, scene.method.step);
+  if (scene.model.tearing) scene.model.tearing->check(root.at("model").at("tearing"), scene);
   return scene;
 }
 

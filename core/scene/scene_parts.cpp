@@ -17,8 +17,10 @@ SceneCloth particles(const JsonReader& reader, const ClothSurroundings&) {
 
 SceneCloth knit(const JsonReader& reader, const ClothSurroundings&) { return read_knit(reader); }
 
-SceneCloth mesh(const JsonReader& reader, const ClothSurroundings& around) {
-  return read_mesh_cloth(reader, around.files);
+SceneCloth mesh(const JsonReader& reader, const ClothSurroundings&) {
+  if (reader.only_one_of({"obj", "positions_m"}) == 0)
+    reader.at("obj").fail("a mesh written out in the scene, as no files can be read here");
+  return read_written_mesh(reader);
 }
 
 }  // namespace

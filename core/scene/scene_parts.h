@@ -10,6 +10,7 @@
 
 namespace pleat {
 
+class Tearing;
 struct RefinementPlan;
 struct Scene;
 
@@ -35,6 +36,8 @@ struct SceneParts {
   /// The key "plan" of the section "refinement"; the scene has its cloth and model.
   RefinementPlan (*read_plan)(const JsonReader& reader, const FileSource& files,
                               const Scene& scene) = nullptr;
+  /// The section "tearing" of the model.
+  std::shared_ptr<const Tearing> (*read_tearing)(const JsonReader& reader) = nullptr;
   /// The bone that a pin follows.
   Bone (*read_bone)(const JsonReader& reader) = nullptr;
 };
@@ -42,8 +45,15 @@ struct SceneParts {
 /// Everything.
 SceneParts all_scene_parts();
 
-/// Sheets, particles, knits and meshes, without figures, garments and plans.
+/// Sheets, particles, knits and meshes that are written out, without figures, garments, plans and
+/// tearing.
 SceneParts plain_scene_parts();
+
+/// The same with meshes of OBJ files.
+SceneParts scene_parts_with_files();
+
+/// Plain parts with figures, garments and plans.
+SceneParts worn_scene_parts();
 
 /// Throws the InputError for a part that a program lacks: "garment", say.
 [[noreturn]] void refuse_part(const JsonReader& reader, const char* part);

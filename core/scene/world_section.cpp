@@ -18,6 +18,9 @@ constexpr std::array<Word<Motion::Kind>, 4> kMotionKinds{{{"hold", Motion::Kind:
 constexpr std::array<Word<ContactResponse>, 2> kContactResponses{
     {{"resting", ContactResponse::resting}, {"uniform", ContactResponse::uniform}}};
 
+constexpr double kFastestWind = 1000;  // [m/s]: that of a blast
+constexpr std::int64_t kLargestSeed = std::int64_t{1} << 53;
+
 Motion read_motion(const JsonReader& reader) {
   Motion motion;
   motion.kind = reader.at("kind").word(kMotionKinds);
@@ -147,15 +150,39 @@ Json json_collider(const Collider& collider) {
   return json;
 }
 
+WindOptions read_wind(const JsonReader& reader) {
+  reader.allow_keys({"velocity_m_per_s", "gust_intensity", "seed"});
+  WindOptions wind;
+  wind.velocity = reader.at("velocity_m_per_s").vec3();
+  if (wind.velocity.norm() > kFastestWind)
+    reader.at("velocity_m_per_s").fail("a wind of at most 1000 m/s");
+  if (const auto at = reader.find("gust_intensity")) {
+    wind.gust_intensity = at->number(kNotNegative);
+    if (wind.gust_intensity > 1) at->fail("1 or less, as gusts are a part of the wind");
+  }
+  if (const auto at = reader.find("seed"))
+    wind.seed = static_cast<std::uint64_t>(at->integer(0, kLargestSeed));
+  return wind;
+}
+
 AirOptions read_air(const JsonReader& reader) {
-  reader.allow_keys({"density_kg_per_m3", "normal_coefficient", "tangent_coefficient"});
+  reader.allow_keys({"density_kg_per_m3", "normal_coefficient", "tangent_coefficient", "wind"});
   AirOptions air;
   if (const auto at = reader.find("density_kg_per_m3")) air.density = at->number(kPositive);
   if (const auto at = reader.find("normal_coefficient"))
     air.normal_coefficient = at->number(kNotNegative);
   if (const auto at = reader.find("tangent_coefficient"))
     air.tangent_coefficient = at->number(kNotNegative);
+  if (const auto at = reader.find("wind")) air.wind = read_wind(*at);
   return air;
+}
+
+Json json_wind(const WindOptions& wind) {
+  Json json;
+  json["velocity_m_per_s"] = json_vec3(wind.velocity);
+  json["gust_intensity"] = wind.gust_intensity;
+  json["seed"] = wind.seed;
+  return json;
 }
 
 }  // namespace
@@ -219,6 +246,7 @@ Json json_world(const Scene& scene) {
     json["air"]["density_kg_per_m3"] = scene.air->density;
     json["air"]["normal_coefficient"] = scene.air->normal_coefficient;
     json["air"]["tangent_coefficient"] = scene.air->tangent_coefficient;
+    if (!scene.air->wind.is_still()) json["air"]["wind"] = json_wind(scene.air->wind);
   }
   json["colliders"] = Json::array();
   for (const Collider& collider : scene.colliders)

@@ -71,7 +71,7 @@ const lastError = (row) => Object.values(row.position_errors_m).at(-1);
 /** Time and error over those of the first row. */
 const overFirst = (rows) =>
   rows.map((row) => ({
-    time: row.ms_per_frame / rows[0].ms_per_frame,
+    time: row.times_as_long_as_first,
     error: lastError(row) / lastError(rows[0]),
   }));
 

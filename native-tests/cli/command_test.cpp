@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/files/json_text.h"
+#include "core/files/obj_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/matrix_market.h"
 #include "native-tests/support/recorded_frames.h"
@@ -54,6 +55,33 @@ TEST_CASE("command: run writes the frames and the numbers of the scene", "[cli]"
   REQUIRE(frames.times.size() == 6);
   CHECK(frames.times[5] == Approx(0.2));
   CHECK(frames.positions[0].cols() == 9);
+}
+
+TEST_CASE("command: frames of torn cloth have the faces of their time", "[cli]") {
+  const SmallScene strip(R"({
+    "cloth": {"sheet": {"columns": 2, "rows": 1, "width_m": 0.2, "height_m": 0.1}},
+    "fabric": {"name": "fine cotton"}, "model": {"tearing": {"breaking_elongation": 0.2}},
+    "pins": [{"part": "left_edge"}, {"part": "right_edge",
+              "motion": {"kind": "move", "offset_m": [0.1, 0, 0], "end_s": 0.5}}],
+    "record": {"every_s": 0.1, "format": "obj"}, "duration_s": 0.5})");
+  const std::string out = (strip.folder / "out").string();
+  const Ending ending = strip.run({"run", "--out", out, "--drift", "--json"});
+  CAPTURE(ending.error);
+  REQUIRE(ending.status == 0);
+  const Json metrics = parse_json(ending.out);
+  CHECK(metrics.at("n_splits") == 2);
+  CHECK(metrics.at("n_vertices") == 8);
+  CHECK(metrics.at("energy").at("work_of_tears_j").get<double>() <= 0);
+  const ObjMesh first = read_obj(text_of(out + "/frame_000000.obj"));
+  const ObjMesh last = read_obj(text_of(out + "/frame_000005.obj"));
+  CHECK(first.positions.cols() == 6);
+  CHECK(last.positions.cols() == 8);
+  CHECK(first.triangles.size() == last.triangles.size());
+  CHECK_FALSE(first.triangles == last.triangles);
+  CHECK(strip.run({"run"}).out.find("tears: 2 vertices were split") != std::string::npos);
+  const Ending dump = strip.run({"run", "--dump", (strip.folder / "dump").string()});
+  CHECK(dump.status == 2);
+  CHECK(dump.error.find("/model/tearing: expected no such key here") != std::string::npos);
 }
 
 TEST_CASE("command: an explicit run says its bound first, and when a solid was first met",

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/dynamics/stepper_table.h"
+#include "core/model/momentum.h"
 #include "native-tests/support/models.h"
-#include "native-tests/support/momentum.h"
 
 namespace pleat {
 namespace {

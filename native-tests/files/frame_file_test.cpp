@@ -207,4 +207,22 @@ TEST_CASE("frames: a frame that is not finite or of another size is our bug", "[
   CHECK_THROWS_AS(writer.write(Positions::Zero(3, 4), 0), ContractError);
 }
 
+TEST_CASE("frames: another mesh may follow in files of their own, not in frames.bin", "[files]") {
+  const FrameFolder folder;
+  FrameWriter files(folder.path(), FrameFormat::obj, triangle_mesh());
+  files.write(triangle_positions(), 0);
+  FrameMesh two;
+  two.triangles = {{VertexId(0), VertexId(1), VertexId(2)},
+                   {VertexId(0), VertexId(2), VertexId(3)}};
+  files.set_mesh(two);
+  const Positions four = Positions::Identity(3, 4);
+  files.write(four, 1);
+  CHECK(folder.bytes("frame_000000.obj") == obj_text(triangle_mesh(), triangle_positions()));
+  CHECK(folder.bytes("frame_000001.obj") == obj_text(two, four));
+  CHECK_THROWS_AS(files.write(triangle_positions(), 2), ContractError);
+  FrameWriter binary(folder.path(), FrameFormat::binary, triangle_mesh());
+  binary.write(triangle_positions(), 0);
+  CHECK_THROWS_AS(binary.set_mesh(two), ContractError);
+}
+
 }  // namespace pleat

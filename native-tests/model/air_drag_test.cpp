@@ -12,12 +12,16 @@ namespace pleat {
 namespace {
 
 constexpr double kSpeed = 3;  // [m/s]
-const AirOptions kAir{1.2, 1.1, 0.15};
+const AirOptions kAir{1.2, 1.1, 0.15, {}};
 
 Positions drag(const QuadMesh& mesh, const Positions& x, const Positions& v, double h) {
   AirDrag air(mesh.triangles(), kAir, mesh.n_vertices());
   Positions forces = Positions::Zero(3, mesh.n_vertices());
-  air.add_forces(x, v, 0.1 * mesh.vertex_areas(), {}, h, forces);
+  Positions applied = forces;
+  if (h == 0)
+    air.add_forces(x, v, {}, forces);
+  else
+    air.add_damped_forces(x, v, 0.1 * mesh.vertex_areas(), {}, h, applied, forces);
   return forces;
 }
 
@@ -76,7 +80,7 @@ TEST_CASE("air_drag: with quads split both ways it is shared among vertices as m
   AirDrag air(mesh.crossed_triangles(), kAir, mesh.n_vertices(), 0.5);
   const Positions v = everywhere({0.3, -1, 2}, mesh);
   Positions forces = Positions::Zero(3, mesh.n_vertices());
-  air.add_forces(mesh.rest_positions(), v, mesh.vertex_areas(), {}, 0, forces);
+  air.add_forces(mesh.rest_positions(), v, {}, forces);
   const Eigen::VectorXd areas = mesh.vertex_areas();
   const Vec3 per_area = forces.rowwise().sum() / areas.sum();
   CHECK(per_area.norm() > 0);
@@ -132,9 +136,9 @@ TEST_CASE("air_drag: cloth falling flat keeps to the tanh law with every stepper
 }
 
 TEST_CASE("air_drag: air without density or with negative drag is refused", "[model]") {
-  CHECK_THROWS_AS(AirDrag({}, {0, 1, 0.1}, 3), ContractError);
-  CHECK_THROWS_AS(AirDrag({}, {1.2, -1, 0.1}, 3), ContractError);
-  CHECK_THROWS_AS(AirDrag({}, {1.2, 1, -0.1}, 3), ContractError);
+  CHECK_THROWS_AS(AirDrag({}, {0, 1, 0.1, {}}, 3), ContractError);
+  CHECK_THROWS_AS(AirDrag({}, {1.2, -1, 0.1, {}}, 3), ContractError);
+  CHECK_THROWS_AS(AirDrag({}, {1.2, 1, -0.1, {}}, 3), ContractError);
 }
 
 }  // namespace pleat

@@ -192,7 +192,8 @@ TEST_CASE("carry_over: forces accelerate the new cloth as they did the old", "[r
   CHECK(carried_forces({}, old, fresh).isZero(0));
 }
 
-TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before", "[run]") {
+TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast, but for what falls",
+          "[run]") {
   struct Change {
     const char* scene;
     int n_steps;  // before the change, of 1/60 s: the cloth is in real motion then
@@ -221,7 +222,7 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
   for (int s = 0; s < change.n_steps; ++s) old.step();
   Simulation changed(moving_scene(change.scene, stepper, change.new_level, change.new_fabric));
   changed.carry_over(old);
-  // Cloth that would have sped up anyway may do so.
+  // Cloth that would have sped up anyway may do so, and what is softer now may begin to fall.
   double before = largest_speed(old);
   double after = 0;
   for (int s = 0; s < 6; ++s) {
@@ -230,7 +231,7 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast as before"
     before = std::max(before, largest_speed(old));
     after = std::max(after, largest_speed(changed));
   }
-  CHECK(after <= 1.5 * before);
+  CHECK(after <= std::max(1.5 * before, before + 9.81 * 0.1));
 }
 
 TEST_CASE("carry_over: after the transition the cloth is its own to the bit", "[run]") {
@@ -261,9 +262,11 @@ TEST_CASE("carry_over: the same cloth at rest on a ball goes on resting", "[run]
   while (old.time() < 3) old.step();
   Simulation changed(scene);
   changed.carry_over(old);
-  const double before = largest_speed(old);
-  for (int s = 0; s < 6; ++s) changed.step();
-  CHECK(largest_speed(changed) < 1.5 * before);
+  for (int s = 0; s < 6; ++s) {  // both still sway by some millimetres a second
+    old.step();
+    changed.step();
+  }
+  CHECK(largest_speed(changed) < 1.05 * largest_speed(old));
 }
 
 TEST_CASE("carry_over: drag keeps up with the weight through two changes", "[run]") {

@@ -103,6 +103,7 @@ TEST_CASE("run_watch: nonsense is told before what did not converge, which takes
       changed("tablecloth", {{"/method", {{"stepper", "implicit"}, {"tolerance", 1e-16}}},
                              {"/refinement/level", 0},
                              {"/cloth/sheet/origin_m/1", 12},
+                             {"/world/air/density_kg_per_m3", 1e-9},
                              {"/world/gravity_m_per_s2", {0, -600, 0}}});
   const std::vector<RunWarning> warnings = warnings_of(scene, 0.5);
   REQUIRE(warnings.size() >= 2);

@@ -256,9 +256,29 @@ const BadScene kBadScenes[] = {
      R"(expected no such key, as a membrane is damped in its strains alone, got "isotropic")"},
     {R"({"cloth": {"sheet": {}}, "model": {"stiffening_strain": -0.1}})",
      "/model/stiffening_strain", "expected a number >= 0.0, got -0.1"},
-    {R"({"cloth": {"sheet": {}}, "model": {"strain_limit": 0.1}})", "/model/strain_limit",
+    {R"({"cloth": {"sheet": {}}, "model": {"hardness": 0.1}})", "/model/hardness",
      R"(expected one of the keys "elasticity", "bending", "shear", "damping", "stiffening_strain", )"
-     R"("torsion", "stiffness_exponent", got "strain_limit")"},
+     R"("torsion", "stiffness_exponent", "strain_limit", "tearing", got "hardness")"},
+    {R"({"cloth": {"sheet": {}}, "model": {"strain_limit": {"stretch": 0}}})",
+     "/model/strain_limit/stretch", "expected a number > 0.0, got 0"},
+    {R"({"cloth": {"sheet": {}}, "model": {"strain_limit": {"compression": 1.5}}})",
+     "/model/strain_limit/compression",
+     "expected 1 or less, as an edge has no negative length, got 1.5"},
+    {R"({"cloth": {"sheet": {}}, "model": {"strain_limit": {"max_sweeps": 0}}})",
+     "/model/strain_limit/max_sweeps", "expected a whole number from 1 to 10000, got 0"},
+    {R"({"cloth": {"sheet": {}},
+         "model": {"strain_limit": {}, "tearing": {"breaking_elongation": 0.1}}})",
+     "/model/tearing/breaking_elongation",
+     "expected a number below the strain limit's stretch, which no edge exceeds, got 0.1"},
+    {R"({"cloth": {"sheet": {}}, "world": {"air": {"wind": {}}}})", "/world/air/wind",
+     "expected the key \"velocity_m_per_s\", got an empty object"},
+    {R"({"cloth": {"sheet": {}}, "world": {"air": {"wind": {"velocity_m_per_s": [2000, 0, 0]}}}})",
+     "/world/air/wind/velocity_m_per_s",
+     "expected a wind of at most 1000 m/s, got an array of 3 values"},
+    {R"({"cloth": {"sheet": {}},
+         "world": {"air": {"wind": {"velocity_m_per_s": [1, 0, 0], "gust_intensity": 2}}}})",
+     "/world/air/wind/gust_intensity",
+     "expected 1 or less, as gusts are a part of the wind, got 2"},
     {R"({"cloth": {"particles": {"positions_m": [[0, 0, 0]], "masses_kg": [1]}},
          "model": {"stiffening_strain": 0.1}})",
      "/model/stiffening_strain",
@@ -382,14 +402,16 @@ const char* const kRichScene = R"({
   "cloth": {"sheet": {"width_m": 0.3, "height_m": 0.7, "columns": 3, "rows": 5, "origin_m": [0.1, 2.3, -0.7],
             "warp_direction": [0, -2, 0.1], "weft_direction": [3, 0, 0], "initial_velocity_m_per_s": [0.1, 0, 0.3]}},
   "fabric": {"name": "silk", "bending": "moving", "overrides": {"damping_ratio": 0.013, "thickness_m": 0.0011}},
-  "model": {"bending": "none", "shear": false, "damping": "isotropic"},
+  "model": {"bending": "none", "shear": false, "damping": "isotropic",
+            "strain_limit": {"law": "provot", "stretch": 0.07, "compression": 0.3, "max_sweeps": 12}},
   "refinement": {"level": 3},
   "pins": [{"part": "upper_edge", "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "frequency_hz": 0.7}},
            {"vertices": [9, 10], "motion": {"kind": "ease", "offset_m": [0.1, 0, 0], "begin_s": 0.1, "end_s": 0.3}},
            {"vertices": [11], "motion": {"kind": "move", "offset_m": [0.1, 0, 0], "end_s": 0.3}},
            {"part": "lower_left"}],
   "world": {"gravity_m_per_s2": [0, -1.62, 0],
-            "air": {"density_kg_per_m3": 1.1, "normal_coefficient": 1.3, "tangent_coefficient": 0.03},
+            "air": {"density_kg_per_m3": 1.1, "normal_coefficient": 1.3, "tangent_coefficient": 0.03,
+                    "wind": {"velocity_m_per_s": [3, 0, 1], "gust_intensity": 0.3, "seed": 7}},
             "colliders": [{"plane": {"point_m": [0, 0.1, 0], "normal": [0, 1, 1]}, "friction": 0.7},
                           {"sphere": {"centre_m": [0, 0.3, 0], "radius_m": 0.1},
                            "motion": {"kind": "oscillate", "offset_m": [0, 0, 0.1], "begin_s": 1, "frequency_hz": 2}}]},
@@ -445,6 +467,11 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.model.bending == BendingModel::none);
   CHECK_FALSE(scene.model.shear);
   CHECK(scene.model.damping_direction == DampingDirection::isotropic);
+  REQUIRE(scene.model.strain_limit);
+  CHECK(scene.model.strain_limit->law == StrainLimitLaw::provot);
+  CHECK(scene.model.strain_limit->stretch == 0.07);
+  CHECK(scene.model.strain_limit->compression == 0.3);
+  CHECK(scene.model.strain_limit->max_sweeps == 12);
   CHECK(scene.level == 3);
   REQUIRE(scene.pins.size() == 4);
   CHECK(std::get<std::string>(scene.pins[0].where) == "upper_edge");
@@ -459,6 +486,9 @@ TEST_CASE("scene file: every number of a rich scene arrives in SI units", "[scen
   CHECK(scene.air->density == 1.1);
   CHECK(scene.air->normal_coefficient == 1.3);
   CHECK(scene.air->tangent_coefficient == 0.03);
+  CHECK(scene.air->wind.velocity == Vec3(3, 0, 1));
+  CHECK(scene.air->wind.gust_intensity == 0.3);
+  CHECK(scene.air->wind.seed == 7);
   REQUIRE(scene.colliders.size() == 2);
   CHECK(
       std::get<Plane>(scene.colliders[0].shape).normal.isApprox(Vec3(0, 1, 1).normalized(), 1e-15));

@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/run/simulation.h"
 #include "core/scene/scene_file.h"
+#include "core/scene/tearing.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {
@@ -91,6 +92,9 @@ TEST_CASE("scene parts: what is not registered is refused at its place", "[scene
         "/figure: expected no figure" + refused_end);
   CHECK(refusal(R"({"cloth": {"sheet": {}}, "refinement": {"plan": {}}})", plain) ==
         "/refinement/plan: expected no plan" + refused_end);
+  CHECK(refusal(R"({"cloth": {"mesh": {"obj": "shirt.obj"}}})", plain) ==
+        "/cloth/mesh/obj: expected a mesh written out in the scene, as no files can be read here, "
+        "got \"shirt.obj\"");
   CHECK(refusal(kDiscScene, plain) ==
         "/cloth/disc: expected one of the keys \"sheet\", \"particles\", \"knit\", \"mesh\", "
         "\"garment\", got \"disc\"");
@@ -98,10 +102,13 @@ TEST_CASE("scene parts: what is not registered is refused at its place", "[scene
                 parts_with_disc()) == "/pins/0/part: expected \"centre\", got \"rim\"");
 }
 
-TEST_CASE("scene parts: plain parts read the scenes without figures and garments", "[scene]") {
+TEST_CASE("scene parts: plain parts and tearing read the scenes without figures and garments",
+          "[scene]") {
+  SceneParts parts = plain_scene_parts();
+  parts.read_tearing = read_tearing;
   for (const char* name : kSceneFiles) {
     CAPTURE(name);
-    CHECK(write_scene(read_scene(scene_text(name), fabric_library(), {}, plain_scene_parts())) ==
+    CHECK(write_scene(read_scene(scene_text(name), fabric_library(), {}, parts)) ==
           write_scene(read_scene(scene_text(name), fabric_library())));
   }
 }

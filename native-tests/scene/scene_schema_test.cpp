@@ -22,6 +22,8 @@ const char* const kShortScenes[] = {
                  {"part": "lower_left", "motion": {"kind": "move", "offset_m": [1, 0, 0], "end_s": 1}},
                  {"vertices": [1], "motion": {"kind": "oscillate", "offset_m": [1, 0, 0], "frequency_hz": 1}}]})",
     R"({"cloth": {"sheet": {}}, "fabric": {"name": "silk"}})",
+    R"({"cloth": {"sheet": {}}, "model": {"strain_limit": {}},
+        "world": {"air": {"wind": {"velocity_m_per_s": [5, 0, 1]}}}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0]], "masses_kg": [1, 1],
         "springs": [{"a": 0, "b": 1, "stiffness_n_per_m": 1}]}}})",
     R"({"cloth": {"knit": {}}})",
@@ -62,6 +64,7 @@ const char* const kFurtherScenes[] = {
         "figure": {"build": "slim", "motion": "turn.json", "friction": 0.2},
         "pins": [{"part": "waist", "bone": "pelvis"}]})",
     R"({"cloth": {"sheet": {}}, "refinement": {"plan": "plan.json"}})",
+    R"({"cloth": {"sheet": {}}, "model": {"tearing": {"breaking_elongation": 0.3}}})",
 };
 
 /// One face that is split once.

@@ -44,7 +44,7 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
   if (model.air) forces_.resize(3, model.n_vertices());
-  if (model.contact) proposed_.resize(3, model.n_vertices());
+  if (has_corrections()) positions_begin_.resize(3, model.n_vertices());
   refresh();
 }
 
@@ -157,8 +157,7 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   const StageScope scope(observer_, Stage::forces);
   copy_to(state, h);
   forces_.setZero();
-  model_.air->add_forces(state.positions, state.velocities, model_.masses, model_.hanging, h,
-                         forces_);
+  add_damped_air(state, h, forces_);
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const int slot = slot_of(VertexId(i));
     if (array(inverse_mass)[slot] == 0) continue;  // it hangs or is held
@@ -167,18 +166,19 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   }
 }
 
-void StepperXpbd::resolve_contacts_in_double(State& state, double h) {
-  const StageScope scope(observer_, Stage::contact);
-  for (int i = 0; i < model_.n_vertices(); ++i) {
-    const int slot = slot_of(VertexId(i));
-    proposed_.col(i) = position_of(slot);
-    state.velocities.col(i) = velocity_of(slot, h);
+void StepperXpbd::correct_in_double(State& state, double time_end, double h) {
+  positions_begin_.swap(state.positions);
+  copy_to(state, h);
+  correct(positions_begin_, state, time_end, h);
+  const auto take_over = [&](VertexId v) {
+    set_motion(slot_of(v), state.positions.col(v), state.velocities.col(v), h);
+  };
+  if (strain_limit() == nullptr) {
+    for (const ContactStage::Touch& touch : model_.contact->touches()) take_over(touch.vertex);
+    return;
   }
-  for (const ContactStage::Touch& touch :
-       correct_for_contact(state.positions, proposed_, state.velocities))
-    set_motion(slot_of(touch.vertex), proposed_.col(touch.vertex),
-               state.velocities.col(touch.vertex), h);
-  state.positions.swap(proposed_);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    if (array(inverse_mass)[slot_of(VertexId(i))] > 0) take_over(VertexId(i));
 }
 
 void StepperXpbd::copy_to(State& state, double h) {
@@ -219,7 +219,7 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
       residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
                                 hanging_.squared_residual(v));
   }
-  if (model_.contact) resolve_contacts_in_double(state, h);
+  if (has_corrections()) correct_in_double(state, time_end, h);
   --substeps_left_;
   time_end_ = time_end;
   SolveReport report;

@@ -48,7 +48,7 @@ class StepperXpbd final : public Stepper {
   void place_pins(double time_end, double h);
   void sweep();
   void add_air_drag(State& state, double h);
-  void resolve_contacts_in_double(State& state, double h);
+  void correct_in_double(State& state, double time_end, double h);
 
   LaneLayout layout_;
   SpringProgram springs_;
@@ -64,7 +64,7 @@ class StepperXpbd final : public Stepper {
   Positions pin_velocities_;                      // one column per pin [m/s]
   double time_end_ = 0;                           // of the last substep [s]
   Positions forces_;                              // of the air [N]
-  Positions proposed_;                            // places before contact [m]
+  Positions positions_begin_;                     // of a substep that is corrected [m]
 };
 
 }  // namespace pleat

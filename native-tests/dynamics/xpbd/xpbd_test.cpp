@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/model/momentum.h"
 #include "native-tests/support/allocation_count.h"
-#include "native-tests/support/momentum.h"
 
 namespace pleat {
 namespace {

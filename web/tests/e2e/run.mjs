@@ -15,6 +15,7 @@ import { checkKnit } from './knit.mjs';
 import { checkModes } from './modes.mjs';
 import { checkMotion } from './motion.mjs';
 import { checkRefinement } from './refinement.mjs';
+import { checkTearing } from './tearing.mjs';
 import {
   button,
   canvasOf,
@@ -660,6 +661,7 @@ await checkWithoutModule('#scene=curtain', '**/*.wasm', 'the text stays', async 
 
 await checkMotion(harness, visit);
 await checkKnit(harness, visit);
+await checkTearing(harness, visit);
 await checkFabrics(harness);
 await checkModes(harness);
 await checkRefinement(harness);

@@ -83,6 +83,7 @@ describe('energy in words', () => {
     expect(plain([begin, pulled])).toContain('pins and hand gave 0.40 J');
     expect(plain([begin, pulled])).toContain('The method itself added 0.10 J');
     expect(plain([begin, { ...fallen, damping: 0 }])).toContain('no force took any');
+    expect(plain([begin, { ...fallen, tears: -0.02 }])).toContain('tears took 20 mJ');
   });
 
   it('waits for a second moment', () => {

@@ -313,6 +313,56 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(Math.hypot(...away)).toBeGreaterThan(0.001);
   });
 
+  it('sends another mesh with the frame in which the cloth tears, and the whole one at a reset', async () => {
+    const { send, take } = open(await load());
+    const tearing = JSON.stringify(sceneOf({ ...presetSetting('tearing-curtain'), level: 1 }));
+    send({ type: 'load', sceneText: tearing, keepMotion: false, request: 2 });
+    const { summary, buffers, triangles } = take('loaded');
+    const vertex = summary.n_vertices - 1;
+    const places = frameViews(buffers[0]).positions;
+    const [x = 0, y = 0, z = 0] = places.subarray(3 * vertex, 3 * vertex + 3);
+    send({ type: 'grab', vertex });
+    let [buffer] = buffers;
+    let nVertices = summary.n_vertices;
+    let last = triangles;
+    for (let s = 1; s <= 60; ++s) {
+      send({ type: 'moveGrab', target: [x + 0.01 * s, y, z + 0.01 * s] });
+      send({ type: 'step', count: 1, wantsNumbers: false, request: 2, buffer });
+      const frame = take('frame');
+      const { positions, scalar } = frameViews(frame.buffer);
+      expect(frame.torn !== null).toBe(scalar.length > nVertices);
+      expect(positions.every(Number.isFinite) && scalar.every(Number.isFinite)).toBe(true);
+      if (frame.torn) {
+        expect(frame.torn.spare.byteLength).toBe(frame.buffer.byteLength);
+        last = frame.torn.triangles;
+      } else expect(frame.buffer).toBe(buffer);
+      ({ buffer } = frame);
+      nVertices = scalar.length;
+    }
+    expect(nVertices).toBeGreaterThan(summary.n_vertices);
+    expect(last.length).toBe(triangles.length);
+    expect(Math.max(...last)).toBe(nVertices - 1);
+    send({ type: 'step', count: 1, wantsNumbers: false, request: 2, buffer: buffers[1] });
+    send({ type: 'reset', request: 3 });
+    const whole = take('loaded');
+    expect(whole.triangles).toEqual(triangles);
+    expect(frameViews(whole.buffers[0]).scalar.length).toBe(summary.n_vertices);
+  });
+
+  it('begins torn cloth anew in another fabric', async () => {
+    if (_name === 'the stand-in') return;
+    const { send, take } = open(await load());
+    const torn = { ...presetSetting('tearing-curtain'), level: 0 };
+    const weak = { ...sceneOf(torn), model: { tearing: { breaking_elongation: 1e-6 } } };
+    send({ type: 'load', sceneText: JSON.stringify(weak), keepMotion: false, request: 2 });
+    const { buffers } = take('loaded');
+    send({ type: 'step', count: 9, wantsNumbers: false, request: 2, buffer: buffers[1] });
+    expect(take('frame').torn).not.toBeNull();
+    const silk = JSON.stringify(sceneOf({ ...torn, fabric: 'silk' }));
+    send({ type: 'load', sceneText: silk, keepMotion: true, request: 3 });
+    expect(take('loaded').numbers.time_s).toBe(0);
+  });
+
   it('measures a small sweep: every row with speed, error and reference', async () => {
     const { sweep, posted } = open(await load());
     const { scene, settings } = sweepPlan(setting, { finest: 0, withSlow: false });

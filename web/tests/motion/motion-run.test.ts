@@ -58,10 +58,11 @@ function open(hash: string) {
   const { link, problems } = decodeMotionLink(hash);
   const store = createStore(initialMotionState(link, problems));
   let shown = { positions: new Float32Array(0), values: new Float32Array(0), scalar: '' };
+  const meshes: object[] = [];
   const run = new MotionRun(
     store,
     {
-      showMesh: () => undefined,
+      showMesh: (_, nVertices, change) => meshes.push({ nVertices, change }),
       showFrame(buffer, scalar) {
         const views = frameViews(buffer);
         shown = { positions: views.positions.slice(), values: views.scalar.slice(), scalar };
@@ -70,7 +71,7 @@ function open(hash: string) {
     start,
     startObj,
   );
-  return { store, run, shown: () => shown };
+  return { store, run, shown: () => shown, meshes: () => meshes };
 }
 
 const phaseOf = ({ store }: ReturnType<typeof open>) => store.get().phase;
@@ -265,6 +266,30 @@ describe('motion run', () => {
     page.store.set({ setting: withStepper(setting, 'xpbd') });
     await vi.waitUntil(() => split() === '');
     expect(page.store.get().springSplit?.ends).toHaveLength(4);
+  });
+
+  it('shows the mesh of torn cloth before its frame, and asks for its springs', async () => {
+    const page = open('#scene=tearing-curtain&level=0&stepper=imex&springs=on');
+    await vi.waitUntil(() => phaseOf(page) === 'ready');
+    const whole = page.shown().values.length;
+    expect(page.meshes()).toEqual([{ nVertices: whole, change: 'scene' }]);
+    const isSplit = () => Array.from(page.store.get().springSplit?.isImplicit ?? []).join('');
+    page.run.grab(whole - 1);
+    await vi.waitUntil(() => isSplit() === '01');
+    page.store.set({ springSplit: null });
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 1);
+    await vi.waitUntil(() => isSplit() === '01');
+    expect(page.shown().values.length).toBe(whole + 1);
+    expect(page.meshes().at(-1)).toEqual({ nVertices: whole + 1, change: 'tear' });
+    expect(page.store.get()).toMatchObject({ held: true, summary: { n_vertices: whole + 1 } });
+    page.run.step();
+    await vi.waitUntil(() => page.store.get().numbers?.step === 2);
+    expect(page.meshes()).toHaveLength(2);
+    page.run.reset();
+    await vi.waitUntil(() => page.meshes().length === 3);
+    expect(page.meshes().at(-1)).toEqual({ nVertices: whole, change: 'mesh' });
+    expect(page.store.get().summary?.n_vertices).toBe(whole);
   });
 
   it('does not ask for springs that nobody looks at', async () => {

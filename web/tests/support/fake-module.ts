@@ -26,6 +26,7 @@ interface FakeScene {
   name: string;
   refinement: { level: number };
   method: FakeMethod;
+  model?: { tearing?: object };
 }
 
 interface FakePlan {
@@ -57,6 +58,15 @@ class FakeSimulation implements SimulationHandle {
   private held: number | null = null;
   private ended = false;
   private pulled = false;
+  private isTorn = false;
+
+  /** The lower right corner comes off, when it is held: its triangle gets a vertex of its own. */
+  private tear(): void {
+    const corner = this.side * this.side - 1;
+    if (this.isTorn || this.held !== corner || !this.scene?.model?.tearing) return;
+    this.isTorn = true;
+    this.x = Float32Array.from([...this.x, ...this.x.subarray(3 * (corner - 1), 3 * corner)]);
+  }
 
   constructor(
     private readonly build: FakeBuild,
@@ -94,7 +104,6 @@ class FakeSimulation implements SimulationHandle {
     }
     this.scene = scene;
     this.side = 2 ** (scene.refinement.level + 1) + 1;
-    this.x = new Float32Array(3 * this.side * this.side);
     this.reset();
     return this.summary();
   }
@@ -118,6 +127,8 @@ class FakeSimulation implements SimulationHandle {
     if (this.ledgerFrom !== null) this.openLedger();
     this.pulled = false;
     this.ended = false;
+    this.isTorn = false;
+    this.x = new Float32Array(3 * this.side * this.side);
     for (let v = 0; v < this.side * this.side; ++v) {
       const [row, column] = [Math.floor(v / this.side), v % this.side];
       this.x.set([column / (this.side - 1), 1 - row / (this.side - 1), 0], 3 * v);
@@ -130,6 +141,7 @@ class FakeSimulation implements SimulationHandle {
       this.ended ||= this.scene?.name === 'fragile' && this.steps >= FRAGILE_STEPS;
       if (this.ended) return 3;
       this.steps += 1;
+      this.tear();
       for (let v = 0; v < this.x.length / 3; ++v) {
         const depth = Math.floor(v / this.side) / (this.side - 1);
         this.x[3 * v + 2] = 0.3 * depth * Math.sin(0.1 * this.steps);
@@ -200,6 +212,7 @@ class FakeSimulation implements SimulationHandle {
         corners.push(a, a + this.side, a + 1, a + 1, a + this.side, a + this.side + 1);
       }
     }
+    if (this.isTorn) corners[corners.length - 2] = this.side * this.side;
     return Uint32Array.from(corners);
   }
 
@@ -217,7 +230,7 @@ class FakeSimulation implements SimulationHandle {
     if (this.ledgerFrom === null) return new Float64Array(0);
     const fallen = 0.01 * (this.steps - this.ledgerFrom);
     const held = [0.75 * fallen, 0, 0 - fallen];
-    return Float64Array.from([this.steps / 60, ...held, 0 - 0.25 * fallen, 0, 0, 0, 0, 0]);
+    return Float64Array.from([this.steps / 60, ...held, 0 - 0.25 * fallen, 0, 0, 0, 0, 0, 0]);
   }
 
   /** Two springs, of which imex has one implicit; the other one while a hand holds the cloth. */

@@ -60,6 +60,7 @@ export const ENERGY_NUMBERS = [
   'air',
   'contact',
   'pins',
+  'tears',
   /** What no work explains [J]. */
   'drift',
   /** Kinetic and elastic energy when the account began [J]. */

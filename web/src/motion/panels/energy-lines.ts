@@ -10,6 +10,7 @@ export interface EnergyLine {
     | 'air'
     | 'contact'
     | 'pins'
+    | 'tears'
     | 'drift'
     | 'sum';
   title: string;
@@ -29,6 +30,7 @@ const LOST: readonly EnergyLine[] = [
   { kind: 'air', title: 'Lost to air', joules: ({ air }) => -air },
   { kind: 'contact', title: 'Lost to contact', joules: ({ contact }) => -contact },
   { kind: 'pins', title: 'Lost to pins and hand', joules: ({ pins }) => -pins },
+  { kind: 'tears', title: 'Lost to tears', joules: ({ tears }) => -tears },
   { kind: 'drift', title: 'Lost by the method', joules: ({ drift }) => -drift },
 ];
 

@@ -2,12 +2,14 @@
 import { energyText, percent } from '../../shared/panels/quantity';
 import type { EnergyNumbers } from '../bindings/pleat-module';
 
-const TAKERS: readonly { kind: 'damping' | 'air' | 'contact' | 'pins'; name: string }[] = [
-  { kind: 'damping', name: 'damping' },
-  { kind: 'air', name: 'air' },
-  { kind: 'contact', name: 'contact' },
-  { kind: 'pins', name: 'pins and hand' },
-];
+const TAKERS: readonly { kind: 'damping' | 'air' | 'contact' | 'pins' | 'tears'; name: string }[] =
+  [
+    { kind: 'damping', name: 'damping' },
+    { kind: 'air', name: 'air' },
+    { kind: 'contact', name: 'contact' },
+    { kind: 'pins', name: 'pins and hand' },
+    { kind: 'tears', name: 'tears' },
+  ];
 
 /** "damping took 3.1 mJ, pins and hand gave 0.2 J". */
 function worksText(now: EnergyNumbers): string {

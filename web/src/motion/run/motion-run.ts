@@ -1,6 +1,6 @@
 // Runs the shown cloth: turns changes of the state into questions to its worker, and answers into state and frames.
 import { brokenSentence, type Failure, sentenceOf } from '../../shared/bindings/answers';
-import type { Scalar } from '../../shared/bindings/frame';
+import { frameViews, type Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
@@ -15,6 +15,7 @@ import type {
   LoadedMessage,
   RunReport,
   ToMotion,
+  TornMesh,
 } from '../worker/motion-protocol';
 import {
   type StartMotion,
@@ -50,9 +51,12 @@ const PATIENCE_MS = 1000;
 /** And a change that takes the motion over, which it loses then [ms]. */
 const MOVING_PATIENCE_MS = 5000;
 
+/** What a new mesh belongs to: another scene, the same one, or the same cloth, torn. */
+export type MeshChange = 'scene' | 'mesh' | 'tear';
+
 export interface MotionRunView {
   /** A new mesh; its first frame follows at once. */
-  showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
+  showMesh(triangles: Uint32Array, nVertices: number, change: MeshChange): void;
   /** The buffer stays valid until the next call. */
   showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
 }
@@ -356,7 +360,8 @@ export class MotionRun {
     this.loaded = content;
     this.seen = content;
     this.frames.replace(message.buffers, message.scalar);
-    this.view.showMesh(message.triangles, message.summary.n_vertices, isNewScene);
+    const change = isNewScene ? 'scene' : 'mesh';
+    this.view.showMesh(message.triangles, message.summary.n_vertices, change);
     this.showFrame();
   }
 
@@ -386,7 +391,7 @@ export class MotionRun {
       energies: [],
       isCutShort: false,
       pace: null,
-      astray,
+      astray: message.numbers.time_s > 0 ? astray : null, // torn cloth begins anew
       problem: isSolved ? null : problem,
     });
     this.bringReference();
@@ -458,12 +463,23 @@ export class MotionRun {
     this.store.set({ energies: withSample(energies, sample) });
   }
 
+  /** The mesh that a tear has made, in which a hand goes on holding what it holds. */
+  private showTorn({ buffer, scalar }: FrameMessage, { triangles, spare }: TornMesh): void {
+    const n_vertices = frameViews(buffer).scalar.length;
+    this.frames.replace([buffer, spare], scalar);
+    this.view.showMesh(triangles, n_vertices, 'tear');
+    const { summary } = this.store.get();
+    if (summary) this.store.set({ summary: { ...summary, n_vertices } });
+    this.bringSprings();
+  }
+
   private receiveFrame(frame: FrameMessage): void {
-    const { buffer, scalar, hasEnded, report, energy, colliders } = frame;
+    const { buffer, torn, scalar, hasEnded, report, energy, colliders } = frame;
     this.isStepping = false;
     if (energy) this.addSample(energy);
-    this.frames.show(buffer, scalar);
-    if (!this.isAhead || hasEnded) this.showFrame();
+    if (torn) this.showTorn(frame, torn);
+    else this.frames.show(buffer, scalar);
+    if (torn || !this.isAhead || hasEnded) this.showFrame();
     if (colliders.length > 0) this.store.set({ colliders });
     this.areNumbersOld = report === null;
     if (report) this.receiveReport(report);

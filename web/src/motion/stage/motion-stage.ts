@@ -33,8 +33,8 @@ export interface DrawnPicture {
 }
 
 export interface MotionStage {
-  /** A new mesh; the view is set anew when it belongs to a new scene. */
-  showMesh(triangles: Uint32Array, nVertices: number, isNewScene: boolean): void;
+  /** A new mesh; the view is set anew when it belongs to a new scene, and a hand keeps hold of what tears. */
+  showMesh(triangles: Uint32Array, nVertices: number, change: 'scene' | 'mesh' | 'tear'): void;
   showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
   setColliders(colliders: Collider[]): void;
   setFabric(id: number): void;
@@ -184,10 +184,11 @@ export function createMotionStage(
   stage.open();
 
   return {
-    showMesh(triangles, nVertices, isNewScene) {
+    showMesh(triangles, nVertices, change) {
       cloth.setTopology(triangles, nVertices);
       springs.setSplit(null);
-      awaitsFraming = isNewScene;
+      if (change === 'tear') return;
+      awaitsFraming = change === 'scene';
       isFreshMesh = true;
       hand.drop();
     },

@@ -1,10 +1,12 @@
 // The setting to compute: preset, fabric, model, level, method. The scene text given to the module
 // is made here.
 import curtainText from '../../../../assets/scenes/curtain.json?raw';
+import flagText from '../../../../assets/scenes/flag.json?raw';
 import pendulumText from '../../../../assets/scenes/pendulum_10x10.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
+import tearingCurtainText from '../../../../assets/scenes/tearing_curtain.json?raw';
 import woolText from '../../../../assets/scenes/wool.json?raw';
 import type { OwnQuantities } from '../../shared/fabric/fabric-data';
 import {
@@ -19,7 +21,15 @@ import {
 import { type Knit, knitOf, knitSection } from './knit';
 import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
-export type PresetId = 'curtain' | 'tablecloth' | 'swinging-sheet' | 'pendulum' | 'wool' | 'obj';
+export type PresetId =
+  | 'curtain'
+  | 'tearing-curtain'
+  | 'flag'
+  | 'tablecloth'
+  | 'swinging-sheet'
+  | 'pendulum'
+  | 'wool'
+  | 'obj';
 
 export interface Setting {
   preset: PresetId;
@@ -49,7 +59,7 @@ interface SceneFile {
   caption: string;
   cloth: { sheet?: object; mesh?: object; knit?: Record<string, unknown> };
   fabric: { name: string; overrides?: OwnQuantities };
-  model?: object;
+  model?: { tearing?: object; [law: string]: unknown };
   world?: object;
   refinement?: { level?: number };
   method: {
@@ -117,6 +127,8 @@ function presetFrom(title: string, text: string): Preset {
 
 export const PRESETS: Record<PresetId, Preset> = {
   curtain: presetFrom('Curtain', curtainText),
+  'tearing-curtain': presetFrom('Tearing curtain', tearingCurtainText),
+  flag: presetFrom('Flag in the wind', flagText),
   tablecloth: presetFrom('Tablecloth on a ball', tableclothText),
   'swinging-sheet': presetFrom('Swinging sheet', swingingSheetText),
   pendulum: presetFrom('Pendulum 10 × 10', pendulumText),
@@ -216,9 +228,10 @@ export function ownQuantities(setting: Setting): OwnQuantities {
   return fabricOf(setting).overrides ?? {};
 }
 
-/** A preset's own words on its model hold for the model that it is made for. */
+/** A preset's own words on its model hold for the model that it is made for; that it tears, for each. */
 function modelOf({ preset, model }: Setting): object {
-  const own = model === modelsOf(preset)[0] ? PRESETS[preset].scene.model : {};
+  const { model: words } = PRESETS[preset].scene;
+  const own = model === modelsOf(preset)[0] ? words : words && { tearing: words.tearing };
   return { ...own, elasticity: model };
 }
 

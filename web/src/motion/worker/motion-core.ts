@@ -27,6 +27,7 @@ import type {
   RunReport,
   StepMessage,
   ToMotion,
+  TornMesh,
 } from './motion-protocol';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
@@ -62,12 +63,18 @@ function readColliders(simulation: SimulationHandle): Collider[] {
   return answer.ok ? answer.colliders : [];
 }
 
+/** Of a buffer for the frames of the present mesh. */
+function frameBytes(simulation: SimulationHandle): number {
+  return (4 * FLOATS_PER_VERTEX * simulation.positions().length) / 3;
+}
+
 /** Serves one page. Call `receive` with each message, `close` at the end. */
 export class MotionCore {
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
   private isHeld = false;
   private hasLedger = false;
+  private nBytes = 0; // of the buffers of frames
 
   private refuse(request: number, failure: Failure): void {
     this.post({ type: 'refused', request, failure }, []);
@@ -81,8 +88,11 @@ export class MotionCore {
   ): void {
     const numbers = readNumbers(run);
     if (!numbers) return this.refuse(request, internalFailure('no numbers after a load'));
-    const nBytes = 4 * FLOATS_PER_VERTEX * summary.n_vertices;
-    const buffers: [ArrayBuffer, ArrayBuffer] = [new ArrayBuffer(nBytes), new ArrayBuffer(nBytes)];
+    this.nBytes = frameBytes(run);
+    const buffers: [ArrayBuffer, ArrayBuffer] = [
+      new ArrayBuffer(this.nBytes),
+      new ArrayBuffer(this.nBytes),
+    ];
     fill(run, buffers[0], scalar);
     const triangles = run.triangles().slice();
     const colliders = readColliders(run);
@@ -117,23 +127,32 @@ export class MotionCore {
     if (numbers) this.post({ type: 'referenceSet', numbers }, []);
   }
 
+  /** The buffer, or two of another size and the mesh when a tear has changed it. */
+  private buffersFor(run: SimulationHandle, given: ArrayBuffer): [ArrayBuffer, TornMesh | null] {
+    const nBytes = frameBytes(run);
+    if (nBytes === this.nBytes) return [given, null];
+    this.nBytes = nBytes;
+    const torn = { triangles: run.triangles().slice(), spare: new ArrayBuffer(nBytes) };
+    return [new ArrayBuffer(nBytes), torn];
+  }
+
   private step(run: SimulationHandle, message: StepMessage): void {
-    const { buffer, count, request, scalar = 'stretch', wantsEnergy = false } = message;
+    const { count, request, scalar = 'stretch', wantsEnergy = false } = message;
     // A buffer of another size belongs to the mesh before the last load: nothing to fill.
-    if (!this.loaded || buffer.byteLength !== 4 * FLOATS_PER_VERTEX * this.loaded.n_vertices)
-      return;
+    if (!this.loaded || message.buffer.byteLength !== this.nBytes) return;
     if (wantsEnergy && !this.hasLedger) run.openLedger();
     if (!wantsEnergy && this.hasLedger) run.closeLedger();
     this.hasLedger = wantsEnergy;
     const code = run.step(count);
+    const [buffer, torn] = this.buffersFor(run, message.buffer);
     fill(run, buffer, scalar);
     const hasEnded = code !== 0;
     const report = hasEnded || message.wantsNumbers ? readReport(run) : null;
     const energy = readEnergy(run);
     const colliders = readColliders(run);
     this.post(
-      { type: 'frame', request, count, buffer, scalar, hasEnded, report, energy, colliders },
-      [buffer],
+      { type: 'frame', request, count, buffer, torn, scalar, hasEnded, report, energy, colliders },
+      torn ? [buffer, torn.spare, torn.triangles.buffer] : [buffer],
     );
   }
 

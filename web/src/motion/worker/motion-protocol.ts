@@ -80,11 +80,21 @@ export interface RunReport {
   message: string;
 }
 
+/** The mesh that a tear has made. */
+export interface TornMesh {
+  triangles: Uint32Array;
+  /** A second buffer beside the frame's own, for the frames of this mesh. */
+  spare: ArrayBuffer;
+}
+
 export interface FrameMessage {
   type: 'frame';
   request: number;
   count: number;
+  /** The one that was given, or where the cloth tore, one of another size. */
   buffer: ArrayBuffer;
+  /** Null where the mesh is that of the frame before. */
+  torn: TornMesh | null;
   scalar: Scalar;
   /** The run cannot go on; the buffer holds its last finite frame. */
   hasEnded: boolean;

@@ -1,4 +1,4 @@
-#include "native-tests/support/momentum.h"
+#include "core/model/momentum.h"
 
 #include <Eigen/Geometry>
 

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/contact/contact_stage.h"
+#include "core/model/cloth_model.h"
+#include "core/model/hanging_vertices.h"
+#include "core/model/state.h"
+
+namespace pleat {
+
+/// Keeps the edges of a cloth within the limits that its model has, for every stepper alike: it
+/// takes the state that a substep proposes and corrects it.
+///
+/// An edge that would end longer than (1 + tau) L gets an impulse along itself, equal and opposite
+/// at its ends and shared by their inverse masses, after which it ends just below the limit. Edges
+/// of a line are solved for together, by one tridiagonal system; sweeps over all lines go on until
+/// no edge exceeds. An edge may give impulse back within a substep, never more than it got. Linear
+/// momentum is kept; angular momentum is lost in first order of the substep, as by backward Euler,
+/// because impulses act along the edge as it ends: along where it began they would make taut cloth
+/// flutter ever wider across its threads. Ends that hang hand impulses on to their parents.
+///
+/// Source: the velocity constraint of Sun, Zhao & Liu, Computer Engineering and Applications
+/// 44(31), 2008; docs/methods/strain_limit.md.
+class StrainLimitStage {
+ public:
+  /// model  with a strain limit; outlives the stage
+  explicit StrainLimitStage(const ClothModel& model);
+
+  /// Corrects what a stepper proposes for the end of a substep. Pinned vertices stay. Allocates
+  /// nothing.
+  ///
+  /// travel  how far a change of velocity by dv moves a vertex in the substep, over dv [s]
+  void limit(State& state, double travel);
+
+  /// The same once more in that substep, after contact touched vertices, which are then not pulled
+  /// into solids.
+  void limit_again(State& state, double travel, std::span<const ContactStage::Touch> touches);
+
+  /// Whether an edge is beyond its limits that is not pinned at both ends.
+  bool is_exceeded(const Eigen::Ref<const Positions>& positions) const;
+
+  std::int64_t n_sweeps() const { return n_sweeps_; }  ///< over all edges, since construction
+  /// Calls that ended with an edge beyond its limits for want of sweeps, since construction.
+  std::int64_t n_capped() const { return n_capped_; }
+
+ private:
+  /// The ends of an edge, both free to move.
+  struct Ends {
+    VertexId a, b;
+
+    Vec3 difference(const Eigen::Ref<const Positions>& positions) const {
+      return positions.col(a) - positions.col(b);
+    }
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+      visit(a, 1.0);
+      visit(b, -1.0);
+    }
+  };
+  /// The vertices that move an edge of which an end hangs.
+  struct SharedEnds {
+    Combination sum;
+
+    Vec3 difference(const Eigen::Ref<const Positions>& positions) const;
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+      for (std::size_t i = 0; i < sum.n_terms; ++i) visit(sum.terms[i].vertex, sum.terms[i].factor);
+    }
+  };
+  template <class EndsKind>
+  struct Edge {
+    EndsKind ends;
+    double rest_length;  // [m]
+    double impulse =
+        0;  // of this substep, times the travel it makes: pulls the ends together [kg m]
+    bool was_active = false;  // at the end of the last substep
+  };
+  struct Line {
+    std::size_t begin, end;  // of its edges in edges_
+  };
+  /// What an edge asks for where the sweeps have come to.
+  struct Demand {
+    bool is_active = false;   // its impulse may change
+    bool is_spent = false;    // it gave all of its impulse back
+    bool pulls = false;       // never pushes, or the other way round
+    double length = 0;        // [m]
+    double shortening = 0;    // wanted [m]
+    Vec3 direction{0, 0, 0};  // unit, from b to a
+    double inverse_mass = 0;  // against an impulse [1/kg]
+    double coupling = 0;      // with the next edge of the line [1/kg]
+    double after = 0;         // of the next edge's impulse, when this edge's is eliminated
+    double impulse = 0;       // change of it [kg m]
+  };
+  struct Range {
+    double shortest, longest;  // in shares of a rest length
+  };
+
+  void set_inverse_masses();
+  template <class EndsKind>
+  double inverse_mass(const EndsKind& ends) const;
+  template <class EndsKind>
+  bool exceeds(const Edge<EndsKind>& edge, double squared_length) const;
+  template <class EndsKind>
+  void pull(const EndsKind& ends, const Vec3& impulse, Positions& positions) const;
+  template <class EndsKind>
+  Demand demand_of(const Edge<EndsKind>& edge, const Positions& positions) const;
+  bool correct(const Line& line, Positions& positions);
+  void demand(const Line& line, const Positions& positions);
+  void leave_overstretched(const Line& line, const Positions& positions);
+  void eliminate(const Line& line, double regular);
+  bool change_active(const Line& line);
+  double regular_factor(const Line& line) const;
+  template <class EndsKind>
+  bool correct(Edge<EndsKind>& edge, Positions& positions);
+  template <class EndsKind>
+  void apply(Edge<EndsKind>& edge, const Demand& demand, Positions& positions) const;
+  bool sweep(Positions& positions);
+  void sweep_until_within(State& state, double travel);
+  double largest_excess(const Positions& positions) const;
+  double braking_share(const Positions& velocities) const;
+  template <class EndsKind>
+  void begin_substep(std::vector<Edge<EndsKind>>& edges);
+
+  const ClothModel& model_;
+  StrainLimitOptions options_;
+  Range limits_;  // beyond them an edge exceeds
+  Range goals_;   // just inside, where an edge that exceeds is put
+  std::vector<Edge<Ends>> edges_;
+  std::vector<Line> lines_;
+  std::vector<Edge<SharedEnds>> shared_edges_;
+  std::vector<Demand> demands_;     // of a line's edges
+  Eigen::VectorXd inverse_masses_;  // 0 where a vertex is pinned or hangs [1/kg]
+  Positions proposed_;              // before the sweeps [m], and then what they add to velocities
+  Positions normals_;  // of solids that touch a vertex, else zero; empty without contact
+  bool is_touched_ = false;
+  bool is_first_sweep_ = false;
+  std::int64_t n_sweeps_ = 0;
+  std::int64_t n_capped_ = 0;
+};
+
+}  // namespace pleat
