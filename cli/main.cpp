@@ -95,6 +95,12 @@ pleat inbetween A.obj B.obj ...   frames between key shapes with the same vertic
   --exact-keys           the keys themselves are in the space
   --detail-beyond D      patches that the space meets to D [m] have no detail of their own
   --out DIR              write the frames as OBJ files;  --check  as of run
+pleat hard-cases [NAME ...]   what breaks cloth systems, run with every stepper: ok, or why not
+  --stepper NAME         with this one alone
+  --short                the lengths that are tests
+  --scenes DIR           of the cases' scenes (default: assets/hard_cases)
+  --markdown FILE  --json FILE   write the tables, or each outcome on a line
+                         Exit status 1 when something is unexpected.
 pleat bench run SCENE.json        what one run costs, with positions to compare
   --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
   --parts                what the parts of a step cost
@@ -148,6 +154,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "deform") return deform_command(std::move(arguments));
   if (command == "modes") return modes_command(std::move(arguments));
   if (command == "inbetween") return inbetween_command(std::move(arguments));
+  if (command == "hard-cases") return hard_cases_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
     std::fputs(kHelp, stdout);
@@ -161,7 +168,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   }
   throw InputError(cut(command),
                    "unknown command; the commands are run, sweep, reference, refine, deform, "
-                   "modes, inbetween, bench and help");
+                   "modes, inbetween, hard-cases, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {

@@ -66,9 +66,9 @@ run_native_tests() {
       exit "$status"' "$preset" "$@"
 }
 
-# What joins tested modules takes a compiler with sanitizers as long as all of them; long motions walk the same code as
-# short ones, twenty times slower then.
-release_modules="cli error reference sweep"
+# What joins tested modules, and the eigensolver's templates, take a compiler with sanitizers as long as all the rest;
+# long motions walk the same code as short ones, twenty times slower then.
+release_modules="cli error hard_cases modal reference sweep"
 
 test_in_release() {
   # shellcheck disable=SC2046,SC2086

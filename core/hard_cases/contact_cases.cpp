@@ -1,0 +1,37 @@
+#include "core/hard_cases/case_checks.h"
+#include "core/hard_cases/hard_case_table.h"
+
+namespace pleat {
+
+std::vector<HardCase> contact_cases() {
+  return {
+      {.name = "fast_ball",
+       .breaks = "At 50 m/s a sheet crosses the side of a ball within one step.",
+       .brief = 0.5,
+       .full = 5,
+       .checks = {speeds_explained(), stays_within(300), outside_solids(1e-9)}},
+      {.name = "fast_figure",
+       .breaks = "The same against the ends of rounded cones: hands, head and shoulders.",
+       .brief = 0.3,
+       .full = 5,
+       .checks = {speeds_explained(), stays_within(300), outside_solids(1e-9)}},
+      {.name = "fast_groove",
+       .breaks = "Two balls and a wall that are met at once push a vertex from one into the next.",
+       .brief = 0.3,
+       .full = 5,
+       .checks = {speeds_explained(), stays_within(300), outside_solids(1e-9)}},
+      {.name = "minute_of_free_fall",
+       .breaks = "A minute of falling makes coordinates of 17 km and ends at 590 m/s.",
+       .brief = 20.5,
+       .full = 62,
+       .brief_changes = {{"/cloth/sheet/origin_m", Json{-0.5, 1962, -0.5}}},
+       .checks = {speeds_explained(), stays_within(2e4), outside_solids(1e-9)}},
+      {.name = "inside_a_ball",
+       .breaks = "Cloth that begins inside of a solid is thrown out with whatever speed it takes.",
+       .brief = 1.5,
+       .full = 10,
+       .checks = {stays_within(5), outside_solids(1e-9), end_strain_at_most(0.35)}},
+  };
+}
+
+}  // namespace pleat

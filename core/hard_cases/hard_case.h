@@ -1,0 +1,135 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/files/fabric_file.h"
+#include "core/files/file_source.h"
+#include "core/run/simulation.h"
+#include "core/scene/scene_override.h"
+#include "core/scene/scene_parts.h"
+
+namespace pleat {
+
+/// A number of one run that is to stay small.
+class CaseFigure {
+ public:
+  virtual ~CaseFigure() = default;
+  /// At the beginning of the run, with an empty report, and after each step.
+  virtual void look(const Simulation& simulation, const SolveReport& step) = 0;
+  virtual double value() const = 0;
+  /// What a reader wants to know of a value that is too large, a sentence; mostly empty.
+  virtual std::string detail() const { return {}; }
+};
+
+/// What each run of a case has to keep.
+struct CaseCheck {
+  std::string what;  ///< the figure, with its unit, for people; no two of a case are called alike
+  double bound;      ///< the largest value that passes
+  /// Given the run at its beginning and how long it will be [s].
+  std::function<std::unique_ptr<CaseFigure>(const Simulation& begin, double duration)> figure;
+  /// Of a run that is cut short it says nothing.
+  bool needs_whole_run = false;
+};
+
+/// How far the ends of a case's variants are apart.
+struct VariantCheck {
+  std::string what;
+  double bound;
+  std::function<double(std::span<const std::unique_ptr<Simulation>> ends)> difference;
+  bool needs_whole_run = false;
+};
+
+/// A scene of a case that runs beside the others, with the same steps.
+struct CaseVariant {
+  std::string label;
+  std::vector<SceneOverride> changes;
+};
+
+/// A hand takes hold of the cloth.
+struct HandGrabs {
+  VertexId vertex;
+};
+/// It goes this far within the next step [m].
+struct HandMoves {
+  Vec3 offset;
+};
+struct HandLetsGo {};
+/// Another scene takes the motion over (Simulation::carry_over).
+struct SceneSwitch {
+  std::vector<SceneOverride> changes;
+};
+
+struct CaseEvent {
+  double time;  ///< the begin of the step in which it happens [s]
+  std::variant<HandGrabs, HandMoves, HandLetsGo, SceneSwitch> what;
+};
+
+/// What people would set for a stepper in this case, where its usual setting is not made for it.
+struct StepperSetting {
+  std::string stepper;
+  SceneOverride change;
+};
+
+/// A check that a stepper meets with another bound, or need not meet, by its nature.
+struct CaseException {
+  std::string stepper;
+  std::string check;  ///< CaseCheck::what or VariantCheck::what
+  std::string reason;
+  std::optional<double> bound = std::nullopt;  ///< nothing: it is not asked
+};
+
+/// A stepper whose numbers may end the run.
+struct AllowedStop {
+  std::string stepper;
+  std::string reason;
+};
+
+/// How well a case kept a check.
+struct CaseFinding {
+  std::string what;  ///< the check, with the variant's label
+  double found;
+  double bound;
+  std::string detail = {};  ///< see CaseFigure::detail
+
+  bool is_kept() const { return found <= bound; }
+};
+
+/// What the scenes of cases are read from.
+struct CaseFiles {
+  const FabricLibrary& fabrics;
+  FileSource files;  ///< of the folder of the cases' scenes
+  SceneParts parts = all_scene_parts();
+};
+
+/// A case has a short length, for tests, and a full one.
+enum class CaseLength { brief, full };
+
+/// A scene that breaks cloth systems, and what is asked of its run.
+struct HardCase {
+  std::string name;    ///< of its scene's file too, without ".json"
+  std::string breaks;  ///< what goes wrong elsewhere, a sentence
+  double brief = 0;    ///< simulated [s]
+  double full = 0;
+  std::vector<SceneOverride> brief_changes = {};  ///< to the scene where it is run short
+  std::vector<StepperSetting> settings = {};
+  std::vector<CaseVariant> variants = {{}};
+  /// Where it begins instead of at rest [m].
+  Positions (*start)(const Positions& rest) = nullptr;
+  std::vector<CaseEvent> events = {};
+  std::vector<CaseCheck> checks = {};
+  std::vector<VariantCheck> variant_checks = {};
+  std::vector<CaseException> exceptions = {};
+  std::vector<AllowedStop> stops = {};
+  bool is_bad_input = false;  ///< it has to be refused
+  /// What is done instead of a run, in a case that no stepper has to do with; of the scene's file
+  /// it may need none.
+  std::function<std::vector<CaseFinding>(const CaseFiles& files)> still = nullptr;
+};
+
+}  // namespace pleat
