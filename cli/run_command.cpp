@@ -205,7 +205,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                   const Watchers& watchers) {
   const Scene& scene = simulation.scene();
   const ClothModel& model = simulation.model();
-  const BuildReport built = build_report(model);
+  const BuildReport built = build_report(model, scene.model);
   const auto n_steps = static_cast<double>(std::max<std::int64_t>(1, simulation.n_steps()));
   Json json = {{"scene", scene.name},
                {"fabric", scene.fabric.name},
@@ -285,7 +285,7 @@ void print_beginning(const Simulation& simulation) {
 void print_summary(const Simulation& simulation, const RunSummary& summary,
                    const Watchers& watchers) {
   const Scene& scene = simulation.scene();
-  const BuildReport built = build_report(simulation.model());
+  const BuildReport built = build_report(simulation.model(), scene.model);
   std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n",
               printable(scene.name).c_str(), printable(scene.fabric.name).c_str(), scene.level,
               simulation.model().n_vertices(), scene.method.stepper->name, scene.method.step,

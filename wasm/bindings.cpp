@@ -46,7 +46,7 @@ pleat::SceneParts shown_parts() {
 
 val summary(const pleat::Simulation& simulation) {
   const pleat::ClothModel& model = simulation.model();
-  const pleat::BuildReport report = pleat::build_report(model);
+  const pleat::BuildReport report = pleat::build_report(model, simulation.scene().model);
   val result = val::object();
   result.set("n_vertices", model.n_vertices());
   result.set("n_springs", model.springs.size());

@@ -7,6 +7,7 @@
 
 #include "core/model/elements.h"
 #include "core/run/elastic_model.h"
+#include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
@@ -129,7 +130,7 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   return model;
 }
 
-BuildReport build_report(const ClothModel& model) {
+BuildReport build_report(const ClothModel& model, const ModelOptions& options) {
   BuildReport report;
   const auto note = [&report](bool is_built, std::string_view part, std::size_t bytes) {
     (is_built ? report.built : report.left_out).emplace_back(part);
@@ -162,6 +163,7 @@ BuildReport build_report(const ClothModel& model) {
   note(model.contact.has_value(), "contact", model.contact ? model.contact->bytes() : 0);
   note(model.strain_limit.has_value(), "strain limit",
        model.strain_limit ? bytes_of(model.strain_limit->edges) : 0);
+  note(options.tearing != nullptr, "tearing", options.tearing ? sizeof *options.tearing : 0);
   return report;
 }
 

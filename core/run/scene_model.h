@@ -24,6 +24,7 @@ struct BuildReport {
   std::vector<std::string> left_out;
 };
 
-BuildReport build_report(const ClothModel& model);
+/// options  what the scene asks of its model beyond the equations of motion
+BuildReport build_report(const ClothModel& model, const ModelOptions& options);
 
 }  // namespace pleat

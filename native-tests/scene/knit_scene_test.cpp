@@ -135,8 +135,8 @@ TEST_CASE("knit: a model without shear or bending lacks their springs", "[scene]
   CHECK(knit_model({}, options).springs.size() == 1104 + 1056);
   options.bending = BendingModel::none;
   CHECK(knit_model({}, options).springs.size() == 1104);
-  const BuildReport with = build_report(knit_model({}));
-  const BuildReport without = build_report(knit_model({}, options));
+  const BuildReport with = build_report(knit_model({}), {});
+  const BuildReport without = build_report(knit_model({}, options), options);
   const auto has = [](const std::vector<std::string>& parts) {
     return std::find(parts.begin(), parts.end(), "bending") != parts.end();
   };
