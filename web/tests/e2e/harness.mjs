@@ -17,7 +17,9 @@ export async function createHarness() {
   const address = server.resolvedUrls.local[0];
   const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: SWITCHES });
   const blank = await browser.newPage();
-  const counts = { passed: 0, failed: 0 };
+  let passed = 0;
+  const failures = [];
+  const visits = new Set();
 
   /** A page at a link, with what its console said. */
   async function open(hash, { width = 1280, height = 800, prepare, ...options } = {}) {
@@ -25,6 +27,7 @@ export async function createHarness() {
     const reducedMotion = 'reduce';
     const viewport = { width, height };
     const context = await browser.newContext({ viewport, reducedMotion, ...options });
+    visits.add(context);
     const page = await context.newPage();
     const complaints = [];
     page.on('console', (message) => complaints.push(`${message.type()}: ${message.text()}`));
@@ -32,19 +35,39 @@ export async function createHarness() {
     page.setDefaultTimeout(PATIENCE_MS);
     await prepare?.(page);
     await page.goto(address + hash);
-    return { page, complaints, close: () => context.close() };
+    const close = async () => {
+      visits.delete(context);
+      await context.close();
+    };
+    return { page, complaints, close };
   }
 
-  async function check(name, work) {
-    const begin = performance.now();
+  /** Why `work` failed, or null; no page of it stays open. */
+  async function failureOf(work) {
     try {
       await work();
-      counts.passed += 1;
-      console.log(`ok      ${name} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
+      return null;
     } catch (error) {
-      counts.failed += 1;
-      console.log(`FAILED  ${name}: ${error.message.split('\n').slice(0, 3).join(' ')}`);
+      return error.message.split('\n').slice(0, 3).join(' ');
+    } finally {
+      for (const context of visits) await context.close();
+      visits.clear();
     }
+  }
+
+  /** A browser that shares its cores may miss a moment: what fails is asked once more, and both are told. */
+  async function check(name, work) {
+    const begin = performance.now();
+    const first = await failureOf(work);
+    const second = first && (await failureOf(work));
+    const seconds = `${((performance.now() - begin) / 1000).toFixed(1)} s`;
+    if (second) {
+      failures.push(`${name}: ${second}`);
+      console.log(`FAILED  ${name}: ${second} (twice, ${seconds}; first: ${first})`);
+      return;
+    }
+    passed += 1;
+    console.log(`ok      ${name} (${seconds}${first ? `; not at first: ${first}` : ''})`);
   }
 
   /** Number of different colours in a picture. */
@@ -65,8 +88,9 @@ export async function createHarness() {
   async function finish() {
     await browser.close();
     await server.close();
-    console.log(`${counts.passed} passed, ${counts.failed} failed`);
-    return counts.failed === 0;
+    for (const failure of failures) console.log(`FAILED  ${failure}`);
+    console.log(`${passed} passed, ${failures.length} failed`);
+    return failures.length === 0;
   }
 
   return { open, check, countColours, finish };
