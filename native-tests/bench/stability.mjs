@@ -4,7 +4,7 @@ import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { createPacer } from '../../web/src/motion/run/pacer.ts';
+import { createPacer } from '../../web/src/shared/state/pacer.ts';
 import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
 import { goal, markdown, measure, short } from './parts/bench-rows.mjs';
 import { ask, reference, root } from './parts/command.mjs';

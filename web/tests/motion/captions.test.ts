@@ -1,8 +1,8 @@
 // What the caption of a scene says is seen in the scene.
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import type { PleatModule, SimulationHandle } from '../../src/motion/bindings/pleat-module';
 import { PRESETS } from '../../src/motion/state/setting';
+import type { PleatModule, SimulationHandle } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { isBuilt, loadModule } from '../support/built-module';
 

@@ -1,5 +1,4 @@
 import { describe, expect, it, vi } from 'vitest';
-import type { ResponseStudy } from '../../src/motion/bindings/pleat-module';
 import { contactChart, contactWords } from '../../src/motion/panels/contact-figure';
 import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { ResponseSource } from '../../src/motion/run/response-source';
@@ -8,6 +7,7 @@ import { initialMotionState } from '../../src/motion/state/motion-state';
 import { presetSetting, sceneOf } from '../../src/motion/state/setting';
 import type { ToStudy } from '../../src/motion/worker/measuring-protocol';
 import { studyResponse } from '../../src/motion/worker/response-core';
+import type { ResponseStudy } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
 import { Refused } from '../../src/shared/workers/asked';
 import { createFakeModule } from '../support/fake-module';

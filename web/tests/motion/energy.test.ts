@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
-import { ENERGY_NUMBERS, type EnergyNumbers } from '../../src/motion/bindings/pleat-module';
 import { spread } from '../../src/motion/panels/energy-figure';
 import { linesOf } from '../../src/motion/panels/energy-lines';
 import { energyWords } from '../../src/motion/panels/energy-words';
 import { withSample } from '../../src/motion/state/energy-samples';
+import { ENERGY_NUMBERS, type EnergyNumbers } from '../../src/shared/bindings/pleat-module';
 
 function numbers(patch: Partial<EnergyNumbers>): EnergyNumbers {
   const none = Object.fromEntries(ENERGY_NUMBERS.map((name) => [name, 0])) as EnergyNumbers;

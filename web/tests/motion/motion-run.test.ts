@@ -1,5 +1,4 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { PleatModule } from '../../src/motion/bindings/pleat-module';
 import { errorWords } from '../../src/motion/panels/error-words';
 import { linkSentence } from '../../src/motion/panels/link-tool';
 import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
@@ -8,13 +7,14 @@ import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/sta
 import { initialMotionState, shownHeat } from '../../src/motion/state/motion-state';
 import { presetSetting, withModel, withStepper } from '../../src/motion/state/setting';
 import { stepCostAt } from '../../src/motion/state/step-cost';
-import { MotionCore } from '../../src/motion/worker/motion-core';
-import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
 import { readObj } from '../../src/motion/worker/obj-core';
 import type { FromObj, ToObj } from '../../src/motion/worker/obj-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
+import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
+import { MotionCore } from '../../src/shared/workers/motion-core';
+import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
 import { isBuilt, loadModule } from '../support/built-module';
 import diverging from '../support/diverging.json';
 import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';

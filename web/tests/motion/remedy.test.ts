@@ -1,6 +1,5 @@
 // What helps a setting that was refused or whose run shows nonsense, on the real module too.
 import { describe, expect, it } from 'vitest';
-import type { RunNumbers } from '../../src/motion/bindings/pleat-module';
 import { remedyForWarning } from '../../src/motion/run/remedy';
 import {
   MOST_SUBSTEPS,
@@ -8,6 +7,7 @@ import {
   type Setting,
   sceneOf,
 } from '../../src/motion/state/setting';
+import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { warningSentence } from '../../src/shared/panels/warning-words';

@@ -1,7 +1,7 @@
 // The same core natively and in WebAssembly: smooth scenes end at the same places.
 import { beforeAll, describe, expect, it } from 'vitest';
-import { ENERGY_NUMBERS, type PleatModule } from '../../src/motion/bindings/pleat-module';
 import { MODELS } from '../../src/motion/state/setting';
+import { ENERGY_NUMBERS, type PleatModule } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { canRun, type Model, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
 import { loadModule } from '../support/built-module';

@@ -2,9 +2,9 @@
 import { existsSync, readFileSync } from 'node:fs';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import type { ModalModule } from '../../src/modes/bindings/modal-module';
-import type { PleatModule } from '../../src/motion/bindings/pleat-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
+import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 
 interface Modules {
   pleat: PleatModule;

@@ -1,16 +1,17 @@
 // A small stand-in for the WebAssembly module: a square sheet of springs, enough to test the page's
 // side of the boundary. It counts the objects that are not deleted.
-import type {
-  PleatModule,
-  SceneHandle,
-  SimulationHandle,
-} from '../../src/motion/bindings/pleat-module';
+
 import type {
   BenchRow,
   ExperimentHandle,
   SweepModule,
 } from '../../src/motion/bindings/sweep-module';
 import type { Triple } from '../../src/shared/bindings/geometry';
+import type {
+  PleatModule,
+  SceneHandle,
+  SimulationHandle,
+} from '../../src/shared/bindings/pleat-module';
 
 /** After as many steps as this the run ends with a status, when the scene's name is "fragile". */
 export const FRAGILE_STEPS = 10;

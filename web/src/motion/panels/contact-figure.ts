@@ -1,9 +1,10 @@
 // How touched vertices move along the normal after first contact, under both responses.
+
+import type { ResponseStudy } from '../../shared/bindings/pleat-module';
 import { element, setText } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import type { ResponseStudy } from '../bindings/pleat-module';
 import { ResponseSource, WINDOW_S } from '../run/response-source';
 import type { MotionState, ResponseStory } from '../state/motion-state';
 import { createTimePlot, type TimeChart } from './time-plot';

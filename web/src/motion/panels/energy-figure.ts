@@ -1,10 +1,11 @@
 // The account of energy as a plot, in words, and as a table.
+
+import type { EnergyNumbers } from '../../shared/bindings/pleat-module';
 import { element, setText } from '../../shared/panels/element';
 import { lineKey } from '../../shared/panels/line-key';
 import { createNumberTable, fillHead, type NumberTable } from '../../shared/panels/number-table';
 import { energyText } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import type { EnergyNumbers } from '../bindings/pleat-module';
 import type { MotionState } from '../state/motion-state';
 import { type EnergyLine, linesOf } from './energy-lines';
 import { energyChart, lineClass } from './energy-plot';

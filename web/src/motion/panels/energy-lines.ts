@@ -1,5 +1,5 @@
 // The lines of the account of energy: what the cloth has, what was taken from it, and that both add up.
-import type { EnergyNumbers } from '../bindings/pleat-module';
+import type { EnergyNumbers } from '../../shared/bindings/pleat-module';
 
 export interface EnergyLine {
   kind:

@@ -1,6 +1,7 @@
 // Energies over time, as lines about zero.
+
+import type { EnergyNumbers } from '../../shared/bindings/pleat-module';
 import { energyUnit } from '../../shared/panels/quantity';
-import type { EnergyNumbers } from '../bindings/pleat-module';
 import type { EnergyLine } from './energy-lines';
 import type { TimeChart } from './time-plot';
 

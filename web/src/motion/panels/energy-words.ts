@@ -1,6 +1,7 @@
 // The account of energy in a few sentences.
+
+import type { EnergyNumbers } from '../../shared/bindings/pleat-module';
 import { energyText, percent } from '../../shared/panels/quantity';
-import type { EnergyNumbers } from '../bindings/pleat-module';
 
 const TAKERS: readonly { kind: 'damping' | 'air' | 'contact' | 'pins' | 'tears'; name: string }[] =
   [

@@ -1,7 +1,8 @@
 // How wrong the shown cloth is, as far as that is known, in words.
+
+import type { ReferenceNumbers, RunNumbers } from '../../shared/bindings/pleat-module';
 import { digits, percent, smallLength } from '../../shared/panels/quantity';
 import { stepperRow } from '../../shared/steppers/steppers';
-import type { ReferenceNumbers, RunNumbers } from '../bindings/pleat-module';
 import { referenceUrl } from '../run/references';
 import { type MotionState, wantsReference } from '../state/motion-state';
 import { presetSetting } from '../state/setting';

@@ -1,9 +1,10 @@
 // Which springs are implicit: the two colours on the stage, and the share in a sentence.
+
+import type { SpringSplit } from '../../shared/bindings/pleat-module';
 import { element, setText } from '../../shared/panels/element';
 import { percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { stepperRow } from '../../shared/steppers/steppers';
-import type { SpringSplit } from '../bindings/pleat-module';
 import type { MotionState } from '../state/motion-state';
 
 /** "180 of 686 springs are implicit at this step: 26 %." */

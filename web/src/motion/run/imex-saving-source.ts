@@ -1,9 +1,10 @@
 // Follows the substeps of imex, also while their slider is dragged: the share of implicit springs comes at
 // once from the cloth that is loaded, what a step saves is measured beside it once the slider rests.
+
+import type { ImexShare } from '../../shared/bindings/pleat-module';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { type Store, watch } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { ImexShare } from '../bindings/pleat-module';
 import type { ImexSaving } from '../state/imex-saving';
 import type { MotionState } from '../state/motion-state';
 import { type Setting, sceneOf } from '../state/setting';

@@ -1,6 +1,6 @@
 // Starts the workers that show cloth in motion.
 import { type Asked, createAsked, type Listener } from '../../shared/workers/asked';
-import type { FromMotion, MotionAnswers, ToMotion } from '../worker/motion-protocol';
+import type { FromMotion, MotionAnswers, ToMotion } from '../../shared/workers/motion-protocol';
 import type { ObjReadMessage, ToObj } from '../worker/obj-protocol';
 
 export type MotionClient = Asked<ToMotion, MotionAnswers>;

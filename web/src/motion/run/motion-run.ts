@@ -2,13 +2,9 @@
 import { brokenSentence, type Failure, sentenceOf } from '../../shared/bindings/answers';
 import { frameViews, type Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
+import type { EnergyNumbers, ImexShare } from '../../shared/bindings/pleat-module';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { EnergyNumbers, ImexShare } from '../bindings/pleat-module';
-import { withSample } from '../state/energy-samples';
-import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
-import { presetSetting, type Setting } from '../state/setting';
-import { withCost } from '../state/step-cost';
 import type {
   FrameMessage,
   FromMotion,
@@ -16,7 +12,11 @@ import type {
   RunReport,
   ToMotion,
   TornMesh,
-} from '../worker/motion-protocol';
+} from '../../shared/workers/motion-protocol';
+import { withSample } from '../state/energy-samples';
+import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
+import { presetSetting, type Setting } from '../state/setting';
+import { withCost } from '../state/step-cost';
 import {
   type StartMotion,
   type StartObj,

@@ -1,7 +1,8 @@
 // Brings the reference that the shown cloth is compared with, once somebody wants to compare.
+
+import type { RunNumbers } from '../../shared/bindings/pleat-module';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
-import type { RunNumbers } from '../bindings/pleat-module';
 import { type MotionState, wantsReference } from '../state/motion-state';
 import { referenceUrl } from './references';
 import type { RunWorker } from './run-worker';

@@ -1,5 +1,5 @@
 // When the next steps of a run are due, how fast it is, and when its numbers are to be read.
-import { createPacer } from './pacer';
+import { createPacer } from '../../shared/state/pacer';
 
 /** Numbers are read and shown this often [ms]: faster cannot be read. */
 const NUMBERS_EVERY_MS = 200;

@@ -1,7 +1,7 @@
 // What a run is at, and what ended it, in words.
 import { frameViews } from '../../shared/bindings/frame';
+import type { RunReport } from '../../shared/workers/motion-protocol';
 import type { Setting } from '../state/setting';
-import type { RunReport } from '../worker/motion-protocol';
 
 /** Where the vertex that a message names was in a frame, in words; nothing when it names none. */
 function placeOf(message: string, frame: ArrayBuffer): string {

@@ -1,7 +1,7 @@
 // The worker of a run: opened before its first question, watched while it is at work, and replaced when it
 // is of no use any more.
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import type { FromMotion, MotionAnswers, ToMotion } from '../worker/motion-protocol';
+import type { FromMotion, MotionAnswers, ToMotion } from '../../shared/workers/motion-protocol';
 import type { MotionClient, StartMotion } from './motion-client';
 
 /** How often work in hand is looked at [ms]. */

@@ -1,7 +1,7 @@
 // Asks which springs of the loaded cloth are implicit, for as long as that is drawn.
 import type { Store } from '../../shared/state/store';
+import type { SpringsMessage } from '../../shared/workers/motion-protocol';
 import type { MotionState } from '../state/motion-state';
-import type { SpringsMessage } from '../worker/motion-protocol';
 
 export class SpringSource {
   constructor(

@@ -1,5 +1,5 @@
 // Milliseconds of one step, in parts, from the running totals of the module.
-import type { RunNumbers } from '../bindings/pleat-module';
+import type { RunNumbers } from '../../shared/bindings/pleat-module';
 import type { StepTiming } from '../state/motion-state';
 
 /** Browsers round their clocks to as much as 0.1 ms: over this much work that is below 1 %. */

@@ -3,13 +3,13 @@
 import { Box3, Sphere, Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
+import type { SpringSplit } from '../../shared/bindings/pleat-module';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { Print } from '../../shared/stage/fabric-material';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
-import type { SpringSplit } from '../bindings/pleat-module';
 import { invitingVertex } from './inviting';
 import { createSpringLines } from './spring-lines';
 

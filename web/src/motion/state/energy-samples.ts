@@ -1,5 +1,5 @@
 // The account of energy over a run, thinned out so that a long run takes no more room than a short one.
-import type { EnergyNumbers } from '../bindings/pleat-module';
+import type { EnergyNumbers } from '../../shared/bindings/pleat-module';
 
 /** More points than these would lie closer than a pixel. */
 const MOST_SAMPLES = 512;

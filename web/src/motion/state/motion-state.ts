@@ -1,13 +1,13 @@
 // Everything the page shows. Only this and the frames travel between its parts.
 import type { Collider } from '../../shared/bindings/geometry';
-import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import type {
   EnergyNumbers,
   ResponseStudy,
   RunNumbers,
   SceneSummary,
   SpringSplit,
-} from '../bindings/pleat-module';
+} from '../../shared/bindings/pleat-module';
+import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import type { ImexSaving } from './imex-saving';
 import type { MotionLink } from './motion-link';
 import type { ObjMesh } from './obj-mesh';

@@ -1,7 +1,7 @@
 // A mesh from an OBJ file: how its threads run, what holds it, and the world around it.
 import type { Triple } from '../../shared/bindings/geometry';
+import type { ObjAnswer } from '../../shared/bindings/pleat-module';
 import type { ObjUnit } from '../../shared/state/obj-file';
-import type { ObjAnswer } from '../bindings/pleat-module';
 
 /** "highest", "nothing", or "group:" and the name of a group of the mesh. */
 export type Hold = 'highest' | 'nothing' | `group:${string}`;

@@ -1,7 +1,7 @@
 // Messages between the page and a worker that measures a scene beside the shown cloth, both ways. It
 // runs to its end; to cancel, terminate the worker.
 import type { Failure } from '../../shared/bindings/answers';
-import type { ResponseStudy } from '../bindings/pleat-module';
+import type { ResponseStudy } from '../../shared/bindings/pleat-module';
 
 export interface ToRace {
   type: 'race';

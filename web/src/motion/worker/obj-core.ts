@@ -1,7 +1,7 @@
 // Reads an OBJ file into the section "cloth" of a scene, as a function of the module.
 // The only file that calls delete() on its object.
 import { describe, internalFailure, read } from '../../shared/bindings/answers';
-import type { ObjAnswer, PleatModule } from '../bindings/pleat-module';
+import type { ObjAnswer, PleatModule } from '../../shared/bindings/pleat-module';
 import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
 import type { FromObj, ToObj } from './obj-protocol';
 

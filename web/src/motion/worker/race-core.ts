@@ -1,7 +1,11 @@
 // Times imex against implicit with cg on the same scene, as a function of the module.
 // The only file that calls delete() on its objects.
 import { type Answer, describe, internalFailure, read } from '../../shared/bindings/answers';
-import type { PleatModule, SceneSummary, SimulationHandle } from '../bindings/pleat-module';
+import type {
+  PleatModule,
+  SceneSummary,
+  SimulationHandle,
+} from '../../shared/bindings/pleat-module';
 import type { MeasuringRefused, RacedMessage, ToRace } from './measuring-protocol';
 
 type Module = Pick<PleatModule, 'Scene' | 'Simulation'>;

@@ -1,8 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { DEFORM_METHODS } from '../../src/fabrics/bindings/deform-module';
-import type { PleatModule, RunNumbers } from '../../src/motion/bindings/pleat-module';
-import { PLEAT_METHODS } from '../../src/motion/bindings/pleat-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
 import {
@@ -15,17 +13,19 @@ import {
   withStepper,
 } from '../../src/motion/state/setting';
 import { settingOfRow, sweepPlan } from '../../src/motion/state/sweep-plan';
-import { MotionCore } from '../../src/motion/worker/motion-core';
-import type { FromMotion, ToMotion } from '../../src/motion/worker/motion-protocol';
 import { readObj } from '../../src/motion/worker/obj-core';
 import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
 import { SweepCore } from '../../src/motion/worker/sweep-core';
 import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
 import type { Failure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
+import type { PleatModule, RunNumbers } from '../../src/shared/bindings/pleat-module';
+import { PLEAT_METHODS } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { openObjFile } from '../../src/shared/state/obj-file';
 import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/steppers';
+import { MotionCore } from '../../src/shared/workers/motion-core';
+import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
 import { boundMethods } from '../support/bound-methods';
 import { isBuilt, loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';

@@ -1,7 +1,7 @@
 // The classes bound by the module of cloth in motion, and the shape of the texts they answer with.
-import type { Triple } from '../../shared/bindings/geometry';
-import { methodsOf } from '../../shared/bindings/methods';
-import type { RunWarning } from '../../shared/bindings/run-warning';
+import type { Triple } from './geometry';
+import { methodsOf } from './methods';
+import type { RunWarning } from './run-warning';
 
 export interface SceneSummary {
   n_vertices: number;

@@ -1,9 +1,8 @@
 // Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
 
-import type { Failure } from '../../shared/bindings/answers';
-import type { Scalar } from '../../shared/bindings/frame';
-import type { Collider } from '../../shared/bindings/geometry';
-import type { Done } from '../../shared/workers/asked';
+import type { Failure } from '../bindings/answers';
+import type { Scalar } from '../bindings/frame';
+import type { Collider } from '../bindings/geometry';
 import type {
   EnergyNumbers,
   ImexShare,
@@ -11,6 +10,7 @@ import type {
   SceneSummary,
   SpringSplit,
 } from '../bindings/pleat-module';
+import type { Done } from './asked';
 
 export interface StepMessage {
   type: 'step';

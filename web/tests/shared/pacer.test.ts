@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { createPacer } from '../../src/motion/run/pacer';
+import { createPacer } from '../../src/shared/state/pacer';
 
 const STEP_S = 1 / 60;
 

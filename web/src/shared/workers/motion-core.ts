@@ -1,16 +1,9 @@
 // Answers each message to the worker of cloth in motion, as a function of the module and of where
 // answers go. The only file that calls delete() on its objects.
 
-import {
-  describe,
-  type Failure,
-  internalFailure,
-  type RunStatus,
-  read,
-} from '../../shared/bindings/answers';
-import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../../shared/bindings/frame';
-import type { Collider } from '../../shared/bindings/geometry';
-import type { Post } from '../../shared/workers/serve';
+import { describe, type Failure, internalFailure, type RunStatus, read } from '../bindings/answers';
+import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../bindings/frame';
+import type { Collider } from '../bindings/geometry';
 import {
   ENERGY_NUMBERS,
   type EnergyNumbers,
@@ -29,6 +22,7 @@ import type {
   ToMotion,
   TornMesh,
 } from './motion-protocol';
+import type { Post } from './serve';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
 function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
