@@ -54,6 +54,7 @@ const FETCHED: Record<Exclude<ViewId, 'motion'>, () => Promise<Create>> = {
     return (root, hash) => createFabricsView(root, hash, toMotion);
   },
   modes: async () => (await import('./modes/modes-view')).createModesView,
+  failures: async () => (await import('./failures/failures-view')).createFailuresView,
 };
 
 async function fetchedView(id: keyof typeof FETCHED, hash: string): Promise<View> {

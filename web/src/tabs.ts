@@ -1,12 +1,13 @@
 // The views of the page, each with the question that it answers.
 import { element } from './shared/panels/element';
 
-export type ViewId = 'refinement' | 'fabrics' | 'modes' | 'motion';
+export type ViewId = 'refinement' | 'fabrics' | 'modes' | 'failures' | 'motion';
 
 export const VIEWS: readonly { id: ViewId; title: string; question: string }[] = [
   { id: 'refinement', title: 'Refinement', question: 'What does refinement buy?' },
   { id: 'fabrics', title: 'Fabrics', question: 'What makes silk silk?' },
   { id: 'modes', title: 'Modes', question: 'Which shapes does it like?' },
+  { id: 'failures', title: 'Failures', question: 'What breaks cloth?' },
   { id: 'motion', title: 'Speed and error', question: 'How fast, how wrong?' },
 ];
 

@@ -1,6 +1,7 @@
 // The page in a real browser: `npm run e2e` after `npm run build`.
 import { readFileSync } from 'node:fs';
 import { checkFabrics } from './fabrics.mjs';
+import { checkFailures } from './failures.mjs';
 import {
   createHarness,
   eventually,
@@ -664,6 +665,7 @@ await checkKnit(harness, visit);
 await checkTearing(harness, visit);
 await checkFabrics(harness);
 await checkModes(harness);
+await checkFailures(harness);
 await checkRefinement(harness);
 
 process.exit((await finish()) ? 0 : 1);

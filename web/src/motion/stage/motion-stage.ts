@@ -1,6 +1,6 @@
 // The picture: renderer, camera, light, cloth, hand. It gets frames and settings, never the
 // simulation, and draws only when something changed.
-import { Box3, Sphere, Vector3 } from 'three';
+import { Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
 import type { SpringSplit } from '../../shared/bindings/pleat-module';
@@ -8,10 +8,11 @@ import { lookOf } from '../../shared/fabric/fabric-look';
 import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { Print } from '../../shared/stage/fabric-material';
+import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
-import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+import { createPaneStage, createStageHand } from '../../shared/stage/pane-stage';
+import { createSpringLines } from '../../shared/stage/spring-lines';
 import { invitingVertex } from './inviting';
-import { createSpringLines } from './spring-lines';
 
 export interface MotionStageEvents {
   grab(vertex: number): void;
@@ -55,48 +56,6 @@ export interface MotionStage {
   inviting(): number;
 }
 
-/** Direction of the first view [rad]: a little from the right and from above. */
-const AZIMUTH = 0.55;
-const POLAR = 1.32;
-
-/** A cloth lower than this part of its width lies level: let go, it will swing or fall. */
-const LEVEL_HEIGHT = 0.25;
-/** A sheet that swings from its edge hangs almost its length below it; its free edge whips past. */
-const SWING_BELOW = 0.8;
-const SWING_AROUND = 0.15;
-
-/** A plane tilted by less than 8 degrees, as a cosine, is a floor. */
-const FLOOR_COSINE = 0.99;
-
-/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
-function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
-  const box = new Box3().setFromArray(positions);
-  const reach = box.getSize(new Vector3());
-  const across = Math.max(reach.x, reach.z);
-  if (
-    reach.y < LEVEL_HEIGHT * across &&
-    colliders.every((collider) => collider.shape === 'plane')
-  ) {
-    box.min.y -= SWING_BELOW * across;
-    box.expandByVector(new Vector3(SWING_AROUND * across, 0, SWING_AROUND * across));
-  }
-  for (const collider of colliders) {
-    if (collider.shape !== 'sphere') continue;
-    const centre = new Vector3(...collider.centre);
-    const half = new Vector3().setScalar(collider.radius_m);
-    box.union(new Box3(centre.clone().sub(half), centre.clone().add(half)));
-  }
-  return box.getBoundingSphere(new Sphere());
-}
-
-/** The floor is the level plane of the scene, or a little under everything that is seen [m]. */
-function floorHeight(sphere: Sphere, colliders: Collider[]): number {
-  for (const collider of colliders) {
-    if (collider.shape === 'plane' && collider.normal[1] > FLOOR_COSINE) return collider.point[1];
-  }
-  return Math.min(0, sphere.center.y - sphere.radius);
-}
-
 /** What is set of how the cloth is drawn. */
 function drawingOf(
   cloth: ClothMesh,
@@ -119,13 +78,6 @@ function drawingOf(
       redraw();
     },
   };
-}
-
-/** The floor of the scene, and the view in which all of it is seen. */
-function frame({ surroundings, control }: PaneStage, sphere: Sphere, floor: number): void {
-  const { center: centre, radius } = sphere;
-  surroundings.frame(centre, radius, floor);
-  control.frame({ centre, radius, azimuth: AZIMUTH, polar: POLAR });
 }
 
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { springWords } from '../../src/motion/panels/spring-legend';
-import { endsOf } from '../../src/motion/stage/spring-lines';
+import { endsOf } from '../../src/shared/stage/spring-lines';
 
 const split = {
   ends: Uint32Array.from([0, 1, 1, 2, 2, 3, 3, 0]),

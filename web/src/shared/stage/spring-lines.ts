@@ -8,7 +8,7 @@ import {
   LineBasicMaterial,
   LineSegments,
 } from 'three';
-import type { SpringSplit } from '../../shared/bindings/pleat-module';
+import type { SpringSplit } from '../bindings/pleat-module';
 
 /** The ends of the springs that are implicit, or of those that are not. */
 export function endsOf({ ends, isImplicit }: SpringSplit, wantsImplicit: boolean): number[] {

@@ -1,0 +1,24 @@
+// The cases to choose from.
+import { element } from '../../shared/panels/element';
+import { type Store, watch } from '../../shared/state/store';
+import { CASES } from '../state/failure-cases';
+import type { FailuresState } from '../state/failures-state';
+
+export function createCaseList(parent: HTMLElement, store: Store<FailuresState>): () => void {
+  const buttons = CASES.map(({ id, title }) =>
+    element('button', { type: 'button', click: () => store.set({ caseId: id }) }, title),
+  );
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Cases' },
+      element('h2', {}, 'What breaks cloth'),
+      element('div', { class: 'case-list' }, ...buttons),
+    ),
+  );
+  return watch(store, ['caseId'], ({ caseId }) => {
+    CASES.forEach(({ id }, index) => {
+      buttons[index]?.setAttribute('aria-pressed', String(id === caseId));
+    });
+  });
+}

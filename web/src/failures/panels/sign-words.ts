@@ -1,0 +1,37 @@
+// The signs that a side shows, in words.
+import { digits } from '../../shared/panels/quantity';
+import { warningSentence } from '../../shared/panels/warning-words';
+import type { Sign } from '../state/failure-cases';
+import type { SideState } from '../state/failures-state';
+
+export const SIGN_TITLES: Record<Sign, string> = {
+  stretch: 'stretched beyond its load',
+  speed: 'faster than anything explains',
+  unsolved: 'equations left unsolved',
+  not_converged: 'did not converge',
+  ended: 'numbers without end',
+};
+
+export interface ShownSign {
+  sign: Sign;
+  timeS: number;
+  sentence: string;
+}
+
+/** What a side shows by now, the first sign first. */
+export function signsOf({ warnings, ended }: SideState): ShownSign[] {
+  const signs = warnings.map(
+    (warning): ShownSign => ({
+      sign: warning.kind,
+      timeS: warning.time_s,
+      sentence: warningSentence(warning),
+    }),
+  );
+  if (ended)
+    signs.push({
+      sign: 'ended',
+      timeS: ended.timeS,
+      sentence: `The run ended at ${digits(ended.timeS, 2)} s: ${ended.sentence}. The last good frame stays.`,
+    });
+  return signs.sort((a, b) => a.timeS - b.timeS);
+}

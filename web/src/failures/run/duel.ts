@@ -1,0 +1,216 @@
+// Plays both sides of a case in step.
+import {
+  brokenSentence,
+  describe,
+  type Failure,
+  internalFailure,
+} from '../../shared/bindings/answers';
+import type { Collider } from '../../shared/bindings/geometry';
+import { fabricsText } from '../../shared/fabric/fabric-data';
+import { createPacer } from '../../shared/state/pacer';
+import type { Store } from '../../shared/state/store';
+import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import type { FrameMessage } from '../../shared/workers/motion-protocol';
+import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
+import { type FailuresState, freshSides, type SideState } from '../state/failures-state';
+import { type StartSide, startSideWorker } from './failures-client';
+import { SideRun, type SideStart } from './side-run';
+
+/** What is drawn of a duel. */
+export interface DuelView {
+  showMesh(pane: number, mesh: SideStart): void;
+  /** The frame's buffer belongs to the picture until the next; returns the one before. */
+  showFrame(pane: number, buffer: ArrayBuffer): ArrayBuffer | null;
+  setColliders(colliders: Collider[]): void;
+  /** Shows all of what begins. */
+  frame(colliders: Collider[]): void;
+  /** Goes with what stands in a pane. */
+  follow(pane: number): void;
+}
+
+/** The parts of the browser that a duel needs: tests have their own. */
+export interface DuelParts {
+  start: StartSide;
+  /** Calls back with the next picture. */
+  later(callback: () => void): void;
+  nowMs(): number;
+}
+
+const BROWSER: DuelParts = {
+  start: startSideWorker,
+  later: (callback) => requestAnimationFrame(callback),
+  nowMs: () => performance.now(),
+};
+
+function sideAfter(before: SideState, { report, hasEnded }: FrameMessage, msPerStep: number) {
+  if (!report) return before;
+  const { numbers, message } = report;
+  return {
+    warnings: numbers.warnings,
+    ended: hasEnded ? { sentence: message, timeS: numbers.time_s } : null,
+    stretch: numbers.largest_stretch,
+    msPerStep,
+  };
+}
+
+export class Duel {
+  private readonly pacer = createPacer();
+  private readonly sides: Record<Side, SideRun>;
+  private wanted = 0; // counts loads and resets: what belongs to an earlier one is dropped
+  private work: Promise<unknown> = Promise.resolve();
+  private isStepping = false;
+  private nSteps = 0;
+  private lastMs = 0;
+  private msPerStep: number | null = null;
+
+  constructor(
+    private readonly store: Store<FailuresState>,
+    private readonly view: DuelView,
+    private readonly parts: DuelParts = BROWSER,
+  ) {
+    const broken = (reason: string) => this.breakDown(reason);
+    const sideRun = () => new SideRun(parts.start({ broken }), fabricsText);
+    this.sides = { naive: sideRun(), ours: sideRun() };
+    store.subscribe((state, previous) => {
+      if (state.caseId !== previous.caseId) this.open();
+    });
+    this.open();
+  }
+
+  play(): void {
+    if (this.store.get().phase !== 'ready') return;
+    const go = () => {
+      this.lastMs = this.parts.nowMs();
+      this.pacer.clear();
+      this.store.set({ playing: true });
+      this.parts.later(() => this.tick());
+    };
+    if (this.isAtEnd()) void this.reset().then(go);
+    else go();
+  }
+
+  pause(): void {
+    this.store.set({ playing: false });
+  }
+
+  step(): void {
+    this.pause();
+    if (!this.isStepping && !this.isAtEnd()) void this.advance(1);
+  }
+
+  reset(): Promise<void> {
+    return this.begin((side) => this.sides[side].reset(), false);
+  }
+
+  private open(): void {
+    const one = caseNamed(this.store.get().caseId);
+    void this.begin((side) => this.sides[side].load(sceneTextOf(one, side)), true);
+  }
+
+  private isAtEnd(): boolean {
+    return this.nSteps >= Math.round(caseNamed(this.store.get().caseId).endS / STEP_S);
+  }
+
+  /** One thing after the other: a step under way ends before cloth begins anew. */
+  private begin(start: (side: Side) => Promise<SideStart>, isFramed: boolean): Promise<void> {
+    this.wanted += 1;
+    const { wanted } = this;
+    this.store.set({ phase: 'loading', playing: false });
+    const begun = this.work.then(async () => {
+      if (wanted !== this.wanted) return;
+      try {
+        const starts = await Promise.all(SIDES.map(start));
+        if (wanted === this.wanted) this.showStarts(starts, isFramed);
+      } catch (error) {
+        this.giveUp(error);
+      }
+    });
+    this.work = begun;
+    return begun;
+  }
+
+  private showStarts(starts: SideStart[], isFramed: boolean): void {
+    starts.forEach((start, pane) => {
+      this.view.showMesh(pane, start);
+      this.view.showFrame(pane, start.buffer);
+    });
+    const colliders = starts[0]?.colliders ?? [];
+    this.view.setColliders(colliders);
+    if (isFramed) this.view.frame(colliders);
+    this.follow();
+    this.nSteps = 0;
+    this.msPerStep = null;
+    this.store.set({ phase: 'ready', timeS: 0, sides: freshSides() });
+  }
+
+  private tick(): void {
+    const { playing, speed } = this.store.get();
+    if (!playing) return;
+    const nowMs = this.parts.nowMs();
+    this.pacer.advance(((nowMs - this.lastMs) / 1000) * speed);
+    this.lastMs = nowMs;
+    if (!this.isStepping) {
+      const count = this.pacer.take(STEP_S, this.msPerStep);
+      if (count > 0) void this.advance(count);
+    }
+    this.parts.later(() => this.tick());
+  }
+
+  private advance(wish: number): Promise<void> {
+    const end = Math.round(caseNamed(this.store.get().caseId).endS / STEP_S);
+    const count = Math.min(wish, end - this.nSteps);
+    this.isStepping = true;
+    const done = this.stepBoth(count).then(
+      () => undefined,
+      (error) => this.giveUp(error),
+    );
+    this.work = done;
+    return done.then(() => {
+      this.isStepping = false;
+      if (this.isAtEnd()) this.pause();
+    });
+  }
+
+  private async stepBoth(count: number): Promise<void> {
+    const { wanted } = this;
+    const sides = { ...this.store.get().sides };
+    const begunMs = this.parts.nowMs();
+    const frames = await Promise.all(
+      SIDES.map(async (side) => {
+        const frame = await this.sides[side].step(count);
+        const msPerStep = (this.parts.nowMs() - begunMs) / count;
+        if (frame) sides[side] = sideAfter(sides[side], frame, msPerStep);
+        return frame;
+      }),
+    );
+    this.msPerStep = (this.parts.nowMs() - begunMs) / count;
+    if (wanted !== this.wanted) return; // what begins anew has buffers of its own
+    frames.forEach((frame, pane) => {
+      const side = SIDES[pane];
+      if (!frame || !side) return;
+      const before = this.view.showFrame(pane, frame.buffer);
+      if (before) this.sides[side].giveBack(before);
+    });
+    const colliders = frames[SIDES.indexOf('ours')]?.colliders;
+    if (colliders) this.view.setColliders(colliders);
+    this.follow();
+    this.nSteps += count;
+    this.store.set({ timeS: this.nSteps * STEP_S, sides });
+  }
+
+  private follow(): void {
+    if (caseNamed(this.store.get().caseId).isFollowed) this.view.follow(SIDES.indexOf('ours'));
+  }
+
+  private giveUp(error: unknown): void {
+    if (error instanceof BrokenWorker) return; // its listener hears
+    const problem: Failure =
+      error instanceof Refused ? error.failure : internalFailure(describe(error));
+    this.store.set({ playing: false, problem });
+  }
+
+  private breakDown(reason: string): void {
+    const problem = internalFailure(brokenSentence('The cloth', reason));
+    this.store.set({ phase: 'broken', playing: false, problem });
+  }
+}

@@ -1,0 +1,65 @@
+// One side of a case: its worker, and the buffer in which its frames travel.
+import type { Collider } from '../../shared/bindings/geometry';
+import type { FrameMessage, LoadedMessage } from '../../shared/workers/motion-protocol';
+import type { SideClient } from './failures-client';
+
+export interface SideStart {
+  triangles: Uint32Array;
+  /** Two vertices a spring, of cloth that is no surface; else empty. */
+  springEnds: Uint32Array;
+  buffer: ArrayBuffer;
+  nVertices: number;
+  colliders: Collider[];
+}
+
+export class SideRun {
+  private spare: ArrayBuffer | null = null; // what is not shown
+  private hasEnded = false;
+
+  constructor(
+    private readonly client: SideClient,
+    fabricsText: string,
+  ) {
+    client.tell({ type: 'open', fabricsText });
+  }
+
+  async load(sceneText: string): Promise<SideStart> {
+    const question = { type: 'load', sceneText, keepMotion: false, request: 0 } as const;
+    return this.start(await this.client.ask(question));
+  }
+
+  async reset(): Promise<SideStart> {
+    return this.start(await this.client.ask({ type: 'reset', request: 0 }));
+  }
+
+  /** The frame after so many steps; null once the run has ended. */
+  async step(count: number): Promise<FrameMessage | null> {
+    const buffer = this.spare;
+    if (this.hasEnded || !buffer) return null;
+    this.spare = null;
+    const answer = await this.client.ask(
+      { type: 'step', count, wantsNumbers: true, request: 0, buffer },
+      [buffer],
+    );
+    if (answer.type !== 'frame') return null;
+    this.hasEnded = answer.hasEnded;
+    return answer;
+  }
+
+  /** Takes back a buffer whose frame is not shown any more. */
+  giveBack(buffer: ArrayBuffer): void {
+    this.spare = buffer;
+  }
+
+  private async start(loaded: LoadedMessage): Promise<SideStart> {
+    const { triangles, buffers, colliders, summary } = loaded;
+    const [buffer, spare] = buffers;
+    this.spare = spare;
+    this.hasEnded = false;
+    const springEnds =
+      triangles.length > 0
+        ? new Uint32Array(0)
+        : (await this.client.ask({ type: 'readSprings', request: 0 })).ends;
+    return { triangles, springEnds, buffer, colliders, nVertices: summary.n_vertices };
+  }
+}
