@@ -116,11 +116,27 @@ export async function expectMotionWorks(page) {
   await until(page, (state) => state.setting && state.phase === 'ready');
 }
 
-/** Where a vertex of the first pane is seen, on the page. */
+/** Two more pictures are drawn: what was laid out anew has its size by then. */
+const twoPictures = (page) =>
+  page.evaluate(
+    () => new Promise((resume) => requestAnimationFrame(() => requestAnimationFrame(resume))),
+  );
+
+/** Where a vertex of the first pane is seen, on the page, once that is the same in two pictures. */
 export async function placeOn(page, vertex) {
-  const at = await page.evaluate((v) => window.pleat.project(v), vertex);
-  const box = await canvasOf(page).boundingBox();
-  return { x: box.x + at.x, y: box.y + at.y };
+  const place = async () => {
+    await twoPictures(page);
+    const at = await page.evaluate((v) => window.pleat.project(v), vertex);
+    const box = await canvasOf(page).boundingBox();
+    return { x: box.x + at.x, y: box.y + at.y };
+  };
+  let [before, now] = [await place(), await place()];
+  const isStill = () => Math.hypot(now.x - before.x, now.y - before.y) < 0.5;
+  for (let look = 0; look < 20 && !isStill(); ++look) {
+    before = now;
+    now = await place();
+  }
+  return now;
 }
 
 /** A screen that is touched. */
