@@ -44,6 +44,19 @@ bool is_plain(const Collider& collider) {
   return is_no_cone(collider) && collider.motion.kind != Motion::Kind::follow;
 }
 
+/// A ball that holds the solid; about nothing, and infinite, of a plane.
+Sphere ball_around(const SolidShape& shape, const Pose& pose) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
+    return {pose * sphere->centre, sphere->radius};
+  if (const auto* cone = std::get_if<RoundedCone>(&shape)) {
+    const double half_length = (cone->centre_b - cone->centre_a).norm() / 2;
+    const double half_width = std::max(cone->half_width_a, cone->half_width_b);
+    return {pose * ((cone->centre_a + cone->centre_b) / 2),
+            std::hypot(half_length, half_width) + std::max(cone->radius_a, cone->radius_b)};
+  }
+  return {Vec3::Zero(), std::numeric_limits<double>::infinity()};
+}
+
 /// Share of the tangential motion that friction leaves: the tangential velocity changes by at most
 /// friction times the normal one. A solid that takes no normal velocity away holds nothing.
 double slip(double friction, double normal_change, double tangential_speed) {
@@ -236,9 +249,9 @@ bool ContactStage::is_outside(const Solid& solid, const Vec3& place) const {
 // well; then it is clear of both. Where solids leave it no place with its clearance, the middle of
 // the last two places is as far inside of either's, and may yet be outside of the solids
 // themselves.
-std::optional<ContactStage::Touch> ContactStage::resolve_vertex(VertexId vertex,
-                                                                const Vec3& position_begin,
-                                                                Vec3& position, Vec3& velocity) {
+std::optional<ContactStage::Touch> ContactStage::resolve(VertexId vertex,
+                                                         const Vec3& position_begin, Vec3& position,
+                                                         Vec3& velocity) {
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);
   if (!meeting.solid || !velocity.allFinite()) return std::nullopt;
   const bool bounces = options_.response == ContactResponse::uniform;
@@ -302,13 +315,46 @@ std::span<const ContactStage::Touch> ContactStage::resolve(
     Vec3 position = positions.col(i);
     Vec3 velocity = velocities.col(i);
     const std::optional<Touch> touch =
-        resolve_vertex(VertexId(i), positions_begin.col(i), position, velocity);
+        resolve(VertexId(i), positions_begin.col(i), position, velocity);
     if (!touch) continue;
     positions.col(i) = position;
     velocities.col(i) = velocity;
     touches_.push_back(*touch);
   }
   return touches_;
+}
+
+// A solid that only shifts meets what comes within r of its middle place, grown by half its shift.
+// Of one that turns by R, the way is seen from where it ends: (1 - s) R (a - c_0) + s (b - c_1),
+// which is off by at most |R - I| |a - c_0| from the way between the solid's own places. With rho =
+// |R - I| at most 1/4 and q the latter's least length, q (1 - rho) - rho (|a - b| + |c_1 - c_0|) >
+// r keeps it out; a ball of r / (1 - rho) + |c_1 - c_0| and a distance of |a - b| ask for more.
+void ContactStage::outlines(std::vector<Outline>& outlines) const {
+  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  constexpr double kLargestTurn = 0.25;
+  const bool holds_all_alike = !is_graded_ && options_.response == ContactResponse::resting;
+  outlines.clear();
+  for (std::size_t k = 0; k < solids_.size(); ++k) {
+    const Solid& solid = solids_[k];
+    const bool is_plain = k < first_framed_;
+    if (const auto* plane = std::get_if<SweptPlane>(&solid.swept); plane && is_plain) {
+      outlines.push_back({*plane, holds_all_alike, solid.friction});
+      continue;
+    }
+    if (const auto* ball = std::get_if<SweptSphere>(&solid.swept); ball && is_plain) {
+      outlines.push_back({*ball, holds_all_alike, solid.friction});
+      continue;
+    }
+    const double turn = solid.turns ? (solid.carry.rotation - Mat3::Identity()).norm() : 0;
+    const Sphere begin = ball_around(colliders_[k].shape, poses_begin_[k]);
+    const Sphere end = ball_around(colliders_[k].shape, poses_end_[k]);
+    const Clearance held = clearance(solid.radii, largest_face_radius_);
+    const double radius = (end.radius + std::max(held.at_a, held.at_b)) / (1 - turn) +
+                          (end.centre - begin.centre).norm();
+    outlines.push_back({SweptSphere{(begin.centre + end.centre) / 2,
+                                    turn > kLargestTurn ? kEverywhere : radius, Vec3::Zero()},
+                        false, solid.friction});
+  }
 }
 
 double ContactStage::least_gap(const Eigen::Ref<const Positions>& positions,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -93,6 +94,23 @@ class ContactStage {
                                  std::span<const char> is_exempt, Eigen::Ref<Positions> positions,
                                  Eigen::Ref<Positions> velocities);
 
+  /// The same for one vertex alone, of which `resolve` of the whole state knows nothing; nothing
+  /// where it is not touched.
+  std::optional<Touch> resolve(VertexId vertex, const Vec3& position_begin, Vec3& position,
+                               Vec3& velocity);
+
+  /// A solid over the substep that was begun, as vertices are held off it.
+  struct Outline {
+    std::variant<SweptPlane, SweptSphere> shape;
+    /// Else the shape is a bound without a shift: no way from a to b that stays further from it
+    /// than |a - b| meets the solid.
+    bool is_exact = false;
+    double friction = 0;
+  };
+
+  /// Those of all solids. Allocates nothing where `outlines` had as many before.
+  void outlines(std::vector<Outline>& outlines) const;
+
   /// Those of the last call of resolve, in the order of the vertices.
   std::span<const Touch> touches() const { return touches_; }
 
@@ -150,8 +168,6 @@ class ContactStage {
     void keep_earlier(const Solid& other, const std::optional<Impact>& met);
   };
 
-  std::optional<Touch> resolve_vertex(VertexId vertex, const Vec3& position_begin, Vec3& position,
-                                      Vec3& velocity);
   Clearance clearance(const std::array<double, 2>& radii, double face_radius) const;
   template <class Shape, class Action>
   auto with_held(const Solid& solid, const Shape& shape, VertexId vertex,

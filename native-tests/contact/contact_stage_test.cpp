@@ -1,5 +1,6 @@
 #include "core/contact/contact_stage.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -209,6 +210,52 @@ TEST_CASE("contact: a whole state gets what its vertices get one by one, to the 
       if (positions.col(i).allFinite()) begin.col(i) = positions.col(i);
   }
   CHECK(n_touches > 500);
+}
+
+/// False where every outline says that the way does not meet its solid.
+bool may_meet(const std::vector<ContactStage::Outline>& outlines, const Vec3& begin,
+              const Vec3& end) {
+  const Vec3 middle = (begin + end) / 2;
+  const double length = (end - begin).norm();
+  return std::any_of(outlines.begin(), outlines.end(), [&](const ContactStage::Outline& outline) {
+    if (const auto* ball = std::get_if<SweptSphere>(&outline.shape))
+      return (middle - ball->centre + ball->shift / 2).norm() <=
+             ball->radius + length + ball->shift.norm() / 2;
+    const auto& plane = std::get<SweptPlane>(outline.shape);
+    return plane.normal.dot(middle) - plane.level <= length;
+  });
+}
+
+TEST_CASE("contact: what is out of a solid's outline does not meet it", "[contact]") {
+  Random random(23);
+  constexpr double kStep = 0.02;
+  Collider limb = cone_collider({{-0.4, 0.5, 0}, {0.4, 0.6, 0}, 0.2, 0.1}, 0.3);
+  limb.motion = turning_motion({0, 6, 2}, {0.5, 0, 0});
+  Collider ball = ball_collider({0, 0.3, 0.9}, 0.3, 0.2);
+  ball.motion = turning_motion({8, 0, 0}, {0, 0, -0.5});
+  Collider floor = floor_collider(0.4);
+  floor.motion = steady_motion({0, -1, 0});
+  ContactStage stage({floor, limb, ball}, {0.001, Eigen::VectorXd::Constant(1, 0.02)});
+  std::vector<ContactStage::Outline> outlines;
+  int n_ruled_out = 0;
+  int n_touched = 0;
+  for (int k = 0; k < 20; ++k) {
+    stage.begin_substep(k * kStep, (k + 1) * kStep);
+    stage.outlines(outlines);
+    REQUIRE(outlines.size() == 3);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 begin = Vec3(0, 0.8, 0) + random.uniform(0, 1.5) * random_direction(random);
+      Vec3 velocity = 20 * std::pow(random.uniform(0, 1), 4) * random_direction(random);
+      Vec3 end = begin + kStep * velocity;
+      const bool is_ruled_out = !may_meet(outlines, begin, end);
+      const bool is_touched = stage.resolve(VertexId(0), begin, end, velocity).has_value();
+      CHECK_FALSE((is_ruled_out && is_touched));
+      n_ruled_out += is_ruled_out ? 1 : 0;
+      n_touched += is_touched ? 1 : 0;
+    }
+  }
+  CHECK(n_ruled_out > 8000);
+  CHECK(n_touched > 2000);
 }
 
 TEST_CASE("contact: a state that is not whole is refused", "[contact]") {

@@ -37,6 +37,9 @@ inline Float1 where_positive(Float1 condition, Float1 a) {
   return {condition.value > 0 ? a.value : 0.0f};
 }
 
+/// Bit l is set where lane l is positive.
+inline int positive_lanes(Float1 a) { return a.value > 0 ? 1 : 0; }
+
 /// Four floats, computed with together. Loads and stores need no alignment.
 ///
 /// Every operation rounds like its scalar form, so that both builds and Float1 agree to the bit.
@@ -76,6 +79,9 @@ inline Float4 min(Float4 a, Float4 b) { return {wasm_f32x4_pmin(a.value, b.value
 inline Float4 where_positive(Float4 condition, Float4 a) {
   return {wasm_v128_and(wasm_f32x4_gt(condition.value, wasm_f32x4_splat(0)), a.value)};
 }
+inline int positive_lanes(Float4 a) {
+  return static_cast<int>(wasm_i32x4_bitmask(wasm_f32x4_gt(a.value, wasm_f32x4_splat(0))));
+}
 #elif defined(__SSE2__)
 inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.value, b.value)}; }
 inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.value, b.value)}; }
@@ -87,6 +93,9 @@ inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(b.value, a.value)}; }
 inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(b.value, a.value)}; }
 inline Float4 where_positive(Float4 condition, Float4 a) {
   return {_mm_and_ps(_mm_cmpgt_ps(condition.value, _mm_setzero_ps()), a.value)};
+}
+inline int positive_lanes(Float4 a) {
+  return _mm_movemask_ps(_mm_cmpgt_ps(a.value, _mm_setzero_ps()));
 }
 #else
 template <class Operation>
@@ -118,6 +127,11 @@ inline Float4 min(Float4 a, Float4 b) {
 }
 inline Float4 where_positive(Float4 condition, Float4 a) {
   return lane_by_lane(condition, a, [](Float1 p, Float1 q) { return where_positive(p, q); });
+}
+inline int positive_lanes(Float4 a) {
+  int lanes = 0;
+  for (int lane = 0; lane < 4; ++lane) lanes |= positive_lanes(a.value[lane]) << lane;
+  return lanes;
 }
 #endif
 

@@ -44,7 +44,13 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
   if (model.air) forces_.resize(3, model.n_vertices());
-  if (has_corrections()) positions_begin_.resize(3, model.n_vertices());
+  if (strain_limit() != nullptr) positions_begin_.resize(3, model.n_vertices());
+  if (model.contact) {
+    contact_.emplace(layout_);
+    vertices_.resize(static_cast<std::size_t>(layout_.n_slots));
+    for (int i = 0; i < model.n_vertices(); ++i)
+      vertices_[static_cast<std::size_t>(slot_of(VertexId(i)))] = VertexId(i);
+  }
   refresh();
 }
 
@@ -101,7 +107,10 @@ void StepperXpbd::set_motion(int slot, const Vec3& position, const Vec3& velocit
 void StepperXpbd::load(const State& state) {
   const StageScope scope(observer_, Stage::convert);
   const double h = step_of(options());
-  origin_ = 0.5 * (state.positions.rowwise().minCoeff() + state.positions.rowwise().maxCoeff());
+  const Vec3 least = state.positions.rowwise().minCoeff();
+  const Vec3 most = state.positions.rowwise().maxCoeff();
+  origin_ = 0.5 * (least + most);
+  extent_ = (most - least).norm();
   for (int i = 0; i < model_.n_vertices(); ++i)
     set_motion(slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
   substeps_left_ = substeps();
@@ -166,19 +175,34 @@ void StepperXpbd::add_air_drag(State& state, double h) {
   }
 }
 
-void StepperXpbd::correct_in_double(State& state, double time_end, double h) {
+// Most vertices are far from solids or meet a single one: only the others are made double
+// precision of.
+void StepperXpbd::resolve_contacts(double h) {
+  const StageScope scope(observer_, Stage::contact);
+  contact_->place_solids(*model_.contact, origin_, extent_);
+  const std::array<float*, 3> lows = {array(rounded_off), array(rounded_off + 1),
+                                      array(rounded_off + 2)};
+  for (const int slot : contact_->resolve(view(), lows)) {
+    Vec3 place_begin = origin_;
+    for (int k = 0; k < 3; ++k)
+      place_begin[k] += static_cast<double>(array(begin + k)[slot]) + array(rounded_off + k)[slot];
+    Vec3 place = position_of(slot);
+    Vec3 velocity = velocity_of(slot, h);
+    const VertexId vertex = vertices_[static_cast<std::size_t>(slot)];
+    if (model_.contact->resolve(vertex, place_begin, place, velocity))
+      set_motion(slot, place, velocity, h);
+  }
+}
+
+void StepperXpbd::limit_in_double(State& state, double time_end, double h) {
   positions_begin_.swap(state.positions);
   copy_to(state, h);
   correct(positions_begin_, state, time_end, h);
-  const auto take_over = [&](VertexId v) {
-    set_motion(slot_of(v), state.positions.col(v), state.velocities.col(v), h);
-  };
-  if (strain_limit() == nullptr) {
-    for (const ContactStage::Touch& touch : model_.contact->touches()) take_over(touch.vertex);
-    return;
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    if (array(inverse_mass)[slot] > 0)
+      set_motion(slot, state.positions.col(i), state.velocities.col(i), h);
   }
-  for (int i = 0; i < model_.n_vertices(); ++i)
-    if (array(inverse_mass)[slot_of(VertexId(i))] > 0) take_over(VertexId(i));
 }
 
 void StepperXpbd::copy_to(State& state, double h) {
@@ -219,7 +243,11 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
       residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
                                 hanging_.squared_residual(v));
   }
-  if (has_corrections()) correct_in_double(state, time_end, h);
+  if (strain_limit() != nullptr) {
+    limit_in_double(state, time_end, h);
+  } else if (model_.contact) {
+    resolve_contacts(h);
+  }
   --substeps_left_;
   time_end_ = time_end;
   SolveReport report;

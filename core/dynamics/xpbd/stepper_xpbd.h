@@ -2,6 +2,7 @@
 
 #include "core/dynamics/stepper.h"
 #include "core/dynamics/xpbd/bend_program.h"
+#include "core/dynamics/xpbd/contact_program.h"
 #include "core/dynamics/xpbd/hanging_program.h"
 #include "core/dynamics/xpbd/spring_program.h"
 
@@ -48,23 +49,27 @@ class StepperXpbd final : public Stepper {
   void place_pins(double time_end, double h);
   void sweep();
   void add_air_drag(State& state, double h);
-  void correct_in_double(State& state, double time_end, double h);
+  void resolve_contacts(double h);
+  void limit_in_double(State& state, double time_end, double h);
 
   LaneLayout layout_;
   SpringProgram springs_;
   BendProgram bends_;
   HangingProgram hanging_;
-  double mean_mass_;             // [kg]
-  std::size_t pitch_;            // floats from one array to the next
-  std::vector<float> data_;      // see Array
-  Vec3 origin_{0, 0, 0};         // of the positions [m]
-  std::array<float, 3> fall_{};  // gravity h^2 [m]
+  std::optional<ContactProgram> contact_;  // where the model has solids
+  std::vector<VertexId> vertices_;         // of each slot, where the model has solids
+  double mean_mass_;                       // [kg]
+  std::size_t pitch_;                      // floats from one array to the next
+  std::vector<float> data_;                // see Array
+  Vec3 origin_{0, 0, 0};                   // of the positions [m]
+  double extent_ = 0;                      // of the cloth about it when the step begins [m]
+  std::array<float, 3> fall_{};            // gravity h^2 [m]
   int substeps_left_ = 0;
   double residual_begin_ = 0, residual_end_ = 0;  // of the last substep [m]
   Positions pin_velocities_;                      // one column per pin [m/s]
   double time_end_ = 0;                           // of the last substep [s]
   Positions forces_;                              // of the air [N]
-  Positions positions_begin_;                     // of a substep that is corrected [m]
+  Positions positions_begin_;                     // of a substep whose strain is limited [m]
 };
 
 }  // namespace pleat

@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/model/momentum.h"
 #include "native-tests/support/allocation_count.h"
+#include "native-tests/support/particle.h"
 
 namespace pleat {
 namespace {
@@ -502,6 +503,68 @@ TEST_CASE("xpbd: a vertex falling on a plane comes to lie on it", "[dynamics]") 
     REQUIRE(system.state.positions.row(1).minCoeff() > -1e-12);
   }
   CHECK(system.state.positions.row(1).maxCoeff() < 1e-6);
+}
+
+/// One particle on a slope of 30 degrees, at rest; how far it has come down after `seconds` [m].
+double slide(const SolidShape& slope, double friction, const Vec3& place, double seconds) {
+  System system = particles(place);
+  system.model.contact.emplace(std::vector<Collider>{{slope, {}, friction}}, ContactOptions{});
+  StepperXpbd stepper(system.model, rigid_options(30));
+  advance(stepper, system.state, static_cast<int>(std::lround(60 * seconds)));
+  return (system.state.positions.col(0) - place).norm();
+}
+
+TEST_CASE("xpbd: friction holds on a slope or slides as Coulomb says", "[dynamics]") {
+  const double angle = 3.14159265358979 / 6;
+  const Vec3 normal(std::sin(angle), std::cos(angle), 0);
+  const Plane plane{Vec3(0.3, -0.2, 0.1), normal};
+  constexpr double kTime = 0.5;
+  const double weight = 9.81;
+  for (const double friction : {0.0, 0.2, 0.4}) {
+    const double acceleration = weight * (std::sin(angle) - friction * std::cos(angle));
+    const double expected = acceleration * kTime * kTime / 2;
+    // To first order in the substep.
+    CHECK(slide(plane, friction, plane.point, kTime) == Approx(expected).epsilon(0.003));
+  }
+  CHECK(slide(plane, 0.7, plane.point, 5) < 1e-6);
+  const Sphere ball{Vec3(0.3, -0.2, 0.1), 0.25};
+  const Vec3 on_ball = ball.centre + ball.radius * normal;
+  CHECK(slide(ball, 0.7, on_ball, 5) < 1e-6);
+  CHECK(slide(ball, 0.4, on_ball, 0.2) > 0.01);
+}
+
+// Fast enough to fly through what is thin.
+TEST_CASE("xpbd: nothing that is thrown at moving solids gets into them", "[dynamics]") {
+  Random random(29);
+  constexpr int kParticles = 333;
+  const Vec3 middle(0.3, 0.2, -0.1);
+  Positions positions(3, kParticles);
+  for (int i = 0; i < kParticles; ++i)
+    positions.col(i) = middle + random.uniform(0.6, 1.2) * random_direction(random);
+  System system = particles(positions);
+  for (int i = 0; i < kParticles; ++i)
+    system.state.velocities.col(i) = 20 * (middle - positions.col(i)) + random_direction(random);
+  Collider limb{
+      RoundedCone{middle - Vec3(0.4, 0, 0), middle + Vec3(0.4, 0.1, 0), 0.05, 0.02}, {}, 0.3};
+  limb.motion = turning_motion({0, 3, 1}, {0.5, 0, 0});
+  Collider ball{Sphere{middle + Vec3(0, 0, 0.5), 0.2}, {}, 0.3};
+  ball.motion = steady_motion({0, 0.4, 0});
+  system.model.contact.emplace(
+      std::vector<Collider>{{Plane{middle - Vec3(0, 0.8, 0)}, {}, 0.3}, limb, ball},
+      ContactOptions{0.001, {}});
+  StepperXpbd stepper(system.model, rigid_options(3));
+  std::vector<char> was_stopped(kParticles, 0);
+  for (int step = 0; step < 30; ++step) {
+    const Positions before = system.state.velocities;
+    stepper.advance(system.state, step / 60.0);
+    const Penetration inside =
+        system.model.contact->penetration(system.state.positions, (step + 1) / 60.0);
+    REQUIRE(inside.n_inside == 0);
+    for (int i = 0; i < kParticles; ++i)
+      if ((system.state.velocities.col(i) - before.col(i)).norm() > 1)
+        was_stopped[static_cast<std::size_t>(i)] = 1;
+  }
+  CHECK(std::count(was_stopped.begin(), was_stopped.end(), 1) > kParticles / 2);
 }
 
 }  // namespace pleat
