@@ -49,6 +49,7 @@ StrainLimitStage::StrainLimitStage(const ClothModel& model)
     line_end = edge.b;
   }
   demands_.resize(longest_line);
+  line_ends_.resize(longest_line + 1);
   if (model.contact) normals_ = Positions::Zero(3, model.n_vertices());
 }
 
@@ -103,12 +104,17 @@ StrainLimitStage::Demand StrainLimitStage::demand_of(const Edge<EndsKind>& edge,
 }
 
 template <class EndsKind>
+double StrainLimitStage::impulse_after(const Edge<EndsKind>& edge, const Demand& demand) {
+  const double after = edge.impulse + demand.impulse;
+  return (demand.pulls ? after >= 0 : after <= 0) ? after : 0;
+}
+
+template <class EndsKind>
 void StrainLimitStage::apply(Edge<EndsKind>& edge, const Demand& demand,
                              Positions& positions) const {
-  const double after = edge.impulse + demand.impulse;
-  const bool is_within = demand.pulls ? after >= 0 : after <= 0;
-  const double impulse = is_within ? demand.impulse : -edge.impulse;
-  if (options_.law == StrainLimitLaw::velocity) edge.impulse = is_within ? after : 0;
+  const double after = impulse_after(edge, demand);
+  const double impulse = after - edge.impulse;
+  if (options_.law == StrainLimitLaw::velocity) edge.impulse = after;
   pull(edge.ends, impulse * demand.direction, positions);
 }
 
@@ -217,6 +223,46 @@ bool StrainLimitStage::change_active(const Line& line) {
   return has_changed;
 }
 
+bool StrainLimitStage::pushes(const Line& line) const {
+  for (std::size_t e = line.begin; e < line.end; ++e)
+    if (impulse_after(edges_[e], demands_[e - line.begin]) < 0) return true;
+  return false;
+}
+
+// With c = p/l, l the length at the goal and d the edges as they end, the places x obey
+//   x_i + w_i sum of +-c d = what is proposed for x_i,
+// a tridiagonal system. The impulses of later sweeps are little beside those of the first.
+void StrainLimitStage::place_ends(const Line& line, Positions& positions) {
+  const std::size_t n_edges = line.end - line.begin;
+  const auto vertex = [&](std::size_t i) {
+    return i < n_edges ? edges_[line.begin + i].ends.a : edges_[line.end - 1].ends.b;
+  };
+  for (std::size_t i = 0; i <= n_edges; ++i) line_ends_[i].place = positions.col(vertex(i));
+  for (std::size_t k = 0; k < n_edges; ++k) {
+    Edge<Ends>& edge = edges_[line.begin + k];
+    const double length = goals_.longest * edge.rest_length;
+    edge.impulse = impulse_after(edge, demands_[k]);
+    line_ends_[k].pull = edge.impulse / length;
+  }
+  line_ends_[n_edges].pull = 0;
+  for (std::size_t i = 0; i <= n_edges; ++i) {
+    LineEnd& end = line_ends_[i];
+    const double inverse_mass = inverse_masses_[vertex(i)];
+    double pivot = 1 + inverse_mass * end.pull;
+    if (i > 0) {
+      const LineEnd& before = line_ends_[i - 1];
+      const double coupling = inverse_mass * before.pull;
+      pivot += coupling * (1 - before.next);
+      end.place += coupling * before.place;
+    }
+    end.next = inverse_mass * end.pull / pivot;
+    end.place /= pivot;
+  }
+  for (std::size_t i = n_edges; i-- > 0;)
+    line_ends_[i].place += line_ends_[i].next * line_ends_[i + 1].place;
+  for (std::size_t i = 0; i <= n_edges; ++i) positions.col(vertex(i)) = line_ends_[i].place;
+}
+
 bool StrainLimitStage::correct(const Line& line, Positions& positions) {
   const auto is_beyond = [&](const Edge<Ends>& edge) {
     return exceeds(edge, edge.ends.difference(positions).squaredNorm()) &&
@@ -236,9 +282,13 @@ bool StrainLimitStage::correct(const Line& line, Positions& positions) {
     eliminate(line, regular);
     if (!change_active(line)) break;
   }
-  for (std::size_t e = line.begin; e < line.end; ++e) {
-    const Demand& demand = demands_[e - line.begin];
-    if (demand.impulse != 0) apply(edges_[e], demand, positions);
+  if (is_touched_ || !is_first_sweep_ || pushes(line)) {
+    for (std::size_t e = line.begin; e < line.end; ++e) {
+      const Demand& demand = demands_[e - line.begin];
+      if (demand.impulse != 0) apply(edges_[e], demand, positions);
+    }
+  } else {
+    place_ends(line, positions);
   }
   return has_exceeded;
 }

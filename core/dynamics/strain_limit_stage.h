@@ -94,6 +94,12 @@ class StrainLimitStage {
     double after = 0;         // of the next edge's impulse, when this edge's is eliminated
     double impulse = 0;       // change of it [kg m]
   };
+  /// A vertex of a line on the way to its end.
+  struct LineEnd {
+    Vec3 place{0, 0, 0};  // [m]
+    double pull = 0;      // on the next vertex, over the length of the edge to it [kg]
+    double next = 0;      // of the next vertex's place, when this one is eliminated
+  };
   struct Range {
     double shortest, longest;  // in shares of a rest length
   };
@@ -112,9 +118,13 @@ class StrainLimitStage {
   void leave_overstretched(const Line& line, const Positions& positions);
   void eliminate(const Line& line, double regular);
   bool change_active(const Line& line);
+  bool pushes(const Line& line) const;
+  void place_ends(const Line& line, Positions& positions);
   double regular_factor(const Line& line) const;
   template <class EndsKind>
   bool correct(Edge<EndsKind>& edge, Positions& positions);
+  template <class EndsKind>
+  static double impulse_after(const Edge<EndsKind>& edge, const Demand& demand);
   template <class EndsKind>
   void apply(Edge<EndsKind>& edge, const Demand& demand, Positions& positions) const;
   bool sweep(Positions& positions);
@@ -132,6 +142,7 @@ class StrainLimitStage {
   std::vector<Line> lines_;
   std::vector<Edge<SharedEnds>> shared_edges_;
   std::vector<Demand> demands_;     // of a line's edges
+  std::vector<LineEnd> line_ends_;  // of a line's vertices
   Eigen::VectorXd inverse_masses_;  // 0 where a vertex is pinned or hangs [1/kg]
   Positions proposed_;              // before the sweeps [m], and then what they add to velocities
   Positions normals_;  // of solids that touch a vertex, else zero; empty without contact
