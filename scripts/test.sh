@@ -49,7 +49,7 @@ tidy() {
 tested_modules() { (cd "$root/native-tests" && printf '%s\n' */*_test.cpp) | cut -d / -f 1 | sort -u; }
 
 # run_native_tests "MODULE…" PRESET [SELECTION]: their tests, or those that Catch2's SELECTION names; as many programs
-# at a time as there are cores, the largest first. The module "long" has those marked so of all.
+# at a time as there are cores, the largest first.
 run_native_tests() {
   local modules=$1 preset=$2 total module
   shift 2
@@ -66,6 +66,17 @@ run_native_tests() {
       exit "$status"' "$preset" "$@"
 }
 
+# The hard cases last as long as all other long motions together.
+run_long_tests() {
+  printf '%s\n' '[long][hard_cases]' '[long]~[hard_cases]' |
+    xargs -P "$(nproc)" -I {} bash -c '
+      log=$0.$$.log
+      "$0" --use-colour no "$1" >"$log" 2>&1
+      status=$?
+      cat "$log" && rm "$log"
+      exit "$status"' build/release/native-tests/long_tests {}
+}
+
 # What joins tested modules, and the eigensolver's templates, take a compiler with sanitizers as long as all the rest;
 # long motions walk the same code as short ones, twenty times slower then.
 release_modules="cli error hard_cases modal reference sweep"
@@ -73,7 +84,7 @@ release_modules="cli error hard_cases modal reference sweep"
 test_in_release() {
   # shellcheck disable=SC2046,SC2086
   step release-build "Build, Release" build_preset release pleat long_tests $(printf '%s_tests ' $release_modules) &&
-    suite read_catch2 long-tests "Test long motions, Release" run_native_tests long release '[long]' &&
+    suite read_catch2 long-tests "Test long motions, Release" run_long_tests &&
     suite read_catch2 release-tests "Test, Release" run_native_tests "$release_modules" release '~[long]'
 }
 

@@ -102,7 +102,7 @@ State after(ClothModel model, const MethodOptions& options, const QuadMesh& mesh
 }  // namespace
 
 // A double pole at 1, of motion that nothing resists, is found to 1e-7 alone: its square root.
-TEST_CASE("imex: what is explicit is stable, on any graph of springs", "[dynamics]") {
+TEST_CASE("imex: what is explicit is stable, on any graph of springs", "[dynamics][long]") {
   constexpr double kStep = 2e-3;
   constexpr double kRounding = 1e-6;
   int n_mixed = 0, n_broken = 0;

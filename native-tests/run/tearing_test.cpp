@@ -116,7 +116,7 @@ TEST_CASE("tearing: a strip that is pulled apart is two pieces, each with half o
 }
 
 TEST_CASE("tearing: with every stepper torn cloth stays sound and keeps its mass and its pins",
-          "[run]") {
+          "[run][long]") {
   std::vector<Scene> scenes;
   for (const MethodOptions& method : everyday_methods()) scenes.push_back(pulled_scene(method));
   for (const MethodOptions& method : accurate_methods(1.0 / 120)) {
