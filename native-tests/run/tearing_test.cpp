@@ -74,6 +74,7 @@ std::size_t n_splits(const Simulation& simulation) { return simulation.tear_orig
 /// For each vertex the one of the whole cloth that it comes from.
 std::vector<VertexId> roots(const Simulation& simulation) {
   std::vector<VertexId> roots;
+  roots.reserve(static_cast<std::size_t>(simulation.model().n_vertices()));
   const int n_whole = simulation.model().n_vertices() - static_cast<int>(n_splits(simulation));
   for (int v = 0; v < n_whole; ++v) roots.emplace_back(v);
   for (const VertexId origin : simulation.tear_origins()) roots.push_back(roots[origin]);
