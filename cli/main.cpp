@@ -95,6 +95,10 @@ pleat inbetween A.obj B.obj ...   frames between key shapes with the same vertic
   --exact-keys           the keys themselves are in the space
   --detail-beyond D      patches that the space meets to D [m] have no detail of their own
   --out DIR              write the frames as OBJ files;  --check  as of run
+pleat hierarchy MESH.obj | SCENE.json   ever coarser meshes of vertices of a mesh, by quadrics
+  --levels N             beside the finest (default 3);  --ratio R  of vertices kept (default 0.5)
+  --weights NAME         of corrections: inverse_distance (default) or moving_least_squares
+  --out DIR              write each level as an OBJ file
 pleat hard-cases [NAME ...]   what breaks cloth systems, run with every stepper: ok, or why not
   --stepper NAME         with this one alone
   --short                the lengths that are tests
@@ -154,6 +158,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "deform") return deform_command(std::move(arguments));
   if (command == "modes") return modes_command(std::move(arguments));
   if (command == "inbetween") return inbetween_command(std::move(arguments));
+  if (command == "hierarchy") return hierarchy_command(std::move(arguments));
   if (command == "hard-cases") return hard_cases_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
@@ -168,7 +173,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   }
   throw InputError(cut(command),
                    "unknown command; the commands are run, sweep, reference, refine, deform, "
-                   "modes, inbetween, hard-cases, bench and help");
+                   "modes, inbetween, hierarchy, hard-cases, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {

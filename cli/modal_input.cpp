@@ -1,25 +1,14 @@
 #include "cli/modal_input.h"
 
+#include "cli/mesh_input.h"
 #include "core/base/check.h"
-#include "core/files/frame_file.h"
 #include "core/files/json_text.h"
-#include "core/files/whole_file.h"
 #include "core/modal/key_faces.h"
 
 namespace pleat {
 namespace {
 
 constexpr int kMostModes = 1000;
-
-ObjMesh read_mesh(const std::string& file) {
-  try {
-    return read_obj(read_file(file));
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    throw InputError(error.where().empty() ? file : file + ": " + error.where(), error.what());
-  }
-}
 
 }  // namespace
 
@@ -74,21 +63,6 @@ ModalOptions take_completion_options(Arguments& arguments) {
   if (const auto beyond = arguments.text("--detail-beyond"))
     options.detail_beyond = parse_number_from_zero(*beyond, "--detail-beyond");
   return options;
-}
-
-std::vector<std::filesystem::path> prepare_frame_folder(
-    const std::optional<std::string>& folder, Overwriting& overwriting,
-    const std::vector<std::filesystem::path>& files) {
-  overwriting.spare(files);
-  if (!folder) return {};
-  std::vector<std::filesystem::path> old = frame_files(*folder);
-  if (!old.empty() && !overwriting.is_asked())
-    throw FileError(*folder, "expected a folder without frames, got " +
-                                 old.front().filename().string() +
-                                 "; --overwrite removes those that stand there");
-  for (const std::filesystem::path& file : old) overwriting.check(file);
-  make_folder(*folder);
-  return old;
 }
 
 }  // namespace pleat

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cli/arguments.h"
-#include "cli/overwriting.h"
 #include "core/files/obj_file.h"
 #include "core/modal/modal_body.h"
 
@@ -30,14 +29,5 @@ ModalOptions take_volume_options(Arguments& arguments);
 
 /// All of these, and --functions N, --clusters N, --exact-keys and --detail-beyond D.
 ModalOptions take_completion_options(Arguments& arguments);
-
-/// The folder after --out, if there is one, and the frames of another run that stand in it: they
-/// are to be removed once there is something to write. Throws before anything is computed where the
-/// folder cannot be had or they may not be removed.
-///
-/// files  that are read, and spared
-std::vector<std::filesystem::path> prepare_frame_folder(
-    const std::optional<std::string>& folder, Overwriting& overwriting,
-    const std::vector<std::filesystem::path>& files);
 
 }  // namespace pleat

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/files/frame_file.h"
 #include "core/files/whole_file.h"
 
 namespace pleat {
@@ -34,6 +35,21 @@ void Overwriting::check(const std::filesystem::path& file) const {
     throw FileError(file,
                     "expected a name that no file has, got one that has; --overwrite "
                     "replaces it");
+}
+
+std::vector<std::filesystem::path> prepare_frame_folder(
+    const std::optional<std::string>& folder, Overwriting& overwriting,
+    const std::vector<std::filesystem::path>& files) {
+  overwriting.spare(files);
+  if (!folder) return {};
+  std::vector<std::filesystem::path> old = frame_files(*folder);
+  if (!old.empty() && !overwriting.is_asked())
+    throw FileError(*folder, "expected a folder without frames, got " +
+                                 old.front().filename().string() +
+                                 "; --overwrite removes those that stand there");
+  for (const std::filesystem::path& file : old) overwriting.check(file);
+  make_folder(*folder);
+  return old;
 }
 
 }  // namespace pleat

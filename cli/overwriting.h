@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/arguments.h"
@@ -31,5 +33,14 @@ class Overwriting {
   bool is_asked_;
   std::vector<std::filesystem::path> spared_;
 };
+
+/// The folder after --out, if there is one, and the frames of another run that stand in it: they
+/// are to be removed once there is something to write. Throws before anything is computed where the
+/// folder cannot be had or they may not be removed.
+///
+/// files  that are read, and spared
+std::vector<std::filesystem::path> prepare_frame_folder(
+    const std::optional<std::string>& folder, Overwriting& overwriting,
+    const std::vector<std::filesystem::path>& files);
 
 }  // namespace pleat

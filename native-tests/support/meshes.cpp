@@ -152,4 +152,11 @@ Positions on_cylinder(const Positions& flat, double angle, double radius) {
   return x;
 }
 
+std::vector<CornerTexture> pattern_of(const TriangleMesh& mesh) {
+  std::vector<CornerTexture> pattern;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    pattern.push_back(flat_corners(mesh, FaceId(static_cast<std::int64_t>(f))));
+  return pattern;
+}
+
 }  // namespace pleat

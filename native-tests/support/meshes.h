@@ -42,6 +42,9 @@ constexpr std::array<Triangulation, 5> kTriangulations = {
 /// runs along warp and rows. Equilateral rows are each shifted by half an edge.
 TriangleMesh triangulated_sheet(Triangulation pattern, int rows, int columns, double edge);
 
+/// The mesh as it stands, cut out flat triangle by triangle.
+std::vector<CornerTexture> pattern_of(const TriangleMesh& mesh);
+
 /// A flat mesh rolled into a cylinder of `radius` [m] that bends along the direction at `angle`
 /// [rad] from x; lengths on the surface stay.
 Positions on_cylinder(const Positions& flat, double angle, double radius);

@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/mesh_input.h"
+#include "cli/overwriting.h"
+#include "cli/scene_input.h"
+#include "core/base/check.h"
+#include "core/base/core_version.h"
+#include "core/files/frame_file.h"
+#include "core/mesh/mesh_fault.h"
+#include "core/multigrid/mesh_hierarchy.h"
+#include "core/scene/rest_cloth.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kMostLevels = 30;
+
+struct HierarchyInput {
+  std::string name;
+  TriangleMesh mesh;
+  std::vector<bool> is_fixed;
+  std::vector<std::filesystem::path> files_read;
+};
+
+HierarchyOptions take_options(Arguments& arguments) {
+  HierarchyOptions options;
+  options.n_coarser =
+      arguments.whole_number("--levels", 1, kMostLevels).value_or(options.n_coarser);
+  if (const auto ratio = arguments.text("--ratio")) {
+    options.ratio = parse_positive_number(*ratio, "--ratio");
+    try {
+      options.validate();
+    } catch (const InputError& error) {
+      throw InputError("--ratio", error.what());
+    }
+  }
+  if (const auto weights = arguments.text("--weights")) {
+    const auto at = std::find(kTransferWeightsNames.begin(), kTransferWeightsNames.end(), *weights);
+    if (at == kTransferWeightsNames.end())
+      throw InputError("--weights",
+                       "expected inverse_distance or moving_least_squares, got " + cut(*weights));
+    options.weights = static_cast<TransferWeights>(at - kTransferWeightsNames.begin());
+  }
+  return options;
+}
+
+HierarchyInput take_mesh(Arguments& arguments) {
+  const std::string file = arguments.word("an OBJ file or a scene");
+  arguments.finish();
+  HierarchyInput input;
+  const ObjMesh obj = read_mesh(file);
+  input.name = file;
+  input.mesh.rest_positions = obj.positions;
+  input.mesh.triangles = obj.triangles;
+  input.files_read = {file};
+  return input;
+}
+
+/// A scene's cloth at rest; its pinned vertices are on every level.
+HierarchyInput take_cloth(Arguments& arguments) {
+  const SceneInput scene = take_scene(arguments);
+  arguments.finish();
+  return with_source_named(scene, [&] {
+    const RestCloth cloth = rest_cloth(scene.scene);
+    if (const auto fault = mesh_fault(cloth.mesh.rest_positions, cloth.mesh.triangles, 0))
+      throw InputError("/cloth", fault->sentence);
+    HierarchyInput input;
+    input.name = scene.scene.name;
+    input.mesh = cloth.mesh;
+    input.is_fixed.resize(static_cast<std::size_t>(cloth.mesh.n_vertices()), false);
+    for (const PinRule& rule : scene.scene.pins)
+      for (const VertexId v : pinned_vertices(rule, cloth)) input.is_fixed[v] = true;
+    input.files_read = scene.files_read;
+    return input;
+  });
+}
+
+/// What a table tells of a level.
+struct LevelRow {
+  int n_vertices, n_triangles, n_edges;
+  double mean_edge;     ///< along the surface [m]
+  double longest_edge;  ///< [m]
+  double chord_gap;     ///< the most that a chord is shorter than the surface, over the latter
+  double linear_error;  ///< of places from the next coarser level [m]; 0 on the coarsest
+};
+
+std::vector<LevelRow> rows_of(const MeshHierarchy& hierarchy, const Positions& finest) {
+  std::vector<LevelRow> rows;
+  for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
+    const MeshLevel& level = hierarchy.levels[k];
+    LevelRow row{level.n_vertices(),
+                 static_cast<int>(level.triangles.size()),
+                 static_cast<int>(level.edges.size()),
+                 0,
+                 0,
+                 0,
+                 0};
+    for (const LevelEdge& edge : level.edges) {
+      row.mean_edge += edge.geodesic / row.n_edges;
+      row.longest_edge = std::max(row.longest_edge, edge.geodesic);
+      constexpr double kRounding = 1e-9;
+      const double gap = 1 - edge.chord / edge.geodesic;
+      if (gap > kRounding) row.chord_gap = std::max(row.chord_gap, gap);
+    }
+    if (k + 1 < hierarchy.levels.size())
+      row.linear_error =
+          linear_error(level.from_coarser, positions_on(hierarchy.levels[k + 1], finest),
+                       positions_on(level, finest));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json json_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& rows,
+                    const std::string& shortage) {
+  Json levels = Json::array();
+  for (const LevelRow& row : rows)
+    levels.push_back({{"n_vertices", row.n_vertices},
+                      {"n_triangles", row.n_triangles},
+                      {"n_edges", row.n_edges},
+                      {"mean_edge_m", row.mean_edge},
+                      {"longest_edge_m", row.longest_edge},
+                      {"chord_gap", row.chord_gap},
+                      {"linear_error_m", row.linear_error}});
+  return {{"mesh", text_value(input.name)},
+          {"levels", std::move(levels)},
+          {"shortage", shortage},
+          {"core", core_version()}};
+}
+
+void print_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& rows,
+                     const std::string& shortage) {
+  std::printf("%s\n", printable(input.name).c_str());
+  std::printf(
+      "level  vertices  triangles  mean edge mm  longest mm  chord shorter by %%  linear error "
+      "mm\n");
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const LevelRow& row = rows[k];
+    std::printf("%5zu  %8d  %9d  %12.4g  %10.4g  %18.3g", k, row.n_vertices, row.n_triangles,
+                1000 * row.mean_edge, 1000 * row.longest_edge, 100 * row.chord_gap);
+    if (k + 1 < rows.size()) std::printf("  %15.3g", 1000 * row.linear_error);
+    std::printf("\n");
+  }
+  if (!shortage.empty()) std::printf("%s\n", shortage.c_str());
+}
+
+void write_levels(const MeshHierarchy& hierarchy, const Positions& finest,
+                  const std::string& folder) {
+  FrameWriter writer(folder, FrameFormat::obj, {});
+  double number = 0;
+  for (const MeshLevel& level : hierarchy.levels) {
+    writer.set_mesh({{}, level.triangles});
+    writer.write(positions_on(level, finest), number++);
+  }
+  writer.finish();
+}
+
+}  // namespace
+
+Outcome hierarchy_command(Arguments arguments) {
+  const bool for_machines = arguments.flag("--json");
+  const auto folder = arguments.text("--out");
+  Overwriting overwriting(arguments);
+  overwriting.need(folder.has_value(), "--out");
+  const HierarchyOptions options = take_options(arguments);
+  const HierarchyInput input =
+      arguments.has_word_ending(".json") ? take_cloth(arguments) : take_mesh(arguments);
+  const auto old = prepare_frame_folder(folder, overwriting, input.files_read);
+  const MeshHierarchy hierarchy = mesh_hierarchy(input.mesh, input.is_fixed, options);
+  const std::vector<LevelRow> rows = rows_of(hierarchy, input.mesh.rest_positions);
+  if (for_machines)
+    std::printf("%s\n", json_hierarchy(input, rows, hierarchy.shortage).dump().c_str());
+  else
+    print_hierarchy(input, rows, hierarchy.shortage);
+  for (const std::filesystem::path& file : old) remove_file(file);
+  if (folder) write_levels(hierarchy, input.mesh.rest_positions, *folder);
+  return Outcome::ok;
+}
+
+}  // namespace pleat
