@@ -79,9 +79,6 @@ Json insides_json(const Insides& inside) {
   return {{"n_frames", inside.n_frames}, {"most", inside.most}, {"deepest_m", inside.deepest}};
 }
 
-/// JSON has no NaN.
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }

@@ -70,8 +70,6 @@ Runs read_runs(const JsonReader& contestant, const std::vector<Positions>& right
   return runs;
 }
 
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 /// A number as JSON writes it, with which a time is named: "0.5 s".
 std::string seconds_key(const Json& time) { return time.dump() + " s"; }
 

@@ -24,7 +24,7 @@ struct HierarchyInput {
   std::vector<std::filesystem::path> files_read;
 };
 
-HierarchyOptions take_options(Arguments& arguments) {
+HierarchyOptions take_hierarchy_options(Arguments& arguments) {
   HierarchyOptions options;
   options.n_coarser =
       arguments.whole_number("--levels", 1, kMostLevels).value_or(options.n_coarser);
@@ -164,7 +164,7 @@ Outcome hierarchy_command(Arguments arguments) {
   const auto folder = arguments.text("--out");
   Overwriting overwriting(arguments);
   overwriting.need(folder.has_value(), "--out");
-  const HierarchyOptions options = take_options(arguments);
+  const HierarchyOptions options = take_hierarchy_options(arguments);
   const HierarchyInput input =
       arguments.has_word_ending(".json") ? take_cloth(arguments) : take_mesh(arguments);
   const auto old = prepare_frame_folder(folder, overwriting, input.files_read);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <vector>
@@ -162,6 +163,8 @@ void append(const Json& json, std::size_t indent, std::size_t column, std::strin
 }
 
 }  // namespace
+
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 std::string cut(const std::string& text) {
   if (text.size() <= kMaxQuotation) return text;

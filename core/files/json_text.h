@@ -18,6 +18,9 @@ Json parse_json(std::string_view text);
 /// Numbers are written with the fewest digits that read back to the same bits.
 std::string format_json(const Json& json);
 
+/// A number, or null for what JSON cannot write: what is infinite or no number.
+Json number_json(double value);
+
 /// A text cut to a length that fits into a sentence.
 std::string cut(const std::string& text);
 

@@ -17,9 +17,6 @@ namespace {
 constexpr std::array<Word<Precision>, 2> kPrecisions{
     {{"float64", Precision::float64}, {"float32", Precision::float32}}};
 
-/// JSON has no NaN.
-Json number_or_null(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
-
 double read_number_or_nan(const JsonReader& reader) {
   return reader.is_null() ? std::numeric_limits<double>::quiet_NaN() : reader.number(kNotNegative);
 }
@@ -31,7 +28,7 @@ Json header_json(const Reference& reference, Precision precision) {
                            {"n_vertices", sample.positions.cols()},
                            {"rms_stretch", sample.stretch.rms},
                            {"largest_stretch", sample.stretch.largest},
-                           {"uncertainty_m", number_or_null(sample.uncertainty)}});
+                           {"uncertainty_m", number_json(sample.uncertainty)}});
   Json json = json_label(reference.label);
   json["content"] = reference.content;
   json["physics"] = reference.physics;
@@ -90,7 +87,7 @@ Json json_label(const ReferenceLabel& label) {
   return {{"id", label.id},
           {"description", label.description},
           {"converged", label.converged},
-          {"uncertainty_m", number_or_null(label.uncertainty)}};
+          {"uncertainty_m", number_json(label.uncertainty)}};
 }
 
 ReferenceLabel read_label(const JsonReader& reader) {

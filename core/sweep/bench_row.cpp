@@ -87,9 +87,6 @@ constexpr NumberColumn kNumberColumns[] = {
     {"residual", &BenchRow::residual, 1},
 };
 
-/// JSON has no NaN.
-Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 /// A number with three significant digits, or a dash.
 std::string short_number(double value) {
   if (!std::isfinite(value)) return "-";

@@ -7,6 +7,7 @@ const SWITCHES = [
   '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader',
   '--disable-dev-shm-usage',
+  '--disable-gpu-compositing', // by software, what is beside the canvas costs less without WebGL
 ];
 
 /** Software rendering on a busy machine is slow, not broken [ms]. */
