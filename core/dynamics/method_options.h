@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/linalg/linear_solver.h"
+#include "core/multigrid/mesh_hierarchy.h"
 
 namespace pleat {
 
@@ -8,7 +9,8 @@ struct StepperType;
 
 /// The rows of the table of steppers (stepper_table.h).
 namespace steppers {
-extern const StepperType kImplicitEuler, kImex, kProjective, kXpbd, kExplicitEuler, kRk4, kNewton;
+extern const StepperType kImplicitEuler, kImex, kProjective, kXpbd, kPbd, kHpbd, kMultigrid,
+    kExplicitEuler, kRk4, kNewton;
 }  // namespace steppers
 
 /// The most substeps of a step: with steps of 1/60 s, 17 ns each.
@@ -50,6 +52,29 @@ enum class BeyondBound {
   go_on,  ///< until the numbers end the run
 };
 
+/// How pbd, hpbd and multigrid go over the constraints of a level once.
+enum class Smoother {
+  none,          ///< not at all
+  jacobi,        ///< all from the same places; a vertex takes the mean of what they ask of it
+  gauss_seidel,  ///< each sees what those before it did
+  sor,           ///< the same, each correcting omega times what it asks for
+};
+
+/// What the lengths of coarser levels are.
+enum class LevelLengths {
+  /// The longest that strain-free cloth allows, and no shorter place is wrong: what satisfies the
+  /// finest level stays as it is.
+  surface,
+  /// Distances at rest, kept to both sides: the form of the paper, which irons folds.
+  chord,
+};
+
+/// What holds vertices from afar.
+enum class Attachments {
+  none,
+  long_range,  ///< no further from a pin than strain-free cloth allows
+};
+
 /// The tolerance that newton, which makes references, starts from.
 constexpr double kNewtonTolerance = 1e-10;
 
@@ -59,12 +84,14 @@ struct MethodOptions {
   const StepperType* stepper = &steppers::kImplicitEuler;  ///< not null
   double step = 1.0 / 60;                                  ///< [s], positive
   int substeps = 1;  ///< at least 1; 0, where the stepper has a stability bound: as many as it asks
-  int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
+  int iterations = 1;  ///< projective: local/global rounds; xpbd and pbd: sweeps; hpbd and
+                       ///< multigrid: cycles; at least 1
   SolverKind solver = SolverKind::cg;
   /// implicit and imex with cg or sor: relative residual at which it stops. newton: the last
   /// correction, in shares of the cloth's extent, which then is already made. In (0, 1).
   double tolerance = 1e-3;
-  double omega = 0;  ///< of sor, in (0, 2), or 0 for an estimate of the best
+  /// Over-relaxation of sor, in (0, 2), or, as a solver, 0 for an estimate of the best.
+  double omega = 0;
   ImplicitSplit split = ImplicitSplit::by_stability;
   /// imex: share of the springs that shall be explicit, in [0, 1]: it takes as many substeps more
   /// as that asks for.
@@ -77,6 +104,13 @@ struct MethodOptions {
   NewtonRule rule = NewtonRule::backward_euler;
   Constraints constraints = Constraints::compliant;
   Acceleration acceleration = Acceleration::none;
+  int levels = 0;      ///< coarser than the mesh, not negative
+  double ratio = 0.5;  ///< of vertices that a level keeps, in (0.1, 0.9)
+  LevelSelection selection = LevelSelection::quadrics;
+  LevelLengths level_lengths = LevelLengths::surface;
+  Smoother smoother_before = Smoother::none;         ///< of a level, on the way to coarser ones
+  Smoother smoother_after = Smoother::gauss_seidel;  ///< on the way back
+  Attachments attachments = Attachments::none;
 
   /// Throws ContractError.
   void validate() const;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/check.h"
+#include "core/dynamics/pbd/gathered_projections.h"
 #include "core/dynamics/stepper_explicit.h"
 #include "core/dynamics/stepper_imex.h"
 #include "core/dynamics/stepper_implicit.h"
@@ -20,6 +21,11 @@ std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
   return std::make_unique<Type>(model, options);
 }
 
+template <MakeProjections make_projections>
+std::unique_ptr<Stepper> make_position_based(ClothModel& model, const MethodOptions& options) {
+  return std::make_unique<StepperXpbd>(model, options, make_projections);
+}
+
 constexpr std::array kExplicitSettings = {MethodSetting::substeps, MethodSetting::beyond_bound,
                                           MethodSetting::euler, MethodSetting::first_contact};
 constexpr std::array kRk4Settings = {MethodSetting::substeps, MethodSetting::beyond_bound,
@@ -34,12 +40,24 @@ constexpr std::array kProjectiveSettings = {MethodSetting::substeps, MethodSetti
                                             MethodSetting::solver, MethodSetting::acceleration};
 constexpr std::array kXpbdSettings = {MethodSetting::substeps, MethodSetting::iterations,
                                       MethodSetting::constraints};
+constexpr std::array kPbdSettings = {MethodSetting::substeps,    MethodSetting::iterations,
+                                     MethodSetting::constraints, MethodSetting::smoother,
+                                     MethodSetting::omega,       MethodSetting::attachments};
+constexpr std::array kHpbdSettings = {MethodSetting::substeps,   MethodSetting::iterations,
+                                      MethodSetting::levels,     MethodSetting::level_lengths,
+                                      MethodSetting::smoother,   MethodSetting::omega,
+                                      MethodSetting::attachments};
+constexpr std::array kMultigridSettings = {
+    MethodSetting::substeps, MethodSetting::iterations,    MethodSetting::levels,
+    MethodSetting::ratio,    MethodSetting::level_lengths, MethodSetting::smoother_before,
+    MethodSetting::smoother, MethodSetting::omega,         MethodSetting::attachments};
 constexpr std::array kNewtonSettings = {MethodSetting::substeps, MethodSetting::solver,
                                         MethodSetting::tolerance, MethodSetting::rule};
 
 constexpr std::array<MethodCounts, 1> kStable = {{{0, 1}}};
 constexpr std::array<MethodCounts, 2> kOneOrFour = {{{1, 1}, {4, 1}}};
 constexpr std::array<MethodCounts, 2> kFiveRounds = {{{1, 5}, {4, 5}}};
+constexpr std::array<MethodCounts, 2> kTenSweeps = {{{1, 10}, {4, 10}}};
 constexpr std::array<MethodCounts, 3> kSmallSteps = {{{10, 1}, {30, 1}, {100, 1}}};
 
 constexpr const char* kDampedSubsteps = "More substeps damp less and cost more.";
@@ -120,13 +138,89 @@ constinit const StepperType steppers::kXpbd = {
     .iterations_meaning = "Sweeps over all springs in one substep.",
     .start = {30, 1},
     .needs_springs = true,
+    .is_single_precision = true,
     .solves_equations = true,
     .usual_counts = kSmallSteps,
     .is_usual_for_springs = true,
     // Single precision, four springs at a time, and no forces but the air's, which cost most of it.
     .substep_cost = [](const MethodOptions& options) { return 1.0 * options.iterations; },
     .mark = {"M0-5.4L5 3.8H-5Z", "#4f6f00", "#b3d15a"},
-    .make = make<StepperXpbd>,
+    .make = make_position_based<lane_projections>,
+};
+
+constinit const StepperType steppers::kPbd = {
+    .name = "pbd",
+    .title = "PBD",
+    .meaning =
+        "Moves the ends of each spring in turn, over and over in one long step. Soft on fine "
+        "meshes.",
+    .settings = kPbdSettings,
+    .substeps_meaning = "More substeps: stiffer and less damped.",
+    .iterations_meaning = "Sweeps over all springs in one substep.",
+    .start = {1, 10},
+    .set_start = [](MethodOptions& method) { method.constraints = Constraints::rigid; },
+    .needs_springs = true,
+    .is_single_precision = true,
+    .solves_equations = true,
+    .usual_counts = kTenSweeps,
+    .substep_cost = [](const MethodOptions& options) { return 1.5 * options.iterations; },
+    .mark = {"M-4.6-2.7L0-5.3L4.6-2.7V2.7L0 5.3L-4.6 2.7Z", "#7a5c00", "#e0c060"},
+    .make = make_position_based<gathered_projections>,
+};
+
+constinit const StepperType steppers::kHpbd = {
+    .name = "hpbd",
+    .title = "Hierarchical PBD",
+    .meaning =
+        "PBD with coarser levels of 2008: every vertex that a level leaves out has two neighbours "
+        "on it.",
+    .settings = kHpbdSettings,
+    .substeps_meaning = "More substeps: stiffer and less damped.",
+    .iterations_meaning = "Cycles over all levels in one substep.",
+    .start = {1, 5},
+    .set_start =
+        [](MethodOptions& method) {
+          method.constraints = Constraints::rigid;
+          method.selection = LevelSelection::thinned;
+          method.level_lengths = LevelLengths::chord;
+          method.levels = 3;
+        },
+    .needs_surface = true,
+    .needs_springs = true,
+    .is_single_precision = true,
+    .solves_equations = true,
+    .usual_counts = kFiveRounds,
+    .substep_cost = [](const MethodOptions& options) { return 2.5 * options.iterations; },
+    .mark = {"M-5 3.6L0-5L5 3.6L0 0.8Z", "#5b5f6b", "#b4bac8"},
+    .make = make_position_based<gathered_projections>,
+};
+
+constinit const StepperType steppers::kMultigrid = {
+    .name = "multigrid",
+    .title = "Multigrid PBD",
+    .meaning =
+        "Projects lengths on ever coarser meshes first, so that a pull travels far at once, and "
+        "hands the moves back to the finer ones.",
+    .settings = kMultigridSettings,
+    .substeps_meaning = "More substeps: stiffer and less damped.",
+    .iterations_meaning = "Cycles over all levels in one substep.",
+    .start = {10, 1},
+    .set_start =
+        [](MethodOptions& method) {
+          method.constraints = Constraints::rigid;
+          method.levels = 3;
+          method.ratio = 0.25;
+          method.smoother_before = Smoother::gauss_seidel;
+          method.attachments = Attachments::long_range;
+        },
+    .needs_surface = true,
+    .needs_springs = true,
+    .is_single_precision = true,
+    .solves_equations = true,
+    .usual_counts = kSmallSteps,
+    .substep_cost = [](const MethodOptions& options) { return 2.0 * options.iterations; },
+    .mark = {"M-5 4.2V-4.2L0 0.8L5-4.2V4.2Z", "#9c2f2f", "#f08f85"},
+    .make = make_position_based<gathered_projections>,
 };
 
 constinit const StepperType steppers::kExplicitEuler = {
@@ -185,9 +279,11 @@ constinit const StepperType steppers::kNewton = {
 };
 
 StepperTable standard_steppers() {
-  static constexpr std::array<const StepperType*, 7> kTable = {
-      &steppers::kImplicitEuler, &steppers::kImex, &steppers::kProjective, &steppers::kXpbd,
-      &steppers::kExplicitEuler, &steppers::kRk4,  &steppers::kNewton};
+  static constexpr std::array<const StepperType*, 10> kTable = {
+      &steppers::kImplicitEuler, &steppers::kImex,          &steppers::kProjective,
+      &steppers::kXpbd,          &steppers::kPbd,           &steppers::kHpbd,
+      &steppers::kMultigrid,     &steppers::kExplicitEuler, &steppers::kRk4,
+      &steppers::kNewton};
   return kTable;
 }
 
@@ -219,6 +315,18 @@ const char* key(MethodSetting setting) {
       return "beyond_bound";
     case MethodSetting::first_contact:
       return "first_contact_m";
+    case MethodSetting::levels:
+      return "levels";
+    case MethodSetting::ratio:
+      return "ratio";
+    case MethodSetting::level_lengths:
+      return "level_lengths";
+    case MethodSetting::smoother_before:
+      return "smoother_before";
+    case MethodSetting::smoother:
+      return "smoother";
+    case MethodSetting::attachments:
+      return "attachments";
   }
   return "";
 }
@@ -230,6 +338,7 @@ MethodOptions StepperType::usual_method() const {
   method.iterations = start.iterations;
   method.tolerance = tolerance;
   method.solver = needs_factor ? best_direct_solver() : solver;
+  if (set_start != nullptr) set_start(method);
   return method;
 }
 

@@ -27,15 +27,26 @@ enum class MethodSetting {
   explicit_share,
   euler,
   beyond_bound,
-  first_contact
+  first_contact,
+  levels,
+  ratio,
+  level_lengths,
+  smoother_before,
+  smoother,
+  attachments
 };
 
-constexpr std::array<MethodSetting, 13> kMethodSettings = {
-    MethodSetting::substeps,       MethodSetting::iterations, MethodSetting::solver,
-    MethodSetting::tolerance,      MethodSetting::omega,      MethodSetting::split,
-    MethodSetting::constraints,    MethodSetting::rule,       MethodSetting::acceleration,
-    MethodSetting::explicit_share, MethodSetting::euler,      MethodSetting::beyond_bound,
-    MethodSetting::first_contact};
+constexpr std::array<MethodSetting, 19> kMethodSettings = {
+    MethodSetting::substeps,        MethodSetting::iterations,
+    MethodSetting::solver,          MethodSetting::tolerance,
+    MethodSetting::omega,           MethodSetting::split,
+    MethodSetting::constraints,     MethodSetting::rule,
+    MethodSetting::acceleration,    MethodSetting::explicit_share,
+    MethodSetting::euler,           MethodSetting::beyond_bound,
+    MethodSetting::first_contact,   MethodSetting::levels,
+    MethodSetting::ratio,           MethodSetting::level_lengths,
+    MethodSetting::smoother_before, MethodSetting::smoother,
+    MethodSetting::attachments};
 
 /// Spelled as in scenes.
 const char* key(MethodSetting setting);
@@ -68,10 +79,14 @@ struct StepperType {
   SolverKind solver = SolverKind::cg;  ///< where it needs no factor
   double tolerance = MethodOptions{}.tolerance;
   double largest_tolerance = 1;  ///< excluded when 1
+  /// What else it starts from; null: from the defaults of MethodOptions.
+  void (*set_start)(MethodOptions& method) = nullptr;
 
   bool has_stability_bound = false;    ///< takes 0 substeps, refuses too few
+  bool needs_surface = false;          ///< makes coarser levels of the cloth's triangles
   bool needs_springs = false;          ///< works on springs with quadratic bending alone
   bool needs_factor = false;           ///< its solver is a direct one
+  bool is_single_precision = false;    ///< inside a step
   bool solves_equations = false;       ///< which may be left unsolved in part
   bool solves_whole_substeps = false;  ///< at once, so that its error is that of its substeps
 

@@ -2,6 +2,8 @@
 
 #include <iterator>
 
+#include "core/hard_cases/position_based_exceptions.h"
+
 namespace pleat {
 
 std::vector<HardCase> hard_cases() {
@@ -11,6 +13,7 @@ std::vector<HardCase> hard_cases() {
     std::vector<HardCase> cases = part();
     std::move(cases.begin(), cases.end(), std::back_inserter(all));
   }
+  except_position_based(all);
   return all;
 }
 

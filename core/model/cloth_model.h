@@ -10,6 +10,7 @@
 #include "core/fabric/membrane.h"
 #include "core/fabric/spring_lattice.h"
 #include "core/linalg/sparse.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/model/air_drag.h"
 #include "core/model/strain_limit.h"
 
@@ -49,6 +50,7 @@ struct ClothModel {
   std::optional<AirDrag> air;
   std::optional<ContactStage> contact;
   std::optional<StrainLimit> strain_limit;
+  TriangleMesh surface;  ///< what steppers make coarser levels of; empty unless the method asks
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
 
   int n_vertices() const { return static_cast<int>(masses.size()); }

@@ -6,11 +6,21 @@
 #include "core/base/check.h"
 #include "core/multigrid/edge_collapse.h"
 #include "core/multigrid/surface_distances.h"
+#include "core/multigrid/thinned_graph.h"
 
 namespace pleat {
 namespace {
 
-using Neighbours = std::vector<std::vector<VertexId>>;
+/// Edges between vertices of a level, the lower number first, ascending.
+using Pairs = std::vector<std::array<VertexId, 2>>;
+
+Pairs pairs_of(const std::vector<Triangle>& triangles) {
+  Pairs pairs;
+  for (const MeshEdge& edge : mesh_edges(triangles))
+    pairs.push_back({std::min(edge.a, edge.b), std::max(edge.a, edge.b)});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
 
 /// Triangles between vertices of the finest mesh, between those of the level.
 void take_triangles(MeshLevel& level, const std::vector<Triangle>& triangles,
@@ -23,26 +33,21 @@ void take_triangles(MeshLevel& level, const std::vector<Triangle>& triangles,
 }
 
 /// On the finest level a path along the edge is the shortest, unless a seam says otherwise.
-void measure_edges(MeshLevel& level, const TriangleMesh& finest, SurfaceDistances& surface) {
-  const auto n = static_cast<std::size_t>(level.n_vertices());
-  std::vector<std::vector<VertexId>> ends(n);  // of edges, at the lower number
-  for (const MeshEdge& edge : mesh_edges(level.triangles)) {
-    const auto [low, high] = std::minmax(edge.a, edge.b);
-    ends[low].push_back(high);
-  }
-  for (std::size_t v = 0; v < n; ++v) {
-    if (ends[v].empty()) continue;
-    std::sort(ends[v].begin(), ends[v].end());
-    std::vector<VertexId> in_finest;
-    for (const VertexId end : ends[v]) in_finest.push_back(level.vertices[end]);
-    const std::vector<double> geodesics = surface.to(level.vertices[v], in_finest);
-    for (std::size_t k = 0; k < ends[v].size(); ++k) {
+void measure_edges(MeshLevel& level, const Pairs& pairs, const TriangleMesh& finest,
+                   SurfaceDistances& surface) {
+  for (std::size_t first = 0; first < pairs.size();) {
+    const VertexId start = pairs[first][0];
+    std::vector<VertexId> ends;  // in the finest mesh
+    for (std::size_t i = first; i < pairs.size() && pairs[i][0] == start; ++i)
+      ends.push_back(level.vertices[pairs[i][1]]);
+    const std::vector<double> geodesics = surface.to(level.vertices[start], ends);
+    for (std::size_t k = 0; k < ends.size(); ++k) {
       const double chord =
-          (finest.rest_positions.col(in_finest[k]) - finest.rest_positions.col(level.vertices[v]))
+          (finest.rest_positions.col(ends[k]) - finest.rest_positions.col(level.vertices[start]))
               .norm();
-      level.edges.push_back(
-          {VertexId(static_cast<std::int64_t>(v)), ends[v][k], geodesics[k], chord});
+      level.edges.push_back({start, pairs[first + k][1], geodesics[k], chord});
     }
+    first += ends.size();
   }
 }
 
@@ -64,6 +69,25 @@ std::vector<VertexId> kept_of(const MeshLevel& finer, const MeshLevel& coarser) 
     kept.push_back(VertexId(at - finer.vertices.begin()));
   }
   return kept;
+}
+
+/// The next level of thinned ones, with as many vertices if none may go.
+MeshLevel thinned_level(const MeshLevel& finer, const TriangleMesh& mesh,
+                        const std::vector<bool>& is_fixed, SurfaceDistances& surface) {
+  std::vector<bool> stays;
+  for (const VertexId v : finer.vertices) stays.push_back(!is_fixed.empty() && is_fixed[v]);
+  const ThinnedGraph graph =
+      thinned(neighbours_on(finer), positions_on(finer, mesh.rest_positions), stays);
+  MeshLevel level;
+  std::vector<VertexId> number(finer.vertices.size());
+  for (std::size_t i = 0; i < graph.kept.size(); ++i) {
+    number[graph.kept[i]] = VertexId(static_cast<std::int64_t>(i));
+    level.vertices.push_back(finer.vertices[graph.kept[i]]);
+  }
+  Pairs pairs;
+  for (const auto& [a, b] : graph.edges) pairs.push_back({number[a], number[b]});
+  measure_edges(level, pairs, mesh, surface);
+  return level;
 }
 
 std::string shortage_at(int n_levels, int asked, int n_reached, int n_wanted) {
@@ -95,23 +119,33 @@ MeshHierarchy mesh_hierarchy(const TriangleMesh& mesh, const std::vector<bool>& 
   EdgeCollapse collapse(mesh, is_fixed);
   SurfaceDistances surface(mesh);
   MeshHierarchy hierarchy;
-  const auto add_level = [&] {
+  const auto add_collapsed = [&] {
     MeshLevel level;
     level.vertices = collapse.vertices();
     take_triangles(level, collapse.triangles(), static_cast<std::size_t>(mesh.n_vertices()));
-    measure_edges(level, mesh, surface);
+    measure_edges(level, pairs_of(level.triangles), mesh, surface);
     hierarchy.levels.push_back(std::move(level));
   };
-  add_level();
+  add_collapsed();
   for (int k = 0; k < options.n_coarser; ++k) {
-    MeshLevel& finer = hierarchy.levels.back();
-    const int n_wanted = static_cast<int>(std::lround(options.ratio * finer.n_vertices()));
-    if (n_wanted == finer.n_vertices() || !collapse.reach(n_wanted)) {
+    const MeshLevel& finer = hierarchy.levels.back();
+    const int n_finer = finer.n_vertices();
+    int n_wanted = n_finer - 1, n_reached = n_finer;
+    if (options.selection == LevelSelection::thinned) {
+      MeshLevel level = thinned_level(finer, mesh, is_fixed, surface);
+      n_reached = level.n_vertices();
+      if (n_reached < n_finer) hierarchy.levels.push_back(std::move(level));
+    } else {
+      n_wanted = static_cast<int>(std::lround(options.ratio * n_finer));
+      const bool is_reached = n_wanted < n_finer && collapse.reach(n_wanted);
+      n_reached = collapse.n_vertices();
+      if (is_reached) add_collapsed();
+    }
+    if (hierarchy.levels.back().n_vertices() == n_finer) {
       hierarchy.shortage = shortage_at(static_cast<int>(hierarchy.levels.size()), options.n_coarser,
-                                       collapse.n_vertices(), n_wanted);
+                                       n_reached, n_wanted);
       break;
     }
-    add_level();
     MeshLevel& above = hierarchy.levels[hierarchy.levels.size() - 2];
     above.from_coarser =
         transfer_between(kept_of(above, hierarchy.levels.back()), neighbours_on(above),

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -8,9 +10,19 @@
 
 namespace pleat {
 
+/// Which vertices a coarser level keeps.
+enum class LevelSelection {
+  quadrics,  ///< half-edge collapses, the cheapest first (EdgeCollapse); levels have triangles
+  thinned,   ///< every vertex that is out has two neighbours that stay (thinned_graph.h)
+};
+/// Their names in files and on the command line, in the order of the enumeration.
+constexpr std::array<std::string_view, 2> kLevelSelectionNames{"quadrics", "thinned"};
+
 struct HierarchyOptions {
-  int n_coarser = 3;   ///< levels beside the finest, 1 or more
-  double ratio = 0.5;  ///< of a level's vertices that the next coarser one keeps, in (0.1, 0.9)
+  int n_coarser = 3;  ///< levels beside the finest, 1 or more
+  LevelSelection selection = LevelSelection::quadrics;
+  /// Of a level's vertices that the next coarser one keeps, in (0.1, 0.9); of quadrics alone.
+  double ratio = 0.5;
   TransferWeights weights = TransferWeights::inverse_distance;
 
   /// Throws InputError at the option's name.
@@ -25,8 +37,8 @@ struct LevelEdge {
 
 /// A level of a hierarchy. Its vertices are numbered anew, in the order of the finest mesh.
 struct MeshLevel {
-  std::vector<VertexId> vertices;  ///< by their numbers in the finest mesh, ascending
-  std::vector<Triangle> triangles;
+  std::vector<VertexId> vertices;   ///< by their numbers in the finest mesh, ascending
+  std::vector<Triangle> triangles;  ///< none on thinned levels
   std::vector<LevelEdge> edges;
   Transfer from_coarser;  ///< empty on the coarsest
 

@@ -111,6 +111,7 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   const BoneFrames frames = scene.figure ? scene.figure->bone_frames() : BoneFrames{};
   add_elasticity(model, scene, cloth);
   model.rest_coordinates = cloth.rest_coordinates;
+  if (scene.method.stepper->needs_surface) model.surface = cloth.mesh;
   model.damping_direction = scene.model.damping_direction;
   model.gravity = scene.gravity;
   model.pins = scene_pins(scene, cloth, model, frames);

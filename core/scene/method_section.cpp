@@ -31,6 +31,17 @@ constexpr std::array<Word<EulerRule>, 2> kEulerRules{
 constexpr std::array<Word<BeyondBound>, 2> kBeyondBound{
     {{"refuse", BeyondBound::refuse}, {"go_on", BeyondBound::go_on}}};
 
+constexpr std::array<Word<Smoother>, 4> kSmoothers{{{"none", Smoother::none},
+                                                    {"jacobi", Smoother::jacobi},
+                                                    {"gauss_seidel", Smoother::gauss_seidel},
+                                                    {"sor", Smoother::sor}}};
+
+constexpr std::array<Word<LevelLengths>, 2> kLevelLengths{
+    {{"surface", LevelLengths::surface}, {"chord", LevelLengths::chord}}};
+
+constexpr std::array<Word<Attachments>, 2> kAttachments{
+    {{"none", Attachments::none}, {"long_range", Attachments::long_range}}};
+
 constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
                                                           {"ply", FrameFormat::ply},
                                                           {"binary", FrameFormat::binary},
@@ -38,6 +49,9 @@ constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::o
 
 constexpr const char* kStableSubsteps =
     "stable";  // as many as the explicit stability bound asks for
+
+/// Of any mesh, a level of one vertex is reached before.
+constexpr std::int64_t kMaxCoarserLevels = 30;
 
 constexpr const char* kEstimatedOmega = "estimated";
 
@@ -121,7 +135,35 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
     case MethodSetting::first_contact:
       method.first_contact = reader.number(kNotNegative);
       return;
+    case MethodSetting::levels:
+      method.levels = static_cast<int>(reader.integer(0, kMaxCoarserLevels));
+      return;
+    case MethodSetting::ratio:
+      method.ratio = reader.number({0.1, 0.9, NumberRange::Ends::excluded});
+      return;
+    case MethodSetting::level_lengths:
+      method.level_lengths = reader.word(kLevelLengths);
+      return;
+    case MethodSetting::smoother_before:
+      method.smoother_before = reader.word(kSmoothers);
+      return;
+    case MethodSetting::smoother:
+      method.smoother_after = reader.word(kSmoothers);
+      return;
+    case MethodSetting::attachments:
+      method.attachments = reader.word(kAttachments);
+      return;
   }
+}
+
+/// True where the solver or a smoother over-relaxes.
+bool reads_omega(const MethodOptions& method) {
+  const auto relaxes = [](Smoother smoother) {
+    return smoother == Smoother::sor || smoother == Smoother::jacobi;
+  };
+  if (method.stepper->reads(MethodSetting::smoother))
+    return relaxes(method.smoother_before) || relaxes(method.smoother_after);
+  return method.solver == SolverKind::sor;
 }
 
 Json json_substeps(int substeps) { return substeps == 0 ? Json(kStableSubsteps) : Json(substeps); }
@@ -154,6 +196,18 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
       return word_for(kBeyondBound, method.beyond_bound);
     case MethodSetting::first_contact:
       return method.first_contact;
+    case MethodSetting::levels:
+      return method.levels;
+    case MethodSetting::ratio:
+      return method.ratio;
+    case MethodSetting::level_lengths:
+      return word_for(kLevelLengths, method.level_lengths);
+    case MethodSetting::smoother_before:
+      return word_for(kSmoothers, method.smoother_before);
+    case MethodSetting::smoother:
+      return word_for(kSmoothers, method.smoother_after);
+    case MethodSetting::attachments:
+      return word_for(kAttachments, method.attachments);
   }
   return nullptr;
 }
@@ -215,10 +269,11 @@ MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
   if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
   for (const MethodSetting setting : type.settings)
     if (const auto at = reader.find(key(setting))) read_setting(setting, *at, method);
-  if (method.omega > 0 && method.solver != SolverKind::sor)
-    reader.at(key(MethodSetting::omega))
-        .fail(std::string("no such key beside the solver ") + word_for(kSolvers, method.solver) +
-              ", but beside sor");
+  if (method.omega > 0 && !reads_omega(method))
+    reader.at(key(MethodSetting::omega)).fail(type.reads(MethodSetting::smoother)
+                 ? "no such key beside a smoother other than sor and jacobi"
+                 : std::string("no such key beside the solver ") +
+                       word_for(kSolvers, method.solver) + ", but beside sor");
   return method;
 }
 

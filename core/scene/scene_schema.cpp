@@ -26,15 +26,27 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
       if (type.largest_tolerance < 1) schema["maximum"] = type.largest_tolerance;
       schema["default"] = usual.tolerance;
       break;
+    case MethodSetting::constraints:
+      schema["default"] = usual.constraints == Constraints::rigid ? "rigid" : "compliant";
+      break;
+    case MethodSetting::attachments:
+      schema["default"] = usual.attachments == Attachments::none ? "none" : "long_range";
+      break;
+    case MethodSetting::level_lengths:
+      schema["default"] = usual.level_lengths == LevelLengths::surface ? "surface" : "chord";
+      break;
     case MethodSetting::omega:
     case MethodSetting::split:
-    case MethodSetting::constraints:
     case MethodSetting::rule:
     case MethodSetting::acceleration:
     case MethodSetting::explicit_share:
     case MethodSetting::euler:
     case MethodSetting::beyond_bound:
     case MethodSetting::first_contact:
+    case MethodSetting::levels:
+    case MethodSetting::ratio:
+    case MethodSetting::smoother_before:
+    case MethodSetting::smoother:
       break;
   }
   return schema;

@@ -162,7 +162,7 @@ TEST_CASE(
 
 TEST_CASE("knit: every stepper lets it swing from its upper edge", "[scene]") {
   const char* const stepper =
-      GENERATE("implicit", "imex", "projective", "xpbd", "explicit", "rk4", "newton");
+      GENERATE("implicit", "imex", "projective", "xpbd", "pbd", "explicit", "rk4", "newton");
   CAPTURE(stepper);
   const Scene scene = read_scene(
       R"({"cloth": {"knit": {"wale_direction": [0, 0, 1]}}, "pins": [{"part": "upper_edge"}],

@@ -126,10 +126,12 @@ std::vector<MethodOptions> converged_methods(double step) {
   accelerated.acceleration = Acceleration::anderson;
   MethodOptions xpbd = method(&steppers::kXpbd, step);
   xpbd.iterations = 100;
+  MethodOptions pbd = method(&steppers::kPbd, step);
+  pbd.iterations = 100;
   MethodOptions newton = method(&steppers::kNewton, step);
   newton.rule = NewtonRule::backward_euler;
   newton.tolerance = kNewtonTolerance;
-  return {explicit_method, method(&steppers::kImplicitEuler, step), projective, xpbd, newton,
+  return {explicit_method, method(&steppers::kImplicitEuler, step), projective, xpbd, pbd, newton,
           accelerated};
 }
 
@@ -148,7 +150,10 @@ std::vector<MethodOptions> everyday_methods() {
   imex.solver = SolverKind::sor;
   imex.tolerance = 1e-4;
   imex.substeps = 4;
-  return {explicit_method, implicit, imex, projective, xpbd, accelerated};
+  MethodOptions pbd = method(&steppers::kPbd, 1.0 / 60);
+  pbd.substeps = 4;
+  pbd.iterations = 10;
+  return {explicit_method, implicit, imex, projective, xpbd, pbd, accelerated};
 }
 
 std::vector<MethodOptions> accurate_methods(double step) {

@@ -75,10 +75,10 @@ TEST_CASE("stepper table: a scene that names what the table lacks is told what i
     FAIL("accepted");
   } catch (const InputError& error) {
     CHECK(error.where() == "/method/stepper");
-    CHECK(
-        std::string(error.what()) ==
-        "expected one of \"implicit\", \"imex\", \"projective\", \"xpbd\", \"explicit\", \"rk4\", "
-        "\"newton\", got \"made_up\"");
+    CHECK(std::string(error.what()) ==
+          "expected one of \"implicit\", \"imex\", \"projective\", \"xpbd\", \"pbd\", \"hpbd\", "
+          "\"multigrid\", \"explicit\", \"rk4\", "
+          "\"newton\", got \"made_up\"");
   }
 }
 

@@ -27,6 +27,8 @@ class HangingProgram {
   /// Takes over changed rest lengths. Allocates nothing.
   void refresh_rest_lengths(const ClothModel& model);
 
+  bool empty() const { return springs_.empty() && bends_.empty(); }
+
   /// Projects each element once. The first sweep of a substep starts from multipliers of zero.
   void first_sweep(const LaneView& view);
   void next_sweep(const LaneView& view);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #if defined(__wasm_simd128__)
 #include <wasm_simd128.h>
@@ -44,6 +45,7 @@ inline int positive_lanes(Float1 a) { return a.value > 0 ? 1 : 0; }
 ///
 /// Every operation rounds like its scalar form, so that both builds and Float1 agree to the bit.
 struct Float4 {
+  using Real = float;
   static constexpr int kLanes = 4;
 #if defined(__wasm_simd128__)
   v128_t value;
@@ -134,6 +136,38 @@ inline int positive_lanes(Float4 a) {
   return lanes;
 }
 #endif
+
+/// Four groups are the columns of a matrix; they become its rows.
+inline void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {
+#if defined(__wasm_simd128__)
+  const v128_t ab_low = wasm_i32x4_shuffle(a.value, b.value, 0, 4, 1, 5);
+  const v128_t ab_high = wasm_i32x4_shuffle(a.value, b.value, 2, 6, 3, 7);
+  const v128_t cd_low = wasm_i32x4_shuffle(c.value, d.value, 0, 4, 1, 5);
+  const v128_t cd_high = wasm_i32x4_shuffle(c.value, d.value, 2, 6, 3, 7);
+  a.value = wasm_i64x2_shuffle(ab_low, cd_low, 0, 2);
+  b.value = wasm_i64x2_shuffle(ab_low, cd_low, 1, 3);
+  c.value = wasm_i64x2_shuffle(ab_high, cd_high, 0, 2);
+  d.value = wasm_i64x2_shuffle(ab_high, cd_high, 1, 3);
+#elif defined(__SSE2__)
+  _MM_TRANSPOSE4_PS(a.value, b.value, c.value, d.value);
+#else
+  Float4* const rows[4] = {&a, &b, &c, &d};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j) std::swap(rows[i]->value[j], rows[j]->value[i]);
+#endif
+}
+
+/// One lane in all lanes.
+template <int lane>
+Float4 spread(Float4 a) {
+#if defined(__wasm_simd128__)
+  return {wasm_i32x4_shuffle(a.value, a.value, lane, lane, lane, lane)};
+#elif defined(__SSE2__)
+  return {_mm_shuffle_ps(a.value, a.value, _MM_SHUFFLE(lane, lane, lane, lane))};
+#else
+  return {{a.value[lane], a.value[lane], a.value[lane], a.value[lane]}};
+#endif
+}
 
 inline double sum_of_lanes(Float4 a) {
   float lanes[4];

@@ -112,13 +112,16 @@ Vec3Lanes<Lanes> across(const Vec3Lanes<Lanes>& motion, const Vec3Lanes<Lanes>& 
 /// How far projecting a spring moves x_a, per inverse mass; x_b moves the other way. Adds to the
 /// multipliers.
 ///
-/// w  how far d moves per pull: the sum of both inverse masses
+/// w           how far d moves per pull: the sum of both inverse masses
+/// relaxation  times what a projection alone would correct
 template <class Lanes, SpringLaw law, bool first>
 Vec3Lanes<Lanes> pull_of(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& change_of_d,
-                         Lanes w, const SpringBlock& block, int lane, float* multiplier) {
+                         Lanes w, const SpringBlock& block, int lane, float* multiplier,
+                         Lanes relaxation = Lanes::all(1)) {
   const auto spring = linearise<Lanes, law, first>(d_begin, change_of_d, block, lane, multiplier);
   const Lanes f =
-      spring.aim / (spring.slope * (w + Lanes::load(block.denominator_share.data() + lane)));
+      relaxation *
+      (spring.aim / (spring.slope * (w + Lanes::load(block.denominator_share.data() + lane))));
   Vec3Lanes<Lanes> pull = f * spring.g;
   if constexpr (law != SpringLaw::rigid)
     add_to_multiplier<first>(f * spring.slope / spring.length, multiplier);
@@ -132,6 +135,7 @@ Vec3Lanes<Lanes> pull_of(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>
                                   Lanes::load(multiplier + 12)};
       change = change - (Lanes::all(1.0f) - gain * w) * last;
     }
+    change = relaxation * change;
     add_to_multiplier<first>(change.x, multiplier + 4);
     add_to_multiplier<first>(change.y, multiplier + 8);
     add_to_multiplier<first>(change.z, multiplier + 12);

@@ -31,12 +31,12 @@ double step_of(const MethodOptions& options) { return options.step / options.sub
 
 }  // namespace
 
-StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options)
+StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
+                         MakeProjections make_projections)
     : Stepper(model, options, options.substeps, ContactMemory::none),
       layout_(lane_layout(model)),
-      springs_(model, layout_, spring_law(model, options), step_of(options)),
-      bends_(model, layout_, step_of(options)),
-      hanging_(model, layout_, spring_law(model, options), step_of(options)),
+      projections_(
+          make_projections(model, options, layout_, spring_law(model, options), step_of(options))),
       mean_mass_(model.masses.mean()),
       pitch_(pitch_for(layout_.n_slots)),
       data_(pitch_ * kArrays, 0.0f) {
@@ -61,13 +61,11 @@ void StepperXpbd::refresh() {
         model_.hangs(VertexId(i)) ? 0 : static_cast<float>(mean_mass_ / model_.masses[i]);
   for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
   pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
+  projections_->refresh_pins(model_, inverse_masses);
   refresh_rest_lengths();
 }
 
-void StepperXpbd::refresh_rest_lengths() {
-  springs_.refresh_rest_lengths(model_);
-  hanging_.refresh_rest_lengths(model_);
-}
+void StepperXpbd::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
 
 LaneView StepperXpbd::view() {
   return {{array(move), array(move + 1), array(move + 2)},
@@ -214,18 +212,6 @@ void StepperXpbd::copy_to(State& state, double h) {
   place_between_parents(model_.hanging, state);
 }
 
-void StepperXpbd::sweep() {
-  const LaneView v = view();
-  bends_.first_sweep(v);
-  springs_.first_sweep(v);
-  hanging_.first_sweep(v);
-  for (int sweep = 1; sweep < options().iterations; ++sweep) {
-    bends_.next_sweep(v);
-    springs_.next_sweep(v);
-    hanging_.next_sweep(v);
-  }
-}
-
 SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
   if (model_.air) add_air_drag(state, h);
   {
@@ -234,14 +220,9 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
     place_pins(time_end, h);
     const LaneView v = view();
     const bool is_last = substeps_left_ == 1;
-    if (is_last)
-      residual_begin_ = std::sqrt(springs_.squared_residual_before_sweeps(v) +
-                                  bends_.squared_residual_before_sweeps(v) +
-                                  hanging_.squared_residual_before_sweeps(v));
-    sweep();
-    if (is_last)
-      residual_end_ = std::sqrt(springs_.squared_residual(v) + bends_.squared_residual(v) +
-                                hanging_.squared_residual(v));
+    if (is_last) residual_begin_ = std::sqrt(projections_->squared_residual_before(v));
+    projections_->solve(v, options().iterations);
+    if (is_last) residual_end_ = std::sqrt(projections_->squared_residual(v));
   }
   if (strain_limit() != nullptr) {
     limit_in_double(state, time_end, h);

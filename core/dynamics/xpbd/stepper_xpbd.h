@@ -1,15 +1,19 @@
 #pragma once
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "core/dynamics/stepper.h"
-#include "core/dynamics/xpbd/bend_program.h"
 #include "core/dynamics/xpbd/contact_program.h"
-#include "core/dynamics/xpbd/hanging_program.h"
-#include "core/dynamics/xpbd/spring_program.h"
+#include "core/dynamics/xpbd/projections.h"
+#include "core/dynamics/xpbd/spring_law.h"
 
 namespace pleat {
 
-/// Small steps of extended position-based dynamics: per substep the vertices move freely, then each
-/// constraint in turn is projected, and what the projections moved changes the velocities. Inside,
+/// Steps of position-based dynamics: per substep the vertices move freely, then constraints are
+/// projected, and what the projections moved changes the velocities. Inside,
 /// single precision about a local origin, four constraints at a time; positions carry what single
 /// precision rounds off, and velocities are summed from corrections, so that slow motion is not
 /// lost and gravity is not rounded however small the substep. Hanging vertices have no motion of
@@ -18,7 +22,8 @@ namespace pleat {
 /// Source: Macklin et al., Small steps in physics simulation, SCA 2019; docs/methods/xpbd.md.
 class StepperXpbd final : public Stepper {
  public:
-  StepperXpbd(ClothModel& model, const MethodOptions& options);
+  StepperXpbd(ClothModel& model, const MethodOptions& options,
+              MakeProjections make_projections = lane_projections);
 
   void refresh() override;
   void refresh_rest_lengths() override;
@@ -47,15 +52,12 @@ class StepperXpbd final : public Stepper {
   /// lets gravity act.
   void predict();
   void place_pins(double time_end, double h);
-  void sweep();
   void add_air_drag(State& state, double h);
   void resolve_contacts(double h);
   void limit_in_double(State& state, double time_end, double h);
 
   LaneLayout layout_;
-  SpringProgram springs_;
-  BendProgram bends_;
-  HangingProgram hanging_;
+  std::unique_ptr<Projections> projections_;
   std::optional<ContactProgram> contact_;  // where the model has solids
   std::vector<VertexId> vertices_;         // of each slot, where the model has solids
   double mean_mass_;                       // [kg]

@@ -1,3 +1,5 @@
+#include "core/dynamics/xpbd/bend_program.h"
+#include "core/dynamics/xpbd/spring_program.h"
 #include "core/dynamics/xpbd/stepper_xpbd.h"
 
 #include <Eigen/Geometry>

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/pbd/length_groups.h"
+#include "core/model/cloth_model.h"
+#include "core/multigrid/mesh_hierarchy.h"
+
+namespace pleat {
+
+/// The longest that strain-free cloth lets a vertex come away from pins: one length for each patch
+/// of pins joined by springs, at its nearest pin, and for the four nearest patches at most. Places
+/// are vertices.
+///
+/// hierarchy  of the model's surface, or without levels. Lengths are exact on a flat sheet that
+///            fills a rectangle; elsewhere those of shortest paths along edges of all levels and
+///            springs, which are a little longer.
+/// Source: Kim, Chentanez & Mueller-Fischer, Long range attachments, SCA 2012.
+std::vector<PlaceLength> long_range_attachments(const ClothModel& model,
+                                                const MeshHierarchy& hierarchy);
+
+/// How far apart attachments let pairs of pins be, each pair that holds a vertex once: the least
+/// sum of their lengths to one. Pins further apart leave no place for a vertex.
+std::vector<PlaceLength> lengths_between_pins(const std::vector<PlaceLength>& attachments);
+
+}  // namespace pleat

@@ -1,0 +1,133 @@
+#include "core/dynamics/pbd/gathered_springs.h"
+
+#include "core/dynamics/pbd/quad_vectors.h"
+
+namespace pleat {
+
+GatheredSprings::GatheredSprings(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
+                                 double h)
+    : law_(law),
+      h_(h),
+      mean_mass_(model.masses.mean()),
+      mean_(static_cast<std::size_t>(layout.n_slots)) {
+  std::vector<int> springs;
+  std::vector<PlacePair> ends;
+  for (const int s : active_springs(model, law)) {
+    const Spring& spring = model.springs[static_cast<std::size_t>(s)];
+    if (model.hangs(spring.a) || model.hangs(spring.b)) continue;
+    springs.push_back(s);
+    ends.push_back({layout.places[static_cast<std::size_t>(spring.a)].slot,
+                    layout.places[static_cast<std::size_t>(spring.b)].slot});
+  }
+  // Pins come and go, so every vertex is taken for one that moves.
+  const std::vector<bool> moves(static_cast<std::size_t>(layout.n_slots), true);
+  for (const std::vector<int>& set : independent_sets(ends, moves)) {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const std::size_t lane = i % 4;
+      if (lane == 0) groups_.push_back({{}, {}, kNoMembers, {}, {}, {}});
+      const auto [a, b] = ends[static_cast<std::size_t>(set[i])];
+      Group& group = groups_.back();
+      group.a[lane] = 4 * a;
+      group.b[lane] = 4 * b;
+      group.members[lane] = springs[static_cast<std::size_t>(set[i])];
+      for (const int slot : {a, b}) mean_.count(slot);
+    }
+  }
+  multipliers_.resize(groups_.size() * static_cast<std::size_t>(multiplier_floats(law)));
+}
+
+void GatheredSprings::refresh_pins(const float* inverse_masses) {
+  for (Group& group : groups_)
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if (group.members[lane] < 0) continue;
+      group.w_a[lane] = inverse_masses[group.a[lane] / 4];
+      group.w_b[lane] = inverse_masses[group.b[lane] / 4];
+    }
+}
+
+void GatheredSprings::refresh_rest_lengths(const ClothModel& model) {
+  for (Group& group : groups_)
+    for (std::size_t lane = 0; lane < 4; ++lane)
+      if (group.members[lane] >= 0)
+        group.block.set_lane(lane, model.springs[static_cast<std::size_t>(group.members[lane])],
+                             law_, h_, mean_mass_);
+}
+
+template <SpringLaw law, bool first, bool averaged>
+void GatheredSprings::project(const float* begins, float* moves, float omega) {
+  const Float4 relaxation = Float4::all(omega);
+  float* const sums = averaged ? mean_.begin() : moves;
+  float* multiplier = multipliers_.data();
+  for (const Group& group : groups_) {
+    const QuadVectors<Float4> move_a = gather<Float4>(moves, group.a);
+    const QuadVectors<Float4> move_b = gather<Float4>(moves, group.b);
+    const QuadVectors<Float4> d_begin =
+        gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
+    const Float4 w_a = Float4::load(group.w_a.data());
+    const Float4 w_b = Float4::load(group.w_b.data());
+    const QuadVectors<Float4> pull =
+        one_by_one(pull_of<Float4, law, first>(in_lanes(d_begin), in_lanes(move_a - move_b),
+                                               w_a + w_b, group.block, 0, multiplier, relaxation));
+    const QuadVectors<Float4> to_a = averaged ? gather<Float4>(sums, group.a) : move_a;
+    const QuadVectors<Float4> to_b = averaged ? gather<Float4>(sums, group.b) : move_b;
+    scatter(to_a + scaled(pull, w_a), sums, group.a);
+    scatter(to_b - scaled(pull, w_b), sums, group.b);
+    multiplier += multiplier_floats(law);
+  }
+}
+
+template <bool first>
+void GatheredSprings::sweep(const float* begins, float* moves, const Relaxation& relaxation) {
+  const auto omega = static_cast<float>(relaxation.omega);
+  with_law(law_, [&](auto constant) {
+    constexpr SpringLaw law = decltype(constant)::value;
+    switch (relaxation.smoother) {
+      case Smoother::none:
+        return;
+      case Smoother::jacobi:
+        project<law, first, true>(begins, moves, 1);
+        mean_.add_to(moves, omega);
+        return;
+      case Smoother::gauss_seidel:
+        project<law, first, false>(begins, moves, 1);
+        return;
+      case Smoother::sor:
+        project<law, first, false>(begins, moves, omega);
+        return;
+    }
+  });
+}
+
+void GatheredSprings::first_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
+  sweep<true>(begins, moves, relaxation);
+}
+void GatheredSprings::next_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
+  sweep<false>(begins, moves, relaxation);
+}
+
+template <bool with_multipliers>
+double GatheredSprings::sum_of_squares(const float* begins, const float* moves) const {
+  return with_law(law_, [&](auto constant) {
+    constexpr SpringLaw law = decltype(constant)::value;
+    Float4 sum = Float4::all(0);
+    const float* multiplier = multipliers_.data();
+    for (const Group& group : groups_) {
+      const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
+      const auto change = gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b);
+      sum = sum + squared_error<Float4, law, with_multipliers>(in_lanes(d_begin), in_lanes(change),
+                                                               group.block, 0, multiplier);
+      multiplier += multiplier_floats(law);
+    }
+    return sum_of_lanes(sum);
+  });
+}
+
+double GatheredSprings::squared_residual(const float* begins, const float* moves) const {
+  return sum_of_squares<true>(begins, moves);
+}
+double GatheredSprings::squared_residual_before_sweeps(const float* begins,
+                                                       const float* moves) const {
+  return sum_of_squares<false>(begins, moves);
+}
+
+}  // namespace pleat

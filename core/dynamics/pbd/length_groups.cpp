@@ -1,0 +1,104 @@
+#include "core/dynamics/pbd/length_groups.h"
+
+#include "core/base/check.h"
+#include "core/dynamics/pbd/double4.h"
+#include "core/dynamics/pbd/quad_vectors.h"
+
+namespace pleat {
+
+template <class Quad>
+LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
+                                 const std::vector<double>& inverse_masses, LengthSide side)
+    : side_(side), mean_(inverse_masses.size()) {
+  PLEAT_CHECK(inverse_masses.empty() || inverse_masses.back() == 0, "the last place is nobody's");
+  const int nobody = static_cast<int>(inverse_masses.size()) - 1;
+  std::vector<PlacePair> pairs;
+  for (const PlaceLength& length : lengths) pairs.push_back(length.places);
+  std::vector<bool> moves;
+  for (const double w : inverse_masses) moves.push_back(w > 0);
+  for (const std::vector<int>& set : independent_sets(pairs, moves)) {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const std::size_t lane = i % 4;
+      if (lane == 0) {
+        groups_.emplace_back();
+        groups_.back().a.fill(4 * nobody);
+        groups_.back().b.fill(4 * nobody);
+        groups_.back().square.fill(1);
+      }
+      const auto& [places, length] = lengths[static_cast<std::size_t>(set[i])];
+      const double w_a = inverse_masses[static_cast<std::size_t>(places[0])];
+      const double w_b = inverse_masses[static_cast<std::size_t>(places[1])];
+      Group& group = groups_.back();
+      for (const int place : places) mean_.count(place);
+      group.a[lane] = 4 * places[0];
+      group.b[lane] = 4 * places[1];
+      group.square[lane] = static_cast<Real>(length * length);
+      group.w_a[lane] = static_cast<Real>(w_a);
+      group.w_b[lane] = static_cast<Real>(w_b);
+      group.inverse_w[lane] = static_cast<Real>(w_a + w_b > 0 ? 1 / (w_a + w_b) : 0);
+    }
+  }
+}
+
+// As the rigid law of springs (core/dynamics/xpbd/spring_law.h): with d at the end and g = d +
+// d_begin, (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0, the slope d.g held above L^2 and l^2.
+template <class Quad>
+template <LengthSide side, bool averaged>
+void LengthGroups<Quad>::project(const Real* begins, Real* moves, Real omega, Real stretch) {
+  const Quad zero = Quad::all(0);
+  const Quad half = Quad::all(omega / 2);
+  const Quad squared_stretch = Quad::all(stretch * stretch);
+  Real* const sums = averaged ? mean_.begin() : moves;
+  for (const Group& group : groups_) {
+    const QuadVectors<Quad> move_a = gather<Quad>(moves, group.a);
+    const QuadVectors<Quad> move_b = gather<Quad>(moves, group.b);
+    const QuadVectors<Quad> d_begin = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b);
+    const QuadVectors<Quad> d = d_begin + (move_a - move_b);
+    const QuadVectors<Quad> g = d + d_begin;
+    const Quad square = dots(d, d);
+    const Quad rest = squared_stretch * Quad::load(group.square.data());
+    Quad aim = half * (rest - square);
+    if constexpr (side == LengthSide::longer) aim = min(aim, zero);
+    const Quad slope = max(dots(d, g), max(rest, square));
+    const Quad f = aim / slope * Quad::load(group.inverse_w.data());
+    const QuadVectors<Quad> to_a = averaged ? gather<Quad>(sums, group.a) : move_a;
+    const QuadVectors<Quad> to_b = averaged ? gather<Quad>(sums, group.b) : move_b;
+    scatter(to_a + scaled(g, f * Quad::load(group.w_a.data())), sums, group.a);
+    scatter(to_b - scaled(g, f * Quad::load(group.w_b.data())), sums, group.b);
+  }
+}
+
+template <class Quad>
+template <LengthSide side>
+void LengthGroups<Quad>::sweep_side(const Real* begins, Real* moves, const Relaxation& relaxation,
+                                    Real stretch) {
+  const auto omega = static_cast<Real>(relaxation.omega);
+  switch (relaxation.smoother) {
+    case Smoother::none:
+      return;
+    case Smoother::jacobi:
+      project<side, true>(begins, moves, 1, stretch);
+      mean_.add_to(moves, omega);
+      return;
+    case Smoother::gauss_seidel:
+      project<side, false>(begins, moves, 1, stretch);
+      return;
+    case Smoother::sor:
+      project<side, false>(begins, moves, omega, stretch);
+      return;
+  }
+}
+
+template <class Quad>
+void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation& relaxation,
+                               Real stretch) {
+  if (side_ == LengthSide::both)
+    sweep_side<LengthSide::both>(begins, moves, relaxation, stretch);
+  else
+    sweep_side<LengthSide::longer>(begins, moves, relaxation, stretch);
+}
+
+template class LengthGroups<Float4>;
+template class LengthGroups<Double4>;
+
+}  // namespace pleat

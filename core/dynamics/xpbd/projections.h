@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+
+#include "core/dynamics/method_options.h"
+#include "core/dynamics/xpbd/lane_layout.h"
+#include "core/dynamics/xpbd/lane_operations.h"
+#include "core/dynamics/xpbd/spring_law.h"
+#include "core/model/cloth_model.h"
+
+namespace pleat {
+
+/// The constraints of a position-based substep, and the way in which they are solved.
+class Projections {
+ public:
+  virtual ~Projections() = default;
+
+  /// Takes over pins that changed in number or vertex.
+  ///
+  /// inverse_masses  of each slot, see LaneView
+  virtual void refresh_pins(const ClothModel& model, const float* inverse_masses) = 0;
+  /// Takes over changed rest lengths. Allocates nothing.
+  virtual void refresh_rest_lengths(const ClothModel& model) = 0;
+
+  /// Moves vertices that may move until the constraints hold better, in so many rounds. The first
+  /// one starts from multipliers of zero. Allocates nothing after the first call.
+  virtual void solve(const LaneView& view, int rounds) = 0;
+
+  /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2], after
+  /// `solve`, or with multipliers of zero, as before it.
+  virtual double squared_residual(const LaneView& view) = 0;
+  virtual double squared_residual_before(const LaneView& view) = 0;
+};
+
+/// What makes the projections of a model, for substeps of h [s].
+using MakeProjections = std::unique_ptr<Projections> (*)(const ClothModel& model,
+                                                         const MethodOptions& options,
+                                                         const LaneLayout& layout, SpringLaw law,
+                                                         double h);
+
+/// Projections in the order of the lanes: lines of springs at once, everything else one after the
+/// other. A round is a sweep over all constraints.
+std::unique_ptr<Projections> lane_projections(const ClothModel& model, const MethodOptions& options,
+                                              const LaneLayout& layout, SpringLaw law, double h);
+
+}  // namespace pleat
