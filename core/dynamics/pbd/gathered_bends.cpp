@@ -61,14 +61,13 @@ void add(float* to, float factor, Float4 change) {
 
 }  // namespace
 
-template <bool first>
-void GatheredBends::sweep(const float* begins, float* moves, float omega) {
+void GatheredBends::next_sweep(const float* begins, float* moves, float omega) {
   float* multiplier = multipliers_.data();
   for (const Element& e : elements_) {
-    Float4 error = error_of(e, begins, moves);
-    if constexpr (!first) error = error + Float4::all(e.compliance) * Float4::load(multiplier);
+    const Float4 error =
+        error_of(e, begins, moves) + Float4::all(e.compliance) * Float4::load(multiplier);
     const Float4 change = Float4::all(omega * e.gain) * error;
-    add_to_multiplier<first>(change, multiplier);
+    add(multiplier, 1, change);
     add(moves + e.before, e.w_0, change);
     add(moves + e.middle, -e.w_1, change);
     add(moves + e.after, e.w_2, change);
@@ -77,20 +76,16 @@ void GatheredBends::sweep(const float* begins, float* moves, float omega) {
 }
 
 void GatheredBends::first_sweep(const float* begins, float* moves, float omega) {
-  sweep<true>(begins, moves, omega);
-}
-void GatheredBends::next_sweep(const float* begins, float* moves, float omega) {
-  sweep<false>(begins, moves, omega);
+  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  next_sweep(begins, moves, omega);
 }
 
-template <bool with_multipliers>
-double GatheredBends::sum_of_squares(const float* begins, const float* moves) const {
+double GatheredBends::squared_residual(const float* begins, const float* moves) const {
   Float4 sum = Float4::all(0);
   const float* multiplier = multipliers_.data();
   for (const Element& e : elements_) {
-    Float4 error = error_of(e, begins, moves);
-    if constexpr (with_multipliers)
-      error = error + Float4::all(e.compliance) * Float4::load(multiplier);
+    const Float4 error =
+        error_of(e, begins, moves) + Float4::all(e.compliance) * Float4::load(multiplier);
     sum = sum + error * error;
     multiplier += Float4::kLanes;
   }
@@ -99,12 +94,9 @@ double GatheredBends::sum_of_squares(const float* begins, const float* moves) co
   return (static_cast<double>(lanes[0]) + lanes[1]) + lanes[2];  // the fourth is unused
 }
 
-double GatheredBends::squared_residual(const float* begins, const float* moves) const {
-  return sum_of_squares<true>(begins, moves);
-}
-double GatheredBends::squared_residual_before_sweeps(const float* begins,
-                                                     const float* moves) const {
-  return sum_of_squares<false>(begins, moves);
+double GatheredBends::squared_residual_before_sweeps(const float* begins, const float* moves) {
+  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  return squared_residual(begins, moves);
 }
 
 }  // namespace pleat

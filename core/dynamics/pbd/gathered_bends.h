@@ -26,7 +26,7 @@ class GatheredBends {
   /// Sum of |C + compliance/h^2 lambda|^2 [m^2], with the multipliers of the last sweep, or with
   /// none.
   double squared_residual(const float* begins, const float* moves) const;
-  double squared_residual_before_sweeps(const float* begins, const float* moves) const;
+  double squared_residual_before_sweeps(const float* begins, const float* moves);
 
  private:
   struct Element {
@@ -36,11 +36,6 @@ class GatheredBends {
     float w_0, w_1, w_2;        // inverse masses times the weights
     float gain;
   };
-
-  template <bool first>
-  void sweep(const float* begins, float* moves, float omega);
-  template <bool with_multipliers>
-  double sum_of_squares(const float* begins, const float* moves) const;
 
   std::vector<Element> elements_;
   std::vector<float> multipliers_;  // x, y, z and one unused number each

@@ -1,5 +1,7 @@
 #include "core/dynamics/pbd/gathered_springs.h"
 
+#include <algorithm>
+
 #include "core/dynamics/pbd/quad_vectors.h"
 
 namespace pleat {
@@ -53,60 +55,45 @@ void GatheredSprings::refresh_rest_lengths(const ClothModel& model) {
                              law_, h_, mean_mass_);
 }
 
-template <SpringLaw law, bool first, bool averaged>
-void GatheredSprings::project(const float* begins, float* moves, float omega) {
+// In a page's module each variant of this loop counts: the first sweep is one with multipliers of
+// zero, and a mean is gathered where the moves would be changed.
+template <SpringLaw law>
+void GatheredSprings::project(const float* begins, const float* moves, float* to, float omega) {
   const Float4 relaxation = Float4::all(omega);
-  float* const sums = averaged ? mean_.begin() : moves;
   float* multiplier = multipliers_.data();
   for (const Group& group : groups_) {
-    const QuadVectors<Float4> move_a = gather<Float4>(moves, group.a);
-    const QuadVectors<Float4> move_b = gather<Float4>(moves, group.b);
+    const QuadVectors<Float4> change =
+        gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b);
     const QuadVectors<Float4> d_begin =
         gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
     const Float4 w_a = Float4::load(group.w_a.data());
     const Float4 w_b = Float4::load(group.w_b.data());
-    const QuadVectors<Float4> pull =
-        one_by_one(pull_of<Float4, law, first>(in_lanes(d_begin), in_lanes(move_a - move_b),
-                                               w_a + w_b, group.block, 0, multiplier, relaxation));
-    const QuadVectors<Float4> to_a = averaged ? gather<Float4>(sums, group.a) : move_a;
-    const QuadVectors<Float4> to_b = averaged ? gather<Float4>(sums, group.b) : move_b;
-    scatter(to_a + scaled(pull, w_a), sums, group.a);
-    scatter(to_b - scaled(pull, w_b), sums, group.b);
+    const QuadVectors<Float4> pull = one_by_one(pull_of<Float4, law, false>(
+        in_lanes(d_begin), in_lanes(change), w_a + w_b, group.block, 0, multiplier, relaxation));
+    scatter(gather<Float4>(to, group.a) + scaled(pull, w_a), to, group.a);
+    scatter(gather<Float4>(to, group.b) - scaled(pull, w_b), to, group.b);
     multiplier += multiplier_floats(law);
   }
 }
 
-template <bool first>
-void GatheredSprings::sweep(const float* begins, float* moves, const Relaxation& relaxation) {
+void GatheredSprings::next_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
+  if (relaxation.smoother == Smoother::none) return;
   const auto omega = static_cast<float>(relaxation.omega);
-  with_law(law_, [&](auto constant) {
-    constexpr SpringLaw law = decltype(constant)::value;
-    switch (relaxation.smoother) {
-      case Smoother::none:
-        return;
-      case Smoother::jacobi:
-        project<law, first, true>(begins, moves, 1);
-        mean_.add_to(moves, omega);
-        return;
-      case Smoother::gauss_seidel:
-        project<law, first, false>(begins, moves, 1);
-        return;
-      case Smoother::sor:
-        project<law, first, false>(begins, moves, omega);
-        return;
-    }
+  const bool is_averaged = relaxation.smoother == Smoother::jacobi;
+  float* const to = is_averaged ? mean_.begin() : moves;
+  with_law(law_, [&](auto law) {
+    project<decltype(law)::value>(begins, moves, to,
+                                  relaxation.smoother == Smoother::sor ? omega : 1);
   });
+  if (is_averaged) mean_.add_to(moves, omega);
 }
 
 void GatheredSprings::first_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
-  sweep<true>(begins, moves, relaxation);
-}
-void GatheredSprings::next_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
-  sweep<false>(begins, moves, relaxation);
+  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  next_sweep(begins, moves, relaxation);
 }
 
-template <bool with_multipliers>
-double GatheredSprings::sum_of_squares(const float* begins, const float* moves) const {
+double GatheredSprings::squared_residual(const float* begins, const float* moves) const {
   return with_law(law_, [&](auto constant) {
     constexpr SpringLaw law = decltype(constant)::value;
     Float4 sum = Float4::all(0);
@@ -114,20 +101,17 @@ double GatheredSprings::sum_of_squares(const float* begins, const float* moves) 
     for (const Group& group : groups_) {
       const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
       const auto change = gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b);
-      sum = sum + squared_error<Float4, law, with_multipliers>(in_lanes(d_begin), in_lanes(change),
-                                                               group.block, 0, multiplier);
+      sum = sum + squared_error<Float4, law, true>(in_lanes(d_begin), in_lanes(change), group.block,
+                                                   0, multiplier);
       multiplier += multiplier_floats(law);
     }
     return sum_of_lanes(sum);
   });
 }
 
-double GatheredSprings::squared_residual(const float* begins, const float* moves) const {
-  return sum_of_squares<true>(begins, moves);
-}
-double GatheredSprings::squared_residual_before_sweeps(const float* begins,
-                                                       const float* moves) const {
-  return sum_of_squares<false>(begins, moves);
+double GatheredSprings::squared_residual_before_sweeps(const float* begins, const float* moves) {
+  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  return squared_residual(begins, moves);
 }
 
 }  // namespace pleat

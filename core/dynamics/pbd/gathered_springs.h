@@ -30,7 +30,7 @@ class GatheredSprings {
   /// Sum of (C + compliance/h^2 lambda)^2 [m^2], with the multipliers of the last sweep, or with
   /// none.
   double squared_residual(const float* begins, const float* moves) const;
-  double squared_residual_before_sweeps(const float* begins, const float* moves) const;
+  double squared_residual_before_sweeps(const float* begins, const float* moves);
 
  private:
   struct Group {
@@ -40,12 +40,8 @@ class GatheredSprings {
     SpringBlock block;
   };
 
-  template <SpringLaw law, bool first, bool averaged>
-  void project(const float* begins, float* moves, float omega);
-  template <bool first>
-  void sweep(const float* begins, float* moves, const Relaxation& relaxation);
-  template <bool with_multipliers>
-  double sum_of_squares(const float* begins, const float* moves) const;
+  template <SpringLaw law>
+  void project(const float* begins, const float* moves, float* to, float omega);
 
   SpringLaw law_;
   double h_;          // [s]

@@ -1,5 +1,7 @@
 #include "core/dynamics/pbd/length_groups.h"
 
+#include <limits>
+
 #include "core/base/check.h"
 #include "core/dynamics/pbd/double4.h"
 #include "core/dynamics/pbd/quad_vectors.h"
@@ -42,60 +44,38 @@ LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
 
 // As the rigid law of springs (core/dynamics/xpbd/spring_law.h): with d at the end and g = d +
 // d_begin, (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0, the slope d.g held above L^2 and l^2.
+// Where a length holds from above only, aims above zero, which push, are cut off.
 template <class Quad>
-template <LengthSide side, bool averaged>
-void LengthGroups<Quad>::project(const Real* begins, Real* moves, Real omega, Real stretch) {
-  const Quad zero = Quad::all(0);
+void LengthGroups<Quad>::project(const Real* begins, const Real* moves, Real* to, Real omega,
+                                 Real stretch) {
+  const Quad most =
+      Quad::all(side_ == LengthSide::longer ? Real(0) : std::numeric_limits<Real>::max());
   const Quad half = Quad::all(omega / 2);
   const Quad squared_stretch = Quad::all(stretch * stretch);
-  Real* const sums = averaged ? mean_.begin() : moves;
   for (const Group& group : groups_) {
-    const QuadVectors<Quad> move_a = gather<Quad>(moves, group.a);
-    const QuadVectors<Quad> move_b = gather<Quad>(moves, group.b);
     const QuadVectors<Quad> d_begin = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b);
-    const QuadVectors<Quad> d = d_begin + (move_a - move_b);
+    const QuadVectors<Quad> d =
+        d_begin + (gather<Quad>(moves, group.a) - gather<Quad>(moves, group.b));
     const QuadVectors<Quad> g = d + d_begin;
     const Quad square = dots(d, d);
     const Quad rest = squared_stretch * Quad::load(group.square.data());
-    Quad aim = half * (rest - square);
-    if constexpr (side == LengthSide::longer) aim = min(aim, zero);
+    const Quad aim = min(half * (rest - square), most);
     const Quad slope = max(dots(d, g), max(rest, square));
     const Quad f = aim / slope * Quad::load(group.inverse_w.data());
-    const QuadVectors<Quad> to_a = averaged ? gather<Quad>(sums, group.a) : move_a;
-    const QuadVectors<Quad> to_b = averaged ? gather<Quad>(sums, group.b) : move_b;
-    scatter(to_a + scaled(g, f * Quad::load(group.w_a.data())), sums, group.a);
-    scatter(to_b - scaled(g, f * Quad::load(group.w_b.data())), sums, group.b);
-  }
-}
-
-template <class Quad>
-template <LengthSide side>
-void LengthGroups<Quad>::sweep_side(const Real* begins, Real* moves, const Relaxation& relaxation,
-                                    Real stretch) {
-  const auto omega = static_cast<Real>(relaxation.omega);
-  switch (relaxation.smoother) {
-    case Smoother::none:
-      return;
-    case Smoother::jacobi:
-      project<side, true>(begins, moves, 1, stretch);
-      mean_.add_to(moves, omega);
-      return;
-    case Smoother::gauss_seidel:
-      project<side, false>(begins, moves, 1, stretch);
-      return;
-    case Smoother::sor:
-      project<side, false>(begins, moves, omega, stretch);
-      return;
+    scatter(gather<Quad>(to, group.a) + scaled(g, f * Quad::load(group.w_a.data())), to, group.a);
+    scatter(gather<Quad>(to, group.b) - scaled(g, f * Quad::load(group.w_b.data())), to, group.b);
   }
 }
 
 template <class Quad>
 void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation& relaxation,
                                Real stretch) {
-  if (side_ == LengthSide::both)
-    sweep_side<LengthSide::both>(begins, moves, relaxation, stretch);
-  else
-    sweep_side<LengthSide::longer>(begins, moves, relaxation, stretch);
+  if (relaxation.smoother == Smoother::none) return;
+  const auto omega = static_cast<Real>(relaxation.omega);
+  const bool is_averaged = relaxation.smoother == Smoother::jacobi;
+  project(begins, moves, is_averaged ? mean_.begin() : moves,
+          relaxation.smoother == Smoother::sor ? omega : 1, stretch);
+  if (is_averaged) mean_.add_to(moves, omega);
 }
 
 template class LengthGroups<Float4>;

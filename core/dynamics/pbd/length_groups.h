@@ -59,10 +59,7 @@ class LengthGroups {
     std::array<Real, 4> inverse_w;  // of their sum; 0 where nothing moves
   };
 
-  template <LengthSide side, bool averaged>
-  void project(const Real* begins, Real* moves, Real omega, Real stretch);
-  template <LengthSide side>
-  void sweep_side(const Real* begins, Real* moves, const Relaxation& relaxation, Real stretch);
+  void project(const Real* begins, const Real* moves, Real* to, Real omega, Real stretch);
 
   LengthSide side_ = LengthSide::both;
   std::vector<Group> groups_;

@@ -110,7 +110,6 @@ void SpringProgram::refresh_rest_lengths(const ClothModel& model) { fill_blocks(
 
 void SpringProgram::compute_lane_by_lane() {
   for (OperationStretch& stretch : stretches_) stretch.whole = false;
-  lane_by_lane_ = true;
 }
 
 float* SpringProgram::line_scratch(int row, int channel) {
@@ -123,49 +122,49 @@ float* SpringProgram::line_scratch(int row, int channel) {
 //   - w_{r+1} (d_r.g_{r+1}) f_{r+1} = aim_r,
 // solved by elimination from the first end, substitution from the last. A line held at both ends
 // and drawn tight has one pull too many: kLineSoftness keeps the pulls bounded.
-template <class Lanes, SpringLaw law, bool first>
-void SpringProgram::solve_line(const LaneView& v, const SpringLine& line, int lane) {
-  const Lanes w_largest = eliminate<Lanes, law, first>(v, line, lane);
-  substitute<Lanes, law, first>(v, line, lane, Lanes::all(0.5f * kLargestPull) / w_largest);
+template <SpringLaw law, bool first>
+void SpringProgram::solve_line(const LaneView& v, const SpringLine& line) {
+  const Float4 w_largest = eliminate<law, first>(v, line);
+  substitute<law, first>(v, line, Float4::all(0.5f * kLargestPull) / w_largest);
 }
 
 /// Leaves per row what substitution needs. Returns the largest inverse mass of the line.
-template <class Lanes, SpringLaw law, bool first>
-Lanes SpringProgram::eliminate(const LaneView& v, const SpringLine& line, int lane) {
+template <SpringLaw law, bool first>
+Float4 SpringProgram::eliminate(const LaneView& v, const SpringLine& line) {
   const Operation* const operations = operations_.data() + line.first;
-  const float* const multipliers = multipliers_.data() + kLanes * line.first + lane;
-  const Lanes zero = Lanes::all(0);
-  const int start = operations[0].a + lane;
-  Vec3Lanes<Lanes> begin_a = load<Lanes>(v.begins, start);
-  Vec3Lanes<Lanes> move_a = load<Lanes>(v.moves, start);
-  Lanes w_a = Lanes::load(v.inverse_masses + start);
-  Vec3Lanes<Lanes> d_before{zero, zero, zero};
-  Vec3Lanes<Lanes> g_before = d_before;
-  Lanes inverse_pivot = zero;
-  Lanes solution = zero;
-  Lanes w_largest = w_a + Lanes::all(kRigidCompliance);
+  const float* const multipliers = multipliers_.data() + kLanes * line.first;
+  const Float4 zero = Float4::all(0);
+  const int start = operations[0].a;
+  Vec3Lanes<Float4> begin_a = load<Float4>(v.begins, start);
+  Vec3Lanes<Float4> move_a = load<Float4>(v.moves, start);
+  Float4 w_a = Float4::load(v.inverse_masses + start);
+  Vec3Lanes<Float4> d_before{zero, zero, zero};
+  Vec3Lanes<Float4> g_before = d_before;
+  Float4 inverse_pivot = zero;
+  Float4 solution = zero;
+  Float4 w_largest = w_a + Float4::all(kRigidCompliance);
   for (int row = 0; row < line.n_springs; ++row) {
     const Block& block = blocks_[static_cast<std::size_t>(operations[row].block)];
-    const int b = operations[row].b + lane;
-    const Vec3Lanes<Lanes> begin_b = load<Lanes>(v.begins, b);
-    const Vec3Lanes<Lanes> move_b = load<Lanes>(v.moves, b);
-    const Lanes w_b = Lanes::load(v.inverse_masses + b);
-    const auto spring = linearise<Lanes, law, first>(begin_a - begin_b, move_a - move_b, block,
-                                                     lane, multipliers + kLanes * row);
-    const Lanes diagonal = spring.slope * (Lanes::all(1 + kLineSoftness) * (w_a + w_b) +
-                                           Lanes::load(block.denominator_share.data() + lane));
-    const Lanes lower = w_a * dot(spring.d, g_before);
-    const Lanes upper = w_a * dot(d_before, spring.g) * inverse_pivot;
-    if (row > 0) upper.store(line_scratch(row - 1, kUpper) + lane);
+    const int b = operations[row].b;
+    const Vec3Lanes<Float4> begin_b = load<Float4>(v.begins, b);
+    const Vec3Lanes<Float4> move_b = load<Float4>(v.moves, b);
+    const Float4 w_b = Float4::load(v.inverse_masses + b);
+    const auto spring = linearise<Float4, law, first>(begin_a - begin_b, move_a - move_b, block, 0,
+                                                      multipliers + kLanes * row);
+    const Float4 diagonal = spring.slope * (Float4::all(1 + kLineSoftness) * (w_a + w_b) +
+                                            Float4::load(block.denominator_share.data()));
+    const Float4 lower = w_a * dot(spring.d, g_before);
+    const Float4 upper = w_a * dot(d_before, spring.g) * inverse_pivot;
+    if (row > 0) upper.store(line_scratch(row - 1, kUpper));
     inverse_pivot =
-        Lanes::all(1.0f) / max(diagonal - lower * upper, Lanes::all(kLineSoftness) * diagonal);
+        Float4::all(1.0f) / max(diagonal - lower * upper, Float4::all(kLineSoftness) * diagonal);
     solution = (spring.aim + lower * solution) * inverse_pivot;
-    solution.store(line_scratch(row, kSolution) + lane);
-    spring.g.x.store(line_scratch(row, kDirection) + lane);
-    spring.g.y.store(line_scratch(row, kDirection + 1) + lane);
-    spring.g.z.store(line_scratch(row, kDirection + 2) + lane);
+    solution.store(line_scratch(row, kSolution));
+    spring.g.x.store(line_scratch(row, kDirection));
+    spring.g.y.store(line_scratch(row, kDirection + 1));
+    spring.g.z.store(line_scratch(row, kDirection + 2));
     if constexpr (law != SpringLaw::rigid)
-      (spring.slope / spring.length).store(line_scratch(row, kMultiplierShare) + lane);
+      (spring.slope / spring.length).store(line_scratch(row, kMultiplierShare));
     begin_a = begin_b;
     move_a = move_b;
     w_a = w_b;
@@ -173,36 +172,33 @@ Lanes SpringProgram::eliminate(const LaneView& v, const SpringLine& line, int la
     d_before = spring.d;
     g_before = spring.g;
   }
-  zero.store(line_scratch(line.n_springs - 1, kUpper) + lane);
+  zero.store(line_scratch(line.n_springs - 1, kUpper));
   return w_largest;
 }
 
-template <class Lanes, SpringLaw law, bool first>
-void SpringProgram::substitute(const LaneView& v, const SpringLine& line, int lane,
-                               Lanes largest_pull) {
+template <SpringLaw law, bool first>
+void SpringProgram::substitute(const LaneView& v, const SpringLine& line, Float4 largest_pull) {
   const Operation* const operations = operations_.data() + line.first;
-  float* const multipliers = multipliers_.data() + kLanes * line.first + lane;
-  const Lanes zero = Lanes::all(0);
-  const auto kept = [&](int row, int channel) {
-    return Lanes::load(line_scratch(row, channel) + lane);
-  };
-  Lanes f = zero;
-  Vec3Lanes<Lanes> pull_after{zero, zero, zero};
+  float* const multipliers = multipliers_.data() + kLanes * line.first;
+  const Float4 zero = Float4::all(0);
+  const auto kept = [&](int row, int channel) { return Float4::load(line_scratch(row, channel)); };
+  Float4 f = zero;
+  Vec3Lanes<Float4> pull_after{zero, zero, zero};
   for (int row = line.n_springs - 1; row >= 0; --row) {
-    const int b = operations[row].b + lane;
+    const int b = operations[row].b;
     f = kept(row, kSolution) + kept(row, kUpper) * f;
     f = max(min(f, largest_pull), zero - largest_pull);
-    const Vec3Lanes<Lanes> pull =
-        f * Vec3Lanes<Lanes>{kept(row, kDirection), kept(row, kDirection + 1),
-                             kept(row, kDirection + 2)};
+    const Vec3Lanes<Float4> pull =
+        f * Vec3Lanes<Float4>{kept(row, kDirection), kept(row, kDirection + 1),
+                              kept(row, kDirection + 2)};
     if constexpr (law != SpringLaw::rigid)
       add_to_multiplier<first>(f * kept(row, kMultiplierShare), multipliers + kLanes * row);
-    store(load<Lanes>(v.moves, b) + Lanes::load(v.inverse_masses + b) * (pull_after - pull),
+    store(load<Float4>(v.moves, b) + Float4::load(v.inverse_masses + b) * (pull_after - pull),
           v.moves, b);
     pull_after = pull;
   }
-  const int start = operations[0].a + lane;
-  store(load<Lanes>(v.moves, start) + Lanes::load(v.inverse_masses + start) * pull_after, v.moves,
+  const int start = operations[0].a;
+  store(load<Float4>(v.moves, start) + Float4::load(v.inverse_masses + start) * pull_after, v.moves,
         start);
 }
 
@@ -234,13 +230,7 @@ void SpringProgram::project(const LaneView& view) {
 template <SpringLaw law, bool first>
 void SpringProgram::sweep(const LaneView& view) {
   if constexpr (law != SpringLaw::damped_isotropic) {
-    for (const SpringLine& line : lines_) {
-      if (!lane_by_lane_) {
-        solve_line<Float4, law, first>(view, line, 0);
-        continue;
-      }
-      for (int lane = 0; lane < kLanes; ++lane) solve_line<Float1, law, first>(view, line, lane);
-    }
+    for (const SpringLine& line : lines_) solve_line<law, first>(view, line);
   }
   project<law, first>(view);
 }

@@ -28,7 +28,8 @@ class SpringProgram {
   double squared_residual(const LaneView& view) const;
   double squared_residual_before_sweeps(const LaneView& view) const;
 
-  /// Works on the lanes one after the other: same result, to hold the two against each other.
+  /// Works on the lanes of what is in no line one after the other: same result, to hold the two
+  /// against each other.
   void compute_lane_by_lane();
 
   std::size_t n_operations() const { return operations_.size(); }
@@ -49,12 +50,12 @@ class SpringProgram {
   void sweep(const LaneView& view);
   template <SpringLaw law, bool first>
   void sweep(const LaneView& view);
-  template <class Lanes, SpringLaw law, bool first>
-  void solve_line(const LaneView& view, const SpringLine& line, int lane);
-  template <class Lanes, SpringLaw law, bool first>
-  Lanes eliminate(const LaneView& view, const SpringLine& line, int lane);
-  template <class Lanes, SpringLaw law, bool first>
-  void substitute(const LaneView& view, const SpringLine& line, int lane, Lanes largest_pull);
+  template <SpringLaw law, bool first>
+  void solve_line(const LaneView& view, const SpringLine& line);
+  template <SpringLaw law, bool first>
+  Float4 eliminate(const LaneView& view, const SpringLine& line);
+  template <SpringLaw law, bool first>
+  void substitute(const LaneView& view, const SpringLine& line, Float4 largest_pull);
   float* line_scratch(int row, int channel);
   template <SpringLaw law, bool first>
   void project(const LaneView& view);
@@ -73,7 +74,6 @@ class SpringProgram {
   std::vector<OperationStretch> stretches_;  // the other operations
   std::vector<float> multipliers_;           // a group per operation; 4 with the isotropic damper
   std::vector<float> line_scratch_;          // see solve_line
-  bool lane_by_lane_ = false;
 };
 
 }  // namespace pleat

@@ -50,7 +50,7 @@ export function fabricsText() {
  * program: {target, step, look: () => {rms_stretch, largest_stretch, ...}, positions: () => array,
  *           end: () => more keys of the run}; look is outside of the clock
  */
-function turnsOf(program, frames, times) {
+export function turnsOf(program, frames, times) {
   const run = {
     target: program.target,
     ms: [],

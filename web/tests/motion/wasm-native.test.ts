@@ -16,7 +16,8 @@ const PATIENCE_MS = 60000;
  * Relative to the largest coordinate: rounding, carried through so many smooth steps. xpbd computes in 32 bits, whose
  * rounding is 1e-7.
  */
-const toleranceOf = (stepper: string) => (stepper === 'xpbd' ? 2e-5 : 1e-9);
+const SINGLE_PRECISION = ['xpbd', 'pbd', 'hpbd', 'multigrid'];
+const toleranceOf = (stepper: string) => (SINGLE_PRECISION.includes(stepper) ? 2e-5 : 1e-9);
 
 const sheet = (warp: number[], cells: number) => ({
   cloth: {
@@ -63,6 +64,9 @@ const methods: Record<string, { stepper: string; [detail: string]: unknown }> = 
   'imex, SOR to 1e-12': { stepper: 'imex', solver: 'sor', tolerance: 1e-12 },
   projective: { stepper: 'projective', iterations: 10, solver: 'cholmod' },
   xpbd: { stepper: 'xpbd', substeps: 4, iterations: 2 },
+  pbd: { stepper: 'pbd', substeps: 4, iterations: 2 },
+  hpbd: { stepper: 'hpbd', substeps: 4, iterations: 2 },
+  multigrid: { stepper: 'multigrid', substeps: 4, iterations: 2 },
   explicit: { stepper: 'explicit', substeps: 'stable' },
   rk4: { stepper: 'rk4', substeps: 'stable' },
   newton: { stepper: 'newton' },
