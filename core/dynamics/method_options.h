@@ -61,10 +61,12 @@ struct MethodOptions {
   int substeps = 1;  ///< at least 1; 0, where the stepper has a stability bound: as many as it asks
   int iterations = 1;  ///< projective: local/global rounds; xpbd: sweeps; at least 1
   SolverKind solver = SolverKind::cg;
-  /// implicit and imex with cg or sor: relative residual at which it stops. newton: the last
-  /// correction, in shares of the cloth's extent, which then is already made. In (0, 1).
+  /// implicit and imex with cg or sor: relative residual at which it stops. newton, with any
+  /// solver: the last correction, in shares of the cloth's extent, which then is already made. In
+  /// (0, 1).
   double tolerance = 1e-3;
   double omega = 0;  ///< of sor, in (0, 2), or 0 for an estimate of the best
+  Preconditioner preconditioner = Preconditioner::automatic;  ///< of cg
   ImplicitSplit split = ImplicitSplit::by_stability;
   /// imex: share of the springs that shall be explicit, in [0, 1]: it takes as many substeps more
   /// as that asks for.

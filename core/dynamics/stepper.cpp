@@ -173,7 +173,8 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
     throw InputError("/method/solver",
                      std::string("expected a solver of this build, got ") + name(options.solver) +
                          ", whose source could not be had when it was built; take eigen");
-  return make_linear_solver(options.solver, {options.tolerance, max_iterations, options.omega});
+  return make_linear_solver(
+      options.solver, {options.tolerance, max_iterations, options.omega, options.preconditioner});
 }
 
 void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) {

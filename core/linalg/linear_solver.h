@@ -62,6 +62,8 @@ enum class Preconditioner {
   multigrid,          ///< dear, and equally good on all meshes
 };
 
+const char* name(Preconditioner preconditioner);
+
 struct SolverOptions {
   /// cg, sor: relative residual |b - A x| / |b| at which to stop, in (0, 1)
   double tolerance = 1e-6;
