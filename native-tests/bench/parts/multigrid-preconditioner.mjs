@@ -118,13 +118,40 @@ async function compared(scene, { substeps = 1, ...about }, tolerance, frames, re
   });
 }
 
-export async function preconditioner({ repeat }) {
+/** Goals of the rows that are there. */
+function goalsOf(found, timeOverFactor) {
+  const kSheets = [33, 257].map((n) => `sheet ${n}x${n} by an edge`);
+  const [coarsest, finest] = kSheets.map((scene) => found(scene, 'multigrid', 1e-6));
+  const skirt = found('skirt in a walk', 'multigrid', 1e-6);
+  const growth = coarsest && finest && finest.iterations_per_step / coarsest.iterations_per_step;
+  const timed = { sheet_257: kSheets[1], dress: 'crumpled dress of six pieces' };
+  return [
+    growth && goal('multigrid.iterations_257_over_33', growth, 'at-most', 1.5, [coarsest, finest]),
+    skirt && goal('multigrid.iterations_skirt', skirt.iterations_per_step, 'at-most', 20, [skirt]),
+    ...Object.entries(timed).flatMap(([key, scene]) =>
+      kTolerances.map((tolerance) => {
+        const row = found(scene, 'multigrid', tolerance);
+        const name = `multigrid.${key}_time_over_factor_${tolerance}`;
+        return row && goal(name, timeOverFactor(row), 'at-most', 0.5, [row]);
+      }),
+    ),
+  ];
+}
+
+export const clothOption = {
+  name: 'cloth',
+  type: 'string',
+  usage: '--cloth TEXT      preconditioner: only cloth whose name contains it',
+};
+
+export async function preconditioner({ repeat, options }) {
+  const { cloth = '' } = options;
   const folder = mkdtempSync(join(tmpdir(), 'pleat-dress-'));
   const rows = [];
   try {
     const file = join(folder, 'dress.obj');
     writeFileSync(file, crumpledDress(190, 25, 6));
-    for (const [name, about, frames] of scenesOf(file))
+    for (const [name, about, frames] of scenesOf(file).filter(([name]) => name.includes(cloth)))
       for (const tolerance of kTolerances)
         rows.push(...(await compared(name, about, tolerance, frames, repeat)));
   } finally {
@@ -161,23 +188,7 @@ export async function preconditioner({ repeat }) {
     'of the factor',
     'status',
   ];
-  const finest = found('sheet 257x257 by an edge', 'multigrid', 1e-6);
-  const coarsest = found('sheet 33x33 by an edge', 'multigrid', 1e-6);
-  const skirt = found('skirt in a walk', 'multigrid', 1e-6);
-  const growth = finest.iterations_per_step / coarsest.iterations_per_step;
-  const goals = [
-    goal('multigrid.iterations_257_over_33', growth, 'at-most', 1.5, [finest, coarsest]),
-    goal('multigrid.iterations_skirt', skirt.iterations_per_step, 'at-most', 20, [skirt]),
-  ];
-  for (const [key, scene] of [
-    ['sheet_257', 'sheet 257x257 by an edge'],
-    ['dress', 'crumpled dress of six pieces'],
-  ])
-    for (const tolerance of kTolerances) {
-      const row = found(scene, 'multigrid', tolerance);
-      const name = `multigrid.${key}_time_over_factor_${tolerance}`;
-      goals.push(goal(name, timeOverFactor(row), 'at-most', 0.5, [row]));
-    }
+  const goals = goalsOf(found, timeOverFactor).filter(Boolean);
   const text = `processor time of a step without the first frame; median of ${repeat} runs\n\n${markdown(head, lines)}`;
   return { rows, goals, text };
 }
