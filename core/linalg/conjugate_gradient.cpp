@@ -41,6 +41,7 @@ class ConjugateGradient final : public BlockIteration {
   void do_analyze(const SparseMatrix& lower) override {
     multigrid_ = {};
     turns_left_ = 0;
+    is_multigrid_lost_ = false;
     if (options_.preconditioner != Preconditioner::multigrid) {
       incomplete_.analyze(lower);
       return;
@@ -51,17 +52,19 @@ class ConjugateGradient final : public BlockIteration {
   }
 
   SolveReport do_factorize(const SparseMatrix& lower) override {
-    const bool begins_with_multigrid =
-        options_.preconditioner == Preconditioner::multigrid || turns_left_ > 0;
     if (places_.size() != static_cast<std::size_t>(lower.rows())) places_.clear();
-    active_ = &incomplete_;
     int row = -1;
-    if (begins_with_multigrid) {
-      if (turns_left_ > 0) --turns_left_;
+    if (options_.preconditioner == Preconditioner::multigrid) {
       active_ = &multigrid_;
       row = multigrid_.compute(lower, places_);
     } else {
+      active_ = &incomplete_;
       row = incomplete_.compute(lower);
+    }
+    if (row < 0 && turns_left_ > 0) {
+      --turns_left_;
+      multigrid_.compute(incomplete_.factor(), places_);
+      active_ = &multigrid_;
     }
     if (row < 0) return {};
     return {SolveStatus::not_positive_definite, 0, 0,
@@ -79,7 +82,7 @@ class ConjugateGradient final : public BlockIteration {
 
   bool loses_patience(int iterations) const {
     return options_.preconditioner == Preconditioner::automatic && active_ == &incomplete_ &&
-           iterations >= kPatience;
+           !is_multigrid_lost_ && iterations >= kPatience;
   }
 
   void take_multigrid() {
@@ -113,6 +116,14 @@ class ConjugateGradient final : public BlockIteration {
       const double curvature = active_->turn();
       if (!std::isfinite(curvature))
         return report(SolveStatus::not_finite, "a search direction is not finite");
+      if (curvature <= 0 && active_ == &multigrid_ &&
+          options_.preconditioner == Preconditioner::automatic) {
+        is_multigrid_lost_ = true;
+        turns_left_ = 0;
+        active_ = &incomplete_;
+        start();
+        continue;
+      }
       if (curvature <= 0) {
         return report(SolveStatus::not_positive_definite,
                       "a search direction has no positive curvature");
@@ -137,7 +148,8 @@ class ConjugateGradient final : public BlockIteration {
   MultigridPreconditioning multigrid_;
   Preconditioning* active_ = nullptr;  // of the last factorisation, or which took over since
   std::vector<double> places_;
-  int turns_left_ = 0;  // factorisations that are to begin with multigrid
+  bool is_multigrid_lost_ = false;  // since it was not positive definite in single precision
+  int turns_left_ = 0;              // factorisations that are to begin with multigrid
   double residual_ = 0;
 };
 
