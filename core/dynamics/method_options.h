@@ -87,11 +87,13 @@ struct MethodOptions {
   int iterations = 1;  ///< projective: local/global rounds; xpbd and pbd: sweeps; hpbd and
                        ///< multigrid: cycles; at least 1
   SolverKind solver = SolverKind::cg;
-  /// implicit and imex with cg or sor: relative residual at which it stops. newton: the last
-  /// correction, in shares of the cloth's extent, which then is already made. In (0, 1).
+  /// implicit and imex with cg or sor: relative residual at which it stops. newton, with any
+  /// solver: the last correction, in shares of the cloth's extent, which then is already made. In
+  /// (0, 1).
   double tolerance = 1e-3;
   /// Over-relaxation of sor, in (0, 2), or, as a solver, 0 for an estimate of the best.
   double omega = 0;
+  Preconditioner preconditioner = Preconditioner::automatic;  ///< of cg
   ImplicitSplit split = ImplicitSplit::by_stability;
   /// imex: share of the springs that shall be explicit, in [0, 1]: it takes as many substeps more
   /// as that asks for.

@@ -173,7 +173,12 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
     throw InputError("/method/solver",
                      std::string("expected a solver of this build, got ") + name(options.solver) +
                          ", whose source could not be had when it was built; take eigen");
-  return make_linear_solver(options.solver, {options.tolerance, max_iterations, options.omega});
+  if (!is_available(options.preconditioner))
+    throw InputError("/method/preconditioner",
+                     "expected automatic or incomplete_factor, got multigrid, which the page does "
+                     "without: its meshes are too small for it");
+  return make_linear_solver(
+      options.solver, {options.tolerance, max_iterations, options.omega, options.preconditioner});
 }
 
 void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) {

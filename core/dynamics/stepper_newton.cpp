@@ -22,6 +22,7 @@ constexpr double kLargestShare = 1024;        // of a direction of the projected
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's condition
 constexpr double kShiftFactor = 4;            // the shift follows the steps by this factor
 constexpr double kLinearTolerance = 1e-3;     // relative residual of the first linear solve
+constexpr double kIterativeTolerance = 1e-6;  // relative residual with a solver that has no factor
 constexpr int kMaxLinearIterations = 15;      // with a kept factor; more cost as much as a new one
 constexpr double kSmallestShift = 1e-6;       // of the first one; below, the true Hessian stands
 
@@ -48,11 +49,19 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
   if (is_at_rest() && model.air && model.air->has_wind())
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint in wind, got equilibrium");
+  if (options.solver == SolverKind::sor)
+    throw InputError("/method/solver", "expected cg or a direct solver for newton, got sor");
+  if (is_at_rest() && options.solver == SolverKind::cg)
+    throw InputError("/method/solver",
+                     "expected a direct solver for the rule equilibrium, whose factor tells a rest "
+                     "from a saddle, got cg");
   if (is_at_rest() && model.pins.empty() && !model.gravity.isZero(0))
     throw InputError("/pins", "expected something held, as weight alone has no rest, got nothing");
   refuse_jumping_forces(model, "newton");
   if (model_.contact && options.rule == NewtonRule::backward_euler) hold_.emplace(model_);
-  solver_ = make_solver(options);
+  MethodOptions linear = options;
+  linear.tolerance = kIterativeTolerance;
+  solver_ = make_solver(linear, kMaxSolverIterations);
   solver_->analyze(matrix_.lower());
   base_ = matrix_.lower();
   for (Positions* columns : {&loads_, &gradient_, &direction_, &trial_, &velocities_, &product_})
@@ -172,11 +181,13 @@ void StepperNewton::fill_matrix(ElementHessian hessian) {
 SolveReport StepperNewton::solve_with_new_factor() {
   {
     const StageScope scope(observer_, Stage::factor);
+    solver_->set_places(flat(positions_));
     SolveReport report = solver_->factorize(matrix_.lower());
-    has_factor_ = report.ok();
+    has_factor_ = report.ok() && is_direct(options().solver);
     if (!report.ok()) return report;
   }
   const StageScope scope(observer_, Stage::solve);
+  direction_.setZero();
   return solver_->solve(right_side_, flat(direction_));
 }
 

@@ -31,11 +31,12 @@ constexpr std::array kExplicitSettings = {MethodSetting::substeps, MethodSetting
 constexpr std::array kRk4Settings = {MethodSetting::substeps, MethodSetting::beyond_bound,
                                      MethodSetting::first_contact};
 constexpr std::array kImplicitSettings = {MethodSetting::substeps, MethodSetting::solver,
-                                          MethodSetting::tolerance, MethodSetting::first_contact};
-constexpr std::array kImexSettings = {MethodSetting::substeps,     MethodSetting::solver,
-                                      MethodSetting::tolerance,    MethodSetting::omega,
-                                      MethodSetting::split,        MethodSetting::explicit_share,
-                                      MethodSetting::first_contact};
+                                          MethodSetting::tolerance, MethodSetting::preconditioner,
+                                          MethodSetting::first_contact};
+constexpr std::array kImexSettings = {MethodSetting::substeps,       MethodSetting::solver,
+                                      MethodSetting::tolerance,      MethodSetting::omega,
+                                      MethodSetting::preconditioner, MethodSetting::split,
+                                      MethodSetting::explicit_share, MethodSetting::first_contact};
 constexpr std::array kProjectiveSettings = {MethodSetting::substeps, MethodSetting::iterations,
                                             MethodSetting::solver, MethodSetting::acceleration};
 constexpr std::array kXpbdSettings = {MethodSetting::substeps, MethodSetting::iterations,
@@ -52,7 +53,8 @@ constexpr std::array kMultigridSettings = {
     MethodSetting::ratio,    MethodSetting::level_lengths, MethodSetting::smoother_before,
     MethodSetting::smoother, MethodSetting::omega,         MethodSetting::attachments};
 constexpr std::array kNewtonSettings = {MethodSetting::substeps, MethodSetting::solver,
-                                        MethodSetting::tolerance, MethodSetting::rule};
+                                        MethodSetting::tolerance, MethodSetting::preconditioner,
+                                        MethodSetting::rule};
 
 constexpr std::array<MethodCounts, 1> kStable = {{{0, 1}}};
 constexpr std::array<MethodCounts, 2> kOneOrFour = {{{1, 1}, {4, 1}}};
@@ -267,7 +269,7 @@ constinit const StepperType steppers::kNewton = {
     .tolerance = kNewtonTolerance,
     // A looser newton is no newton: its equations would be as wrong as those of one linearisation.
     .largest_tolerance = 1e-6,
-    .needs_factor = true,
+    .prefers_factor = true,
     .solves_equations = true,
     .solves_whole_substeps = true,
     .usual_counts = kOneOrFour,
@@ -299,6 +301,8 @@ const char* key(MethodSetting setting) {
       return "tolerance";
     case MethodSetting::omega:
       return "omega";
+    case MethodSetting::preconditioner:
+      return "preconditioner";
     case MethodSetting::split:
       return "split";
     case MethodSetting::constraints:
@@ -337,7 +341,7 @@ MethodOptions StepperType::usual_method() const {
   method.substeps = start.substeps;
   method.iterations = start.iterations;
   method.tolerance = tolerance;
-  method.solver = needs_factor ? best_direct_solver() : solver;
+  method.solver = needs_factor || prefers_factor ? best_direct_solver() : solver;
   if (set_start != nullptr) set_start(method);
   return method;
 }

@@ -20,6 +20,7 @@ enum class MethodSetting {
   solver,
   tolerance,
   omega,
+  preconditioner,
   split,
   constraints,
   rule,
@@ -36,17 +37,14 @@ enum class MethodSetting {
   attachments
 };
 
-constexpr std::array<MethodSetting, 19> kMethodSettings = {
-    MethodSetting::substeps,        MethodSetting::iterations,
-    MethodSetting::solver,          MethodSetting::tolerance,
-    MethodSetting::omega,           MethodSetting::split,
-    MethodSetting::constraints,     MethodSetting::rule,
-    MethodSetting::acceleration,    MethodSetting::explicit_share,
-    MethodSetting::euler,           MethodSetting::beyond_bound,
-    MethodSetting::first_contact,   MethodSetting::levels,
-    MethodSetting::ratio,           MethodSetting::level_lengths,
-    MethodSetting::smoother_before, MethodSetting::smoother,
-    MethodSetting::attachments};
+constexpr std::array<MethodSetting, 20> kMethodSettings = {
+    MethodSetting::substeps,     MethodSetting::iterations,     MethodSetting::solver,
+    MethodSetting::tolerance,    MethodSetting::omega,          MethodSetting::preconditioner,
+    MethodSetting::split,        MethodSetting::constraints,    MethodSetting::rule,
+    MethodSetting::acceleration, MethodSetting::explicit_share, MethodSetting::euler,
+    MethodSetting::beyond_bound, MethodSetting::first_contact,  MethodSetting::levels,
+    MethodSetting::ratio,        MethodSetting::level_lengths,  MethodSetting::smoother_before,
+    MethodSetting::smoother,     MethodSetting::attachments};
 
 /// Spelled as in scenes.
 const char* key(MethodSetting setting);
@@ -76,7 +74,7 @@ struct StepperType {
   const char* iterations_meaning = "";  ///< the same of iterations, where it reads them
   /// Used where a scene says nothing.
   MethodCounts start = {};
-  SolverKind solver = SolverKind::cg;  ///< where it needs no factor
+  SolverKind solver = SolverKind::cg;  ///< where it has no use for a factor
   double tolerance = MethodOptions{}.tolerance;
   double largest_tolerance = 1;  ///< excluded when 1
   /// What else it starts from; null: from the defaults of MethodOptions.
@@ -87,6 +85,7 @@ struct StepperType {
   bool needs_springs = false;          ///< works on springs with quadratic bending alone
   bool needs_factor = false;           ///< its solver is a direct one
   bool is_single_precision = false;    ///< inside a step
+  bool prefers_factor = false;         ///< the same where a scene says nothing
   bool solves_equations = false;       ///< which may be left unsolved in part
   bool solves_whole_substeps = false;  ///< at once, so that its error is that of its substeps
 

@@ -57,6 +57,7 @@ SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& 
   SolveReport report;
   {
     const StageScope scope(observer, Stage::factor);
+    solver_->set_places(flat(state.positions));
     report = solver_->factorize(matrix.lower());
   }
   if (!report.ok()) return report;

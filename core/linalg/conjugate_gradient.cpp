@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/linalg/block_iteration.h"
-#include "core/linalg/incomplete_factor.h"
+#include "core/linalg/incomplete_preconditioning.h"
+#include "core/linalg/multigrid_preconditioning.h"
 
 namespace pleat {
 namespace {
@@ -18,59 +19,74 @@ constexpr double kTrustedTolerance = 1e-8;
 /// A fresh residual must be at most this share of the one before, else rounding has the last word.
 constexpr double kLeastProgress = 0.5;
 
-/// Steps between looks at the residual.
+/// Steps between close looks at the residual.
 constexpr int kLookEvery = 4;
 
-/// It iterates on W = (P + L)^-1 A (P + L')^-1 of an incomplete factor, in the metric of P: x moves
-/// along t = (P + L')^-1 p, and the residual of A x = b is (P + L) r.
+/// Steps with an incomplete factor after which multigrid takes over. Its levels take as long as 40
+/// of them, a step of it as long as 4.
+constexpr int kPatience = 60;
+
+/// Factorisations in a row that begin with multigrid once it had to take over: then the incomplete
+/// factor is tried again, at a twentieth of what they took.
+constexpr int kMultigridTurns = 15;
+
 class ConjugateGradient final : public BlockIteration {
  public:
   explicit ConjugateGradient(const SolverOptions& options) : BlockIteration(options) {}
 
+  void set_places(const Eigen::Ref<const Eigen::VectorXd>& places) override {
+    places_.assign(places.data(), places.data() + places.size());
+  }
+
   void do_analyze(const SparseMatrix& lower) override {
-    factor_.analyze(lower);
-    for (std::vector<double>* vector : {&r_, &z_, &p_, &t_, &s_})
-      vector->resize(static_cast<std::size_t>(lower.rows()));
+    multigrid_.reset();
+    turns_left_ = 0;
+    is_multigrid_lost_ = false;
+    incomplete_.analyze(lower);
   }
 
   SolveReport do_factorize(const SparseMatrix& lower) override {
-    const int row = factor_.compute(lower);
-    if (row < 0) return {};
-    return {SolveStatus::not_positive_definite, 0, 0,
-            "diagonal block of row " + std::to_string(rows().source(row)) +
-                " is not positive definite"};
+    if (places_.size() != static_cast<std::size_t>(lower.rows())) places_.clear();
+    active_ = &incomplete_;
+    const int row = incomplete_.compute(lower);
+    if (row >= 0)
+      return {SolveStatus::not_positive_definite, 0, 0,
+              "diagonal block of row " + std::to_string(ordered()->source(row)) +
+                  " is not positive definite"};
+    if (turns_left_ > 0)
+      --turns_left_;
+    else if (options_.preconditioner != Preconditioner::multigrid || is_multigrid_lost_)
+      return {};
+    take_multigrid();
+    return {};
   }
 
  private:
-  const BlockMatrix& rows() const { return factor_.rows(); }
-  const BlockMatrix* ordered() const override { return &rows(); }
+  const BlockMatrix* ordered() const override { return &incomplete_.factor().rows(); }
 
-  /// Starts from x, without a direction yet.
-  void start() {
-    factor_.multiply(x_.data(), r_.data());
-    for (std::size_t k = 0; k < r_.size(); ++k) r_[k] = b_[k] - r_[k];
-    residual_ = norm(r_);
-    factor_.solve_lower(r_.data(), r_.data());
-    std::fill(p_.begin(), p_.end(), 0.0);
-    std::fill(s_.begin(), s_.end(), 0.0);
-    r_z_ = factor_.multiply_pivots(r_.data(), z_.data());
-    ratio_ = residual_ / std::sqrt(r_z_);
-    beta_ = 0;
+  void start() { residual_ = active_->start(b_, x_); }
+
+  bool loses_patience(int iterations) const {
+    return is_available(Preconditioner::multigrid) &&
+           options_.preconditioner == Preconditioner::automatic && active_ == &incomplete_ &&
+           !is_multigrid_lost_ && iterations >= kPatience;
   }
 
-  void turn() {
-    for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = z_[k] + beta_ * p_[k];
-  }
-
-  void advance(double alpha) {
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      x_[k] += alpha * t_[k];
-      r_[k] -= alpha * (t_[k] + s_[k]);
-      s_[k] = 0;
+  void take_multigrid() {
+    if (!multigrid_) {
+      multigrid_ = make_multigrid_preconditioning();
+      multigrid_->analyze(incomplete_.factor().rows());
     }
-    const double last_r_z = r_z_;
-    r_z_ = factor_.multiply_pivots(r_.data(), z_.data());
-    beta_ = r_z_ / last_r_z;
+    multigrid_->compute(incomplete_.factor(), places_);
+    active_ = multigrid_.get();
+  }
+
+  /// Where its single precision loses a matrix, the incomplete factor goes on.
+  void lose_multigrid() {
+    is_multigrid_lost_ = true;
+    turns_left_ = 0;
+    active_ = &incomplete_;
+    start();
   }
 
   SolveReport solve_column(double b_norm) override {
@@ -89,24 +105,29 @@ class ConjugateGradient final : public BlockIteration {
     while (!(residual_ <= goal)) {
       if (iterations == options_.max_iterations)
         return report(SolveStatus::not_converged, "the iteration cap was reached");
-      turn();
-      const double curvature = factor_.apply(p_.data(), t_.data(), s_.data());
+      if (loses_patience(iterations)) {
+        take_multigrid();
+        turns_left_ = kMultigridTurns;
+        start();
+        continue;
+      }
+      const double curvature = active_->turn();
       if (!std::isfinite(curvature))
         return report(SolveStatus::not_finite, "a search direction is not finite");
+      if (curvature <= 0 && active_ != &incomplete_) {
+        lose_multigrid();
+        continue;
+      }
       if (curvature <= 0) {
         return report(SolveStatus::not_positive_definite,
                       "a search direction has no positive curvature");
       }
-      advance(r_z_ / curvature);
+      active_->advance(curvature, x_);
       ++iterations;
 
-      // |(P + L) r| takes half a product: it is looked at now and then, and when |r|, in the metric
-      // of P, has fallen as far as it has to by the ratio that both had last.
-      residual_ = ratio_ * std::sqrt(r_z_);
-      const bool is_last = iterations == options_.max_iterations;
-      if (residual_ > goal && iterations % kLookEvery != 0 && !is_last) continue;
-      residual_ = factor_.norm_of_lower_product(r_.data());
-      ratio_ = residual_ / std::sqrt(r_z_);
+      const bool looks = iterations % kLookEvery == 0 || iterations == options_.max_iterations;
+      residual_ = active_->residual(
+          goal, looks ? Preconditioning::Look::close : Preconditioning::Look::passing);
       if (residual_ > goal || options_.tolerance >= kTrustedTolerance) continue;
 
       start();
@@ -117,17 +138,13 @@ class ConjugateGradient final : public BlockIteration {
     return report(SolveStatus::ok, "");
   }
 
-  IncompleteFactor factor_;
-  // Vectors in the order of rows().
-  std::vector<double> r_;
-  std::vector<double> z_;  // P r
-  std::vector<double> p_;
-  std::vector<double> t_;
-  std::vector<double> s_;  // W p - t
-  double residual_ = 0;    // |b - A x|, as far as it is known
-  double r_z_ = 0;         // r'z
-  double ratio_ = 0;       // of the residual to the root of r'z, when both were last known
-  double beta_ = 0;
+  IncompletePreconditioning incomplete_;
+  std::unique_ptr<MultigridPreconditioning> multigrid_;  // once it is needed
+  Preconditioning* active_ = nullptr;  // of the last factorisation, or which took over since
+  std::vector<double> places_;
+  bool is_multigrid_lost_ = false;  // since it was not positive definite in single precision
+  int turns_left_ = 0;              // factorisations that are to begin with multigrid
+  double residual_ = 0;
 };
 
 }  // namespace

@@ -6,8 +6,12 @@
 
 namespace pleat {
 
-/// Conjugate gradients on 3 x 3 blocks, preconditioned by an incomplete factor, one right-hand side
-/// after the other. The size of the matrix is a multiple of 3.
+/// Conjugate gradients on 3 x 3 blocks, one right-hand side after the other, preconditioned by an
+/// incomplete factor or by multigrid. The size of the matrix is a multiple of 3.
+///
+/// The automatic choice begins with the incomplete factor. If that takes more than 60 iterations,
+/// multigrid goes on from there and begins in the next 15 factorisations. Where its single
+/// precision makes it indefinite, the incomplete factor goes on until the next `analyze`.
 ///
 /// Stops at |b - A x| <= tolerance |b|; reaching the cap is reported as not_converged with the last
 /// x. The report's iterations are the sum over the right-hand sides, its residual is the largest.

@@ -43,11 +43,11 @@ bool reaches(const double* B, double least) {
   return !(a > 0 && minor > 0 && determinant > 0);
 }
 
-/// B -= S for a packed symmetric S.
-void subtract_packed(const double* S, double* B) {
+/// B += factor S for a packed symmetric S.
+void add_packed(double factor, const double* S, double* B) {
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
-      B[3 * r + c] -= r < c ? S[c * (c + 1) / 2 + r] : S[r * (r + 1) / 2 + c];
+      B[3 * r + c] += factor * (r < c ? S[c * (c + 1) / 2 + r] : S[r * (r + 1) / 2 + c]);
 }
 
 /// T -= B S B' for packed symmetric S and T.
@@ -80,7 +80,8 @@ void IncompleteFactor::lift_positive_parts() {
                                                      trace(N_.diagonal_block(part.column)));
       if (!reaches(N_.block(k), least)) continue;
       part.positive = positive_part(N_.block(k));
-      subtract_packed(part.positive.data(), N_.block(k));
+      add_packed(-1, part.positive.data(), N_.block(k));
+      part.block = k;
       lifted_.push_back(part);
     }
   }
@@ -121,6 +122,15 @@ void IncompleteFactor::subtract_lifted(const double* x, double* y) const {
       y[3 * lifted.row + k] -= force[k];
       y[3 * lifted.column + k] += force[k];
     }
+  }
+}
+
+void IncompleteFactor::copy_matrix(BlockMatrix& A) const {
+  A = N_;
+  for (const Lifted& lifted : lifted_) {
+    add_packed(1, lifted.positive.data(), A.block(lifted.block));
+    for (const int row : {lifted.row, lifted.column})
+      for (std::size_t i = 0; i < kPackedSize; ++i) A.diagonal_block(row)[i] -= lifted.positive[i];
   }
 }
 

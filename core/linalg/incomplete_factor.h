@@ -34,6 +34,9 @@ class IncompleteFactor {
   /// Order and size.
   const BlockMatrix& rows() const { return N_; }
 
+  /// Gives A, which has the same pattern and order, its values.
+  void copy_matrix(BlockMatrix& A) const;
+
   /// y = A x. x and y do not overlap.
   void multiply(const double* x, double* y) const;
 
@@ -52,7 +55,7 @@ class IncompleteFactor {
 
  private:
   struct Lifted {
-    int row, column;
+    int row, column, block;
     std::array<double, kPackedSize> positive;
   };
 

@@ -69,6 +69,18 @@ const char* name(SolverKind kind) {
   return "";
 }
 
+const char* name(Preconditioner preconditioner) {
+  switch (preconditioner) {
+    case Preconditioner::automatic:
+      return "automatic";
+    case Preconditioner::incomplete_factor:
+      return "incomplete_factor";
+    case Preconditioner::multigrid:
+      return "multigrid";
+  }
+  return "";
+}
+
 bool is_direct(SolverKind kind) { return kind != SolverKind::cg && kind != SolverKind::sor; }
 
 void SolverOptions::validate() const {
@@ -83,6 +95,15 @@ bool is_available(SolverKind kind) {
   return true;
 #else
   return kind != SolverKind::cholmod;
+#endif
+}
+
+bool is_available(Preconditioner preconditioner) {
+#ifdef PLEAT_HAS_MULTIGRID
+  static_cast<void>(preconditioner);
+  return true;
+#else
+  return preconditioner != Preconditioner::multigrid;
 #endif
 }
 

@@ -12,7 +12,8 @@ namespace pleat {
 ///
 /// Call `analyze` once per sparsity pattern, `factorize` once per set of values, `solve` as often
 /// as wanted. None of the three allocates in our code when called again with the same pattern and
-/// number of columns, but for a list of cg that may grow with the values. Throws ContractError when
+/// number of columns, but for a list of cg that may grow with the values and what multigrid needs
+/// when it first takes over. Throws ContractError when
 /// the calls come in another order or sizes disagree; numeric trouble is reported.
 class LinearSolver {
  public:
@@ -23,6 +24,10 @@ class LinearSolver {
 
   /// `lower` has the pattern last analysed.
   SolveReport factorize(const SparseMatrix& lower);
+
+  /// Where the vertices are to which the unknowns belong, three each [m]: some solvers are faster
+  /// for it. Of effect from the next factorisation on; sizes that differ count as not known.
+  virtual void set_places(const Eigen::Ref<const Eigen::VectorXd>& /*places*/) {}
 
   /// rhs       n x m right-hand sides
   /// solution  n x m; an iterative solver starts from what it holds, if that is better than zero
@@ -50,17 +55,30 @@ bool is_direct(SolverKind kind);
 
 const char* name(SolverKind kind);
 
+/// What cg has for an approximate inverse.
+enum class Preconditioner {
+  automatic,          ///< an incomplete factor; multigrid where that turns out to take too long
+  incomplete_factor,  ///< cheap, but the finer the mesh the less it helps
+  multigrid,          ///< dear, and equally good on all meshes
+};
+
+const char* name(Preconditioner preconditioner);
+
 struct SolverOptions {
   /// cg, sor: relative residual |b - A x| / |b| at which to stop, in (0, 1)
   double tolerance = 1e-6;
   int max_iterations = 1000;  ///< cg, sor: cap, at least 1; reaching it is reported
   double omega = 0;           ///< sor: in (0, 2), or 0 for an estimate of the best
+  Preconditioner preconditioner = Preconditioner::automatic;  ///< cg
 
   void validate() const;  ///< throws ContractError
 };
 
 /// False for cholmod where SuiteSparse's source could not be had when this was built.
 bool is_available(SolverKind kind);
+
+/// False for multigrid in the page's modules, whose meshes are too small for it.
+bool is_available(Preconditioner preconditioner);
 
 /// The direct solver to prefer: cholmod where there is one, else eigen.
 SolverKind best_direct_solver();

@@ -11,6 +11,11 @@ constexpr std::array<Word<SolverKind>, 5> kSolvers{{{"cholmod", SolverKind::chol
                                                     {"cg", SolverKind::cg},
                                                     {"sor", SolverKind::sor}}};
 
+constexpr std::array<Word<Preconditioner>, 3> kPreconditioners{
+    {{"automatic", Preconditioner::automatic},
+     {"incomplete_factor", Preconditioner::incomplete_factor},
+     {"multigrid", Preconditioner::multigrid}}};
+
 constexpr std::array<Word<Constraints>, 2> kConstraints{
     {{"compliant", Constraints::compliant}, {"rigid", Constraints::rigid}}};
 
@@ -111,6 +116,9 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
     case MethodSetting::omega:
       method.omega = read_omega(reader);
       return;
+    case MethodSetting::preconditioner:
+      method.preconditioner = reader.word(kPreconditioners);
+      return;
     case MethodSetting::split:
       method.split = reader.word(kSplits);
       return;
@@ -156,14 +164,11 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
   }
 }
 
-/// True where the solver or a smoother over-relaxes.
-bool reads_omega(const MethodOptions& method) {
-  const auto relaxes = [](Smoother smoother) {
-    return smoother == Smoother::sor || smoother == Smoother::jacobi;
-  };
-  if (method.stepper->reads(MethodSetting::smoother))
-    return relaxes(method.smoother_before) || relaxes(method.smoother_after);
-  return method.solver == SolverKind::sor;
+/// True where a smoother of the method reads omega.
+bool relaxes(const MethodOptions& method) {
+  for (const Smoother smoother : {method.smoother_before, method.smoother_after})
+    if (smoother == Smoother::sor || smoother == Smoother::jacobi) return true;
+  return false;
 }
 
 Json json_substeps(int substeps) { return substeps == 0 ? Json(kStableSubsteps) : Json(substeps); }
@@ -180,6 +185,8 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
       return method.tolerance;
     case MethodSetting::omega:
       return method.omega > 0 ? Json(method.omega) : Json(kEstimatedOmega);
+    case MethodSetting::preconditioner:
+      return word_for(kPreconditioners, method.preconditioner);
     case MethodSetting::split:
       return word_for(kSplits, method.split);
     case MethodSetting::constraints:
@@ -259,6 +266,15 @@ Json json_stepper(const StepperType& type) {
   return json;
 }
 
+/// Refuses a choice for another solver.
+void expect_solver(SolverKind solver, const JsonReader& reader, MethodSetting setting,
+                   const MethodOptions& method) {
+  if (method.solver == solver) return;
+  reader.at(key(setting))
+      .fail(std::string("no such key beside the solver ") + word_for(kSolvers, method.solver) +
+            ", but beside " + word_for(kSolvers, solver));
+}
+
 }  // namespace
 
 MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
@@ -269,11 +285,13 @@ MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
   if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
   for (const MethodSetting setting : type.settings)
     if (const auto at = reader.find(key(setting))) read_setting(setting, *at, method);
-  if (method.omega > 0 && !reads_omega(method))
-    reader.at(key(MethodSetting::omega)).fail(type.reads(MethodSetting::smoother)
-                 ? "no such key beside a smoother other than sor and jacobi"
-                 : std::string("no such key beside the solver ") +
-                       word_for(kSolvers, method.solver) + ", but beside sor");
+  if (method.omega > 0 && type.reads(MethodSetting::smoother) && !relaxes(method))
+    reader.at(key(MethodSetting::omega))
+        .fail("no such key beside a smoother other than sor and jacobi");
+  if (method.omega > 0 && type.reads(MethodSetting::solver))
+    expect_solver(SolverKind::sor, reader, MethodSetting::omega, method);
+  if (method.preconditioner != Preconditioner::automatic)
+    expect_solver(SolverKind::cg, reader, MethodSetting::preconditioner, method);
   return method;
 }
 

@@ -89,7 +89,8 @@ void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
     if (!type->reads(setting)) method.erase(key(setting));
   if (type->has_stability_bound || method.value("substeps", Json()).is_string())
     method.erase("substeps");
-  if (type->needs_factor && method.value("solver", Json()) == "cg") method.erase("solver");
+  if ((type->needs_factor || type->prefers_factor) && method.value("solver", Json()) == "cg")
+    method.erase("solver");
   if (type->largest_tolerance < 1) method.erase("tolerance");  // that of another stepper's solves
 }
 

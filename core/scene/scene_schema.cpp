@@ -19,6 +19,8 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
     case MethodSetting::solver:
       if (type.needs_factor)
         schema["enum"] = Json::array({"cholmod", "supernodal", "eigen"});
+      else if (type.prefers_factor)
+        schema["enum"] = Json::array({"cholmod", "supernodal", "eigen", "cg"});
       else
         schema["default"] = name(usual.solver);
       break;
@@ -36,6 +38,7 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
       schema["default"] = usual.level_lengths == LevelLengths::surface ? "surface" : "chord";
       break;
     case MethodSetting::omega:
+    case MethodSetting::preconditioner:
     case MethodSetting::split:
     case MethodSetting::rule:
     case MethodSetting::acceleration:

@@ -99,6 +99,8 @@ std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;
   std::string text = method.stepper->name;
   if (method.stepper->reads(MethodSetting::solver)) text += std::string(" ") + name(method.solver);
+  if (method.preconditioner != Preconditioner::automatic)
+    text += std::string(" with ") + name(method.preconditioner);
   text += ", " + step_phrase(method.step);
   if (row.n_substeps > 0) text += " x " + std::to_string(row.n_substeps);
   if (method.iterations > 1) text += " x " + std::to_string(method.iterations);
