@@ -1,11 +1,10 @@
 // ./pleat bench multigrid (--help tells the options)
-// What coarser levels save where cloth has many vertices.
+// What coarser levels save: position-based steps against a plain loop, and solves of implicit steps.
 import { runParts } from './parts/bench-parts.mjs';
+import { loop, loopOptions } from './parts/loop-contest.mjs';
 import { clothOption, preconditioner } from './parts/multigrid-preconditioner.mjs';
 
-await runParts(
-  'multigrid',
-  'what coarser levels save where cloth has many vertices',
-  { preconditioner },
-  [clothOption],
-);
+await runParts('multigrid', 'what coarser levels save', { loop, preconditioner }, [
+  ...loopOptions,
+  clothOption,
+]);

@@ -13,7 +13,11 @@ const kStep = 1 / 60; // [s]
 const kTolerances = [1e-3, 1e-6];
 const kPreconditioners = ['incomplete_factor', 'multigrid', 'automatic'];
 
-const kLevel = [[0, 1.5, 0], [1, 0, 0], [0, 0, 1]];
+const kLevel = [
+  [0, 1.5, 0],
+  [1, 0, 0],
+  [0, 0, 1],
+];
 const kEdge = [{ part: 'upper_edge' }];
 const kCorners = [{ part: 'upper_left' }, { part: 'lower_left' }];
 const kBall = { colliders: [{ sphere: { centre_m: [0, 0.6, 0], radius_m: 0.25 } }] };
@@ -160,9 +164,7 @@ export async function preconditioner({ repeat, options }) {
   const found = (scene, preconditioner, tolerance) =>
     rows.find(
       (row) =>
-        row.scene === scene &&
-        row.preconditioner === preconditioner &&
-        row.tolerance === tolerance,
+        row.scene === scene && row.preconditioner === preconditioner && row.tolerance === tolerance,
     );
   const timeOverFactor = (row) =>
     row.ms_per_step / found(row.scene, 'incomplete_factor', row.tolerance).ms_per_step;
