@@ -300,7 +300,8 @@ Json json_method(const MethodOptions& method) {
   json["stepper"] = method.stepper->name;
   json["step_s"] = method.step;
   for (const MethodSetting setting : method.stepper->settings)
-    json[key(setting)] = json_setting(setting, method);
+    if (setting != MethodSetting::preconditioner || method.solver == SolverKind::cg)
+      json[key(setting)] = json_setting(setting, method);
   return json;
 }
 

@@ -24,7 +24,8 @@ TEST_CASE("hard-cases command: a table of cases by steppers, and what is asked",
                              "zero_length_springs", "weights_all_zero"});
   CHECK(ending.status == 0);
   CHECK(has(ending.out, "| case | implicit | imex |"));
-  CHECK(has(ending.out, "| zero_length_springs | ok | ok | ok | ok | ok | ok | ok | ok | ok | ok | |"));
+  CHECK(has(ending.out,
+            "| zero_length_springs | ok | ok | ok | ok | ok | ok | ok | ok | ok | ok | |"));
   CHECK(has(ending.out, "| pin_named_twice | refused [1] | refused [1] |"));
   CHECK(has(ending.out, "| weights_all_zero | | | | | | | | | | | refused [2] |"));
   CHECK(has(ending.out, "1. the input is bad: /pins/1: expected one motion for each vertex"));

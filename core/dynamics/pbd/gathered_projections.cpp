@@ -72,6 +72,19 @@ Relaxation relaxation(Smoother smoother, double omega) {
   return {smoother, omega};
 }
 
+/// Levels without the lengths of vertices that hang: these follow their parents, and would hold
+/// what is joined to them as pins do.
+MeshHierarchy hierarchy_of(const ClothModel& model, const MethodOptions& options) {
+  if (options.levels == 0 || model.surface.triangles.empty()) return {};
+  MeshHierarchy hierarchy =
+      mesh_hierarchy(model.surface, pinned(model), hierarchy_options(options));
+  for (MeshLevel& level : hierarchy.levels)
+    std::erase_if(level.edges, [&](const LevelEdge& edge) {
+      return model.hangs(level.vertices[edge.a]) || model.hangs(level.vertices[edge.b]);
+    });
+  return hierarchy;
+}
+
 class GatheredProjections final : public Projections {
  public:
   GatheredProjections(const ClothModel& model, const MethodOptions& options,
@@ -82,10 +95,9 @@ class GatheredProjections final : public Projections {
         vertices_(layout.n_slots),
         springs_(model, layout, law, h),
         bends_(model, layout, h),
-        hanging_(model, layout, law, h) {
+        hanging_(model, layout, law, h),
+        hierarchy_(hierarchy_of(model, options)) {
     for (const LaneLayout::Place& place : layout.places) slots_.push_back(place.slot);
-    if (options.levels > 0 && !model.surface.triangles.empty())
-      hierarchy_ = mesh_hierarchy(model.surface, pinned(model), hierarchy_options(options));
   }
 
   void refresh_pins(const ClothModel& model, const float* inverse_masses) override {
@@ -182,8 +194,8 @@ class GatheredProjections final : public Projections {
   GatheredSprings springs_;
   GatheredBends bends_;
   HangingProgram hanging_;
-  std::vector<int> slots_;  // of each vertex
   MeshHierarchy hierarchy_;
+  std::vector<int> slots_;  // of each vertex
   CoarseLevels<Float4> levels_;
   LengthGroups<Float4> attachments_;
   std::vector<PlaceLength> between_pins_;  // by their slots
