@@ -56,6 +56,8 @@ const char* const kFurtherScenes[] = {
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "multigrid", "smoother_before": "sor",
         "omega": 1.2, "level_lengths": "chord", "attachments": "none", "ratio": 0.5, "levels": 2}})",
+    R"({"cloth": {"sheet": {}}, "method": {"stepper": "newton", "solver": "cg",
+        "preconditioner": "multigrid"}})",
     R"({"cloth": {"sheet": {}}, "world": {"contact_response": "uniform"}})",
     R"({"cloth": {"sheet": {}}, "model": {"elasticity": "membrane", "stiffening_strain": 0.06}})",
     R"({"cloth": {"particles": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "masses_kg": [1, 1, 1],

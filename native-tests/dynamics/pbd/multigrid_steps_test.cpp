@@ -60,7 +60,7 @@ double rms_stretch(const ClothModel& model, const Positions& x) {
 }  // namespace
 
 TEST_CASE("multigrid: a sheet that hangs at rest stays there for 10 s, in any order of springs",
-          "[dynamics]") {
+          "[dynamics][long]") {
   const std::uint64_t seed = GENERATE(1U, 2U);
   Held sheet = held_sheet(square_sheet(16), By::edge);
   REQUIRE(sheet.model.surface.rest_positions.row(1).maxCoeff() >
