@@ -315,6 +315,7 @@ void Coarsening<B>::restrict_to(const float* r, float* b) const {
 }
 
 template <int B>
+// NOLINTNEXTLINE(readability-non-const-parameter): it is written, in a form that is not seen.
 void Coarsening<B>::add_prolonged(const float* e, float* x) const {
   const int n = static_cast<int>(begins_.size()) - 1;
   for (int row = 0; row < n; ++row) {

@@ -253,7 +253,7 @@ bool EdgeCollapse::reach(int n_vertices) {
 std::vector<VertexId> EdgeCollapse::vertices() const {
   std::vector<VertexId> left;
   for (std::size_t v = 0; v < versions_.size(); ++v)
-    if (versions_[v] >= 0) left.push_back(VertexId(static_cast<std::int64_t>(v)));
+    if (versions_[v] >= 0) left.emplace_back(static_cast<std::int64_t>(v));
   return left;
 }
 

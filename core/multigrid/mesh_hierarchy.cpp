@@ -66,7 +66,7 @@ std::vector<VertexId> kept_of(const MeshLevel& finer, const MeshLevel& coarser) 
   auto at = finer.vertices.begin();
   for (const VertexId v : coarser.vertices) {
     at = std::lower_bound(at, finer.vertices.end(), v);
-    kept.push_back(VertexId(at - finer.vertices.begin()));
+    kept.emplace_back(at - finer.vertices.begin());
   }
   return kept;
 }

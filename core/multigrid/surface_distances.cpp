@@ -161,6 +161,7 @@ std::vector<double> SurfaceDistances::to(VertexId start, const std::vector<Verte
     if (nearest.vertex == start || can_turn_[nearest.vertex]) go_straight(nearest.vertex, limit);
   }
   std::vector<double> found;
+  found.reserve(ends.size());
   for (const VertexId v : ends) found.push_back(distance_[v]);
   for (const VertexId v : touched_) distance_[v] = -1;
   touched_.clear();

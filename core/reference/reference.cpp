@@ -39,6 +39,7 @@ Json header_json(const Reference& reference, Precision precision) {
 
 template <class Number>
 void append_positions(const Positions& positions, std::string& bytes) {
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): a double is cast too
   const Eigen::Matrix<Number, 3, Eigen::Dynamic> numbers = positions.cast<Number>();
   bytes.append(reinterpret_cast<const char*>(numbers.data()),
                static_cast<std::size_t>(numbers.size()) * sizeof(Number));

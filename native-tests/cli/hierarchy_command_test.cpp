@@ -35,7 +35,7 @@ struct SheetFolder {
                       {}});
   }
 
-  Ending run(std::vector<std::string> words) const { return pleat_command(folder, words); }
+  Ending run(const std::vector<std::string>& words) const { return pleat_command(folder, words); }
 };
 
 }  // namespace

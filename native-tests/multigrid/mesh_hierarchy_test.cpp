@@ -39,7 +39,7 @@ TEST_CASE("hierarchy: every level is a sound mesh of vertices of the finer one",
   options.ratio = ratio;
   options.n_coarser = 2;
   const MeshHierarchy hierarchy = hierarchy_of(mesh, options);
-  REQUIRE(hierarchy.shortage == "");
+  REQUIRE(hierarchy.shortage.empty());
   REQUIRE(hierarchy.levels.size() == 3);
   CHECK(hierarchy.levels[0].n_vertices() == mesh.n_vertices());
   for (std::size_t k = 1; k < 3; ++k) {

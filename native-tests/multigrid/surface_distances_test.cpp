@@ -11,7 +11,8 @@ namespace {
 
 std::vector<VertexId> all_vertices(const TriangleMesh& mesh) {
   std::vector<VertexId> all;
-  for (int v = 0; v < mesh.n_vertices(); ++v) all.push_back(VertexId(v));
+  all.reserve(static_cast<std::size_t>(mesh.n_vertices()));
+  for (int v = 0; v < mesh.n_vertices(); ++v) all.emplace_back(v);
   return all;
 }
 

@@ -156,6 +156,7 @@ std::vector<PlaceLength> lengths_between_pins(const std::vector<PlaceLength>& at
       known->second = std::min(known->second, sum);
     }
   std::vector<PlaceLength> lengths;
+  lengths.reserve(least.size());
   for (const auto& [pins, length] : least) lengths.push_back({pins, length});
   return lengths;
 }

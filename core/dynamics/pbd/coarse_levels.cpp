@@ -40,8 +40,10 @@ CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vect
                                  const std::vector<double>& inverse_masses, LevelLengths lengths) {
   // What does not move hands no mass on and takes none: its coarse copy does not move either.
   std::vector<double> masses;
+  masses.reserve(inverse_masses.size());
   for (const double w : inverse_masses) masses.push_back(w > 0 ? 1 / w : 0);
   std::vector<int> finer_places;  // first numbers
+  finer_places.reserve(places.size());
   for (const int place : places) finer_places.push_back(4 * place);
   std::vector<double> finer_inverse = inverse_masses;
   for (std::size_t k = 1; k < hierarchy.levels.size(); ++k) {

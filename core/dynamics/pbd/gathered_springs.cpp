@@ -95,15 +95,15 @@ void GatheredSprings::first_sweep(const float* begins, float* moves, const Relax
 
 double GatheredSprings::squared_residual(const float* begins, const float* moves) const {
   return with_law(law_, [&](auto constant) {
-    constexpr SpringLaw law = decltype(constant)::value;
+    constexpr SpringLaw kLaw = decltype(constant)::value;
     Float4 sum = Float4::all(0);
     const float* multiplier = multipliers_.data();
     for (const Group& group : groups_) {
       const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
       const auto change = gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b);
-      sum = sum + squared_error<Float4, law, true>(in_lanes(d_begin), in_lanes(change), group.block,
-                                                   0, multiplier);
-      multiplier += multiplier_floats(law);
+      sum = sum + squared_error<Float4, kLaw, true>(in_lanes(d_begin), in_lanes(change),
+                                                    group.block, 0, multiplier);
+      multiplier += multiplier_floats(kLaw);
     }
     return sum_of_lanes(sum);
   });

@@ -15,9 +15,10 @@ LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
   PLEAT_CHECK(inverse_masses.empty() || inverse_masses.back() == 0, "the last place is nobody's");
   const int nobody = static_cast<int>(inverse_masses.size()) - 1;
   std::vector<PlacePair> pairs;
+  pairs.reserve(lengths.size());
   for (const PlaceLength& length : lengths) pairs.push_back(length.places);
-  std::vector<bool> moves;
-  for (const double w : inverse_masses) moves.push_back(w > 0);
+  std::vector<bool> moves(inverse_masses.size());
+  for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = inverse_masses[i] > 0;
   for (const std::vector<int>& set : independent_sets(pairs, moves)) {
     for (std::size_t i = 0; i < set.size(); ++i) {
       const std::size_t lane = i % 4;

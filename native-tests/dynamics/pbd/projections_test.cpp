@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <numeric>
 
 #include "core/base/random.h"
 #include "core/dynamics/pbd/attachments.h"
@@ -41,8 +42,8 @@ Positions swept(LengthGroups<Double4>& lengths, const Positions& begin, const Po
 }
 
 std::vector<int> in_order(int n) {
-  std::vector<int> places;
-  for (int v = 0; v < n; ++v) places.push_back(v);
+  std::vector<int> places(static_cast<std::size_t>(n));
+  std::iota(places.begin(), places.end(), 0);
   return places;
 }
 
