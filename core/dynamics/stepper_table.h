@@ -86,7 +86,7 @@ struct StepperType {
   bool needs_factor = false;           ///< its solver is a direct one
   bool is_single_precision = false;    ///< inside a step
   bool prefers_factor = false;         ///< the same where a scene says nothing
-  bool solves_equations = false;       ///< which may be left unsolved in part
+  bool solves_equations = false;       ///< to an end: much that is left unsolved is a fault
   bool solves_whole_substeps = false;  ///< at once, so that its error is that of its substeps
 
   /// Worth comparing in a sweep, each about three times as dear as the one before.

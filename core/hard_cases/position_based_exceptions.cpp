@@ -19,16 +19,13 @@ struct SharedException {
 std::vector<SharedException> shared_exceptions() {
   const std::vector<std::string> all = {"pbd", "hpbd", "multigrid"};
   const std::string nonsense = no_nonsense().what;
-  const char* unsolved = "it leaves its constraints unsolved in part, and the run says so";
+  const char* slow = "a pull goes a few springs far in a sweep: 200 rows need thousands of these";
   const char* order = "it takes springs one after another, and their order has no mirror image";
   const char* rigid = "its springs are rigid: what sags is what is left unsolved";
   const char* of_2008 = "what its levels move is not smooth: it is kept to compare with";
   const char* trembles = "rigid constraints that contradict each other tremble";
   return {
-      {all,
-       {"heavy_bead", "fine_curtain", "sag_of_rows", "sag_of_steps", "tumbling"},
-       nonsense,
-       unsolved},
+      {{"pbd", "hpbd"}, {"sag_of_rows"}, nonsense, slow},
       {all, {"sag_of_rows", "sag_of_steps"}, sags_agree(0).what, rigid},
       {all, {"symmetric_swing", "symmetric_drape"}, stays_symmetric(0).what, order},
       {all, {"tumbling"}, momentum_kept(0).what, "it rounds to single precision", 1e-4},
@@ -40,8 +37,7 @@ std::vector<SharedException> shared_exceptions() {
        {"scale_of_a_drape"},
        variants_agree(0).what,
        "roundings of single precision differ, and folds of rigid cloth magnify them"},
-      {{"pbd", "hpbd"}, {"fold_across_a_border", "ten_minutes_at_rest"}, nonsense, unsolved},
-      {{"pbd"}, {"switched_while_moving"}, nonsense, unsolved},
+      {{"hpbd"}, {"fold_across_a_border"}, nonsense, of_2008},
       {{"pbd", "hpbd"}, {"one_pinned_corner"}, rests(1, 0).what, trembles},
       {{"pbd", "hpbd"}, {"ten_minutes_at_rest"}, rests(10, 0).what, trembles},
       {{"pbd", "hpbd"}, {"ten_minutes_at_rest"}, energy_grows_at_most(0).what, trembles},
