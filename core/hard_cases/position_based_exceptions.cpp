@@ -22,8 +22,13 @@ std::vector<SharedException> shared_exceptions() {
   const char* slow = "a pull goes a few springs far in a sweep: 200 rows need thousands of these";
   const char* order = "it takes springs one after another, and their order has no mirror image";
   const char* rigid = "its springs are rigid: what sags is what is left unsolved";
-  const char* of_2008 = "what its levels move is not smooth: it is kept to compare with";
-  const char* trembles = "rigid constraints that contradict each other tremble";
+  // Not by nature: these are faults whose cause has not been found. Bounds hold them where they
+  // are.
+  const char* restless = "a fault: it does not come to rest; the cause is not known";
+  const char* stretched = "a fault: it ends stretched; the cause is not known";
+  const char* apart = "a fault: variants come apart; the cause is not known";
+  const char* fast = "a fault: it is up to a third, hpbd more, too fast; the cause is not known";
+  const char* of_2008 = "a fault of its levels, kept to compare with; the cause is not known";
   return {
       {{"pbd", "hpbd"}, {"sag_of_rows"}, nonsense, slow},
       {all, {"sag_of_rows", "sag_of_steps"}, sags_agree(0).what, rigid},
@@ -33,27 +38,25 @@ std::vector<SharedException> shared_exceptions() {
        {"tumbling"},
        angular_momentum_kept(0).what,
        "its implicit steps brake a rotation, the less the shorter they are"},
-      {all,
-       {"scale_of_a_drape"},
-       variants_agree(0).what,
-       "roundings of single precision differ, and folds of rigid cloth magnify them"},
-      {{"hpbd"}, {"fold_across_a_border"}, nonsense, of_2008},
-      {{"pbd", "hpbd"}, {"one_pinned_corner"}, rests(1, 0).what, trembles},
-      {{"pbd", "hpbd"}, {"ten_minutes_at_rest"}, rests(10, 0).what, trembles},
-      {{"pbd", "hpbd"}, {"ten_minutes_at_rest"}, energy_grows_at_most(0).what, trembles},
-      {all,
-       {"jerked_corner", "inside_a_ball"},
-       end_strain_at_most(0).what,
-       "rigid springs that were thrown across each other stay tangled"},
-      {{"multigrid"}, {"scale_of_a_drape"}, nonsense, trembles},
+      {{"pbd"}, {"one_pinned_corner"}, rests(1, 0).what, restless, 0.1},
+      {{"hpbd"}, {"one_pinned_corner"}, rests(1, 0).what, restless, 0.6},
+      {{"pbd"}, {"ten_minutes_at_rest"}, rests(10, 0).what, restless, 5e-3},
+      {{"hpbd"}, {"ten_minutes_at_rest"}, rests(10, 0).what, restless, 0.1},
+      {{"pbd", "hpbd"}, {"ten_minutes_at_rest"}, energy_grows_at_most(0).what, restless},
+      {{"hpbd"}, {"rest_on_a_ball"}, rests(1, 0).what, restless, 0.1},
+      {{"pbd", "multigrid"}, {"jerked_corner"}, end_strain_at_most(0).what, stretched, 2},
+      {all, {"inside_a_ball"}, end_strain_at_most(0).what, stretched, 4},
+      {{"pbd"}, {"scale_of_a_drape"}, variants_agree(0).what, apart, 1e-3},
+      {{"hpbd", "multigrid"}, {"scale_of_a_drape"}, variants_agree(0).what, apart, 0.5},
+      {{"hpbd"}, {"scale_of_a_swing"}, variants_agree(0).what, apart, 0.1},
+      {{"multigrid"}, {"scale_of_a_drape"}, nonsense, fast, 1},
       {{"multigrid"},
        {"contradicting_pins", "limited_against_pins"},
        speeds_explained().what,
-       trembles},
-      {{"hpbd"}, {"folded_flat"}, speeds_explained().what, of_2008},
-      {{"hpbd"}, {"rest_on_a_ball", "symmetric_drape"}, nonsense, of_2008},
-      {{"hpbd"}, {"rest_on_a_ball"}, rests(1, 0).what, of_2008},
-      {{"hpbd"}, {"scale_of_a_swing"}, variants_agree(0).what, of_2008},
+       fast,
+       1},
+      {{"hpbd"}, {"folded_flat"}, speeds_explained().what, fast, 1},
+      {{"hpbd"}, {"rest_on_a_ball", "symmetric_drape"}, nonsense, of_2008, 1},
   };
 }
 
