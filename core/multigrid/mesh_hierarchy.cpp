@@ -32,22 +32,33 @@ void take_triangles(MeshLevel& level, const std::vector<Triangle>& triangles,
     level.triangles.push_back({number[a], number[b], number[c]});
 }
 
-/// On the finest level a path along the edge is the shortest, unless a seam says otherwise.
-void measure_edges(MeshLevel& level, const Pairs& pairs, const TriangleMesh& finest,
-                   SurfaceDistances& surface) {
-  for (std::size_t first = 0; first < pairs.size();) {
-    const VertexId start = pairs[first][0];
-    std::vector<VertexId> ends;  // in the finest mesh
-    for (std::size_t i = first; i < pairs.size() && pairs[i][0] == start; ++i)
-      ends.push_back(level.vertices[pairs[i][1]]);
-    const std::vector<double> geodesics = surface.to(level.vertices[start], ends);
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      const double chord =
-          (finest.rest_positions.col(ends[k]) - finest.rest_positions.col(level.vertices[start]))
-              .norm();
-      level.edges.push_back({start, pairs[first + k][1], geodesics[k], chord});
+void take_edges(MeshLevel& level, const Pairs& pairs, const Positions& finest) {
+  for (const auto& [a, b] : pairs) {
+    const double chord = (finest.col(level.vertices[b]) - finest.col(level.vertices[a])).norm();
+    level.edges.push_back({a, b, chord, chord});
+  }
+}
+
+/// Of all levels, as what is near a vertex is the same on each.
+void measure_edges(std::vector<MeshLevel>& levels, const TriangleMesh& finest) {
+  SurfaceDistances surface(finest);
+  std::vector<std::size_t> measured(levels.size(), 0);
+  std::vector<LevelEdge*> edges;
+  std::vector<VertexId> ends;  // in the finest mesh
+  for (int v = 0; v < finest.n_vertices(); ++v) {
+    edges.clear();
+    ends.clear();
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      MeshLevel& level = levels[k];
+      for (std::size_t& next = measured[k]; next < level.edges.size(); ++next) {
+        if (level.vertices[level.edges[next].a] != VertexId(v)) break;
+        edges.push_back(&level.edges[next]);
+        ends.push_back(level.vertices[level.edges[next].b]);
+      }
     }
-    first += ends.size();
+    if (ends.empty()) continue;
+    const std::vector<double> geodesics = surface.to(VertexId(v), ends);
+    for (std::size_t i = 0; i < edges.size(); ++i) edges[i]->geodesic = geodesics[i];
   }
 }
 
@@ -73,7 +84,7 @@ std::vector<VertexId> kept_of(const MeshLevel& finer, const MeshLevel& coarser) 
 
 /// The next level of thinned ones, with as many vertices if none may go.
 MeshLevel thinned_level(const MeshLevel& finer, const TriangleMesh& mesh,
-                        const std::vector<bool>& is_fixed, SurfaceDistances& surface) {
+                        const std::vector<bool>& is_fixed) {
   std::vector<bool> stays;
   for (const VertexId v : finer.vertices) stays.push_back(!is_fixed.empty() && is_fixed[v]);
   const ThinnedGraph graph =
@@ -86,7 +97,7 @@ MeshLevel thinned_level(const MeshLevel& finer, const TriangleMesh& mesh,
   }
   Pairs pairs;
   for (const auto& [a, b] : graph.edges) pairs.push_back({number[a], number[b]});
-  measure_edges(level, pairs, mesh, surface);
+  take_edges(level, pairs, mesh.rest_positions);
   return level;
 }
 
@@ -117,13 +128,12 @@ MeshHierarchy mesh_hierarchy(const TriangleMesh& mesh, const std::vector<bool>& 
                              const HierarchyOptions& options) {
   options.validate();
   EdgeCollapse collapse(mesh, is_fixed);
-  SurfaceDistances surface(mesh);
   MeshHierarchy hierarchy;
   const auto add_collapsed = [&] {
     MeshLevel level;
     level.vertices = collapse.vertices();
     take_triangles(level, collapse.triangles(), static_cast<std::size_t>(mesh.n_vertices()));
-    measure_edges(level, pairs_of(level.triangles), mesh, surface);
+    take_edges(level, pairs_of(level.triangles), mesh.rest_positions);
     hierarchy.levels.push_back(std::move(level));
   };
   add_collapsed();
@@ -132,7 +142,7 @@ MeshHierarchy mesh_hierarchy(const TriangleMesh& mesh, const std::vector<bool>& 
     const int n_finer = finer.n_vertices();
     int n_wanted = n_finer - 1, n_reached = n_finer;
     if (options.selection == LevelSelection::thinned) {
-      MeshLevel level = thinned_level(finer, mesh, is_fixed, surface);
+      MeshLevel level = thinned_level(finer, mesh, is_fixed);
       n_reached = level.n_vertices();
       if (n_reached < n_finer) hierarchy.levels.push_back(std::move(level));
     } else {
@@ -151,6 +161,7 @@ MeshHierarchy mesh_hierarchy(const TriangleMesh& mesh, const std::vector<bool>& 
         transfer_between(kept_of(above, hierarchy.levels.back()), neighbours_on(above),
                          positions_on(above, mesh.rest_positions), options.weights);
   }
+  measure_edges(hierarchy.levels, mesh);
   return hierarchy;
 }
 

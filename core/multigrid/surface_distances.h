@@ -1,8 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <queue>
+#include <limits>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -13,9 +12,10 @@ namespace pleat {
 /// edges alone, so a garment has those of its pattern however it stands in space.
 ///
 /// A shortest path is straight across triangles laid flat, and turns only at vertices whose angles
-/// sum to more than a full turn, or on a border to more than half of one. So straight paths from
-/// the start and from such vertices, joined by Dijkstra's algorithm, are exact. Every length is
-/// that of a path on the surface: rounding apart, no strain-free cloth is stretched by it.
+/// sum to more than a full turn, or on a border to more than half of one; it leaves half a turn to
+/// either side there. So straight paths from the start, and from such vertices into the few
+/// directions that this leaves, joined by Dijkstra's algorithm, are exact. Every length is that of
+/// a path on the surface: rounding apart, no strain-free cloth is stretched by it.
 ///
 /// Source: Mitchell, Mount & Papadimitriou, The discrete geodesic problem, SIAM Journal on
 /// Computing 1987 (straight paths as windows on edges; here none is trimmed by another, as paths
@@ -31,8 +31,12 @@ class SurfaceDistances {
   using Vec2 = Eigen::Vector2d;
   struct HalfEdge {
     VertexId from;
-    double length = 0;       ///< [m]
     std::int32_t twin = -1;  ///< -1: border
+    double length = 0;       ///< [m]
+    /// Where the third corner of its triangle is, in lengths of this edge along and beside it.
+    Vec2 third = Vec2::Zero();
+    double corner = 0;  ///< angle of the triangle at `from` [rad]
+    double angle = 0;   ///< of this edge around `from`, counter-clockwise from the first [rad]
   };
   /// What is seen of an edge from a start at the origin, laid flat: `right` to `left` are its ends,
   /// the rays to `from` and `to` bound what is seen.
@@ -45,20 +49,34 @@ class SurfaceDistances {
     VertexId vertex;
     bool operator>(const Reached& other) const { return distance > other.distance; }
   };
+  struct Arrival {
+    double distance = std::numeric_limits<double>::infinity();  ///< [m]
+    double angle = 0;  ///< around the vertex at which the path comes in [rad]
+  };
 
   const HalfEdge& edge(std::int32_t h) const { return edges_[static_cast<std::size_t>(h)]; }
-  void find_turns();
-  double settle_along_edges(VertexId start, const std::vector<VertexId>& ends);
-  void go_straight(VertexId start, double limit);
+  void find_shapes();
+  void find_turns(VertexId vertex);
+  bool can_turn(VertexId vertex) const;
+  double farthest(const std::vector<VertexId>& ends) const;
+  void go_along_edges(VertexId vertex);
+  bool search(VertexId start, const std::vector<VertexId>& ends, double limit);
+  void go_on_from(VertexId vertex, double limit);
+  void look_through(std::int32_t half_edge, double from_angle, double to_angle);
   void cross(const Window& window, double begin, double limit);
-  void reach(VertexId vertex, double distance);
+  void reach(VertexId vertex, const Arrival& arrival);
+  void push(VertexId vertex);
+  Reached pop();
 
+  Positions places_;
+  double length_of_all_ = 0;     ///< edges [m]
   std::vector<HalfEdge> edges_;  ///< three of each triangle, from its corners in turn
   std::vector<std::vector<std::int32_t>> from_;  ///< half-edges from each vertex
-  std::vector<bool> can_turn_;
-  std::vector<double> distance_;  ///< of the search that runs; -1: not reached
+  /// Of each vertex: by how much its angles sum to more than a path needs that does not turn [rad].
+  std::vector<double> free_angle_;
+  std::vector<Arrival> arrivals_;  ///< of the search that runs
   std::vector<VertexId> touched_;
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue_;
+  std::vector<Reached> queue_;  ///< a heap
   std::vector<Window> windows_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/random.h"
 #include "native-tests/support/meshes.h"
 
 namespace pleat {
@@ -122,6 +123,46 @@ TEST_CASE("surface distances: a path turns at a saddle", "[multigrid]") {
   CHECK(found[0] == Approx(std::sqrt(2)));
   for (const std::size_t k : {1u, 2u, 3u}) CHECK(found[k] == Approx(2));
   CHECK(found[4] == Approx(std::sqrt(2)));
+}
+
+TEST_CASE("surface distances: on a crumpled sheet they are the same there and back",
+          "[multigrid]") {
+  // Half of its vertices are saddles: a direction that is left out at a turn is missed one way.
+  TriangleMesh mesh = triangulated_sheet(Triangulation::jittered, 8, 8, 0.1);
+  Random random(3);
+  for (Eigen::Index v = 0; v < mesh.rest_positions.cols(); ++v)
+    mesh.rest_positions(2, v) = random.uniform(-0.1, 0.1);
+  SurfaceDistances surface(mesh);
+  const std::vector<VertexId> all = all_vertices(mesh);
+  const auto n = static_cast<Eigen::Index>(all.size());
+  Eigen::MatrixXd found(n, n);
+  for (Eigen::Index start = 0; start < n; ++start)
+    found.row(start) = Eigen::Map<const Eigen::RowVectorXd>(
+        surface.to(all[static_cast<std::size_t>(start)], all).data(), n);
+  CHECK((found - found.transpose()).cwiseAbs().maxCoeff() < 1e-12);
+  // No detour by a third vertex is shorter.
+  for (Eigen::Index via = 0; via < n; ++via) {
+    const Eigen::MatrixXd detours = found.col(via).replicate(1, n) + found.row(via).replicate(n, 1);
+    REQUIRE((found - detours).maxCoeff() < 1e-12);
+  }
+}
+
+TEST_CASE("surface distances: a path goes from one fan of triangles to another", "[multigrid]") {
+  // Two squares that share the corner (1, 1) alone.
+  TriangleMesh mesh;
+  mesh.rest_positions.resize(3, 7);
+  mesh.rest_positions << 0, 1, 1, 0, 2, 2, 1, 0, 0, 1, 1, 1, 2, 2, 0, 0, 0, 0, 0, 0, 0;
+  const auto add = [&](int a, int b, int c) {
+    mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
+  };
+  add(0, 1, 3);
+  add(1, 2, 3);
+  add(2, 4, 6);
+  add(4, 5, 6);
+  SurfaceDistances surface(mesh);
+  const std::vector<double> found = surface.to(VertexId(0), {VertexId(2), VertexId(5)});
+  CHECK(found[0] == Approx(std::sqrt(2)));
+  CHECK(found[1] == Approx(2 * std::sqrt(2)));
 }
 
 }  // namespace pleat
