@@ -10,6 +10,7 @@
 #include "core/files/frame_file.h"
 #include "core/mesh/mesh_fault.h"
 #include "core/multigrid/mesh_hierarchy.h"
+#include "core/run/stage_timer.h"
 #include "core/scene/rest_cloth.h"
 
 namespace pleat {
@@ -114,7 +115,7 @@ std::vector<LevelRow> rows_of(const MeshHierarchy& hierarchy, const Positions& f
 }
 
 Json json_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& rows,
-                    const std::string& shortage) {
+                    const std::string& shortage, double seconds) {
   Json levels = Json::array();
   for (const LevelRow& row : rows)
     levels.push_back({{"n_vertices", row.n_vertices},
@@ -127,11 +128,12 @@ Json json_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& ro
   return {{"mesh", text_value(input.name)},
           {"levels", std::move(levels)},
           {"shortage", shortage},
+          {"build_ms", 1000 * seconds},
           {"core", core_version()}};
 }
 
 void print_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& rows,
-                     const std::string& shortage) {
+                     const std::string& shortage, double seconds) {
   std::printf("%s\n", printable(input.name).c_str());
   std::printf(
       "level  vertices  triangles  mean edge mm  longest mm  chord shorter by %%  linear error "
@@ -144,6 +146,7 @@ void print_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& r
     std::printf("\n");
   }
   if (!shortage.empty()) std::printf("%s\n", shortage.c_str());
+  std::printf("made in %.0f ms\n", 1000 * seconds);
 }
 
 void write_levels(const MeshHierarchy& hierarchy, const Positions& finest,
@@ -168,12 +171,14 @@ Outcome hierarchy_command(Arguments arguments) {
   const HierarchyInput input =
       arguments.has_word_ending(".json") ? take_cloth(arguments) : take_mesh(arguments);
   const auto old = prepare_frame_folder(folder, overwriting, input.files_read);
+  const Stopwatch watch;
   const MeshHierarchy hierarchy = mesh_hierarchy(input.mesh, input.is_fixed, options);
+  const double seconds = watch.elapsed();
   const std::vector<LevelRow> rows = rows_of(hierarchy, input.mesh.rest_positions);
   if (for_machines)
-    std::printf("%s\n", json_hierarchy(input, rows, hierarchy.shortage).dump().c_str());
+    std::printf("%s\n", json_hierarchy(input, rows, hierarchy.shortage, seconds).dump().c_str());
   else
-    print_hierarchy(input, rows, hierarchy.shortage);
+    print_hierarchy(input, rows, hierarchy.shortage, seconds);
   for (const std::filesystem::path& file : old) remove_file(file);
   if (folder) write_levels(hierarchy, input.mesh.rest_positions, *folder);
   return Outcome::ok;

@@ -1,10 +1,12 @@
 // ./pleat bench multigrid (--help tells the options)
-// What coarser levels save: position-based steps against a plain loop, and solves of implicit steps.
+// What coarser levels save: position-based steps against a plain loop, and solves of implicit steps;
+// and what it takes to make them.
 import { runParts } from './parts/bench-parts.mjs';
+import { hierarchy } from './parts/hierarchy.mjs';
 import { loop, loopOptions } from './parts/loop-contest.mjs';
 import { clothOption, preconditioner } from './parts/multigrid-preconditioner.mjs';
 
-await runParts('multigrid', 'what coarser levels save', { loop, preconditioner }, [
+await runParts('multigrid', 'what coarser levels save', { loop, preconditioner, hierarchy }, [
   ...loopOptions,
   clothOption,
 ]);

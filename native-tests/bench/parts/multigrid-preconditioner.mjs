@@ -55,7 +55,7 @@ const onBall = (n) => ({
 });
 
 /** A garment of the shipped scenes; a file of its own finds the motion nowhere else. */
-function garment(name, level) {
+export function garment(name, level) {
   const file = join(root, 'assets', 'scenes', 'garments', `${name}.json`);
   const { method, ...scene } = JSON.parse(readFileSync(file, 'utf8'));
   const motion = join(root, 'assets', 'motions', 'walk_normal.json');
