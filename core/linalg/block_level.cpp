@@ -10,44 +10,62 @@
 namespace pleat {
 namespace {
 
-/// Inverse of a symmetric B x B matrix by its Cholesky factor. False unless all pivots are
-/// positive.
+/// C and V = C^-1 of S = C C', lower triangles by rows. False unless all pivots are positive.
 template <int B>
-bool invert(const double* S, double* inverse) {
-  double V[B][B] = {};  // of S = C C': first C, then its inverse
+bool find_roots(const double* S, double* C, double* V) {
+  std::fill_n(C, B * B, 0.0);
+  std::fill_n(V, B * B, 0.0);
   for (int c = 0; c < B; ++c) {
     for (int r = c; r < B; ++r) {
       double rest = S[r * B + c];
-      for (int k = 0; k < c; ++k) rest -= V[r][k] * V[c][k];
+      for (int k = 0; k < c; ++k) rest -= C[r * B + k] * C[c * B + k];
       if (r == c && !(rest > 0)) return false;
-      V[r][c] = r == c ? std::sqrt(rest) : rest / V[c][c];
+      C[r * B + c] = r == c ? std::sqrt(rest) : rest / C[c * B + c];
     }
   }
   for (int c = 0; c < B; ++c) {
-    V[c][c] = 1 / V[c][c];
+    V[c * B + c] = 1 / C[c * B + c];
     for (int r = c + 1; r < B; ++r) {
       double sum = 0;
-      for (int k = c; k < r; ++k) sum += V[r][k] * V[k][c];
-      V[r][c] = -sum / V[r][r];
-    }
-  }
-  for (int r = 0; r < B; ++r) {
-    for (int c = 0; c <= r; ++c) {
-      double sum = 0;
-      for (int k = r; k < B; ++k) sum += V[k][r] * V[k][c];
-      inverse[r * B + c] = inverse[c * B + r] = sum;
+      for (int k = c; k < r; ++k) sum += C[r * B + k] * V[k * B + c];
+      V[r * B + c] = -sum / C[r * B + r];
     }
   }
   return true;
 }
 
 template <int B>
-void invert_or_trace(const double* S, double* inverse) {
-  if (invert<B>(S, inverse)) return;
+void find_roots_or_trace(const double* S, double* C, double* V) {
+  if (find_roots<B>(S, C, V)) return;
   double trace = 0;
   for (int k = 0; k < B; ++k) trace += S[k * B + k];
-  std::fill_n(inverse, B * B, 0.0);
-  for (int k = 0; k < B; ++k) inverse[k * B + k] = trace > 0 ? 1 / trace : 1;
+  const double root = trace > 0 ? std::sqrt(trace) : 1;
+  std::fill_n(C, B * B, 0.0);
+  std::fill_n(V, B * B, 0.0);
+  for (int k = 0; k < B; ++k) {
+    C[k * B + k] = root;
+    V[k * B + k] = 1 / root;
+  }
+}
+
+/// V A W' in the place of A, for lower triangles V and W.
+template <int B>
+inline void scale_block(const double* V, const double* W, double* A) {
+  double product[B * B];
+  for (int r = 0; r < B; ++r) {
+    for (int c = 0; c < B; ++c) {
+      double sum = 0;
+      for (int k = 0; k <= r; ++k) sum += V[r * B + k] * A[k * B + c];
+      product[r * B + c] = sum;
+    }
+  }
+  for (int r = 0; r < B; ++r) {
+    for (int c = 0; c < B; ++c) {
+      double sum = 0;
+      for (int k = 0; k <= c; ++k) sum += product[r * B + k] * W[c * B + k];
+      A[r * B + c] = sum;
+    }
+  }
 }
 
 /// A row of a vector.
@@ -84,14 +102,6 @@ struct Products {
   float sum(int r) const { return (sums[r][0] + sums[r][1]) + (sums[r][2] + sums[r][3]); }
 };
 
-/// x = S b for a symmetric S in rows of kLanes<B>.
-template <int B>
-inline Row<B> solved(const float* S, const float* b) {
-  Row<B> x = Row<B>::zero();
-  for (int k = 0; k < B; ++k) x.add_multiple(b[k], S + k * kLanes<B>);
-  return x;
-}
-
 }  // namespace
 
 template <int B>
@@ -100,68 +110,59 @@ void BlockLevel<B>::set_pattern(LowerPattern pattern) {
   const auto n = static_cast<std::size_t>(n_rows());
   const std::size_t n_blocks = pattern_.columns.size();
   values_.assign((n + n_blocks) * kSize, 0.0);
-  inverses_.assign(n * kSize, 0.0);
+  roots_.assign(n * kSize, 0.0);
+  inverse_roots_.assign(n * kSize, 0.0);
   low_.assign(n_blocks * kSize + kLoadRoom, 0.0F);
-  solvers_.assign(n * B * kLanes<B>, 0.0F);
   for (std::vector<float>* vector : {&b_, &x_, &r_, &g_, &u_}) vector->assign(n * kLanes<B>, 0.0F);
 }
 
 template <int B>
-void BlockLevel<B>::update() {
+void BlockLevel<B>::scale() {
   for (int row = 0; row < n_rows(); ++row) {
-    double* inverse = inverses_.data() + row * kSize;
-    invert_or_trace<B>(diagonal(row), inverse);
-    for (int r = 0; r < B; ++r)
-      for (int c = 0; c < B; ++c)
-        solvers_[place((row * B + r) * kLanes<B> + c)] = static_cast<float>(inverse[r * B + c]);
+    double* V = inverse_roots_.data() + row * kSize;
+    find_roots_or_trace<B>(diagonal(row), roots_.data() + row * kSize, V);
+    scale_block<B>(V, V, diagonal(row));
+    for (int k = pattern_.begins[place(row)]; k < pattern_.begins[place(row) + 1]; ++k) {
+      scale_block<B>(V, inverse_root(pattern_.columns[place(k)]), lower(k));
+      for (int e = 0; e < kSize; ++e) low_[place(k * kSize + e)] = static_cast<float>(lower(k)[e]);
+    }
   }
-  const std::size_t n_entries = low_.size() - kLoadRoom;
-  const double* from = values_.data() + n_rows() * kSize;
-  for (std::size_t k = 0; k < n_entries; ++k) low_[k] = static_cast<float>(from[k]);
 }
 
-// Forward, x_i = D_i^-1 (b_i - L_i x), of which u holds the part of later rows.
+// Forward, x_i = b_i - L_i x - u_i, of which u holds the part of later rows.
 template <int B>
 void BlockLevel<B>::sweep_forward() {
   for (int row = 0; row < n_rows(); ++row) {
     Products<B> products;
     for (int k = pattern_.begins[place(row)]; k < pattern_.begins[place(row) + 1]; ++k)
       products.add(low(k), x_.data() + pattern_.columns[place(k)] * kLanes<B>);
-    const int at = row * kLanes<B>;
-    float rest[B];
-    for (int r = 0; r < B; ++r) {
-      const auto entry = place(at + r);
-      g_[entry] = b_[entry] - products.sum(r);
-      rest[r] = g_[entry] - u_[entry];
+    const auto at = place(row * kLanes<B>);
+    for (std::size_t r = 0; r < B; ++r) {
+      g_[at + r] = b_[at + r] - products.sum(static_cast<int>(r));
+      x_[at + r] = g_[at + r] - u_[at + r];
     }
-    solved<B>(solvers_.data() + row * B * kLanes<B>, rest).store(x_.data() + at);
   }
 }
 
-// Backward, x_i = D_i^-1 (g_i - u_i), where u gathers L'x as rows become known.
+// Backward, x_i = g_i - u_i, where u gathers L'x as rows become known.
 template <int B>
 void BlockLevel<B>::sweep_backward() {
   std::fill(u_.begin(), u_.end(), 0.0F);
   for (int row = n_rows() - 1; row >= 0; --row) {
-    const int at = row * kLanes<B>;
-    float rest[B];
-    for (int r = 0; r < B; ++r) rest[r] = g_[place(at + r)] - u_[place(at + r)];
-    solved<B>(solvers_.data() + row * B * kLanes<B>, rest).store(x_.data() + at);
+    const auto at = place(row * kLanes<B>);
+    for (std::size_t r = 0; r < B; ++r) x_[at + r] = g_[at + r] - u_[at + r];
     for (int k = pattern_.begins[place(row)]; k < pattern_.begins[place(row) + 1]; ++k) {
       float* u = u_.data() + pattern_.columns[place(k)] * kLanes<B>;
       Row<B> sum = Row<B>::load(u);
-      for (int r = 0; r < B; ++r) sum.add_multiple(x_[place(at + r)], low(k) + r * B);
+      for (int r = 0; r < B; ++r) sum.add_multiple(x_[at + place(r)], low(k) + r * B);
       sum.store(u);
     }
   }
 }
 
-// What is left after the backward sweep: b - L x - D x - L'x = b - L x - g, as D x = g - u there.
+// b - L x - x - L'x = b - L x - g, as x = g - L'x after the backward sweep.
 template <int B>
-void BlockLevel<B>::smooth_from_zero() {
-  std::fill(u_.begin(), u_.end(), 0.0F);
-  sweep_forward();
-  sweep_backward();
+void BlockLevel<B>::find_rest() {
   for (int row = 0; row < n_rows(); ++row) {
     Products<B> products;
     for (int k = pattern_.begins[place(row)]; k < pattern_.begins[place(row) + 1]; ++k)
@@ -171,6 +172,13 @@ void BlockLevel<B>::smooth_from_zero() {
       r_[entry] = b_[entry] - g_[entry] - products.sum(r);
     }
   }
+}
+
+template <int B>
+void BlockLevel<B>::smooth_from_zero() {
+  std::fill(u_.begin(), u_.end(), 0.0F);
+  sweep_forward();
+  sweep_backward();
 }
 
 template <int B>

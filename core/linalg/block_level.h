@@ -13,8 +13,10 @@ inline constexpr int kLanes = (B + 3) / 4 * 4;
 /// A symmetric positive definite matrix in B x B blocks as a level of a multigrid cycle sees it:
 /// its values in double precision, and in single precision what smooths.
 ///
-/// The smoother is a Gauss-Seidel sweep forward and one backward. Vectors have kLanes<B> floats a
-/// row. Of A = L + D + L' each use passes L, held once.
+/// The level works on scaled unknowns, C'x where C C' = D is the diagonal: there the matrix is
+/// I + L + L', and rounding is judged by what is stiff about a row, not by the stiffest of all. The
+/// smoother is a Gauss-Seidel sweep forward and one backward. Vectors have kLanes<B> floats a row.
+/// Each use passes L, held once.
 template <int B>
 class BlockLevel {
  public:
@@ -25,26 +27,30 @@ class BlockLevel {
   const LowerPattern& pattern() const { return pattern_; }
   int n_rows() const { return pattern_.n_rows(); }
 
-  /// Blocks row by row: those of the diagonal, then those below it. To be filled before `update`.
+  /// Blocks row by row: those of the diagonal, then those below it. To be filled before `scale`.
   double* diagonal(int row) { return values_.data() + row * kSize; }
   const double* diagonal(int row) const { return values_.data() + row * kSize; }
   double* lower(int block) { return values_.data() + (n_rows() + block) * kSize; }
   const double* lower(int block) const { return values_.data() + (n_rows() + block) * kSize; }
   std::vector<double>& values() { return values_; }
 
-  /// Makes what smooths of the values. A diagonal block that has no inverse counts as its trace.
-  void update();
-  const double* inverse(int row) const { return inverses_.data() + row * kSize; }
+  /// Scales the values and makes what smooths of them. A diagonal block that has no inverse counts
+  /// as its trace.
+  void scale();
+  /// C and its inverse, lower triangles by rows.
+  const double* root(int row) const { return roots_.data() + row * kSize; }
+  const double* inverse_root(int row) const { return inverse_roots_.data() + row * kSize; }
 
-  /// Where the right-hand side goes, and where the solution comes from.
+  /// Where the right-hand side goes, and where the solution comes from, of scaled unknowns.
   float* rhs() { return b_.data(); }
   float* solution() { return x_.data(); }
 
-  /// From x = 0: both sweeps, and what they leave of the right-hand side.
+  /// Both sweeps from x = 0, or from the x that is there.
   void smooth_from_zero();
-  const float* rest() const { return r_.data(); }
-  /// From the x that is there.
   void smooth();
+  /// What the last sweep has left of the right-hand side.
+  void find_rest();
+  const float* rest() const { return r_.data(); }
 
  private:
   const float* low(int block) const { return low_.data() + block * kSize; }
@@ -53,9 +59,8 @@ class BlockLevel {
 
   LowerPattern pattern_;
   std::vector<double> values_;
-  std::vector<double> inverses_;  // of the diagonal
-  std::vector<float> low_;        // L, and room to load beyond its end
-  std::vector<float> solvers_;    // inverses, rows of kLanes<B>
+  std::vector<double> roots_, inverse_roots_;
+  std::vector<float> low_;  // L, and room to load beyond its end
   std::vector<float> b_, x_, r_;
   std::vector<float> g_;  // b - L x of a forward sweep
   std::vector<float> u_;  // L'x of a backward sweep

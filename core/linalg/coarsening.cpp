@@ -233,6 +233,17 @@ void Coarsening<B>::find_tentative(const BlockLevel<B>& fine, const RigidMotions
 template <int B>
 void Coarsening<B>::smooth_tentative(const BlockLevel<B>& fine) {
   for (int row = 0; row < fine.n_rows(); ++row) {
+    const double* C = fine.root(row);
+    double* T = tentative_.data() + row * kSize;
+    for (int r = 0; r < B; ++r) {
+      for (int c = 0; c < kRigid; ++c) {
+        double sum = 0;
+        for (int k = r; k < B; ++k) sum += C[k * B + r] * T[k * kRigid + c];
+        T[r * kRigid + c] = sum;
+      }
+    }
+  }
+  for (int row = 0; row < fine.n_rows(); ++row) {
     const int first = begin(row);
     const int count = begin(row + 1) - first;
     for (int p = 0; p < count; ++p) slots_[place(column(first + p))] = p;
@@ -245,14 +256,10 @@ void Coarsening<B>::smooth_tentative(const BlockLevel<B>& fine) {
     });
     for (int p = 0; p < count; ++p) {
       double* P = exact_.data() + (first + p) * kSize;
-      double faded[kSize] = {};
-      add_product<B>(fine.inverse(row), false, products_.data() + p * kSize, faded);
+      const double* product = products_.data() + p * kSize;
       const bool is_own = column(first + p) == groups_[place(row)];
-      for (int k = 0; k < kSize; ++k) {
-        float& kept = values_[place((first + p) * kSize + k)];
-        kept = static_cast<float>((is_own ? tentative(row)[k] : 0) - kFading * faded[k]);
-        P[k] = static_cast<double>(kept);
-      }
+      for (int k = 0; k < kSize; ++k)
+        P[k] = (is_own ? tentative(row)[k] : 0) - kFading * product[k];
     }
   }
 }
@@ -286,12 +293,30 @@ void Coarsening<B>::multiply_out(const BlockLevel<B>& fine, BlockLevel<kRigid>& 
     }
 }
 
+/// P V' for the inverse root V of each group.
+template <int B>
+void Coarsening<B>::scale_coarse(const BlockLevel<kRigid>& coarse) {
+  const auto n_blocks = static_cast<int>(columns_.size());
+  for (int p = 0; p < n_blocks; ++p) {
+    const double* V = coarse.inverse_root(column(p));
+    for (int r = 0; r < B; ++r) {
+      for (int c = 0; c < kRigid; ++c) {
+        double sum = 0;
+        for (int k = 0; k <= c; ++k) sum += block(p)[r * kRigid + k] * V[c * kRigid + k];
+        values_[place((p * B + r) * kRigid + c)] = static_cast<float>(sum);
+      }
+    }
+  }
+}
+
 template <int B>
 void Coarsening<B>::compute(const BlockLevel<B>& fine, const RigidMotions<B>& fine_motions,
                             BlockLevel<kRigid>& coarse, RigidMotions<kRigid>& coarse_motions) {
   find_tentative(fine, fine_motions, coarse_motions);
   smooth_tentative(fine);
   multiply_out(fine, coarse);
+  coarse.scale();
+  scale_coarse(coarse);
 }
 
 template <int B>
@@ -305,8 +330,8 @@ void Coarsening<B>::restrict_to(const float* r, float* b) const {
       Float4 high = load4(sum + 4);
       for (int k = 0; k < B; ++k) {
         const float factor = r[row * kLanes<B> + k];
-        low += factor * load4(block(p) + k * kRigid);
-        high += factor * load4(block(p) + k * kRigid + 4);
+        low += factor * load4(scaled_block(p) + k * kRigid);
+        high += factor * load4(scaled_block(p) + k * kRigid + 4);
       }
       store4(sum, low);
       store4(sum + 4, high);
@@ -324,7 +349,8 @@ void Coarsening<B>::add_prolonged(const float* e, float* x) const {
       const Float4 low = load4(e + column(p) * kLanes<kRigid>);
       const Float4 high = load4(e + column(p) * kLanes<kRigid> + 4);
       for (int k = 0; k < B; ++k)
-        sums[k] += load4(block(p) + k * kRigid) * low + load4(block(p) + k * kRigid + 4) * high;
+        sums[k] += load4(scaled_block(p) + k * kRigid) * low +
+                   load4(scaled_block(p) + k * kRigid + 4) * high;
     }
     for (int k = 0; k < B; ++k)
       x[row * kLanes<B> + k] += (sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3]);

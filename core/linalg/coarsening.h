@@ -21,8 +21,9 @@ struct RigidMotions {
 
 /// From rows in groups to the groups, each with six unknowns: smoothed aggregation.
 ///
-/// The columns of T are the rigid motions of each group, orthonormal; P = (I - w D^-1 A) T lets
-/// them fade into the neighbourhood, and the coarse matrix is P'A P. Rows that are coupled to no
+/// The columns of T are the rigid motions of each group, orthonormal; P = (I - w A) C'T lets
+/// them fade into the neighbourhood, in the scaled unknowns of the fine level (block_level.h), and
+/// the coarse matrix is P'A P. Rows that are coupled to no
 /// other, as pinned ones are, have no part in T and P: the smoother solves them. Motions that
 /// depend on the others, as of a single vertex or a straight row, have columns of zeros in P and
 /// ones on the diagonal of the coarse matrix.
@@ -35,19 +36,19 @@ class Coarsening {
   /// Takes groups of a level's rows and gives the coarse level its pattern.
   void analyze(const BlockLevel<B>& fine, const Aggregates& groups, BlockLevel<kRigid>& coarse);
 
-  /// Takes the values of the fine level, which is up to date, and gives the coarse one its values
-  /// and rigid motions.
+  /// Takes the values of the fine level, which are scaled, gives the coarse one its values and
+  /// rigid motions, and scales it.
   void compute(const BlockLevel<B>& fine, const RigidMotions<B>& fine_motions,
                BlockLevel<kRigid>& coarse, RigidMotions<kRigid>& coarse_motions);
 
-  /// b = P'r
+  /// b = P'r, in scaled unknowns of both levels.
   void restrict_to(const float* r, float* b) const;
-  /// x += P e
+  /// x += P e, in scaled unknowns of both levels.
   void add_prolonged(const float* e, float* x) const;
 
-  /// T and P, dense blocks: B x 6 by rows. For tests.
+  /// C'T and P, dense blocks: B x 6 by rows. For tests.
   const double* tentative(int row) const { return tentative_.data() + row * kSize; }
-  const float* block(int k) const { return values_.data() + k * kSize; }
+  const double* block(int k) const { return exact_.data() + k * kSize; }
   int begin(int row) const { return begins_[static_cast<std::size_t>(row)]; }
   int column(int k) const { return columns_[static_cast<std::size_t>(k)]; }
 
@@ -61,6 +62,8 @@ class Coarsening {
   void orthonormalise(int group, RigidMotions<kRigid>& coarse_motions);
   void smooth_tentative(const BlockLevel<B>& fine);
   void multiply_out(const BlockLevel<B>& fine, BlockLevel<kRigid>& coarse);
+  void scale_coarse(const BlockLevel<kRigid>& coarse);
+  const float* scaled_block(int k) const { return values_.data() + k * kSize; }
 
   int n_groups_ = 0;
   std::vector<int> groups_;                            // of each row, or -1
@@ -68,9 +71,9 @@ class Coarsening {
   std::vector<int> begins_, columns_;                  // of P's rows: groups, ascending
   std::vector<int> product_begins_, product_columns_;  // of A P's rows
   std::vector<int> targets_;       // into the coarse values, in the order of multiply_out
-  std::vector<double> tentative_;  // T, B x 6 for each row
-  std::vector<float> values_;      // P, and room to load beyond its end
-  std::vector<double> exact_;      // P again, in double precision
+  std::vector<double> tentative_;  // C'T, B x 6 for each row
+  std::vector<double> exact_;      // P, to the coarse unknowns as they are
+  std::vector<float> values_;      // P, to scaled ones, and room to load beyond its end
   std::vector<double> products_;   // of one row of A P
   std::vector<int> slots_;         // of each group, in the row that is worked at
 };

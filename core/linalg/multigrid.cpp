@@ -15,6 +15,10 @@ constexpr int kGroup = 10;
 /// Rows of the coarsest level, which is solved densely.
 constexpr int kDenseRows = 24;
 
+/// Times that a coarse level goes to the next coarser one. With one the iterations grow with the
+/// number of levels; two cost little, as levels are ten times as small each.
+constexpr int kCoarseVisits = 2;
+
 /// A coarser level with more than this share of a level's rows is not worth having.
 constexpr double kLargestShare = 0.7;
 
@@ -69,7 +73,7 @@ void Multigrid::take_values(const BlockMatrix& A) {
   }
   const int n_blocks = A.begin(A.n_rows());
   if (n_blocks > 0) std::copy_n(A.block(0), n_blocks * kBlockSize, finest_.lower(0));
-  finest_.update();
+  finest_.scale();
 }
 
 void Multigrid::compute_coarsest() {
@@ -97,7 +101,6 @@ void Multigrid::compute(const BlockMatrix& A) {
     else
       coarse_[k - 1]->to_next.compute(coarse_[k - 1]->level, coarse_[k - 1]->motions, to.level,
                                       to.motions);
-    to.level.update();
   }
   if (coarsest_.size() > 0) compute_coarsest();
 }
@@ -115,30 +118,42 @@ void Multigrid::solve_coarsest() {
   for (int k = 0; k < coarsest_.size(); ++k) last.solution()[lane(k)] = static_cast<float>(x[k]);
 }
 
-void Multigrid::apply(const double* r, double size, double* z) {
-  for (int row = 0; row < finest_.n_rows(); ++row)
-    for (int k = 0; k < 3; ++k)
-      finest_.rhs()[row * kLanes<3> + k] = static_cast<float>(r[3 * row + k] / size);
-  finest_.smooth_from_zero();
-  if (!coarse_.empty()) {
-    to_first_.restrict_to(finest_.rest(), coarse_.front()->level.rhs());
-    const std::size_t last = coarse_.size() - 1;
-    for (std::size_t k = 0; k < last; ++k) {
-      coarse_[k]->level.smooth_from_zero();
-      coarse_[k]->to_next.restrict_to(coarse_[k]->level.rest(), coarse_[k + 1]->level.rhs());
-    }
-    solve_coarsest();
-    for (std::size_t k = last; k-- > 0;) {
-      coarse_[k]->to_next.add_prolonged(coarse_[k + 1]->level.solution(),
-                                        coarse_[k]->level.solution());
-      coarse_[k]->level.smooth();
-    }
-    to_first_.add_prolonged(coarse_.front()->level.solution(), finest_.solution());
-    finest_.smooth();
+template <int B>
+void Multigrid::cycle(BlockLevel<B>& level, const Coarsening<B>& to_coarser, std::size_t coarser,
+                      int n_visits) {
+  level.smooth_from_zero();
+  for (int visit = 0; visit < n_visits && coarser < coarse_.size(); ++visit) {
+    CoarseLevel& below = *coarse_[coarser];
+    level.find_rest();
+    to_coarser.restrict_to(level.rest(), below.level.rhs());
+    if (coarser + 1 == coarse_.size())
+      solve_coarsest();
+    else
+      cycle(below.level, below.to_next, coarser + 1, kCoarseVisits);
+    to_coarser.add_prolonged(below.level.solution(), level.solution());
+    level.smooth();
   }
-  for (int row = 0; row < finest_.n_rows(); ++row)
-    for (int k = 0; k < 3; ++k)
-      z[3 * row + k] = size * static_cast<double>(finest_.solution()[row * kLanes<3> + k]);
+}
+
+void Multigrid::apply(const double* r, double size, double* z) {
+  for (int row = 0; row < finest_.n_rows(); ++row) {
+    const double* V = finest_.inverse_root(row);
+    float* b = finest_.rhs() + row * kLanes<3>;
+    const double* from = r + 3 * row;
+    b[0] = static_cast<float>(V[0] * from[0] / size);
+    b[1] = static_cast<float>((V[3] * from[0] + V[4] * from[1]) / size);
+    b[2] = static_cast<float>((V[6] * from[0] + V[7] * from[1] + V[8] * from[2]) / size);
+  }
+  cycle(finest_, to_first_, 0, 1);
+  for (int row = 0; row < finest_.n_rows(); ++row) {
+    const double* V = finest_.inverse_root(row);
+    const float* from = finest_.solution() + row * kLanes<3>;
+    const double x[3] = {size * static_cast<double>(from[0]), size * static_cast<double>(from[1]),
+                         size * static_cast<double>(from[2])};
+    z[3 * row] = V[0] * x[0] + V[3] * x[1] + V[6] * x[2];
+    z[3 * row + 1] = V[4] * x[1] + V[7] * x[2];
+    z[3 * row + 2] = V[8] * x[2];
+  }
 }
 
 }  // namespace pleat

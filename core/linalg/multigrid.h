@@ -43,6 +43,10 @@ class Multigrid {
   void take_values(const BlockMatrix& A);
   void compute_coarsest();
   void solve_coarsest();
+  /// From the right-hand side of a level to its solution, from zero.
+  template <int B>
+  void cycle(BlockLevel<B>& level, const Coarsening<B>& to_coarser, std::size_t coarser,
+             int n_visits);
 
   BlockLevel<3> finest_;
   RigidMotions<3> finest_motions_;
