@@ -57,7 +57,10 @@ enum class Smoother {
   none,          ///< not at all
   jacobi,        ///< all from the same places; a vertex takes the mean of what they ask of it
   gauss_seidel,  ///< each sees what those before it did
-  sor,           ///< the same, each correcting omega times what it asks for
+  /// The same, but the springs of a grid that follow on one another away from the pins are solved
+  /// at once, as xpbd does; on other meshes and on coarser levels as gauss_seidel.
+  lines,
+  sor,  ///< the same, each correcting omega times what it asks for
 };
 
 /// What the lengths of coarser levels are.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/dynamics/pbd/gathered_projections.h"
+#include "core/dynamics/pbd/cycle_projections.h"
 #include "core/dynamics/stepper_explicit.h"
 #include "core/dynamics/stepper_imex.h"
 #include "core/dynamics/stepper_implicit.h"
@@ -166,7 +166,7 @@ constinit const StepperType steppers::kPbd = {
     .usual_counts = kTenSweeps,
     .substep_cost = [](const MethodOptions& options) { return 1.5 * options.iterations; },
     .mark = {"M-4.6-2.7L0-5.3L4.6-2.7V2.7L0 5.3L-4.6 2.7Z", "#7a5c00", "#e0c060"},
-    .make = make_position_based<gathered_projections>,
+    .make = make_position_based<cycle_projections>,
 };
 
 constinit const StepperType steppers::kHpbd = {
@@ -192,7 +192,7 @@ constinit const StepperType steppers::kHpbd = {
     .usual_counts = kFiveRounds,
     .substep_cost = [](const MethodOptions& options) { return 2.5 * options.iterations; },
     .mark = {"M-5 3.6L0-5L5 3.6L0 0.8Z", "#5b5f6b", "#b4bac8"},
-    .make = make_position_based<gathered_projections>,
+    .make = make_position_based<cycle_projections>,
 };
 
 constinit const StepperType steppers::kMultigrid = {
@@ -210,7 +210,7 @@ constinit const StepperType steppers::kMultigrid = {
           method.constraints = Constraints::rigid;
           method.levels = 3;
           method.ratio = 0.25;
-          method.smoother_before = Smoother::gauss_seidel;
+          method.smoother_before = method.smoother_after = Smoother::lines;
           method.attachments = Attachments::long_range;
         },
     .needs_surface = true,
@@ -219,7 +219,7 @@ constinit const StepperType steppers::kMultigrid = {
     .usual_counts = kSmallSteps,
     .substep_cost = [](const MethodOptions& options) { return 2.0 * options.iterations; },
     .mark = {"M-5 4.2V-4.2L0 0.8L5-4.2V4.2Z", "#9c2f2f", "#f08f85"},
-    .make = make_position_based<gathered_projections>,
+    .make = make_position_based<cycle_projections>,
 };
 
 constinit const StepperType steppers::kExplicitEuler = {

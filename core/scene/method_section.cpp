@@ -36,9 +36,10 @@ constexpr std::array<Word<EulerRule>, 2> kEulerRules{
 constexpr std::array<Word<BeyondBound>, 2> kBeyondBound{
     {{"refuse", BeyondBound::refuse}, {"go_on", BeyondBound::go_on}}};
 
-constexpr std::array<Word<Smoother>, 4> kSmoothers{{{"none", Smoother::none},
+constexpr std::array<Word<Smoother>, 5> kSmoothers{{{"none", Smoother::none},
                                                     {"jacobi", Smoother::jacobi},
                                                     {"gauss_seidel", Smoother::gauss_seidel},
+                                                    {"lines", Smoother::lines},
                                                     {"sor", Smoother::sor}}};
 
 constexpr std::array<Word<LevelLengths>, 2> kLevelLengths{

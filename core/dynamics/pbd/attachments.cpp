@@ -1,6 +1,8 @@
 #include "core/dynamics/pbd/attachments.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
@@ -159,6 +161,85 @@ std::vector<PlaceLength> lengths_between_pins(const std::vector<PlaceLength>& at
   lengths.reserve(least.size());
   for (const auto& [pins, length] : least) lengths.push_back({pins, length});
   return lengths;
+}
+
+AttachmentProgram::AttachmentProgram(const std::vector<PlaceLength>& attachments,
+                                     const std::vector<int>& slots) {
+  const auto slot_of = [&slots](int vertex) { return slots[static_cast<std::size_t>(vertex)]; };
+  // By group of four and by how many of the same vertex are nearer: those come first.
+  std::map<std::pair<int, int>, Operation> operations;
+  int rank = 0;
+  for (std::size_t i = 0; i < attachments.size(); ++i) {
+    const auto& [places, length] = attachments[i];
+    rank = i > 0 && attachments[i - 1].places[0] == places[0] ? rank + 1 : 0;
+    const int slot = slot_of(places[0]);
+    const int lane = slot % Float4::kLanes;
+    Operation none{slot - lane, true, kNoMembers, {}};
+    none.rest.fill(kEmptyLane);
+    Operation& operation = operations.try_emplace({slot - lane, rank}, none).first->second;
+    operation.pins[static_cast<std::size_t>(lane)] = slot_of(places[1]);
+    operation.rest[static_cast<std::size_t>(lane)] = static_cast<float>(length * length);
+  }
+  for (auto& [key, operation] : operations) {
+    const int some_pin = *std::max_element(operation.pins.begin(), operation.pins.end());
+    for (int& pin : operation.pins)
+      if (pin < 0) pin = some_pin;
+    operation.has_one_pin = std::all_of(operation.pins.begin(), operation.pins.end(),
+                                        [some_pin](int pin) { return pin == some_pin; });
+    operations_.push_back(operation);
+  }
+  for (const auto& [places, length] : lengths_between_pins(attachments))
+    between_pins_.push_back({slot_of(places[0]), slot_of(places[1]), length});
+}
+
+float AttachmentProgram::stretch_of_pins(const LaneView& view) const {
+  double most = 1;
+  for (const auto& [a, b, length] : between_pins_) {
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double d = (static_cast<double>(view.begins[k][a]) - view.begins[k][b]) +
+                       (static_cast<double>(view.moves[k][a]) - view.moves[k][b]);
+      square += d * d;
+    }
+    most = std::max(most, std::sqrt(square) / length);
+  }
+  return static_cast<float>(most);
+}
+
+// As the rigid law of springs (core/dynamics/xpbd/spring_law.h), with an end that does not move.
+void AttachmentProgram::sweep(const LaneView& view) const {
+  if (operations_.empty()) return;
+  const float stretch = stretch_of_pins(view);
+  const Float4 squared_stretch = Float4::all(stretch * stretch);
+  const auto at_pins = [](const auto& arrays, const Operation& operation) {
+    Vec3Lanes<Float4> places;
+    std::size_t k = 0;
+    for (Float4* const component : {&places.x, &places.y, &places.z}) {
+      const float* const from = arrays[k++];
+      const LaneMembers& pins = operation.pins;
+      *component = operation.has_one_pin
+                       ? Float4::all(from[pins[0]])
+                       : Float4::load(std::array<float, 4>{from[pins[0]], from[pins[1]],
+                                                           from[pins[2]], from[pins[3]]}
+                                          .data());
+    }
+    return places;
+  };
+  for (const Operation& operation : operations_) {
+    const int slot = operation.first_slot;
+    const Vec3Lanes<Float4> moves = load<Float4>(view.moves, slot);
+    const Vec3Lanes<Float4> d_begin =
+        load<Float4>(view.begins, slot) - at_pins(view.begins, operation);
+    const Vec3Lanes<Float4> d = d_begin + (moves - at_pins(view.moves, operation));
+    const Float4 square = dot(d, d);
+    const Float4 rest = squared_stretch * Float4::load(operation.rest.data());
+    const Float4 excess = square - rest;
+    if (positive_lanes(excess) == 0) continue;
+    const Vec3Lanes<Float4> g = d + d_begin;
+    const Float4 slope = max(dot(d, g), max(rest, square));
+    const Float4 pull = where_positive(excess, Float4::all(0.5f) * excess / slope);
+    store(moves - pull * g, view.moves, slot);
+  }
 }
 
 }  // namespace pleat

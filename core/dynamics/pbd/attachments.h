@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/dynamics/pbd/length_groups.h"
+#include "core/dynamics/xpbd/lane_operations.h"
 #include "core/model/cloth_model.h"
 #include "core/multigrid/mesh_hierarchy.h"
 
@@ -22,5 +23,35 @@ std::vector<PlaceLength> long_range_attachments(const ClothModel& model,
 /// How far apart attachments let pairs of pins be, each pair that holds a vertex once: the least
 /// sum of their lengths to one. Pins further apart leave no place for a vertex.
 std::vector<PlaceLength> lengths_between_pins(const std::vector<PlaceLength>& attachments);
+
+/// Attachments of vertices in lane order, compiled into operations on four neighbours at a time.
+class AttachmentProgram {
+ public:
+  AttachmentProgram() = default;
+  /// slots  of each vertex
+  AttachmentProgram(const std::vector<PlaceLength>& attachments, const std::vector<int>& slots);
+
+  /// Moves vertices that are too far from a pin back to where they may be, the nearest pin first.
+  /// Where pins themselves are further apart than attachments allow, all lengths grow with them.
+  void sweep(const LaneView& view) const;
+
+ private:
+  /// One attachment of each of four neighbours.
+  struct Operation {
+    int first_slot;
+    bool has_one_pin;
+    LaneMembers pins;     // slots
+    PerLane<float> rest;  // squared lengths [m^2]; infinite without an attachment
+  };
+  struct PinPair {
+    int a, b;       // slots
+    double length;  // [m]
+  };
+
+  float stretch_of_pins(const LaneView& view) const;
+
+  std::vector<Operation> operations_;
+  std::vector<PinPair> between_pins_;
+};
 
 }  // namespace pleat

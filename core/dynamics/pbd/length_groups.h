@@ -45,9 +45,7 @@ class LengthGroups {
                LengthSide side);
 
   /// Projects each constraint once, unless the smoother is none.
-  ///
-  /// stretch  times the lengths
-  void sweep(const Real* begins, Real* moves, const Relaxation& relaxation, Real stretch = 1);
+  void sweep(const Real* begins, Real* moves, const Relaxation& relaxation);
 
   std::size_t n_groups() const { return groups_.size(); }
 
@@ -59,7 +57,7 @@ class LengthGroups {
     std::array<Real, 4> inverse_w;  // of their sum; 0 where nothing moves
   };
 
-  void project(const Real* begins, const Real* moves, Real* to, Real omega, Real stretch);
+  void project(const Real* begins, const Real* moves, Real* to, Real omega);
 
   LengthSide side_ = LengthSide::both;
   std::vector<Group> groups_;

@@ -1,54 +1,38 @@
-#include "core/dynamics/xpbd/bend_program.h"
-#include "core/dynamics/xpbd/hanging_program.h"
-#include "core/dynamics/xpbd/projections.h"
-#include "core/dynamics/xpbd/spring_program.h"
+#include "core/dynamics/xpbd/lane_projections.h"
 
 namespace pleat {
-namespace {
 
-class LaneProjections final : public Projections {
- public:
-  LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h)
-      : springs_(model, layout, law, h),
-        bends_(model, layout, h),
-        hanging_(model, layout, law, h) {}
+void LaneProjections::refresh_rest_lengths(const ClothModel& model) {
+  springs_.refresh_rest_lengths(model);
+  hanging_.refresh_rest_lengths(model);
+}
 
-  void refresh_pins(const ClothModel&, const float*) override {}
+void LaneProjections::solve(const LaneView& view, int rounds) {
+  for (int round = 0; round < rounds; ++round) sweep(view, round == 0);
+}
 
-  void refresh_rest_lengths(const ClothModel& model) override {
-    springs_.refresh_rest_lengths(model);
-    hanging_.refresh_rest_lengths(model);
-  }
-
-  void solve(const LaneView& view, int rounds) override {
+void LaneProjections::sweep(const LaneView& view, bool is_first) {
+  if (is_first) {
     bends_.first_sweep(view);
     springs_.first_sweep(view);
     hanging_.first_sweep(view);
-    for (int round = 1; round < rounds; ++round) {
-      bends_.next_sweep(view);
-      springs_.next_sweep(view);
-      hanging_.next_sweep(view);
-    }
+  } else {
+    bends_.next_sweep(view);
+    springs_.next_sweep(view);
+    hanging_.next_sweep(view);
   }
+}
 
-  double squared_residual(const LaneView& view) override {
-    return springs_.squared_residual(view) + bends_.squared_residual(view) +
-           hanging_.squared_residual(view);
-  }
+double LaneProjections::squared_residual(const LaneView& view) {
+  return springs_.squared_residual(view) + bends_.squared_residual(view) +
+         hanging_.squared_residual(view);
+}
 
-  double squared_residual_before(const LaneView& view) override {
-    return springs_.squared_residual_before_sweeps(view) +
-           bends_.squared_residual_before_sweeps(view) +
-           hanging_.squared_residual_before_sweeps(view);
-  }
-
- private:
-  SpringProgram springs_;
-  BendProgram bends_;
-  HangingProgram hanging_;
-};
-
-}  // namespace
+double LaneProjections::squared_residual_before(const LaneView& view) {
+  return springs_.squared_residual_before_sweeps(view) +
+         bends_.squared_residual_before_sweeps(view) +
+         hanging_.squared_residual_before_sweeps(view);
+}
 
 std::unique_ptr<Projections> lane_projections(const ClothModel& model, const MethodOptions&,
                                               const LaneLayout& layout, SpringLaw law, double h) {

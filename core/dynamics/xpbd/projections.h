@@ -38,9 +38,4 @@ using MakeProjections = std::unique_ptr<Projections> (*)(const ClothModel& model
                                                          const LaneLayout& layout, SpringLaw law,
                                                          double h);
 
-/// Projections in the order of the lanes: lines of springs at once, everything else one after the
-/// other. A round is a sweep over all constraints.
-std::unique_ptr<Projections> lane_projections(const ClothModel& model, const MethodOptions& options,
-                                              const LaneLayout& layout, SpringLaw law, double h);
-
 }  // namespace pleat

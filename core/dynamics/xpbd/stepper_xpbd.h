@@ -7,7 +7,7 @@
 
 #include "core/dynamics/stepper.h"
 #include "core/dynamics/xpbd/contact_program.h"
-#include "core/dynamics/xpbd/projections.h"
+#include "core/dynamics/xpbd/lane_projections.h"
 #include "core/dynamics/xpbd/spring_law.h"
 
 namespace pleat {

@@ -93,6 +93,22 @@ TEST_CASE("multigrid: it stretches a fraction of what as many sweeps of one leve
   CHECK(ours < 0.5 * plain);
 }
 
+TEST_CASE("multigrid: lines on the finest level leave half the stretch, and need a grid",
+          "[dynamics]") {
+  Held sheet = held_sheet(lying_sheet(32), By::corners);
+  sheet.model.gravity = {0, 0, -9.81};
+  MethodOptions lines = steppers::kMultigrid.usual_method();
+  REQUIRE(lines.smoother_after == Smoother::lines);
+  MethodOptions one_by_one = lines;
+  one_by_one.smoother_before = one_by_one.smoother_after = Smoother::gauss_seidel;
+  const Positions ours = after(sheet, lines, 20).positions;
+  CHECK(rms_stretch(sheet.model, ours) <
+        0.5 * rms_stretch(sheet.model, after(sheet, one_by_one, 20).positions));
+
+  sheet.model.rest_coordinates.resize(2, 0);
+  CHECK(after(sheet, lines, 5).positions == after(sheet, one_by_one, 5).positions);
+}
+
 TEST_CASE("multigrid: cycles keep momentum, and the same input gives the same bits", "[dynamics]") {
   const auto* const type = GENERATE(from_range(kHierarchical));
   CAPTURE(type->name);
@@ -117,7 +133,7 @@ TEST_CASE("multigrid: nothing is allocated after the first step", "[dynamics]") 
   Held sheet = held_sheet(lying_sheet(12), By::corners);
   sheet.model.gravity = {0, 0, -9.81};
   MethodOptions method = type->usual_method();
-  method.smoother_after = GENERATE(Smoother::gauss_seidel, Smoother::jacobi);
+  method.smoother_after = GENERATE(Smoother::lines, Smoother::gauss_seidel, Smoother::jacobi);
   const auto stepper = make_stepper(sheet.model, method);
   stepper->advance(sheet.state, 0);
   CHECK(allocations_in([&] { stepper->advance(sheet.state, method.step); }) == 0);

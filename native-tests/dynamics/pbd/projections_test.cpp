@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -258,6 +259,34 @@ TEST_CASE("attachments: elsewhere they are never shorter than the surface allows
     most = std::max(most, length / straight);
   }
   CHECK(most < 1.09);  // a path of edges and diagonals is 8 % longer at worst
+}
+
+TEST_CASE("attachments: what is too far away comes back along its way, and nothing else moves",
+          "[dynamics]") {
+  // Slots 0 to 3: two pins, a vertex beyond its length to the first, one within.
+  const std::vector<int> slots = {0, 1, 2, 3};
+  std::array<std::vector<float>, 3> begins, moves;
+  for (std::vector<float>& row : begins) row.assign(4, 0);
+  for (std::vector<float>& row : moves) row.assign(4, 0);
+  begins[0] = {0, 1, 0.5f, 0.5f};
+  moves[0][2] = 1e-3f;
+  const std::vector<float> inverse_masses = {0, 0, 1, 1};
+  const LaneView view{{moves[0].data(), moves[1].data(), moves[2].data()},
+                      {begins[0].data(), begins[1].data(), begins[2].data()},
+                      inverse_masses.data()};
+  const AttachmentProgram program({{{2, 0}, 0.5}, {{2, 1}, 0.6}, {{3, 0}, 0.5}, {{3, 1}, 0.5}},
+                                  slots);
+  program.sweep(view);
+  CHECK(begins[0][2] + moves[0][2] == Approx(0.5).epsilon(1e-5));
+  CHECK(moves[0][3] == 0);
+  CHECK(moves[0][0] == 0);
+  CHECK(moves[0][1] == 0);
+
+  // Pins a hundredth further apart than the shorter pair of lengths: all lengths grow by that.
+  moves[0] = {-5e-3f, 5e-3f, 6e-3f, 0};
+  program.sweep(view);
+  CHECK(begins[0][2] + moves[0][2] == Approx(0.505 - 0.005).epsilon(1e-4));
+  CHECK(moves[0][3] == Approx(0).margin(1e-6));
 }
 
 }  // namespace pleat

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/dynamics/xpbd/bend_program.h"
+#include "core/dynamics/xpbd/hanging_program.h"
+#include "core/dynamics/xpbd/projections.h"
+#include "core/dynamics/xpbd/spring_program.h"
+
+namespace pleat {
+
+/// Projections in the order of the lanes: lines of springs at once, everything else one after the
+/// other. A round is a sweep over all constraints.
+class LaneProjections final : public Projections {
+ public:
+  /// h  substep [s]
+  LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h)
+      : springs_(model, layout, law, h),
+        bends_(model, layout, h),
+        hanging_(model, layout, law, h) {}
+
+  void refresh_pins(const ClothModel&, const float*) override {}
+  void refresh_rest_lengths(const ClothModel& model) override;
+
+  void solve(const LaneView& view, int rounds) override;
+  /// One round; the first of a substep starts from multipliers of zero.
+  void sweep(const LaneView& view, bool is_first);
+
+  double squared_residual(const LaneView& view) override;
+  double squared_residual_before(const LaneView& view) override;
+
+ private:
+  SpringProgram springs_;
+  BendProgram bends_;
+  HangingProgram hanging_;
+};
+
+/// Makes them for `xpbd`.
+std::unique_ptr<Projections> lane_projections(const ClothModel& model, const MethodOptions& options,
+                                              const LaneLayout& layout, SpringLaw law, double h);
+
+}  // namespace pleat
