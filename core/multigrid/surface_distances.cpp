@@ -108,9 +108,12 @@ void SurfaceDistances::find_turns(VertexId vertex) {
     ++n_walked;
     h = edge(next(next(h))).twin;
   }
+  const bool is_border = h < 0;
+  double free = sum - (is_border ? 1 : 2) * kHalfTurn;
+  // A path along a straight border goes on, however rounding bends it.
+  if (is_border && std::abs(free) <= kSameAngle) free = 2 * kSameAngle;
   // Where several fans of triangles meet, a path goes from one to another.
-  free_angle_[vertex] =
-      n_walked < from_[vertex].size() ? kAnyAngle : sum - (h < 0 ? 1 : 2) * kHalfTurn;
+  free_angle_[vertex] = n_walked < from_[vertex].size() ? kAnyAngle : free;
 }
 
 bool SurfaceDistances::can_turn(VertexId vertex) const { return free_angle_[vertex] > kSameAngle; }

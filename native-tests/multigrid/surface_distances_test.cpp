@@ -58,6 +58,28 @@ TEST_CASE("surface distances: on a flat sheet they are straight", "[multigrid]")
   }
 }
 
+TEST_CASE("surface distances: along the border of a strip of needles", "[multigrid]") {
+  // A ladder of 200 rungs a millimetre apart, each a metre long.
+  constexpr int kRungs = 200;
+  TriangleMesh ladder;
+  ladder.rest_positions.resize(3, 2 * (kRungs + 1));
+  for (int r = 0; r <= kRungs; ++r)
+    for (int side = 0; side < 2; ++side)
+      ladder.rest_positions.col(2 * r + side) = Vec3(side, 1.5 - 1e-3 * r, 0);
+  for (int r = 0; r < kRungs; ++r) {
+    const VertexId a(2 * r), b(2 * r + 1), c(2 * r + 3), d(2 * r + 2);
+    ladder.triangles.push_back({a, d, b});
+    ladder.triangles.push_back({b, d, c});
+  }
+  SurfaceDistances surface(ladder);
+  for (int start = 0; start < ladder.n_vertices(); start += 37) {
+    const std::vector<double> found = surface.to(VertexId(start), all_vertices(ladder));
+    for (int v = 0; v < ladder.n_vertices(); ++v)
+      CHECK(found[static_cast<std::size_t>(v)] ==
+            Approx((ladder.rest_positions.col(v) - ladder.rest_positions.col(start)).norm()));
+  }
+}
+
 TEST_CASE("surface distances: a sheet that has a flat pattern is measured there", "[multigrid]") {
   TriangleMesh mesh = triangulated_sheet(Triangulation::one_way, 10, 10, 0.1);
   const Positions lying = mesh.rest_positions;
