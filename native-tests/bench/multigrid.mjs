@@ -3,10 +3,10 @@
 // and what it takes to make them.
 import { runParts } from './parts/bench-parts.mjs';
 import { hierarchy } from './parts/hierarchy.mjs';
+import { contact } from './parts/loop-contact.mjs';
 import { loop, loopOptions } from './parts/loop-contest.mjs';
 import { clothOption, preconditioner } from './parts/multigrid-preconditioner.mjs';
 
-await runParts('multigrid', 'what coarser levels save', { loop, preconditioner, hierarchy }, [
-  ...loopOptions,
-  clothOption,
-]);
+const parts = { loop, contact, preconditioner, hierarchy };
+
+await runParts('multigrid', 'what coarser levels save', parts, [...loopOptions, clothOption]);

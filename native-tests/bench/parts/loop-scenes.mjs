@@ -1,118 +1,84 @@
-// The plain JavaScript loop of the yardstick in scenes that it does not have: places to begin from, pins that move, a ball.
-import { turnsOf } from './contestants.mjs';
-import { makeSheet, stretch } from './yardstick.mjs';
+// Scenes of limp, rigid cloth that our steppers and the plain JavaScript loop both compute.
+import { squareSheet } from './square-sheet.mjs';
 
-/**
- * A sheet of the yardstick's in rows, held by 'edge', 'corners' or 'none'.
- *
- * placeOf: (u, v) => [x, y, z] of a vertex at u [m] along the rows and v across them
- * masses: of each vertex [kg]
- * ball: {centre, radius, friction}, or undefined
- * pinsMove: (time) => how far a pin at x = 0 has gone along x, those at the other end as far back [m]
- */
-function loopSheet(n, { pins, placeOf, masses, ball, pinsMove }) {
-  const sheet = makeSheet(n, 'rows', pins === 'none' ? 'corners' : pins);
-  if (pins === 'none') sheet.w.fill(1);
-  for (const [i, mass] of masses.entries()) if (sheet.w[i] > 0) sheet.w[i] = 1 / mass;
-  for (let i = 0; i < n * n; ++i)
-    placeOf(sheet.x[3 * i], sheet.x[3 * i + 2]).forEach((value, k) => {
-      sheet.x[3 * i + k] = value;
-    });
-  return { ...sheet, ball, pinsMove, begin: sheet.x.slice(), steps: 0 };
-}
-
-/** Vertices inside are put onto the ball; what they moved along it is less by friction times the depth. */
-function holdOff({ x, p, w }, { centre, radius, friction }) {
-  for (let i = 0; i < w.length; ++i) {
-    const q = 3 * i;
-    const dx = x[q] - centre[0];
-    const dy = x[q + 1] - centre[1];
-    const dz = x[q + 2] - centre[2];
-    const distance = Math.sqrt(dx * dx + dy * dy + dz * dz);
-    if (distance >= radius || w[i] === 0) continue;
-    const depth = radius - distance;
-    const nx = dx / distance;
-    const ny = dy / distance;
-    const nz = dz / distance;
-    x[q] += depth * nx;
-    x[q + 1] += depth * ny;
-    x[q + 2] += depth * nz;
-    const mx = x[q] - p[q];
-    const my = x[q + 1] - p[q + 1];
-    const mz = x[q + 2] - p[q + 2];
-    const along = mx * nx + my * ny + mz * nz;
-    const tx = mx - along * nx;
-    const ty = my - along * ny;
-    const tz = mz - along * nz;
-    const slip = Math.sqrt(tx * tx + ty * ty + tz * tz);
-    if (slip === 0) continue;
-    const held = Math.min(1, (friction * depth) / slip);
-    x[q] -= held * tx;
-    x[q + 1] -= held * ty;
-    x[q + 2] -= held * tz;
-  }
-}
-
-function placePins({ x, w, begin, pinsMove }, time) {
-  const offset = pinsMove(time);
-  for (let i = 0; i < w.length; ++i)
-    if (w[i] === 0) x[3 * i] = begin[3 * i] + (begin[3 * i] < 0.5 ? offset : -offset);
-}
-
-/** A frame of the yardstick, with the ball after each substep's projections. */
-function loopFrame(sheet, substeps, dt = 1 / 60) {
-  const { x, v, p, w, ij, rest, ball } = sheet;
-  const h = dt / substeps;
-  for (let s = 0; s < substeps; ++s) {
-    sheet.steps += 1;
-    if (sheet.pinsMove) placePins(sheet, sheet.steps * h);
-    for (let i = 0; i < w.length; ++i) {
-      if (w[i] === 0) continue;
-      v[3 * i + 1] -= 9.81 * h;
-      for (let q = 3 * i; q < 3 * i + 3; ++q) {
-        p[q] = x[q];
-        x[q] += h * v[q];
-      }
-    }
-    for (let k = 0; k < rest.length; ++k) {
-      const i = ij[2 * k];
-      const j = ij[2 * k + 1];
-      const wa = w[i];
-      const wb = w[j];
-      if (wa + wb === 0) continue;
-      const a = 3 * i;
-      const b = 3 * j;
-      const dx = x[a] - x[b];
-      const dy = x[a + 1] - x[b + 1];
-      const dz = x[a + 2] - x[b + 2];
-      const length = Math.sqrt(dx * dx + dy * dy + dz * dz);
-      if (length === 0) continue;
-      const f = (rest[k] - length) / (length * (wa + wb));
-      x[a] += wa * f * dx;
-      x[a + 1] += wa * f * dy;
-      x[a + 2] += wa * f * dz;
-      x[b] -= wb * f * dx;
-      x[b + 1] -= wb * f * dy;
-      x[b + 2] -= wb * f * dz;
-    }
-    if (ball) holdOff(sheet, ball);
-    for (let i = 0; i < w.length; ++i)
-      if (w[i] > 0) for (let q = 3 * i; q < 3 * i + 3; ++q) v[q] = (x[q] - p[q]) / h;
-  }
-}
-
-/** The loop as a contestant, see turnsOf. */
-export function loopTurns(n, scene, substeps, frames, times) {
-  const sheet = loopSheet(n, scene);
-  const program = {
-    target: 'javascript',
-    step: () => loopFrame(sheet, substeps),
-    look: () => {
-      const { rms, max } = stretch(sheet);
-      return { status: 'ok', rms_stretch: rms, largest_stretch: max };
-    },
-    positions: () => sheet.x,
-    end: () => ({ masses_kg: scene.masses, n_constraints: sheet.rest.length }),
+/** Rigid links, no bending: what the loop computes. */
+function limpSheet(name, n, cloth, pins, more = {}) {
+  return {
+    name: `${name} ${n}x${n}`,
+    cloth,
+    fabric: { name: 'fine cotton' },
+    model: { bending: 'none' },
+    pins,
+    duration_s: 1,
+    ...more,
   };
-  return turnsOf(program, frames, times);
 }
+
+const kCorners = [{ part: 'upper_left' }, { part: 'upper_right' }];
+const lying = (u, v) => [u, 0, v];
+const upright = (u, v) => [u, -v, 0];
+const kMeet = 0.25; // how far each corner goes [m]
+
+/** 0 to 1 in a second as motions of kind "ease" go. */
+const ease = (time) => {
+  const t = Math.min(time, 1);
+  return t * t * (3 - 2 * t);
+};
+
+export const kBall = { centre: [0.5, -0.35, 0.5], radius: 0.3, friction: 0.3 };
+
+/** Scenes of both: ours, and what the loop has to know. */
+export const kScenes = {
+  swing_edge: {
+    ours: (n) =>
+      limpSheet('swing by an edge', n, squareSheet(n, [0, 0, 0], [0, 0, 1], [1, 0, 0]), [
+        { part: 'upper_edge' },
+      ]),
+    loop: { pins: 'edge', placeOf: lying },
+    hasReference: true,
+  },
+  swing_corners: {
+    ours: (n) =>
+      limpSheet(
+        'swing by two corners',
+        n,
+        squareSheet(n, [0, 0, 0], [0, 0, 1], [1, 0, 0]),
+        kCorners,
+      ),
+    loop: { pins: 'corners', placeOf: lying },
+  },
+  hang_corners: {
+    ours: (n) =>
+      limpSheet(
+        'hang by two corners',
+        n,
+        squareSheet(n, [0, 0, 0], [0, -1, 0], [1, 0, 0]),
+        kCorners,
+      ),
+    loop: { pins: 'corners', placeOf: upright },
+  },
+  ball: {
+    ours: (n) =>
+      limpSheet('fall on a ball', n, squareSheet(n, [0, 0, 0], [0, 0, 1], [1, 0, 0]), [], {
+        world: {
+          colliders: [
+            {
+              sphere: { centre_m: kBall.centre, radius_m: kBall.radius },
+              friction: kBall.friction,
+            },
+          ],
+        },
+      }),
+    loop: { pins: 'none', placeOf: lying, ball: kBall },
+  },
+  gathered: {
+    ours: (n) => {
+      const comes = (x) => ({ kind: 'ease', offset_m: [x, 0, 0], begin_s: 0, end_s: 1 });
+      return limpSheet('gather', n, squareSheet(n, [0, 0, 0], [0, -1, 0], [1, 0, 0]), [
+        { part: 'upper_left', motion: comes(kMeet) },
+        { part: 'upper_right', motion: comes(-kMeet) },
+      ]);
+    },
+    loop: { pins: 'corners', placeOf: upright, pinsMove: (time) => kMeet * ease(time) },
+  },
+};
