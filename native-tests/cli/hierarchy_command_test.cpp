@@ -46,7 +46,7 @@ TEST_CASE("hierarchy command: levels halve, are written and told of", "[cli]") {
   CAPTURE(ending.error);
   REQUIRE(ending.status == 0);
   const Json told = parse_json(ending.out);
-  CHECK(told.at("build_ms") > 0);
+  CHECK(told.at("processor_ms") > 0);
   const Json levels = told.at("levels");
   REQUIRE(levels.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) {

@@ -1,4 +1,4 @@
-// Milliseconds to make the levels of meshes of 10 000 vertices and slightly more.
+// Processor time to make the levels of meshes of 10 000 vertices and slightly more.
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -21,9 +21,10 @@ const meshesOf = (folder) => {
     fabric: { name: 'fine cotton' },
     pins: [{ part: 'upper_edge' }],
   };
+  const { substeps, ...skirt } = garment('skirt_walk', 2);
   return [
     ['sheet 100x100', sheet],
-    ['skirt of 10 920', garment('skirt_walk', 2)],
+    ['skirt in a walk', skirt],
     ['crumpled dress, no two triangles alike', file],
   ];
 };
@@ -35,11 +36,11 @@ export async function hierarchy({ repeat, scale }) {
     for (const [mesh, about] of meshesOf(folder)) {
       tell(`hierarchy of ${mesh}`);
       const runs = Array.from({ length: repeat }, () => ask('hierarchy', about, '--json'));
-      const ms = runs.map((run) => run.build_ms);
+      const ms = runs.map((run) => run.processor_ms);
       rows.push({
         scene: mesh,
         n_vertices: runs[0].levels.map((level) => level.n_vertices),
-        build_ms: median(ms),
+        processor_ms: median(ms),
         spread_ms: Math.max(...ms) - Math.min(...ms),
         status: runs[0].shortage ? 'short of levels' : 'ok',
         commit,
@@ -51,14 +52,14 @@ export async function hierarchy({ repeat, scale }) {
   const lines = rows.map((row) => [
     row.scene,
     row.n_vertices.join(', '),
-    short(row.build_ms),
+    short(row.processor_ms),
     short(row.spread_ms),
     row.status,
   ]);
-  const slowest = Math.max(...rows.map((row) => row.build_ms));
+  const slowest = Math.max(...rows.map((row) => row.processor_ms));
   return {
     rows,
     goals: [goal('multigrid.hierarchy_10000_ms', slowest, 'at-most', kMostMs * scale, rows)],
-    text: `milliseconds to make three coarser levels; median of ${repeat}\n\n${markdown(['mesh', 'vertices', 'ms', 'spread', 'status'], lines)}`,
+    text: `processor time to make three coarser levels; median of ${repeat}\n\n${markdown(['mesh', 'vertices', 'ms', 'spread', 'status'], lines)}`,
   };
 }
