@@ -26,8 +26,10 @@ constexpr int kLookEvery = 4;
 /// of them, a step of it as long as 4.
 constexpr int kPatience = 60;
 
-/// Factorisations in a row that begin with multigrid once it had to take over: then the incomplete
-/// factor is tried again, at a twentieth of what they took.
+/// The most factorisations in a row that begin with multigrid once it had to take over: then the
+/// incomplete factor is tried again, at a twentieth of what they took. A first time is no habit, as
+/// of a run that begins far from rest: 0, 1, 3, 7 and 15 times in a row, from anew when the factor
+/// was fast enough.
 constexpr int kMultigridTurns = 15;
 
 class ConjugateGradient final : public BlockIteration {
@@ -40,7 +42,7 @@ class ConjugateGradient final : public BlockIteration {
 
   void do_analyze(const SparseMatrix& lower) override {
     multigrid_.reset();
-    turns_left_ = 0;
+    turns_left_ = next_turns_ = 0;
     is_multigrid_lost_ = false;
     incomplete_.analyze(lower);
   }
@@ -107,7 +109,8 @@ class ConjugateGradient final : public BlockIteration {
         return report(SolveStatus::not_converged, "the iteration cap was reached");
       if (loses_patience(iterations)) {
         take_multigrid();
-        turns_left_ = kMultigridTurns;
+        turns_left_ = next_turns_;
+        next_turns_ = std::min(2 * next_turns_ + 1, kMultigridTurns);
         start();
         continue;
       }
@@ -135,6 +138,7 @@ class ConjugateGradient final : public BlockIteration {
         return report(SolveStatus::not_converged, "rounding stops the residual");
       start_residual = residual_;
     }
+    if (active_ == &incomplete_) next_turns_ = 0;
     return report(SolveStatus::ok, "");
   }
 
@@ -144,6 +148,7 @@ class ConjugateGradient final : public BlockIteration {
   std::vector<double> places_;
   bool is_multigrid_lost_ = false;  // since it was not positive definite in single precision
   int turns_left_ = 0;              // factorisations that are to begin with multigrid
+  int next_turns_ = 0;              // of these, when it has to take over again
   double residual_ = 0;
 };
 

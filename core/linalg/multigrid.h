@@ -10,11 +10,11 @@
 
 namespace pleat {
 
-/// One V-cycle of multigrid by smoothed aggregation (coarsening.h) as an approximate inverse of a
+/// One cycle of multigrid by smoothed aggregation (coarsening.h) as an approximate inverse of a
 /// symmetric positive definite A: symmetric and positive definite itself, up to single precision.
 ///
 /// Each level is smoothed by a Gauss-Seidel sweep forward and one backward, before and after the
-/// coarser ones; the coarsest is solved.
+/// coarser ones, to which all but the finest go twice; the coarsest is solved.
 class Multigrid {
  public:
   /// Takes the pattern; the order of its rows is that of all vectors.

@@ -340,6 +340,30 @@ TEST_CASE("multigrid: the automatic choice is the factor alone where that is fas
   CHECK(iterations_of(system, Preconditioner::automatic) == alone);
 }
 
+TEST_CASE("multigrid: the automatic choice changes by habit, not by one slow solve", "[linalg]") {
+  const Placed slow = sheet(40);
+  const Placed fast = sheet(40, {10});
+  const int alone = iterations_of(fast, Preconditioner::incomplete_factor);
+  REQUIRE(alone < 60);
+  const auto solver = make_conjugate_gradient({});
+  solver->analyze(slow.lower);
+  Random random(4);
+  const MatrixXd rhs = random_columns(slow.lower.rows(), 1, random);
+  const auto iterations = [&](const Placed& system) {
+    solver->set_places(system.places);
+    REQUIRE(solver->factorize(system.lower).ok());
+    MatrixXd x = MatrixXd::Zero(rhs.rows(), 1);
+    const SolveReport report = solver->solve(rhs, x);
+    REQUIRE(report.ok());
+    return report.iterations;
+  };
+  CHECK(iterations(slow) > 60);
+  CHECK(iterations(fast) == alone);
+  CHECK(iterations(slow) > 60);
+  CHECK(iterations(slow) > 60);
+  CHECK(iterations(slow) < 60);
+}
+
 TEST_CASE("multigrid: the same calls give the same bits", "[linalg]") {
   const Placed system = sheet(20);
   const auto cycle = [&] { return cycle_of(system.lower, system.places); };
