@@ -135,7 +135,7 @@ void SurfaceDistances::reach(VertexId vertex, const Arrival& arrival) {
   if (known.distance <= arrival.distance) return;
   if (known.distance == kNever) touched_.push_back(vertex);
   known = arrival;
-  push(vertex);
+  if (can_turn(vertex)) push(vertex);
 }
 
 void SurfaceDistances::go_along_edges(VertexId vertex) {
@@ -220,14 +220,14 @@ double SurfaceDistances::farthest(const std::vector<VertexId>& ends) const {
 bool SurfaceDistances::search(VertexId start, const std::vector<VertexId>& ends, double limit) {
   for (const VertexId v : touched_) arrivals_[v] = {};
   touched_.clear();
-  queue_.clear();
   reach(start, {0, 0});
+  queue_.clear();
+  go_on_from(start, limit);
   while (!queue_.empty()) {
     const auto [distance, vertex] = pop();
     const double rest = std::min(limit, farthest(ends));
     if (distance > rest) break;
-    if (distance > arrivals_[vertex].distance) continue;
-    if (vertex == start || can_turn(vertex)) go_on_from(vertex, rest);
+    if (distance <= arrivals_[vertex].distance) go_on_from(vertex, rest);
   }
   return farthest(ends) <= limit;
 }
