@@ -101,6 +101,9 @@ function loopFrame(sheet, substeps, dt = 1 / 60) {
   }
 }
 
+/** Stretch beyond which it is no cloth any more. */
+const kFlownApart = 1e3;
+
 /** The loop as a contestant, see turnsOf. */
 export function loopTurns(n, scene, substeps, frames, times) {
   const sheet = loopSheet(n, scene);
@@ -109,6 +112,7 @@ export function loopTurns(n, scene, substeps, frames, times) {
     step: () => loopFrame(sheet, substeps),
     look: () => {
       const { rms, max } = stretch(sheet);
+      if (!(max < kFlownApart)) return { status: 'diverged', message: 'the loop flew apart' };
       return { status: 'ok', rms_stretch: rms, largest_stretch: max };
     },
     positions: () => sheet.x,
