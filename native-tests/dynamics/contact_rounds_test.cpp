@@ -10,9 +10,9 @@
 namespace pleat {
 namespace {
 
-constexpr double kStep = 0.01;  // [s]
+constexpr double kRoundsStep = 0.01;  // [s]
 
-struct Cloth {
+struct TouchingCloth {
   ClothModel model;
   State state;
 };
@@ -24,29 +24,29 @@ Collider table(double friction) {
 }
 
 /// In the plane z = 0, with a weight that has a part along x.
-Cloth sheet_on(const Collider& collider, const Vec3& gravity, const std::string& fabric) {
+TouchingCloth sheet_on(const Collider& collider, const Vec3& gravity, const std::string& fabric) {
   const QuadMesh mesh = lying_sheet(8);
-  Cloth cloth{sheet_model(mesh, library_fabric(fabric)), rest_state(mesh)};
+  TouchingCloth cloth{sheet_model(mesh, library_fabric(fabric)), rest_state(mesh)};
   cloth.model.gravity = gravity;
   cloth.model.contact.emplace(std::vector<Collider>{collider}, ContactOptions{});
   return cloth;
 }
 
-MethodOptions rounds(int n_rounds, Acceleration acceleration = Acceleration::none) {
+MethodOptions by_rounds(int n_rounds, Acceleration acceleration = Acceleration::none) {
   MethodOptions options;
   options.stepper = &steppers::kProjective;
-  options.step = kStep;
+  options.step = kRoundsStep;
   options.solver = SolverKind::eigen;
   options.iterations = n_rounds;
   options.acceleration = acceleration;
   return options;
 }
 
-void advance(Stepper& stepper, State& state, int from, int to) {
+void advance_by_rounds(Stepper& stepper, State& state, int from, int to) {
   for (int s = from; s < to; ++s) REQUIRE(stepper.advance(state, s * stepper.options().step).ok());
 }
 
-double rms_stretch(const Cloth& cloth) {
+double stretch_of_springs(const TouchingCloth& cloth) {
   double sum = 0;
   for (const Spring& spring : cloth.model.springs) {
     const Vec3 d = cloth.state.positions.col(spring.a) - cloth.state.positions.col(spring.b);
@@ -65,7 +65,7 @@ constexpr double kBallRadius = 0.25;  // [m]
 
 Drape drape(const std::string& fabric, const Collider& solid, MethodOptions options) {
   const QuadMesh mesh = lying_sheet(16);
-  Cloth cloth{sheet_model(mesh, library_fabric(fabric)), rest_state(mesh)};
+  TouchingCloth cloth{sheet_model(mesh, library_fabric(fabric)), rest_state(mesh)};
   cloth.model.gravity = {0, 0, -9.81};
   cloth.model.contact.emplace(std::vector<Collider>{solid}, ContactOptions{});
   options.step = 1.0 / 60;
@@ -73,8 +73,8 @@ Drape drape(const std::string& fabric, const Collider& solid, MethodOptions opti
   Drape drape;
   constexpr int kSteps = 60;
   for (int s = 0; s < kSteps; ++s) {
-    advance(*stepper, cloth.state, s, s + 1);
-    drape.stretch += rms_stretch(cloth) / kSteps;
+    advance_by_rounds(*stepper, cloth.state, s, s + 1);
+    drape.stretch += stretch_of_springs(cloth) / kSteps;
     for (int i = 0; i < cloth.model.n_vertices(); ++i)
       drape.least_height = std::min(
           drape.least_height, height(solid, cloth.state.positions.col(i), (s + 1) * options.step));
@@ -91,17 +91,18 @@ TEST_CASE("contact rounds: cloth on a slope stays below the friction angle and s
   const auto acceleration = GENERATE(Acceleration::none, Acceleration::anderson);
   CAPTURE(angle, friction, acceleration);
   const Vec3 gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
-  Cloth cloth = sheet_on(table(friction), gravity, "linen");
+  TouchingCloth cloth = sheet_on(table(friction), gravity, "linen");
   const Positions begin = cloth.state.positions;
-  const auto stepper = make_stepper(cloth.model, rounds(10, acceleration));
+  const auto stepper = make_stepper(cloth.model, by_rounds(10, acceleration));
   constexpr int kSteps = 50;
-  advance(*stepper, cloth.state, 0, kSteps);
+  advance_by_rounds(*stepper, cloth.state, 0, kSteps);
   const double slide = 9.81 * std::max(std::sin(angle) - friction * std::cos(angle), 0.0);
   Positions expected = begin;
-  expected.row(0).array() += slide * kStep * kStep * kSteps * (kSteps + 1) / 2;
+  expected.row(0).array() += slide * kRoundsStep * kRoundsStep * kSteps * (kSteps + 1) / 2;
   // Rounding of places, over the step and made larger by the springs' stiffness.
   CHECK((cloth.state.positions - expected).cwiseAbs().maxCoeff() < 1e-7);
-  CHECK((cloth.state.velocities.row(0).array() - slide * kStep * kSteps).abs().maxCoeff() < 1e-6);
+  CHECK((cloth.state.velocities.row(0).array() - slide * kRoundsStep * kSteps).abs().maxCoeff() <
+        1e-6);
   CHECK((cloth.state.velocities.bottomRows(2)).cwiseAbs().maxCoeff() < 1e-6);
   const Vec3 reaction(-9.81 * std::min(std::sin(angle), friction * std::cos(angle)), 0,
                       9.81 * std::cos(angle));
@@ -111,13 +112,13 @@ TEST_CASE("contact rounds: cloth on a slope stays below the friction angle and s
 
 TEST_CASE("contact rounds: a sheet that comes down flat rests in the step in which it does",
           "[contact]") {
-  Cloth cloth = sheet_on(table(0.3), {0, 0, -9.81}, "linen");
+  TouchingCloth cloth = sheet_on(table(0.3), {0, 0, -9.81}, "linen");
   cloth.state.positions.row(2).array() += 0.005;
   cloth.state.velocities.row(2).setConstant(-1);
   const Positions begin = cloth.state.positions;
-  const auto stepper = make_stepper(cloth.model, rounds(10));
+  const auto stepper = make_stepper(cloth.model, by_rounds(10));
   for (int s = 0; s < 20; ++s) {
-    advance(*stepper, cloth.state, s, s + 1);
+    advance_by_rounds(*stepper, cloth.state, s, s + 1);
     CHECK(cloth.state.velocities.cwiseAbs().maxCoeff() < 1e-9);
     CHECK(cloth.state.positions.row(2).cwiseAbs().maxCoeff() < 1e-12);
     CHECK((cloth.state.positions - begin).topRows(2).cwiseAbs().maxCoeff() < 1e-9);
@@ -126,15 +127,15 @@ TEST_CASE("contact rounds: a sheet that comes down flat rests in the step in whi
 
 TEST_CASE("contact rounds: cloth that has rested leaves as if nothing had held it", "[contact]") {
   const auto acceleration = GENERATE(Acceleration::none, Acceleration::anderson);
-  Cloth cloth = sheet_on(table(0.3), {0, 0, -9.81}, "linen");
-  const auto stepper = make_stepper(cloth.model, rounds(10, acceleration));
-  advance(*stepper, cloth.state, 0, 20);
+  TouchingCloth cloth = sheet_on(table(0.3), {0, 0, -9.81}, "linen");
+  const auto stepper = make_stepper(cloth.model, by_rounds(10, acceleration));
+  advance_by_rounds(*stepper, cloth.state, 0, 20);
   const Positions begin = cloth.state.positions;
   cloth.model.gravity = {0, 0, 9.81};
   constexpr int kSteps = 10;
-  advance(*stepper, cloth.state, 20, 20 + kSteps);
+  advance_by_rounds(*stepper, cloth.state, 20, 20 + kSteps);
   Positions expected = begin;
-  expected.row(2).array() += 9.81 * kStep * kStep * kSteps * (kSteps + 1) / 2;
+  expected.row(2).array() += 9.81 * kRoundsStep * kRoundsStep * kSteps * (kSteps + 1) / 2;
   CHECK((cloth.state.positions - expected).cwiseAbs().maxCoeff() < 1e-9);
   CHECK(stepper->contact_forces().isZero(0));
 }
@@ -142,11 +143,11 @@ TEST_CASE("contact rounds: cloth that has rested leaves as if nothing had held i
 TEST_CASE("contact rounds: a solid out of reach changes no bit", "[contact]") {
   const auto acceleration = GENERATE(Acceleration::none, Acceleration::anderson);
   const auto end = [&](bool has_solid) {
-    Cloth cloth = sheet_on(table(0.3), {0, 0, -9.81}, "linen");
+    TouchingCloth cloth = sheet_on(table(0.3), {0, 0, -9.81}, "linen");
     if (!has_solid) cloth.model.contact.reset();
     cloth.state.positions.row(2).array() += 10;
     cloth.state.velocities(2, 3) = 5;
-    advance(*make_stepper(cloth.model, rounds(10, acceleration)), cloth.state, 0, 10);
+    advance_by_rounds(*make_stepper(cloth.model, by_rounds(10, acceleration)), cloth.state, 0, 10);
     return cloth.state;
   };
   CHECK(end(true).positions == end(false).positions);
@@ -168,14 +169,15 @@ TEST_CASE("contact rounds: over a solid cloth stretches little more than implici
   capsule.centre_a = {0.1, 0.5, -0.2};
   capsule.centre_b = {0.8, 0.4, -0.3};
   capsule.radius_a = capsule.radius_b = 0.15;
-  // Cloth lies on a capsule without being stretched: there implicit has half of the stretch.
+  // TouchingCloth lies on a capsule without being stretched: there implicit has half of the
+  // stretch.
   const Fall fall = GENERATE_COPY(Fall{ball, 2, 2}, Fall{smooth, 2, 2}, Fall{moving, 2, 2},
                                   Fall{cone_collider(capsule, 0.2), 2.5, 3.5});
   const std::string fabric = GENERATE("linen", "fine cotton");
   const auto acceleration = GENERATE(Acceleration::none, Acceleration::anderson);
   CAPTURE(fabric, fall.solid.friction, fall.solid.shape.index(), acceleration);
   const Drape expected = drape(fabric, fall.solid, steppers::kImplicitEuler.usual_method());
-  const Drape found = drape(fabric, fall.solid, rounds(10, acceleration));
+  const Drape found = drape(fabric, fall.solid, by_rounds(10, acceleration));
   CAPTURE(expected.stretch, found.stretch);
   const bool is_plain = acceleration == Acceleration::none;
   CHECK(found.stretch < expected.stretch * (is_plain ? fall.most : fall.most_accelerated));
