@@ -14,7 +14,9 @@
 #include "core/dynamics/stepper_imex.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/files/obj_file.h"
+#include "core/mesh/mesh_fault.h"
 #include "core/model/stretch.h"
+#include "core/multigrid/mesh_hierarchy.h"
 #include "core/reference/reference_track.h"
 #include "core/run/response_study.h"
 #include "core/run/run_ledger.h"
@@ -85,10 +87,11 @@ class Scene {
     });
   }
 
-  /// The words and marks by which a page shows each stepper.
+  /// The words and marks by which a page shows each stepper, and the details that they read.
   std::string steppers() const {
     return guarded([](val& envelope) {
       envelope.set("steppers", json_value(pleat::json_steppers(pleat::standard_steppers()).dump()));
+      envelope.set("details", json_value(pleat::json_method_details().dump()));
     });
   }
 
@@ -332,6 +335,45 @@ class Simulation {
       envelope.set("share", 1 - pleat::explicit_share(model, step / taken));
     });
   }
+  /// Makes the levels coarser than the mesh that a stepper with such settings makes of it, whatever
+  /// stepper runs: `level_vertices` and `level_edges` tell them until the mesh is another one.
+  std::string make_levels(const std::string& selection, int n_coarser, double ratio) {
+    return guarded([&](val& envelope) {
+      pleat::TriangleMesh mesh;
+      mesh.rest_positions = running().rest_positions();
+      mesh.triangles = running().triangles();
+      if (const auto fault = pleat::mesh_fault(mesh.rest_positions, mesh.triangles, 0))
+        throw pleat::InputError("/cloth", fault->sentence);
+      std::vector<bool> is_pinned(static_cast<std::size_t>(mesh.n_vertices()), false);
+      for (const pleat::Pin& pin : running().own_pins()) is_pinned[pin.vertex] = true;
+      pleat::HierarchyOptions options;
+      options.n_coarser = n_coarser;
+      options.ratio = ratio;
+      const auto& names = pleat::kLevelSelectionNames;
+      const auto* const name = std::find(names.begin(), names.end(), selection);
+      if (name == names.end()) throw pleat::InputError("selection", "expected quadrics or thinned");
+      options.selection = static_cast<pleat::LevelSelection>(name - names.begin());
+      hierarchy_ = pleat::mesh_hierarchy(mesh, is_pinned, options);
+      envelope.set("n_coarser", hierarchy_.levels.size() - 1);
+      envelope.set("shortage", hierarchy_.shortage);
+    });
+  }
+  /// The vertices of a level, ascending; 0 is the mesh. Empty where there is no such level.
+  val level_vertices(std::size_t level) {
+    level_ids_.clear();
+    for (const pleat::VertexId v : level_at(level).vertices)
+      level_ids_.push_back(static_cast<std::uint32_t>(v.value));
+    return view_of(level_ids_);
+  }
+  /// Two vertices of the mesh for each edge of a level.
+  val level_edges(std::size_t level) {
+    const pleat::MeshLevel& mesh = level_at(level);
+    level_ids_.clear();
+    for (const pleat::LevelEdge& edge : mesh.edges)
+      for (const pleat::VertexId v : {edge.a, edge.b})
+        level_ids_.push_back(static_cast<std::uint32_t>(mesh.vertices[v].value));
+    return view_of(level_ids_);
+  }
   val exact_positions() const {
     return run_.is_loaded() ? view_of(running().state().positions) : view_of(kNoDoubles);
   }
@@ -342,8 +384,13 @@ class Simulation {
  private:
   static inline const std::vector<float> kNoFloats;
   static inline const std::vector<double> kNoDoubles;
+  static inline const pleat::MeshLevel kNoLevel;
 
   pleat::Simulation& running() const { return run_.running(); }
+
+  const pleat::MeshLevel& level_at(std::size_t level) const {
+    return level < hierarchy_.levels.size() ? hierarchy_.levels[level] : kNoLevel;
+  }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
     return std::make_unique<pleat::Simulation>(
@@ -362,6 +409,7 @@ class Simulation {
 
   void take_mesh() {
     topology_ = running().topology();
+    hierarchy_ = {};
     strain_map_.emplace(running().gauge(), running().model().n_vertices());
     triangles_.clear();
     for (const pleat::Triangle& t : running().triangles())
@@ -407,6 +455,8 @@ class Simulation {
   std::vector<float> positions_;  // 3 per vertex [m]
   std::vector<std::uint32_t> triangles_;
   std::vector<std::uint32_t> spring_ends_;
+  pleat::MeshHierarchy hierarchy_;
+  std::vector<std::uint32_t> level_ids_;
 };
 
 }  // namespace
@@ -445,5 +495,8 @@ EMSCRIPTEN_BINDINGS(pleat) {
       .function("energies", &Simulation::energies)
       .function("springEnds", &Simulation::spring_ends)
       .function("implicitSprings", &Simulation::implicit_springs)
-      .function("implicitShare", &Simulation::implicit_share);
+      .function("implicitShare", &Simulation::implicit_share)
+      .function("makeLevels", &Simulation::make_levels)
+      .function("levelVertices", &Simulation::level_vertices)
+      .function("levelEdges", &Simulation::level_edges);
 }

@@ -9,6 +9,10 @@ import { stepperRows } from './build-steps/stepper-rows.ts';
 
 const repository = fileURLToPath(new URL('..', import.meta.url));
 
+/** Of the state, what a first load takes. */
+const FIRST_STATE =
+  /src\/(motion|shared)\/(state|steppers)\/(?!sweep-cost|obj-file)|pleat-steppers/;
+
 export default defineConfig({
   base: './', // any static folder will do
   plugins: [
@@ -23,10 +27,17 @@ export default defineConfig({
   worker: { format: 'es' },
   build: {
     target: 'es2022',
-    modulePreload: { polyfill: false }, // a browser without it fetches modules a little later
+    // What a later part imports is mostly here already: a list of it would weigh more than it gains.
+    modulePreload: { polyfill: false, resolveDependencies: () => [] },
     assetsInlineLimit: 0, // the content policy allows no data: but images
     chunkSizeWarningLimit: 800, // three.js; the budget is what counts
     // Else the text of the fabric file is copied into each place that sends it to a worker.
-    rolldownOptions: { optimization: { inlineConst: false } },
+    rolldownOptions: {
+      optimization: { inlineConst: false },
+      output: {
+        // What the first load shares with later parts is one file, which packs better than four.
+        advancedChunks: { groups: [{ name: 'state', test: FIRST_STATE }] },
+      },
+    },
   },
 });

@@ -64,6 +64,10 @@ class Simulation final : public MovingCloth {
   /// For each vertex that tears have appended since the start the one before it that it was split
   /// from: the vertices before are those of the whole cloth.
   std::span<const VertexId> tear_origins() const { return tear_origins_; }
+  /// Pins of the scene, without those of a hand.
+  std::span<const Pin> own_pins() const {
+    return {model_.pins.data(), grab_ ? grab_->first_pin : model_.pins.size()};
+  }
   /// Another number after each change of vertices and triangles.
   std::int64_t topology() const { return topology_; }
   /// The rest area of each vertex [m^2]; particles count by their mass.

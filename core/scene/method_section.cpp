@@ -227,6 +227,94 @@ double substep_work(const StepperType& type) {
   return type.substep_cost(method);
 }
 
+struct MethodDetail {
+  MethodSetting setting;
+  const char* title;
+  const char* meaning;
+};
+
+constexpr std::array<MethodDetail, 8> kMethodDetails{{
+    {MethodSetting::levels, "Coarser levels, number",
+     "Meshes of fewer vertices that carry a pull far at once. 0: the cloth's own mesh alone."},
+    {MethodSetting::ratio, "Kept by a level, share of vertices",
+     "The less a level keeps of the finer one, the cheaper it is, and the rougher."},
+    {MethodSetting::level_lengths, "Lengths of levels",
+     "Along the surface they act only when exceeded; straight ones act both ways, and iron folds."},
+    {MethodSetting::smoother_before, "Smoother before",
+     "How each level is swept on the way to coarser ones."},
+    {MethodSetting::smoother, "Smoother",
+     "How constraints are swept; where there are levels, on the way back."},
+    {MethodSetting::omega, "Omega, factor of corrections",
+     "Of SOR, usually 1.1, and Jacobi, usually 1. Above 1 it reaches farther and smooths less."},
+    {MethodSetting::attachments, "Attachments",
+     "Long range: no vertex further from a pin than unstretched cloth allows."},
+    {MethodSetting::constraints, "Constraints",
+     "Rigid ones do not give; compliant ones give as the fabric does."},
+}};
+
+struct WordTitle {
+  std::string_view word;
+  const char* title;
+};
+
+constexpr std::array<WordTitle, 9> kWordTitles{{{"none", "None"},
+                                                {"jacobi", "Jacobi"},
+                                                {"gauss_seidel", "Gauss-Seidel"},
+                                                {"sor", "SOR"},
+                                                {"surface", "Along the surface"},
+                                                {"chord", "Straight"},
+                                                {"long_range", "Long range"},
+                                                {"rigid", "Rigid"},
+                                                {"compliant", "Compliant"}}};
+
+const char* title_of(const char* word) {
+  for (const WordTitle& known : kWordTitles)
+    if (known.word == word) return known.title;
+  return word;
+}
+
+/// Omega is offered of smoothers alone: as a setting of imex it goes with its solver, which is not.
+bool offers(const StepperType& type, MethodSetting setting) {
+  return type.reads(setting) &&
+         (setting != MethodSetting::omega || type.reads(MethodSetting::smoother));
+}
+
+template <class Words>
+Json json_words(const Words& words) {
+  Json list = Json::array();
+  for (const auto& [word, value] : words)
+    list.push_back({{"value", word}, {"title", title_of(word)}});
+  return list;
+}
+
+/// "words", or the numbers between which a detail lies, and by which steps it is usually changed.
+void put_values(MethodSetting setting, Json& json) {
+  const auto put_numbers = [&](double least, double most, double step) {
+    json["least"] = least;
+    json["most"] = most;
+    json["step"] = step;
+  };
+  switch (setting) {
+    case MethodSetting::levels:
+      return put_numbers(0, kMaxCoarserLevels, 1);
+    case MethodSetting::ratio:
+      return put_numbers(0.15, 0.85, 0.05);
+    case MethodSetting::omega:
+      return put_numbers(0.05, 1.95, 0.05);
+    case MethodSetting::level_lengths:
+      json["words"] = json_words(kLevelLengths);
+      return;
+    case MethodSetting::attachments:
+      json["words"] = json_words(kAttachments);
+      return;
+    case MethodSetting::constraints:
+      json["words"] = json_words(kConstraints);
+      return;
+    default:
+      json["words"] = json_words(kSmoothers);
+  }
+}
+
 /// A count with what it starts from and what more of it does.
 Json json_count(int start, int least, const char* meaning) {
   Json json;
@@ -248,6 +336,10 @@ Json json_stepper(const StepperType& type) {
       json_count(type.start.substeps, type.has_stability_bound ? 0 : 1, type.substeps_meaning);
   if (counts_rounds)
     json["settings"]["iterations"] = json_count(type.start.iterations, 1, type.iterations_meaning);
+  json["details"] = Json::object();
+  for (const MethodDetail& detail : kMethodDetails)
+    if (offers(type, detail.setting))
+      json["details"][key(detail.setting)] = json_setting(detail.setting, type.usual_method());
   json["sweep"] = Json::array();
   for (const MethodCounts& counts : type.usual_counts) {
     Json usual;
@@ -310,6 +402,19 @@ Json json_steppers(StepperTable steppers) {
   Json rows = Json::array();
   for (const StepperType* type : steppers) rows.push_back(json_stepper(*type));
   return rows;
+}
+
+Json json_method_details() {
+  Json details = Json::array();
+  for (const MethodDetail& detail : kMethodDetails) {
+    Json json;
+    json["key"] = key(detail.setting);
+    json["title"] = detail.title;
+    json["meaning"] = detail.meaning;
+    put_values(detail.setting, json);
+    details.push_back(json);
+  }
+  return details;
 }
 
 void read_record(const JsonReader& reader, RecordOptions& record) {

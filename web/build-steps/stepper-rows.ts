@@ -1,25 +1,43 @@
 // The core's table of steppers, which the page knows as a module of its own: asked of the module that
-// was built for the page, so that what is said of a stepper stands in the core alone.
+// was built for the page, so that what is said of a stepper stands in the core alone. What is told of
+// the details of methods is another module: it is fetched when they are first shown.
 import { readFileSync } from 'node:fs';
 import type { Plugin } from 'vite';
 
-const NAME = 'virtual:pleat-steppers';
+const ROWS = 'virtual:pleat-steppers';
+const DETAILS = 'virtual:pleat-details';
 const BUILT = new URL('../src/wasm/pleat.mjs', import.meta.url);
 
-async function rows(): Promise<unknown> {
+interface Detail {
+  key: string;
+  words?: { value: string }[];
+  [more: string]: unknown;
+}
+
+async function tables(): Promise<{ steppers: unknown; details: Detail[] }> {
   const { default: create } = await import(BUILT.href);
   const { Scene } = await create({ wasmBinary: readFileSync(new URL('pleat.wasm', BUILT)) });
   const scene = new Scene('');
-  const { steppers } = JSON.parse(scene.steppers());
+  const answer = JSON.parse(scene.steppers());
   scene.delete();
-  return steppers;
+  return answer;
+}
+
+/** What it takes to read a detail, without what people are told of it. */
+function readable({ key, words, least, most }: Detail): object {
+  return words ? { key, words: words.map(({ value }) => value) } : { key, least, most };
 }
 
 export function stepperRows(): Plugin {
   return {
     name: 'pleat-steppers',
-    resolveId: (id) => (id === NAME ? `\0${NAME}` : null),
-    load: async (id) =>
-      id === `\0${NAME}` ? `export default ${JSON.stringify(await rows())}` : null,
+    resolveId: (id) => (id === ROWS || id === DETAILS ? `\0${id}` : null),
+    async load(id) {
+      if (id !== `\0${ROWS}` && id !== `\0${DETAILS}`) return null;
+      const { steppers, details } = await tables();
+      if (id === `\0${DETAILS}`) return `export default ${JSON.stringify(details)}`;
+      const keys = JSON.stringify(details.map(readable));
+      return `export default ${JSON.stringify(steppers)};\nexport const details = ${keys}`;
+    },
   };
 }

@@ -4,9 +4,7 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
-import { element } from '../shared/panels/element';
 import { createInvitation } from '../shared/panels/invitation';
-import { createKeysPanel } from '../shared/panels/keys-panel';
 import { createRunTools } from '../shared/panels/run-tools';
 import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
 import type { Print } from '../shared/stage/fabric-material';
@@ -14,7 +12,6 @@ import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createCaption } from './panels/caption';
 import { createDrawingPanel } from './panels/drawing-panel';
-import { createEnergyPanel } from './panels/energy-panel';
 import { createFabricPanel } from './panels/fabric-panel';
 import { later } from './panels/later';
 import { createLinkTool } from './panels/link-tool';
@@ -23,10 +20,8 @@ import { motionSentence } from './panels/motion-sentence';
 import { createNumbersStrip } from './panels/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
 import { createScenePanel } from './panels/scene-panel';
-import { createSweepPanel } from './panels/sweep-panel';
 import { createWorkBar } from './panels/work-bar';
 import { MotionRun } from './run/motion-run';
-import type { Sweep } from './run/sweep';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
 import type { Knit } from './state/knit';
 import { decodeMotionLink, encodeMotionLink, linkTo } from './state/motion-link';
@@ -67,12 +62,8 @@ function createPicture(
   const bringHeatLegend = later(store, 'The scale of the colours', async () => {
     (await import('./panels/heat-legend')).createHeatLegend(box, store);
   });
-  const bringSpringLegend = later(store, 'The legend of the springs', async () => {
-    (await import('./panels/spring-legend')).createSpringLegend(box, store);
-  });
-  watch(store, ['heat', 'springs'], ({ heat, springs }) => {
+  watch(store, ['heat'], ({ heat }) => {
     if (heat !== 'off') void bringHeatLegend();
-    if (springs) void bringSpringLegend();
   });
   const keys: Record<string, () => void> = {
     ' ': () => (store.get().playing ? run()?.pause() : run()?.play()),
@@ -112,52 +103,6 @@ function createPicture(
   }
 }
 
-/** Chart and table of the sweep. Returns what opens them and brings them into view. */
-function createSweepTray(
-  parent: HTMLElement,
-  store: Store<MotionState>,
-  run: MotionRun,
-): () => void {
-  const bring = later(store, 'The chart of the sweep', async () => {
-    const { createSpeedErrorView } = await import('./panels/speed-error-view');
-    return createSpeedErrorView(parent, store, run);
-  });
-  watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
-    if (sweepOpen && !(await bring())) store.set({ sweepOpen: false });
-  });
-  return async () => {
-    store.set({ sweepOpen: true });
-    await bring();
-    const isCalm = matchMedia('(prefers-reduced-motion: reduce)').matches;
-    parent.scrollIntoView({ block: 'start', behavior: isCalm ? 'instant' : 'smooth' });
-  };
-}
-
-/** A sweep that comes with its first start. */
-function createLaterSweep(store: Store<MotionState>): Sweep {
-  const bring = later(store, 'The sweep', async () => {
-    const { createSweep } = await import('./run/sweep');
-    return createSweep(store);
-  });
-  return {
-    start: async (wish) => (await bring())?.start(wish),
-    cancel: async () => (await bring())?.cancel(),
-  };
-}
-
-/** What contact does is told where there are solids. */
-function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
-  const section = element('section', { 'aria-label': 'Contact' });
-  parent.append(section);
-  const bring = later(store, 'The panel of contact', async () => {
-    const { createContactPanel } = await import('./panels/contact-panel');
-    return createContactPanel(section, store);
-  });
-  watch(store, ['colliders'], ({ colliders }) => {
-    if (colliders.length > 0) void bring();
-  });
-}
-
 function createPanels(
   place: Place,
   store: Store<MotionState>,
@@ -182,11 +127,12 @@ function createPanels(
   createFabricPanel(place('panel'), store);
   createMethodPanel(place('panel'), store, run);
   createDrawingPanel(place('panel'), store);
-  createEnergyPanel(place('panel'), store);
-  createLaterContact(place('panel'), store);
-  const showChart = createSweepTray(place('tray'), store, run);
-  createSweepPanel(place('panel'), store, createLaterSweep(store), showChart);
-  createKeysPanel(place('panel'));
+  const bringLower = later(store, 'The lower part of the panel', async () => {
+    (await import('./lower-panels')).createLowerPanels(place('panel'), place('tray'), store, run);
+  });
+  watch(store, ['phase'], ({ phase }) => {
+    if (phase !== 'loading') void bringLower();
+  });
 }
 
 /** The stitches come when a knit is first shown; without them it is drawn plain. */
@@ -208,6 +154,25 @@ function drawKnit(store: Store<MotionState>, stage: MotionStage): void {
   });
 }
 
+/** What is drawn over the cloth comes when it is first asked for. */
+function drawOverlays(
+  box: HTMLElement,
+  store: Store<MotionState>,
+  stage: MotionStage,
+  run: MotionRun,
+): void {
+  const bringSprings = later(store, 'The drawing of the springs', async () => {
+    (await import('./spring-drawing')).drawSprings(box, store, stage);
+  });
+  const bringLevels = later(store, 'The drawing of levels', async () => {
+    (await import('./level-drawing')).drawLevels(box, store, stage, run);
+  });
+  watch(store, ['springs', 'coarse'], ({ springs, coarse }) => {
+    if (springs) void bringSprings();
+    if (coarse > 0) void bringLevels();
+  });
+}
+
 /** Has the picture follow what the state says of it. */
 function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
   watch(store, ['setting'], ({ setting }) => stage.setFabric(fabricNamed(setting.fabric).id));
@@ -217,9 +182,6 @@ function drawFrom(store: Store<MotionState>, stage: MotionStage): void {
     stage.setHeat(shownHeat(state), state.heatRange),
   );
   watch(store, ['edges'], ({ edges }) => stage.setEdges(edges));
-  watch(store, ['springs', 'springSplit'], ({ springs, springSplit }) =>
-    stage.setSprings(springs ? springSplit : null),
-  );
   watch(store, ['camera'], ({ camera }) => stage.setCamera(camera));
 }
 
@@ -242,12 +204,14 @@ export function createMotionView(place: Place, hash: string): MotionView {
       if (isShown) void run.obj.open(file);
     },
   });
-  if (stage) drawFrom(store, stage);
+  if (stage) {
+    drawFrom(store, stage);
+    drawOverlays(place('stage'), store, stage, run);
+  }
 
   const writeLink = createLinkWriter(store, link, () => isShown);
-  watch(store, ['setting', 'heat', 'heatRange', 'edges', 'springs', 'energy', 'compare'], () =>
-    writeLink(),
-  );
+  const drawing = ['heat', 'heatRange', 'edges', 'springs', 'coarse', 'coarseAs'] as const;
+  watch(store, ['setting', ...drawing, 'energy', 'compare'], () => writeLink());
 
   return {
     link,

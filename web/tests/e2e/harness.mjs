@@ -92,6 +92,30 @@ export async function createHarness() {
     );
   }
 
+  /** How many of these places of a picture have a colour, [red, green, blue], within some pixels. */
+  async function countAt(png, places, colour) {
+    return blank.evaluate(
+      async ([text, at, wanted]) => {
+        const REACH_PX = 2;
+        const MOST_OFF = 12;
+        const picture = await createImageBitmap(await (await fetch(text)).blob());
+        const canvas = new OffscreenCanvas(picture.width, picture.height);
+        const context = canvas.getContext('2d');
+        context.drawImage(picture, 0, 0);
+        const isThere = ({ x, y }) => {
+          const side = 2 * REACH_PX + 1;
+          const [left, top] = [Math.round(x) - REACH_PX, Math.round(y) - REACH_PX];
+          const { data } = context.getImageData(left, top, side, side);
+          for (let byte = 0; byte < data.length; byte += 4)
+            if (wanted.every((part, k) => Math.abs(data[byte + k] - part) < MOST_OFF)) return true;
+          return false;
+        };
+        return at.filter(isThere).length;
+      },
+      [`data:image/png;base64,${png.toString('base64')}`, places, colour],
+    );
+  }
+
   async function finish() {
     await browser.close();
     await server.close();
@@ -100,7 +124,7 @@ export async function createHarness() {
     return failures.length === 0;
   }
 
-  return { open, check, countColours, finish };
+  return { open, check, countColours, countAt, finish };
 }
 
 export function expectThat(condition, sentence) {

@@ -13,6 +13,7 @@ import {
   until,
 } from './harness.mjs';
 import { checkKnit } from './knit.mjs';
+import { checkLevels } from './levels.mjs';
 import { checkModes } from './modes.mjs';
 import { checkMotion } from './motion.mjs';
 import { checkRefinement } from './refinement.mjs';
@@ -42,7 +43,16 @@ const { open, check, countColours, finish } = harness;
 
 const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(harness, isReady);
 
-for (const preset of ['curtain', 'tablecloth', 'swinging-sheet', 'wool', 'obj']) {
+for (const preset of [
+  'curtain',
+  'tablecloth',
+  'swinging-sheet',
+  'free-fall-drape',
+  'wind',
+  'ball',
+  'wool',
+  'obj',
+]) {
   await check(`${preset}: loads still, then moves, in positions and in pixels`, () =>
     visit(`#scene=${preset}`, async (page) => {
       const [before, still] = [await positionsOf(page), await picture(page)];
@@ -662,6 +672,7 @@ await checkWithoutModule('#scene=curtain', '**/*.wasm', 'the text stays', async 
 
 await checkMotion(harness, visit);
 await checkKnit(harness, visit);
+await checkLevels(harness, visit);
 await checkTearing(harness, visit);
 await checkFabrics(harness);
 await checkModes(harness);

@@ -33,6 +33,8 @@ const link: MotionLink = {
   heatRange: 2,
   edges: true,
   springs: true,
+  coarse: 2,
+  coarseAs: 'hpbd',
   energy: true,
   compare: true,
   startSteps: 180,

@@ -7,7 +7,7 @@ import { presetSetting, sceneOf, withModel, withStepper } from '../../src/motion
 import { sweepPlan } from '../../src/motion/state/sweep-plan';
 
 vi.mock('virtual:pleat-steppers', async (original) => {
-  const { default: rows } = await original<{ default: object[] }>();
+  const { default: rows, details } = await original<{ default: object[]; details: object[] }>();
   const leapfrog = {
     name: 'leapfrog',
     title: 'Leapfrog',
@@ -15,6 +15,7 @@ vi.mock('virtual:pleat-steppers', async (original) => {
     needs_springs: true,
     solves: false,
     settings: { iterations: { start: 7, least: 2, meaning: 'Leaps.' } },
+    details: {},
     sweep: [{ iterations: 3 }],
     solves_whole_substeps: false,
     substep_work: 2,
@@ -24,7 +25,7 @@ vi.mock('virtual:pleat-steppers', async (original) => {
     colour: '#123456',
     dark_colour: '#abcdef',
   };
-  return { default: [...rows, leapfrog] };
+  return { default: [...rows, leapfrog], details };
 });
 
 const start = presetSetting('curtain');

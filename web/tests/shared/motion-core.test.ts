@@ -186,6 +186,29 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(count(finer)).toBeLessThan(count(isImplicit));
   });
 
+  it('tells coarser levels, each of vertices of the one before', async () => {
+    const { send, take, loaded } = open(await load());
+    const wanted = { selection: 'quadrics', ratio: 0.25, request: 1 } as const;
+    send({ type: 'readLevels', ...wanted, nCoarser: 2 });
+    const { levels, shortage } = take('levels');
+    expect(shortage).toBe('');
+    expect(levels).toHaveLength(2);
+    let before = new Set(Array.from({ length: loaded.summary.n_vertices }, (_, v) => v));
+    for (const { vertices, edges } of levels) {
+      expect(vertices.length).toBeGreaterThan(1);
+      expect(vertices.length).toBeLessThan(before.size);
+      expect([...vertices].filter((v) => !before.has(v))).toEqual([]);
+      before = new Set(vertices);
+      expect(before.size).toBe(vertices.length);
+      expect([...edges].filter((v) => !before.has(v))).toEqual([]);
+      expect(new Set(edges)).toEqual(before);
+    }
+    send({ type: 'readLevels', ...wanted, selection: 'thinned', nCoarser: 30 });
+    expect(take('levels').shortage).not.toBe('');
+    send({ type: 'readLevels', ...wanted, ratio: 0.95, nCoarser: 2 });
+    expect(take('levels')).toMatchObject({ levels: [], shortage: expect.stringContaining('0.9') });
+  });
+
   it('tells the share of springs that imex takes implicitly in any substep', async () => {
     const { send, take } = open(await load());
     const imex = withStepper(setting, 'imex');

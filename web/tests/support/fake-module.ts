@@ -248,6 +248,26 @@ class FakeSimulation implements SimulationHandle {
     return ok({ substeps: taken, share: Math.min(1, (60 * stepS) / taken) });
   }
 
+  /** Every other vertex of the level before, and a line through them; two levels at most. */
+  private nCoarser = 0;
+  makeLevels(selection: string, nCoarser: number, ratio: number): string {
+    if (ratio > 0.9) return refuse('ratio', 'expected a number below 0.9');
+    this.nCoarser = Math.min(nCoarser, 2);
+    const shortage = nCoarser > 2 ? `no third level of ${selection}` : '';
+    return ok({ n_coarser: this.nCoarser, shortage });
+  }
+
+  levelVertices(level: number): Uint32Array {
+    if (level > this.nCoarser) return new Uint32Array(0);
+    const all = Uint32Array.from({ length: this.x.length / 3 }, (_, v) => v);
+    return all.filter((v) => v % 2 ** level === 0);
+  }
+
+  levelEdges(level: number): Uint32Array {
+    const vertices = [...this.levelVertices(level)];
+    return Uint32Array.from(vertices.slice(1).flatMap((v, i) => [vertices[i] ?? 0, v]));
+  }
+
   grab(vertex: number): string {
     if (vertex < 0 || vertex >= this.x.length / 3) return refuse('', `no vertex ${vertex}`);
     this.held = vertex;

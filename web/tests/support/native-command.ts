@@ -1,11 +1,37 @@
 // The native command, to hold the modules against.
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const command = fileURLToPath(new URL('../../../build/release/cli/pleat', import.meta.url));
+
+/** The levels that `pleat hierarchy` makes of a scene's cloth, and places of the coarsest one's vertices [m]. */
+export function nativeLevels(scene: object, words: readonly string[]) {
+  const folder = mkdtempSync(join(tmpdir(), 'pleat-native-'));
+  try {
+    const file = join(folder, 'scene.json');
+    writeFileSync(file, JSON.stringify(scene));
+    const out = join(folder, 'levels');
+    const all = ['hierarchy', file, '--out', out, '--json', ...words];
+    const { levels } = JSON.parse(execFileSync(command, all, { stdio: 'pipe', encoding: 'utf8' }));
+    const name = readdirSync(out)
+      .filter((one) => one.endsWith('.obj'))
+      .sort()
+      .at(-1);
+    const lines = readFileSync(join(out, String(name)), 'utf8').split('\n');
+    const points = lines.filter((line) => line.startsWith('v '));
+    return {
+      levels: (levels as { n_vertices: number; n_edges: number }[]).map(
+        ({ n_vertices, n_edges }) => ({ n_vertices, n_edges }),
+      ),
+      coarsest: points.map((line) => line.split(' ').slice(1, 4).map(Number)),
+    };
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
 
 /** What `read` finds after a run of the scene with these words, given what it printed and its folder. */
 function ran<Found>(

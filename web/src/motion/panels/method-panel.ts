@@ -127,6 +127,27 @@ function createImexTray(store: Store<MotionState>, run: MotionRun) {
   };
 }
 
+/** What else may be chosen comes with the first stepper that reads it. */
+function createDetailsTray(store: Store<MotionState>) {
+  const tray = element('div');
+  const bring = later(store, 'The details of the method', async () => {
+    const { createMethodDetails } = await import('./method-details');
+    return createMethodDetails(tray, store);
+  });
+  let close: (() => void) | null = null;
+  const stop = watch(store, ['setting'], async ({ setting }) => {
+    const { details } = stepperRow(setting.stepper);
+    if (Object.keys(details).length > 0) close ??= await bring();
+  });
+  return {
+    tray,
+    close() {
+      stop();
+      close?.();
+    },
+  };
+}
+
 function countFields(store: Store<MotionState>) {
   return COUNTS.map((count) =>
     countField(count, {
@@ -167,6 +188,7 @@ export function createMethodPanel(
   );
   const counts = countFields(store);
   const imex = createImexTray(store, run);
+  const details = createDetailsTray(store);
   const builtNote = element('p', { class: 'note' });
   const builtBox = element(
     'details',
@@ -184,6 +206,7 @@ export function createMethodPanel(
       field('Stepper', stepper.control, stepperNote),
       element('div', { class: 'row' }, field('Step', step.control), ...counts.map((c) => c.box)),
       imex.tray,
+      details.tray,
       builtBox,
     ),
   );
@@ -226,5 +249,6 @@ export function createMethodPanel(
     stopSetting();
     stopSummary();
     imex.close();
+    details.close();
   };
 }

@@ -8,11 +8,13 @@ import { answerOf } from '../../shared/workers/asked';
 import type {
   FrameMessage,
   FromMotion,
+  LevelsMessage,
   LoadedMessage,
   RunReport,
   ToMotion,
   TornMesh,
 } from '../../shared/workers/motion-protocol';
+import type { LevelWish } from '../state/coarse-levels';
 import { withSample } from '../state/energy-samples';
 import { type MotionState, shownHeat, wantsReference } from '../state/motion-state';
 import { presetSetting, type Setting } from '../state/setting';
@@ -176,6 +178,7 @@ export class MotionRun {
     }
     if (busy.type === 'step' && this.isWaiting) return this.loadAtOnce(1000 * busy.seconds);
     if (busy.type === 'step') this.noteLeastCost(1000 * busy.seconds);
+    if (busy.type === 'readLevels') this.store.set({ coarse: 0 });
     const again = this.lastGood();
     const stopped = `${workWords(busy.type, setting)} was stopped after ${busy.seconds} s.`;
     const { level } = again.setting;
@@ -187,6 +190,12 @@ export class MotionRun {
     const { request } = this;
     const method = { stepS, substeps, explicitShare };
     return this.answer(this.worker.ask({ type: 'readImplicitShare', ...method, request }));
+  }
+
+  /** Coarser levels of the loaded mesh; null when that comes too late. */
+  levels(wish: LevelWish): Promise<LevelsMessage | null> {
+    const { request } = this;
+    return this.answer(this.worker.ask({ type: 'readLevels', ...wish, request }));
   }
 
   grab(vertex: number): void {

@@ -25,5 +25,6 @@ export function workWords(type: string, { level }: Setting): string {
   if (type === 'step') return `One step at level ${level}`;
   if (type === 'load' || type === 'reset') return `Building level ${level}`;
   if (type === 'open') return 'Fetching the program';
+  if (type === 'readLevels') return `Making coarser levels of level ${level}`;
   return 'The work at hand';
 }

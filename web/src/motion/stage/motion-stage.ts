@@ -3,15 +3,14 @@
 import { Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
 import type { Collider, Triple } from '../../shared/bindings/geometry';
-import type { SpringSplit } from '../../shared/bindings/pleat-module';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { Print } from '../../shared/stage/fabric-material';
 import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
+import { createOverlays, type Overlay } from '../../shared/stage/overlay';
 import { createPaneStage, createStageHand } from '../../shared/stage/pane-stage';
-import { createSpringLines } from '../../shared/stage/spring-lines';
 import { invitingVertex } from './inviting';
 
 export interface MotionStageEvents {
@@ -43,8 +42,10 @@ export interface MotionStage {
   setPrint(print: Print | null): void;
   setHeat(map: HeatMap, range: 'auto' | number): void;
   setEdges(isShown: boolean): void;
-  /** Springs of the shown mesh; null draws none, as a new mesh does. */
-  setSprings(split: SpringSplit | null): void;
+  /** Draws it too, from now on. */
+  addOverlay(overlay: Overlay): void;
+  /** What an overlay draws is another. */
+  redraw(): void;
   homeView(): void;
   /** From where the scene is seen, also once it is another one. */
   setCamera(pose: Pose | null): void;
@@ -87,7 +88,7 @@ export function createMotionStage(
   events: MotionStageEvents,
 ): MotionStage {
   const cloth = createClothMesh();
-  const springs = createSpringLines();
+  const overlays = createOverlays();
   let awaitsFraming = false;
   let isFreshMesh = false;
   let inviting = 0;
@@ -96,21 +97,20 @@ export function createMotionStage(
 
   const stage = createPaneStage(parent, canvas, {
     fov: 32,
-    objects: [cloth.object, springs.object],
+    objects: [cloth.object],
     isReady: () => cloth.positions().length > 0,
     prepare() {
       cloth.update();
-      springs.update(cloth.positions());
+      overlays.update(cloth.positions(), stage.camera.position);
       hand.mark(cloth.positions());
     },
     drawn() {
-      const [invitation, camera] = [project(inviting), stage.control.pose()];
-      events.drawn({ heatScale: cloth.heatScale(), invitation, camera });
+      const camera = stage.control.pose();
+      events.drawn({ heatScale: cloth.heatScale(), invitation: project(inviting), camera });
     },
     themed(colour) {
       hand.setColour(colour('--stage-hand'));
-      const [explicit, implicit] = [colour('--spring-explicit'), colour('--spring-implicit')];
-      springs.setColours({ explicit, implicit });
+      overlays.themed(colour);
     },
     handKey: (name) => hand.key(name),
     key: events.key,
@@ -138,7 +138,7 @@ export function createMotionStage(
   return {
     showMesh(triangles, nVertices, change) {
       cloth.setTopology(triangles, nVertices);
-      springs.setSplit(null);
+      overlays.clear();
       if (change === 'tear') return;
       awaitsFraming = change === 'scene';
       isFreshMesh = true;
@@ -163,10 +163,8 @@ export function createMotionStage(
       redraw();
     },
     ...drawingOf(cloth, redraw),
-    setSprings(split) {
-      springs.setSplit(split);
-      redraw();
-    },
+    addOverlay: (overlay) => overlays.add(overlay, stage.scene),
+    redraw,
     homeView: stage.control.home,
     setCamera(pose) {
       wantedPose = pose;

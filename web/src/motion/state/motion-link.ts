@@ -4,10 +4,20 @@ import { fabrics } from '../../shared/fabric/fabric-data';
 import type { Pose } from '../../shared/stage/camera-control';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { createLinkReader, type LinkReader, oneOf, slug } from '../../shared/state/link-reader';
-import { type Count, canRun, STEPPER_NAMES, stepperRow } from '../../shared/steppers/steppers';
+import {
+  type Count,
+  canRun,
+  type DetailValue,
+  METHOD_DETAILS,
+  type MethodDetail,
+  STEPPER_NAMES,
+  stepperRow,
+} from '../../shared/steppers/steppers';
+import { LEVEL_MAKERS, MOST_COARSE } from './coarse-levels';
 import { knitIn, knitText } from './knit';
 import type { Hold } from './obj-mesh';
 import {
+  detailOf,
   EXPLICIT_SHARES,
   levelsOf,
   MOST_ITERATIONS,
@@ -18,6 +28,7 @@ import {
   presetSetting,
   type Setting,
   STEPS_PER_SECOND,
+  withDetail,
   withModel,
   withStepper,
 } from './setting';
@@ -30,6 +41,10 @@ export interface MotionLink {
   edges: boolean;
   /** The springs are drawn by how the stepper takes them. */
   springs: boolean;
+  /** The coarser level that is drawn over the cloth; 0: none. */
+  coarse: number;
+  /** The stepper whose levels they are, where the cloth's own has none. */
+  coarseAs: string;
   /** The account of energy is open, which takes keeping it. */
   energy: boolean;
   /** The reference is compared with, which takes fetching it. */
@@ -94,6 +109,34 @@ function holdIn(text: string): Hold | undefined {
   return text.startsWith('group:') ? (text as Hold) : undefined;
 }
 
+/** A detail as text to its value. */
+function detailIn({ words, least = 0, most = 0 }: MethodDetail) {
+  return (text: string): DetailValue | undefined => {
+    if (words) return words.find((word) => word === text);
+    const value = /^\d{1,2}(\.\d{1,6})?$/.test(text) ? Number(text) : Number.NaN;
+    return value >= least && value <= most ? value : undefined;
+  };
+}
+
+/** The setting with what the link says of the details that its stepper reads. */
+function takeDetails({ take }: LinkReader, setting: Setting): Setting {
+  const read = METHOD_DETAILS.filter(({ key }) => detailOf(setting, key) !== undefined);
+  return read.reduce((present, detail) => {
+    const { key, words, least, most } = detail;
+    const expected = words ? words.join(', ') : `${least} to ${most}`;
+    const value = take<DetailValue | undefined>(key, undefined, expected, detailIn(detail));
+    return value === undefined ? present : withDetail(present, key, value);
+  }, setting);
+}
+
+/** The parts of the details that are not what the preset has them. */
+function detailParts(setting: Setting): [string, string][] {
+  const usual = withStepper(presetSetting(setting.preset), setting.stepper);
+  return METHOD_DETAILS.map(({ key }) => key)
+    .filter((key) => detailOf(setting, key) !== detailOf(usual, key))
+    .map((key) => [key, String(detailOf(setting, key))]);
+}
+
 /** The link to the state that is shown: one that rests is met after as many steps as it took. */
 export function linkTo(
   state: MotionLink & {
@@ -127,6 +170,8 @@ export function encodeMotionLink(link: MotionLink): string {
     ['steps', String(link.startSteps)],
   ];
   if (setting.explicitShare > 0) parts.push(['explicit', String(100 * setting.explicitShare)]);
+  parts.push(...detailParts(setting));
+  if (link.coarse > 0) parts.push(['coarse', String(link.coarse)], ['coarse_as', link.coarseAs]);
   if (link.springs) parts.push(['springs', 'on']);
   if (link.energy) parts.push(['energy', 'on']);
   if (link.compare) parts.push(['compare', 'on']);
@@ -157,14 +202,12 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   };
   const responses = ['resting', 'uniform'] as const;
   const response = take('response', 'resting', responses.join(' or '), oneOf(responses));
-  const setting: Setting = {
-    preset,
+  const setting: Setting = takeDetails(reader, {
+    ...start,
     fabric: take('fabric', own.fabric, 'the name of a fabric', (text) => {
       return fabrics.find((fabric) => slug(fabric.name_en) === text)?.name_en;
     }),
-    model,
     level: take('level', own.level, `0 to ${levels.at(-1)}`, oneOf(levels)),
-    stepper,
     stepS: take('step', start.stepS, '1/30 to 1/960', stepFraction),
     substeps: takeCount('substeps', MOST_SUBSTEPS),
     iterations: takeCount('iterations', MOST_ITERATIONS),
@@ -174,7 +217,7 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
     hold: take('hold', own.hold, 'highest, nothing or group:NAME', holdIn),
     ...(response === 'uniform' && { bounces: true }),
     ...(own.knit && { knit: take('knit', own.knit, 'the numbers of a knit', knitIn) }),
-  };
+  });
   const heat = take('heat', 'off', HEAT_MAPS.join(', '), oneOf(HEAT_MAPS));
   const range = take<MotionLink['heatRange']>('range', 'auto', 'auto or a percentage', (text) =>
     text === 'auto' ? 'auto' : oneOf(HEAT_RANGES)(text),
@@ -185,11 +228,14 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
     takeSwitch('springs'),
     takeSwitch('energy'),
   ];
+  const coarse = take('coarse', 0, `0 to ${MOST_COARSE}`, wholeNumber(0, MOST_COARSE));
+  const [usualMaker = ''] = LEVEL_MAKERS.slice(-1);
+  const coarseAs = take('coarse_as', usualMaker, LEVEL_MAKERS.join(', '), oneOf(LEVEL_MAKERS));
   const usualStart = text === '' ? FIRST_VISIT_START_S : 0;
   const startSteps = takeStart(reader, setting.stepS, usualStart);
   const compare = takeSwitch('compare');
   const camera = take<Pose | null>('camera', null, 'six numbers', poseIn);
-  const drawing = { heat, heatRange: range, edges, springs };
+  const drawing = { heat, heatRange: range, edges, springs, coarse, coarseAs };
   const link = { setting, ...drawing, energy, compare, startSteps, camera };
   return { link, problems: finish() };
 }

@@ -2,6 +2,7 @@
 import type { Collider } from '../../shared/bindings/geometry';
 import type {
   EnergyNumbers,
+  MeshLevels,
   ResponseStudy,
   RunNumbers,
   SceneSummary,
@@ -67,6 +68,8 @@ export interface MotionState extends MotionLink {
   energies: readonly EnergyNumbers[];
   /** As it was when last asked for: while `springs` is on, of the loaded cloth. */
   springSplit: SpringSplit | null;
+  /** While one of them is drawn, those of the loaded cloth; null until they are known. */
+  coarseLevels: MeshLevels | null;
   /** Where the slider of substeps is dragged to, until it is let go. */
   draggedSubsteps: number | null;
   /** What imex saves at the substeps that its slider shows; null until that is known. */
@@ -109,6 +112,7 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
     timing: null,
     energies: [],
     springSplit: null,
+    coarseLevels: null,
     draggedSubsteps: null,
     imexSaving: null,
     ahead: null,

@@ -1,17 +1,21 @@
 // The setting to compute: preset, fabric, model, level, method. The scene text given to the module
 // is made here.
+import ballText from '../../../../assets/scenes/ball.json?raw';
 import curtainText from '../../../../assets/scenes/curtain.json?raw';
 import flagText from '../../../../assets/scenes/flag.json?raw';
+import freeFallText from '../../../../assets/scenes/free_fall_drape.json?raw';
 import pendulumText from '../../../../assets/scenes/pendulum_10x10.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
 import tearingCurtainText from '../../../../assets/scenes/tearing_curtain.json?raw';
+import windText from '../../../../assets/scenes/wind.json?raw';
 import woolText from '../../../../assets/scenes/wool.json?raw';
 import type { OwnQuantities } from '../../shared/fabric/fabric-data';
 import {
   type Count,
   canRun,
+  type DetailValue,
   type Model,
   STABLE_SUBSTEPS,
   STEPPER_NAMES,
@@ -27,9 +31,15 @@ export type PresetId =
   | 'flag'
   | 'tablecloth'
   | 'swinging-sheet'
+  | 'free-fall-drape'
+  | 'wind'
+  | 'ball'
   | 'pendulum'
   | 'wool'
   | 'obj';
+
+/** Values by the keys of the table of details. */
+export type Details = Readonly<Record<string, DetailValue>>;
 
 export interface Setting {
   preset: PresetId;
@@ -46,6 +56,8 @@ export interface Setting {
   iterations: number;
   /** imex: share of the springs that shall be explicit at least, for which it takes more substeps. */
   explicitShare: number;
+  /** Of the method, where they are not what its stepper starts from. */
+  details?: Details;
   /** The vertices that hold the mesh; of no meaning to other presets. */
   hold: Hold;
   /** Of a preset whose cloth is knitted. */
@@ -131,6 +143,9 @@ export const PRESETS: Record<PresetId, Preset> = {
   flag: presetFrom('Flag in the wind', flagText),
   tablecloth: presetFrom('Tablecloth on a ball', tableclothText),
   'swinging-sheet': presetFrom('Swinging sheet', swingingSheetText),
+  'free-fall-drape': presetFrom('Free-fall drape', freeFallText),
+  wind: presetFrom('Wind', windText),
+  ball: presetFrom('Ball', ballText),
   pendulum: presetFrom('Pendulum 10 × 10', pendulumText),
   wool: presetFrom('Wool on a ball', woolText),
   obj: {
@@ -169,6 +184,37 @@ function countsOf(stepper: string, method: { substeps?: Substeps; iterations?: n
   };
 }
 
+/** The details of a method that are not what its stepper starts from, in their order; none when all are. */
+export function detailsOf(
+  stepper: string,
+  method: Readonly<Record<string, unknown>>,
+): Details | undefined {
+  const own = Object.entries(stepperRow(stepper).details)
+    .map(([key, start]): [string, DetailValue] => [key, (method[key] as DetailValue) ?? start])
+    .filter(([key, value]) => value !== stepperRow(stepper).details[key]);
+  return own.length > 0 ? Object.fromEntries(own) : undefined;
+}
+
+/** What a detail is set to. */
+export function detailOf(
+  { stepper, details }: Pick<Setting, 'stepper' | 'details'>,
+  key: string,
+): DetailValue | undefined {
+  return details?.[key] ?? stepperRow(stepper).details[key];
+}
+
+export function withDetail(setting: Setting, key: string, value: DetailValue | undefined): Setting {
+  const { stepper, details } = setting;
+  return { ...setting, details: detailsOf(stepper, { ...details, [key]: value }) };
+}
+
+/** Some smoother of the method takes omega times its corrections. */
+export function relaxes(setting: Pick<Setting, 'stepper' | 'details'>): boolean {
+  return ['smoother', 'smoother_before'].some((key) =>
+    ['sor', 'jacobi'].includes(String(detailOf(setting, key))),
+  );
+}
+
 /** The setting a preset is made for. */
 export function presetSetting(preset: PresetId): Setting {
   const { fabric, refinement, method, cloth } = PRESETS[preset].scene;
@@ -181,15 +227,18 @@ export function presetSetting(preset: PresetId): Setting {
     stepS: method.step_s,
     ...countsOf(method.stepper, method),
     explicitShare: method.explicit_share ?? 0,
+    details: detailsOf(method.stepper, method),
     hold: 'highest',
     ...(cloth.knit && { knit: knitOf(cloth.knit) }),
   };
 }
 
-/** The same setting under another stepper, with that stepper's usual counts. */
+/** The same setting under another stepper, with that stepper's usual counts and details. */
 export function withStepper(setting: Setting, stepper: string): Setting {
-  const own = PRESETS[setting.preset].scene.method;
-  return { ...setting, stepper, ...countsOf(stepper, own.stepper === stepper ? own : {}) };
+  const { method: own } = PRESETS[setting.preset].scene;
+  const method = own.stepper === stepper ? own : {};
+  const details = detailsOf(stepper, method);
+  return { ...setting, stepper, ...countsOf(stepper, method), details };
 }
 
 /** The same setting with another model, under the first stepper that can run it if its own cannot. */
@@ -208,7 +257,10 @@ export function wantedShare({ stepper, explicitShare }: Setting): number {
 export function methodOf(setting: Setting): Record<string, unknown> {
   const own = PRESETS[setting.preset].scene.method;
   const method: Record<string, unknown> = own.stepper === setting.stepper ? { ...own } : {};
-  const { settings } = stepperRow(setting.stepper);
+  const { settings, details } = stepperRow(setting.stepper);
+  for (const key of Object.keys(details)) delete method[key];
+  Object.assign(method, setting.details);
+  if (!relaxes(setting)) delete method.omega;
   method.stepper = setting.stepper;
   method.step_s = setting.stepS;
   for (const count of COUNTS) if (settings[count]) method[count] = setting[count];
@@ -260,13 +312,14 @@ export function sceneOf(setting: Setting, mesh: ObjMesh | null = null): Record<s
 
 /** True when both settings compute the same thing, whatever an unused count says. */
 export function isSameMethod(a: Setting, b: Setting): boolean {
-  const { settings } = stepperRow(a.stepper);
+  const { settings, details } = stepperRow(a.stepper);
   // Steps are fractions of a second that went through text: an ulp apart is the same.
   const isSameStep = Math.abs(a.stepS - b.stepS) < 1e-9;
   return (
     a.stepper === b.stepper &&
     isSameStep &&
     wantedShare(a) === wantedShare(b) &&
-    COUNTS.every((count) => !settings[count] || a[count] === b[count])
+    COUNTS.every((count) => !settings[count] || a[count] === b[count]) &&
+    Object.keys(details).every((key) => detailOf(a, key) === detailOf(b, key))
   );
 }

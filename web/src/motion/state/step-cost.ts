@@ -38,7 +38,8 @@ function keyOf(setting: Setting): string {
   const counts = COUNTS.filter((count) => settings[count]).map((count) => setting[count]);
   const particles = knit ? [knit.columns * knit.rows] : [];
   const share = wantedShare(setting);
-  const steps = [Math.round(1 / stepS), ...counts, share];
+  const details = Object.entries(setting.details ?? {}).flat();
+  const steps = [Math.round(1 / stepS), ...counts, share, ...details];
   return [preset, ...particles, model, stepper, ...steps, level].join(' ');
 }
 

@@ -9,7 +9,7 @@ import {
 } from '../../shared/steppers/steppers';
 import type { BenchMethod, BenchRow } from '../bindings/sweep-module';
 import type { ObjMesh } from './obj-mesh';
-import { levelsOf, type PresetId, type Setting, sceneOf } from './setting';
+import { detailsOf, levelsOf, type PresetId, type Setting, sceneOf } from './setting';
 
 export interface PlannedMethod {
   stepper: string;
@@ -135,13 +135,16 @@ export function hasFinished(row: BenchRow): boolean {
 /** A method at a level as a setting; the counts it does not name stay as they are. */
 export function settingOf(
   level: number,
-  { stepper: name, step_s, substeps, iterations }: Pick<BenchMethod, keyof PlannedMethod>,
+  method: Pick<BenchMethod, keyof PlannedMethod>,
   present: Setting,
 ): Setting {
+  const { stepper: name, step_s, substeps, iterations } = method;
+  const stepper = STEPPER_NAMES.find((known) => known === name) ?? present.stepper;
   return {
     ...present,
     level,
-    stepper: STEPPER_NAMES.find((known) => known === name) ?? present.stepper,
+    stepper,
+    details: detailsOf(stepper, { ...method }),
     stepS: step_s,
     substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
     iterations: iterations ?? present.iterations,

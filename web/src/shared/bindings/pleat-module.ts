@@ -77,6 +77,24 @@ export interface SpringSplit {
   isImplicit: Int8Array;
 }
 
+/** Which vertices a coarser level keeps: by quadrics, or every one but those with two neighbours that stay. */
+export type LevelSelection = 'quadrics' | 'thinned';
+
+/** A level coarser than the mesh, in vertices of the mesh. */
+export interface MeshLevel {
+  /** Ascending. */
+  vertices: Uint32Array;
+  /** Two vertices an edge. */
+  edges: Uint32Array;
+}
+
+/** Ever coarser levels of a mesh. */
+export interface MeshLevels {
+  levels: readonly MeshLevel[];
+  /** Why there are fewer than asked for; empty when there are all. */
+  shortage: string;
+}
+
 /** How imex would take the springs of a mesh. */
 export interface ImexShare {
   /** As many as it is given, or as it takes for the share that shall be explicit. */
@@ -121,7 +139,7 @@ export interface ResponseStudy {
 export interface SceneHandle {
   fabrics(): string;
   schema(): string;
-  /** The table of steppers, a StepperRow each. */
+  /** The table of steppers, a StepperRow each, and of the details that they read. */
   steppers(): string;
   parse(sceneText: string): string;
   /** A ResponseStudy of so long after first contact [s]. */
@@ -162,6 +180,14 @@ export interface SimulationHandle {
   implicitSprings(): Int8Array;
   /** An ImexShare, when imex is given so many substeps of a step [s] and a least share of explicit springs. */
   implicitShare(stepS: number, substeps: number, explicitShare: number): string;
+  /**
+   * Makes levels coarser than the mesh, which are there until the mesh is another one: `n_coarser` of
+   * them, and the `shortage` of MeshLevels.
+   */
+  makeLevels(selection: LevelSelection, nCoarser: number, ratio: number): string;
+  /** The two parts of a MeshLevel; 0 is the mesh. */
+  levelVertices(level: number): Uint32Array;
+  levelEdges(level: number): Uint32Array;
   /** Compares with a reference from now on, whenever the loaded scene is what it is of. */
   setReference(bytes: Uint8Array): string;
   colliders(): string;
@@ -208,6 +234,9 @@ export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
     springEnds: true,
     implicitSprings: true,
     implicitShare: true,
+    makeLevels: true,
+    levelVertices: true,
+    levelEdges: true,
     colliders: true,
     grab: true,
     moveGrab: true,

@@ -1,5 +1,5 @@
 // The table of steppers: whatever the page says of one, offers, measures or draws comes from its row.
-import rows from 'virtual:pleat-steppers';
+import rows, { details } from 'virtual:pleat-steppers';
 
 /** The elements that hold the cloth together. */
 export type Model = 'springs' | 'membrane';
@@ -9,6 +9,17 @@ export const STABLE_SUBSTEPS = 'stable';
 export type Substeps = number | typeof STABLE_SUBSTEPS;
 
 export type Count = 'substeps' | 'iterations';
+
+export type DetailValue = string | number;
+
+/** What may be chosen of a method beside its counts: one of some words, or a number between bounds. */
+export interface MethodDetail {
+  /** Spelled as in a scene and a link. */
+  key: string;
+  words?: readonly string[];
+  least?: number;
+  most?: number;
+}
 
 export interface StepperRow {
   /** Spelled as in a scene and a link. */
@@ -21,6 +32,8 @@ export interface StepperRow {
   solves: boolean;
   /** The counts the stepper reads, each with what it starts from; 0 substeps: as many as are stable. */
   settings: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
+  /** What the details that it reads start from. */
+  details: Readonly<Record<string, DetailValue>>;
   /** The counts with which a sweep measures it at every level. */
   sweep: readonly { substeps?: Substeps; iterations?: number }[];
   /** Each substep is one system of all vertices. */
@@ -38,6 +51,7 @@ export interface StepperRow {
 }
 
 export const STEPPERS = rows as readonly StepperRow[];
+export const METHOD_DETAILS = details as readonly MethodDetail[];
 export const STEPPER_NAMES: readonly string[] = STEPPERS.map(({ name }) => name);
 
 /** The row of a stepper that is in the table. */

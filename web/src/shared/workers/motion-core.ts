@@ -8,6 +8,7 @@ import {
   ENERGY_NUMBERS,
   type EnergyNumbers,
   type ImexShare,
+  type MeshLevel,
   type PleatModule,
   type RunNumbers,
   type SceneSummary,
@@ -16,6 +17,7 @@ import {
 import type {
   FromMotion,
   ImplicitShareQuestion,
+  LevelsQuestion,
   LoadMessage,
   RunReport,
   StepMessage,
@@ -164,6 +166,22 @@ export class MotionCore {
     this.post({ type: 'implicitShare', request, substeps: taken, share }, []);
   }
 
+  private readLevels(run: SimulationHandle, message: LevelsQuestion): void {
+    const { selection, nCoarser, ratio, request } = message;
+    const answer = read<{ n_coarser: number; shortage: string }>(
+      run.makeLevels(selection, nCoarser, ratio),
+    );
+    if (!answer.ok && answer.kind === 'internal') return this.refuse(request, answer);
+    const levels: MeshLevel[] = [];
+    for (let level = 1; answer.ok && level <= answer.n_coarser; ++level) {
+      const vertices = run.levelVertices(level).slice();
+      levels.push({ vertices, edges: run.levelEdges(level).slice() });
+    }
+    const shortage = answer.ok ? answer.shortage : answer.what;
+    const transfer = levels.flatMap(({ vertices, edges }) => [vertices.buffer, edges.buffer]);
+    this.post({ type: 'levels', request, levels, shortage }, transfer);
+  }
+
   private open(text: string): void {
     this.simulation?.delete();
     this.simulation = new this.module.Simulation(text);
@@ -190,6 +208,8 @@ export class MotionCore {
         return this.readSprings(this.simulation, message.request);
       case 'readImplicitShare':
         return this.readImplicitShare(this.simulation, message);
+      case 'readLevels':
+        return this.readLevels(this.simulation, message);
       case 'grab':
         this.isHeld = this.loaded !== null && read<object>(this.simulation.grab(message.vertex)).ok;
         return;

@@ -6,6 +6,8 @@ import type { Collider } from '../bindings/geometry';
 import type {
   EnergyNumbers,
   ImexShare,
+  LevelSelection,
+  MeshLevels,
   RunNumbers,
   SceneSummary,
   SpringSplit,
@@ -43,6 +45,15 @@ export interface ImplicitShareQuestion {
   request: number;
 }
 
+export interface LevelsQuestion {
+  type: 'readLevels';
+  selection: LevelSelection;
+  nCoarser: number;
+  /** Of a level's vertices that the next one keeps. */
+  ratio: number;
+  request: number;
+}
+
 export type ToMotion =
   /** First message: opens the module's objects with the fabric file's text. */
   | { type: 'open'; fabricsText: string }
@@ -57,6 +68,8 @@ export type ToMotion =
   | { type: 'readSprings'; request: number }
   /** How imex would take the springs of a lattice. */
   | ImplicitShareQuestion
+  /** Coarser levels of the loaded mesh. */
+  | LevelsQuestion
   | { type: 'grab'; vertex: number }
   | { type: 'moveGrab'; target: [number, number, number] }
   | { type: 'releaseGrab' };
@@ -115,6 +128,12 @@ export interface ImplicitShareMessage extends ImexShare {
   request: number;
 }
 
+/** A mesh that has no levels has a shortage that says why. */
+export interface LevelsMessage extends MeshLevels {
+  type: 'levels';
+  request: number;
+}
+
 /** A reference was taken: the numbers anew. */
 export interface ReferenceSetMessage {
   type: 'referenceSet';
@@ -127,6 +146,7 @@ export type FromMotion =
   | FrameMessage
   | SpringsMessage
   | ImplicitShareMessage
+  | LevelsMessage
   | ReferenceSetMessage
   /** `request` is -1 when what was refused had none. */
   | { type: 'refused'; request: number; failure: Failure };
@@ -140,6 +160,7 @@ export interface MotionAnswers {
   step: FrameMessage | Done;
   readSprings: SpringsMessage;
   readImplicitShare: ImplicitShareMessage;
+  readLevels: LevelsMessage;
   grab: Done;
   moveGrab: Done;
   releaseGrab: Done;

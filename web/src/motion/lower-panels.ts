@@ -1,0 +1,71 @@
+// The panels that are far down: they come once there is a cloth to be told of.
+import { element } from '../shared/panels/element';
+import { createKeysPanel } from '../shared/panels/keys-panel';
+import { type Store, watch } from '../shared/state/store';
+import { createEnergyPanel } from './panels/energy-panel';
+import { later } from './panels/later';
+import { createLevelPanel } from './panels/level-panel';
+import { createSweepPanel } from './panels/sweep-panel';
+import type { MotionRun } from './run/motion-run';
+import type { Sweep } from './run/sweep';
+import type { MotionState } from './state/motion-state';
+
+/** Chart and table of the sweep. Returns what opens them and brings them into view. */
+function createSweepTray(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  run: MotionRun,
+): () => void {
+  const bring = later(store, 'The chart of the sweep', async () => {
+    const { createSpeedErrorView } = await import('./panels/speed-error-view');
+    return createSpeedErrorView(parent, store, run);
+  });
+  watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
+    if (sweepOpen && !(await bring())) store.set({ sweepOpen: false });
+  });
+  return async () => {
+    store.set({ sweepOpen: true });
+    await bring();
+    const isCalm = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    parent.scrollIntoView({ block: 'start', behavior: isCalm ? 'instant' : 'smooth' });
+  };
+}
+
+/** A sweep that comes with its first start. */
+function createLaterSweep(store: Store<MotionState>): Sweep {
+  const bring = later(store, 'The sweep', async () => {
+    const { createSweep } = await import('./run/sweep');
+    return createSweep(store);
+  });
+  return {
+    start: async (wish) => (await bring())?.start(wish),
+    cancel: async () => (await bring())?.cancel(),
+  };
+}
+
+/** What contact does is told where there are solids. */
+function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
+  const section = element('section', { 'aria-label': 'Contact' });
+  parent.append(section);
+  const bring = later(store, 'The panel of contact', async () => {
+    const { createContactPanel } = await import('./panels/contact-panel');
+    return createContactPanel(section, store);
+  });
+  watch(store, ['colliders'], ({ colliders }) => {
+    if (colliders.length > 0) void bring();
+  });
+}
+
+export function createLowerPanels(
+  panel: HTMLElement,
+  tray: HTMLElement,
+  store: Store<MotionState>,
+  run: MotionRun,
+): void {
+  createLevelPanel(panel, store);
+  createEnergyPanel(panel, store);
+  createLaterContact(panel, store);
+  const showChart = createSweepTray(tray, store, run);
+  createSweepPanel(panel, store, createLaterSweep(store), showChart);
+  createKeysPanel(panel);
+}

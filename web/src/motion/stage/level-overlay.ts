@@ -1,0 +1,115 @@
+// A coarser level over the cloth: its edges as lines, a large mark on each vertex that it keeps, and a
+// small one on each that it leaves out of the level before.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DataTexture,
+  DynamicDrawUsage,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Points,
+  PointsMaterial,
+} from 'three';
+import type { MeshLevel } from '../../shared/bindings/pleat-module';
+import type { Overlay } from '../../shared/stage/overlay';
+
+/** Lines and marks are drawn that much nearer to the eye, so that no cloth that they lie on hides them. */
+const NEARER = 0.01;
+/** What is behind the cloth shows through it, faintly: edges of a level cut folds short. */
+const BEHIND = 0.3;
+/** Across a mark [px]. */
+const KEPT_PX = 9;
+const LEFT_OUT_PX = 5;
+/** Across the drawing of a mark [px], and of its rim. */
+const DISC_PX = 32;
+const RIM_PX = 5;
+
+/** Vertices that a level leaves out of the one before, which is the mesh where there is none. */
+export function leftOut(
+  { vertices }: MeshLevel,
+  before: MeshLevel | undefined,
+  nVertices: number,
+): Uint32Array {
+  const kept = new Set(vertices);
+  const all = before?.vertices ?? Uint32Array.from({ length: nVertices }, (_, v) => v);
+  return all.filter((vertex) => !kept.has(vertex));
+}
+
+/** A white disc with a dark rim, which is seen on cloth of any colour. */
+function discTexture(): DataTexture {
+  const data = new Uint8Array(4 * DISC_PX * DISC_PX);
+  const middle = (DISC_PX - 1) / 2;
+  for (let pixel = 0; pixel < DISC_PX * DISC_PX; ++pixel) {
+    const [x, y] = [pixel % DISC_PX, Math.floor(pixel / DISC_PX)];
+    const inside = DISC_PX / 2 - Math.hypot(x - middle, y - middle);
+    const light = inside < RIM_PX ? 0 : 255;
+    data.set([light, light, light, inside > 0 ? 255 : 0], 4 * pixel);
+  }
+  const texture = new DataTexture(data, DISC_PX, DISC_PX);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function createMarks(size: number, map: DataTexture) {
+  const material = new PointsMaterial({ size, map, sizeAttenuation: false, alphaTest: 0.5 });
+  material.toneMapped = false;
+  return new Points(new BufferGeometry(), material);
+}
+
+function createEdges(depthTest: boolean, opacity: number) {
+  const material = new LineBasicMaterial({ depthTest, opacity, transparent: opacity < 1 });
+  material.toneMapped = false;
+  return new LineSegments(new BufferGeometry(), material);
+}
+
+export interface LevelOverlay extends Overlay {
+  /** A level and the one before it, which is the mesh where there is none; null draws nothing. */
+  show(level: MeshLevel | null, before: MeshLevel | undefined, nVertices: number): void;
+}
+
+export function createLevelOverlay(): LevelOverlay {
+  const disc = discTexture();
+  const faint = createEdges(false, BEHIND);
+  const edges = createEdges(true, 1);
+  const kept = createMarks(KEPT_PX, disc);
+  const out = createMarks(LEFT_OUT_PX, disc);
+  const parts = [faint, edges, out, kept];
+  const object = new Group();
+  object.add(...parts);
+  object.visible = false;
+  for (const part of parts) part.frustumCulled = false;
+  let places = new BufferAttribute(new Float32Array(0), 3);
+  return {
+    object,
+    show(level, before, nVertices) {
+      object.visible = level !== null;
+      if (!level) return;
+      for (const { geometry } of [faint, edges])
+        geometry.setIndex(new BufferAttribute(level.edges, 1));
+      kept.geometry.setIndex(new BufferAttribute(level.vertices, 1));
+      out.geometry.setIndex(new BufferAttribute(leftOut(level, before, nVertices), 1));
+    },
+    clear() {
+      object.visible = false;
+    },
+    update(positions, eye) {
+      if (!object.visible) return;
+      if (places.array.length !== positions.length) {
+        places = new BufferAttribute(positions.slice(), 3).setUsage(DynamicDrawUsage);
+        for (const { geometry } of parts) {
+          geometry.dispose();
+          geometry.setAttribute('position', places);
+        }
+      }
+      places.array.set(positions);
+      places.needsUpdate = true;
+      object.scale.setScalar(1 - NEARER);
+      object.position.copy(eye).multiplyScalar(NEARER);
+    },
+    themed(colour) {
+      for (const { material } of [faint, edges, kept]) material.color.set(colour('--level-kept'));
+      out.material.color.set(colour('--level-out'));
+    },
+  };
+}
