@@ -18,9 +18,13 @@ import type { Overlay } from '../../shared/stage/overlay';
 const NEARER = 0.01;
 /** What is behind the cloth shows through it, faintly: edges of a level cut folds short. */
 const BEHIND = 0.3;
-/** Across a mark [px]. */
-const KEPT_PX = 9;
-const LEFT_OUT_PX = 5;
+/** Across a mark on a vertex that is kept: of the way between these, and of the cloth at most. */
+const KEPT_OF_SPACING = 0.35;
+const KEPT_OF_CLOTH = 0.024;
+/** Others are that much smaller. */
+const LEFT_OUT_OF_KEPT = 0.55;
+/** A stage sees 32 degrees. */
+const VIEW_FACTOR = 1 / Math.tan((16 * Math.PI) / 180);
 /** Across the drawing of a mark [px], and of its rim. */
 const DISC_PX = 32;
 const RIM_PX = 5;
@@ -51,8 +55,21 @@ function discTexture(): DataTexture {
   return texture;
 }
 
-function createMarks(size: number, map: DataTexture) {
-  const material = new PointsMaterial({ size, map, sizeAttenuation: false, alphaTest: 0.5 });
+/** Across a mark on a vertex that is kept [m]. */
+function markSize(positions: Float32Array, nKept: number): number {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  positions.forEach((metres, index) => {
+    low[index % 3] = Math.min(low[index % 3] ?? 0, metres);
+    high[index % 3] = Math.max(high[index % 3] ?? 0, metres);
+  });
+  const diagonal = Math.hypot(...high.map((end, axis) => end - (low[axis] ?? 0)));
+  const spacing = diagonal / Math.sqrt(2 * nKept);
+  return Math.min(KEPT_OF_SPACING * spacing, KEPT_OF_CLOTH * diagonal);
+}
+
+function createMarks(map: DataTexture) {
+  const material = new PointsMaterial({ map, alphaTest: 0.5 });
   material.toneMapped = false;
   return new Points(new BufferGeometry(), material);
 }
@@ -72,19 +89,23 @@ export function createLevelOverlay(): LevelOverlay {
   const disc = discTexture();
   const faint = createEdges(false, BEHIND);
   const edges = createEdges(true, 1);
-  const kept = createMarks(KEPT_PX, disc);
-  const out = createMarks(LEFT_OUT_PX, disc);
+  const kept = createMarks(disc);
+  const out = createMarks(disc);
   const parts = [faint, edges, out, kept];
   const object = new Group();
   object.add(...parts);
   object.visible = false;
   for (const part of parts) part.frustumCulled = false;
   let places = new BufferAttribute(new Float32Array(0), 3);
+  let isSized = false; // the marks, for the level that is shown
+  let nKept = 0;
   return {
     object,
     show(level, before, nVertices) {
       object.visible = level !== null;
       if (!level) return;
+      isSized = false;
+      nKept = level.vertices.length;
       for (const { geometry } of [faint, edges])
         geometry.setIndex(new BufferAttribute(level.edges, 1));
       kept.geometry.setIndex(new BufferAttribute(level.vertices, 1));
@@ -101,6 +122,12 @@ export function createLevelOverlay(): LevelOverlay {
           geometry.dispose();
           geometry.setAttribute('position', places);
         }
+      }
+      if (!isSized) {
+        isSized = true;
+        // Sizes that shrink with distance are of a view of 90 degrees.
+        kept.material.size = markSize(positions, nKept) * VIEW_FACTOR;
+        out.material.size = LEFT_OUT_OF_KEPT * kept.material.size;
       }
       places.array.set(positions);
       places.needsUpdate = true;
