@@ -70,6 +70,9 @@ enum class LevelLengths {
   surface,
   /// Distances at rest, kept to both sides: the form of the paper, which irons folds.
   chord,
+  /// What the finer level's errors along them ask for, to both sides: what satisfies the finest
+  /// level stays as it is, stretched as its multipliers say, and cycles converge.
+  error,
 };
 
 /// What holds vertices from afar.

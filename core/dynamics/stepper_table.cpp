@@ -21,9 +21,8 @@ std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
   return std::make_unique<Type>(model, options);
 }
 
-template <MakeProjections make_projections>
 std::unique_ptr<Stepper> make_position_based(ClothModel& model, const MethodOptions& options) {
-  return std::make_unique<StepperXpbd>(model, options, make_projections);
+  return std::make_unique<StepperXpbd>(model, options, options.stepper->make_projections);
 }
 
 constexpr std::array kExplicitSettings = {MethodSetting::substeps, MethodSetting::beyond_bound,
@@ -147,7 +146,8 @@ constinit const StepperType steppers::kXpbd = {
     // Single precision, four springs at a time, and no forces but the air's, which cost most of it.
     .substep_cost = [](const MethodOptions& options) { return 1.0 * options.iterations; },
     .mark = {"M0-5.4L5 3.8H-5Z", "#4f6f00", "#b3d15a"},
-    .make = make_position_based<lane_projections>,
+    .make_projections = lane_projections,
+    .make = make_position_based,
 };
 
 constinit const StepperType steppers::kPbd = {
@@ -166,7 +166,8 @@ constinit const StepperType steppers::kPbd = {
     .usual_counts = kTenSweeps,
     .substep_cost = [](const MethodOptions& options) { return 1.5 * options.iterations; },
     .mark = {"M-4.6-2.7L0-5.3L4.6-2.7V2.7L0 5.3L-4.6 2.7Z", "#7a5c00", "#e0c060"},
-    .make = make_position_based<cycle_projections>,
+    .make_projections = cycle_projections,
+    .make = make_position_based,
 };
 
 constinit const StepperType steppers::kHpbd = {
@@ -192,7 +193,8 @@ constinit const StepperType steppers::kHpbd = {
     .usual_counts = kFiveRounds,
     .substep_cost = [](const MethodOptions& options) { return 2.5 * options.iterations; },
     .mark = {"M-5 3.6L0-5L5 3.6L0 0.8Z", "#5b5f6b", "#b4bac8"},
-    .make = make_position_based<cycle_projections>,
+    .make_projections = cycle_projections,
+    .make = make_position_based,
 };
 
 constinit const StepperType steppers::kMultigrid = {
@@ -219,7 +221,8 @@ constinit const StepperType steppers::kMultigrid = {
     .usual_counts = kSmallSteps,
     .substep_cost = [](const MethodOptions& options) { return 2.0 * options.iterations; },
     .mark = {"M-5 4.2V-4.2L0 0.8L5-4.2V4.2Z", "#9c2f2f", "#f08f85"},
-    .make = make_position_based<cycle_projections>,
+    .make_projections = cycle_projections,
+    .make = make_position_based,
 };
 
 constinit const StepperType steppers::kExplicitEuler = {

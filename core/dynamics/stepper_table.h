@@ -9,6 +9,7 @@
 
 #include "core/dynamics/method_options.h"
 #include "core/dynamics/stepper.h"
+#include "core/dynamics/xpbd/projections.h"
 #include "core/mesh/quad_mesh.h"
 
 namespace pleat {
@@ -99,6 +100,7 @@ struct StepperType {
 
   StepperMark mark;
 
+  MakeProjections make_projections = nullptr;  ///< of position-based steppers
   /// Throws InputError when the method cannot run on this model.
   std::unique_ptr<Stepper> (*make)(ClothModel& model, const MethodOptions& options);
 

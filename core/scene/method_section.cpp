@@ -42,8 +42,9 @@ constexpr std::array<Word<Smoother>, 5> kSmoothers{{{"none", Smoother::none},
                                                     {"lines", Smoother::lines},
                                                     {"sor", Smoother::sor}}};
 
-constexpr std::array<Word<LevelLengths>, 2> kLevelLengths{
-    {{"surface", LevelLengths::surface}, {"chord", LevelLengths::chord}}};
+constexpr std::array<Word<LevelLengths>, 3> kLevelLengths{{{"surface", LevelLengths::surface},
+                                                           {"chord", LevelLengths::chord},
+                                                           {"error", LevelLengths::error}}};
 
 constexpr std::array<Word<Attachments>, 2> kAttachments{
     {{"none", Attachments::none}, {"long_range", Attachments::long_range}}};

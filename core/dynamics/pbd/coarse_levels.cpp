@@ -12,6 +12,9 @@ namespace {
 /// (docs/methods/multigrid.md).
 constexpr double kShare = 0.5;
 
+/// Of a level by errors that has no coarser one: it is small, and is all but solved.
+constexpr int kCoarsestSweeps = 16;
+
 /// Sums of masses as the transfer hands them on.
 std::vector<double> coarse_masses(const Transfer& transfer, const std::vector<double>& masses,
                                   int n_coarse) {
@@ -37,7 +40,8 @@ std::vector<PlaceLength> lengths_of(const MeshLevel& level, LevelLengths lengths
 
 template <class Quad>
 CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vector<int>& places,
-                                 const std::vector<double>& inverse_masses, LevelLengths lengths) {
+                                 const std::vector<double>& inverse_masses, LevelLengths lengths)
+    : share_(static_cast<Real>(lengths == LevelLengths::error ? 1 : kShare)) {
   // What does not move hands no mass on and takes none: its coarse copy does not move either.
   std::vector<double> masses;
   masses.reserve(inverse_masses.size());
@@ -88,13 +92,48 @@ CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vect
 }
 
 template <class Quad>
-void CoarseLevels<Quad>::correct(const Real* begins, Real* moves, const CycleSmoothing& smoothing) {
-  if (!levels_.empty()) correct_level(0, begins, moves, smoothing);
+CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vector<int>& places,
+                                 const std::vector<double>& inverse_masses,
+                                 const StrainedEdges& finest, const Positions& rest)
+    : CoarseLevels(hierarchy, places, inverse_masses, LevelLengths::error) {
+  StrainedEdges finer = finest;
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    const MeshLevel& mesh = hierarchy.levels[k + 1];
+    Level& level = levels_[k];
+    StrainedEdges edges{{}, level.lengths.strain_places()};
+    for (const LevelEdge& edge : mesh.edges)
+      edges.ends.push_back({mesh.vertices[edge.a], mesh.vertices[edge.b]});
+    level.from_finer = strain_rows(edges, finer, rest);
+    level.strains.resize(level.lengths.n_strains(), 0);
+    finer = std::move(edges);
+  }
+}
+
+template <class Quad>
+void CoarseLevels<Quad>::correct(const Real* begins, Real* moves, const CycleSmoothing& smoothing,
+                                 const Real* strains) {
+  if (!levels_.empty()) correct_level(0, begins, moves, smoothing, strains);
+}
+
+template <class Quad>
+int CoarseLevels<Quad>::n_sweeps(std::size_t k) const {
+  return is_by_error() && k + 1 == levels_.size() ? kCoarsestSweeps : 1;
+}
+
+template <class Quad>
+int CoarseLevels<Quad>::n_projections(const CycleSmoothing& smoothing) const {
+  int n = 0;
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    if (smoothing.before.smoother != Smoother::none) n += levels_[k].lengths.n_lengths();
+    if (smoothing.after.smoother != Smoother::none)
+      n += n_sweeps(k) * levels_[k].lengths.n_lengths();
+  }
+  return n;
 }
 
 template <class Quad>
 void CoarseLevels<Quad>::correct_level(std::size_t k, const Real* begins, Real* moves,
-                                       const CycleSmoothing& smoothing) {
+                                       const CycleSmoothing& smoothing, const Real* strains) {
   Level& level = levels_[k];
   for (std::size_t i = 0; i < level.sources.size(); ++i) {
     const int source = level.sources[i];
@@ -103,12 +142,20 @@ void CoarseLevels<Quad>::correct_level(std::size_t k, const Real* begins, Real* 
     move.store(&level.moves[4 * i]);
     move.store(&level.corrections[4 * i]);
   }
+  const bool is_coarsest = k + 1 == levels_.size();
+  if (is_by_error()) {
+    level.from_finer.apply(strains, level.strains.data());
+    level.lengths.aim_at(level.begins.data(), level.moves.data(), level.strains.data());
+  }
   level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.before);
-  if (k + 1 < levels_.size())
-    correct_level(k + 1, level.begins.data(), level.moves.data(), smoothing);
-  level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.after);
+  if (is_by_error() && !is_coarsest)
+    level.lengths.strains(level.begins.data(), level.moves.data(), level.strains.data());
+  if (!is_coarsest)
+    correct_level(k + 1, level.begins.data(), level.moves.data(), smoothing, level.strains.data());
+  for (int sweep = n_sweeps(k); sweep > 0; --sweep)
+    level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.after);
 
-  const Quad share = Quad::all(static_cast<Real>(kShare));
+  const Quad share = Quad::all(share_);
   for (std::size_t i = 0; i < level.moves.size(); i += 4)
     (share * (Quad::load(&level.moves[i]) - Quad::load(&level.corrections[i])))
         .store(&level.corrections[i]);

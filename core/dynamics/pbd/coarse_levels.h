@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/dynamics/pbd/length_groups.h"
+#include "core/dynamics/pbd/strain_rows.h"
 #include "core/multigrid/mesh_hierarchy.h"
 
 namespace pleat {
@@ -32,16 +33,30 @@ class CoarseLevels {
   /// inverse_masses  relative, of each vertex of the finest level; 0: it does not move
   CoarseLevels(const MeshHierarchy& hierarchy, const std::vector<int>& places,
                const std::vector<double>& inverse_masses, LevelLengths lengths);
+  /// Levels whose lengths are what the next finer level's errors ask for.
+  ///
+  /// finest  the constraints of the finest mesh;  rest  its places at rest [m]
+  CoarseLevels(const MeshHierarchy& hierarchy, const std::vector<int>& places,
+               const std::vector<double>& inverse_masses, const StrainedEdges& finest,
+               const Positions& rest);
 
   /// Corrects the moves of the finest level once. Arrays as of LengthGroups.
-  void correct(const Real* begins, Real* moves, const CycleSmoothing& smoothing);
+  ///
+  /// strains  what is wrong with each of the finest constraints, relative to its length; where
+  ///          levels ask for it
+  void correct(const Real* begins, Real* moves, const CycleSmoothing& smoothing,
+               const Real* strains = nullptr);
 
+  /// Lengths that `correct` projects, each as often as it does.
+  int n_projections(const CycleSmoothing& smoothing) const;
   int n_levels() const { return static_cast<int>(levels_.size()); }  ///< without the finest
 
  private:
   struct Level {
     std::vector<int> sources;  ///< first number of each vertex in the next finer level
     LengthGroups<Quad> lengths;
+    StrainRows from_finer;
+    std::vector<Real> strains;
     std::vector<Real> begins, moves, corrections;
     /// Rows of the transfer to vertices of the finer level that move.
     std::vector<int> targets;  ///< their first numbers
@@ -50,10 +65,14 @@ class CoarseLevels {
     std::vector<Real> weights;
   };
 
+  bool is_by_error() const { return !levels_.empty() && !levels_[0].strains.empty(); }
+  /// On the way back.
+  int n_sweeps(std::size_t k) const;
   void correct_level(std::size_t k, const Real* begins, Real* moves,
-                     const CycleSmoothing& smoothing);
+                     const CycleSmoothing& smoothing, const Real* strains);
 
   std::vector<Level> levels_;
+  Real share_ = 0;  // of a correction that is handed back
 };
 
 extern template class CoarseLevels<Float4>;

@@ -4,6 +4,7 @@
 
 #include "core/dynamics/pbd/attachments.h"
 #include "core/dynamics/pbd/coarse_levels.h"
+#include "core/dynamics/pbd/error_correction.h"
 #include "core/dynamics/pbd/mesh_sweeps.h"
 
 namespace pleat {
@@ -43,14 +44,15 @@ MeshHierarchy hierarchy_of(const ClothModel& model, const MethodOptions& options
   return hierarchy;
 }
 
-/// Lines need a grid, and are what both smoothers ask for.
+/// Lines need a grid, are what both smoothers ask for, and tell nobody their errors.
 std::unique_ptr<MeshSweeps> sweeps_of(const ClothModel& model, const MethodOptions& options,
                                       const LaneLayout& layout, SpringLaw law, double h) {
   const auto takes_lines = [](Smoother smoother) {
     return smoother == Smoother::lines || smoother == Smoother::none;
   };
   const bool in_lines = takes_lines(options.smoother_before) &&
-                        takes_lines(options.smoother_after) && layout.n_rows > 1;
+                        takes_lines(options.smoother_after) && layout.n_rows > 1 &&
+                        options.level_lengths != LevelLengths::error;
   return (in_lines ? line_sweeps : gathered_sweeps)(model, layout, law, h);
 }
 
@@ -71,7 +73,13 @@ class CycleProjections final : public Projections {
     sweeps_->refresh_pins(inverse_masses);
     std::vector<double> of_vertices;
     for (const int slot : slots_) of_vertices.push_back(inverse_masses[slot]);
-    levels_ = {hierarchy_, slots_, of_vertices, options_.level_lengths};
+    if (options_.level_lengths == LevelLengths::error && hierarchy_.levels.size() > 1) {
+      by_error_ = {{hierarchy_, slots_, of_vertices, sweeps_->springs()->strained_edges(model),
+                    model.surface.rest_positions},
+                   *sweeps_->springs()};
+    } else {
+      levels_ = {hierarchy_, slots_, of_vertices, options_.level_lengths};
+    }
     if (options_.attachments == Attachments::long_range)
       attachments_ = {long_range_attachments(model, hierarchy_), slots_};
   }
@@ -83,6 +91,10 @@ class CycleProjections final : public Projections {
   void solve(const LaneView& view, int rounds) override {
     attachments_.sweep(view);
     vertices_.begin(view);
+    if (!by_error_.empty()) {
+      by_error_.begin();
+      sweeps_->springs()->forget();
+    }
     bool is_first = true;
     const auto sweep = [&](const Relaxation& relaxation) {
       if (relaxation.smoother == Smoother::none) return;
@@ -91,11 +103,17 @@ class CycleProjections final : public Projections {
     };
     for (int round = 0; round < rounds; ++round) {
       sweep(smoothing_.before);
-      if (levels_.n_levels() > 0)
-        levels_.correct(vertices_.begins(), vertices_.moves(), smoothing_);
+      correct();
       sweep(smoothing_.after);
     }
     vertices_.lanes();
+  }
+
+  double sweeps_per_round() const override {
+    const double n_sweeps = (smoothing_.before.smoother != Smoother::none ? 1 : 0) +
+                            (smoothing_.after.smoother != Smoother::none ? 1 : 0);
+    const CoarseLevels<Float4>& levels = by_error_.empty() ? levels_ : by_error_.levels();
+    return n_sweeps + static_cast<double>(levels.n_projections(smoothing_)) / sweeps_->size();
   }
 
   double squared_residual(const LaneView& view) override {
@@ -109,6 +127,15 @@ class CycleProjections final : public Projections {
   }
 
  private:
+  void correct() {
+    if (!by_error_.empty()) {
+      by_error_.correct(*sweeps_->springs(), vertices_.begins(), vertices_.moves(),
+                        vertices_.n_numbers(), smoothing_);
+    } else if (levels_.n_levels() > 0) {
+      levels_.correct(vertices_.begins(), vertices_.moves(), smoothing_);
+    }
+  }
+
   MethodOptions options_;
   CycleSmoothing smoothing_;
   GatheredVertices vertices_;
@@ -116,6 +143,7 @@ class CycleProjections final : public Projections {
   MeshHierarchy hierarchy_;
   std::vector<int> slots_;  // of each vertex
   CoarseLevels<Float4> levels_;
+  ErrorCorrection by_error_;  // in the place of levels_, where the options ask for it
   AttachmentProgram attachments_;
 };
 

@@ -17,6 +17,8 @@ class GatheredBends {
   /// Takes over changed inverse masses, of each slot, see LaneView. Allocates nothing.
   void refresh_pins(const float* inverse_masses);
 
+  int size() const { return static_cast<int>(elements_.size()); }  ///< elements
+
   /// Projects each element once; the first sweep of a substep starts from multipliers of zero.
   ///
   /// omega  times what a projection alone would correct

@@ -21,6 +21,7 @@ GatheredSprings::GatheredSprings(const ClothModel& model, const LaneLayout& layo
     ends.push_back({layout.places[static_cast<std::size_t>(spring.a)].slot,
                     layout.places[static_cast<std::size_t>(spring.b)].slot});
   }
+  n_springs_ = static_cast<int>(springs.size());
   // Pins come and go, so every vertex is taken for one that moves.
   const std::vector<bool> moves(static_cast<std::size_t>(layout.n_slots), true);
   for (const std::vector<int>& set : independent_sets(ends, moves)) {
@@ -89,8 +90,43 @@ void GatheredSprings::next_sweep(const float* begins, float* moves, const Relaxa
 }
 
 void GatheredSprings::first_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  forget();
   next_sweep(begins, moves, relaxation);
+}
+
+void GatheredSprings::strains(const float* begins, const float* moves, float* strains) const {
+  const bool is_rigid = law_ == SpringLaw::rigid;
+  const Float4 tiny = Float4::all(kTinySquare), half = Float4::all(0.5f);
+  const float* multiplier = multipliers_.data();
+  for (const Group& group : groups_) {
+    const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
+    const auto d = d_begin + (gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b));
+    const Float4 square = dots(d, d);
+    const Float4 rest = Float4::load(group.block.rest.data());
+    Float4 error = half * (square - rest);
+    if (!is_rigid)
+      error = sqrt(square) - rest +
+              Float4::load(group.block.compliance.data()) * Float4::load(multiplier) -
+              Float4::load(group.block.damper_share.data()) * (sqrt(dots(d_begin, d_begin)) - rest);
+    (error / max(rest, tiny)).store(strains);
+    strains += 4;
+    multiplier += multiplier_floats(law_);
+  }
+}
+
+StrainedEdges GatheredSprings::strained_edges(const ClothModel& model) const {
+  StrainedEdges edges;
+  int place = 0;
+  for (const Group& group : groups_)
+    for (const int s : group.members) {
+      if (s >= 0) {
+        const Spring& spring = model.springs[static_cast<std::size_t>(s)];
+        edges.ends.push_back({spring.a, spring.b});
+        edges.places.push_back(place);
+      }
+      ++place;
+    }
+  return edges;
 }
 
 double GatheredSprings::squared_residual(const float* begins, const float* moves) const {
@@ -110,7 +146,7 @@ double GatheredSprings::squared_residual(const float* begins, const float* moves
 }
 
 double GatheredSprings::squared_residual_before_sweeps(const float* begins, const float* moves) {
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  forget();
   return squared_residual(begins, moves);
 }
 

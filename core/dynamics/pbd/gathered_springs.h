@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "core/dynamics/pbd/length_groups.h"
+#include "core/dynamics/pbd/strain_rows.h"
 #include "core/dynamics/xpbd/lane_layout.h"
 #include "core/dynamics/xpbd/spring_law.h"
 
@@ -17,6 +19,8 @@ class GatheredSprings {
   /// h  substep [s]
   GatheredSprings(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h);
 
+  int size() const { return n_springs_; }  ///< springs
+
   /// Take over changed inverse masses, of each slot (see LaneView), and rest lengths. Allocate
   /// nothing.
   void refresh_pins(const float* inverse_masses);
@@ -26,6 +30,14 @@ class GatheredSprings {
   /// from multipliers of zero.
   void first_sweep(const float* begins, float* moves, const Relaxation& relaxation);
   void next_sweep(const float* begins, float* moves, const Relaxation& relaxation);
+
+  /// Makes the multipliers zero.
+  void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
+  /// (C + compliance/h^2 lambda)/L of each spring, four a group.
+  void strains(const float* begins, const float* moves, float* strains) const;
+  std::size_t n_strains() const { return 4 * groups_.size(); }
+  /// Those that this projects, and where their strains stand.
+  StrainedEdges strained_edges(const ClothModel& model) const;
 
   /// Sum of (C + compliance/h^2 lambda)^2 [m^2], with the multipliers of the last sweep, or with
   /// none.
@@ -44,6 +56,7 @@ class GatheredSprings {
   void project(const float* begins, const float* moves, float* to, float omega);
 
   SpringLaw law_;
+  int n_springs_ = 0;
   double h_;          // [s]
   double mean_mass_;  // [kg]
   std::vector<Group> groups_;

@@ -5,13 +5,14 @@
 #include "core/base/check.h"
 #include "core/dynamics/pbd/double4.h"
 #include "core/dynamics/pbd/quad_vectors.h"
+#include "core/dynamics/xpbd/spring_law.h"
 
 namespace pleat {
 
 template <class Quad>
 LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
                                  const std::vector<double>& inverse_masses, LengthSide side)
-    : side_(side), mean_(inverse_masses.size()) {
+    : side_(side), n_lengths_(static_cast<int>(lengths.size())), mean_(inverse_masses.size()) {
   PLEAT_CHECK(inverse_masses.empty() || inverse_masses.back() == 0, "the last place is nobody's");
   const int nobody = static_cast<int>(inverse_masses.size()) - 1;
   std::vector<PlacePair> pairs;
@@ -19,6 +20,7 @@ LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
   for (const PlaceLength& length : lengths) pairs.push_back(length.places);
   std::vector<bool> moves(inverse_masses.size());
   for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = inverse_masses[i] > 0;
+  strain_places_.resize(lengths.size());
   for (const std::vector<int>& set : independent_sets(pairs, moves)) {
     for (std::size_t i = 0; i < set.size(); ++i) {
       const std::size_t lane = i % 4;
@@ -32,6 +34,8 @@ LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
       const double w_a = inverse_masses[static_cast<std::size_t>(places[0])];
       const double w_b = inverse_masses[static_cast<std::size_t>(places[1])];
       Group& group = groups_.back();
+      strain_places_[static_cast<std::size_t>(set[i])] =
+          static_cast<int>(4 * (groups_.size() - 1) + lane);
       for (const int place : places) mean_.count(place);
       group.a[lane] = 4 * places[0];
       group.b[lane] = 4 * places[1];
@@ -74,6 +78,29 @@ void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation
   project(begins, moves, is_averaged ? mean_.begin() : moves,
           relaxation.smoother == Smoother::sor ? omega : 1);
   if (is_averaged) mean_.add_to(moves, omega);
+}
+
+template <class Quad>
+void LengthGroups<Quad>::aim_at(const Real* begins, const Real* moves, const Real* strains) {
+  for (Group& group : groups_) {
+    const QuadVectors<Quad> d = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b) +
+                                (gather<Quad>(moves, group.a) - gather<Quad>(moves, group.b));
+    const Quad share = Quad::all(1) - Quad::load(strains);
+    (share * share * dots(d, d)).store(group.square.data());
+    strains += 4;
+  }
+}
+
+template <class Quad>
+void LengthGroups<Quad>::strains(const Real* begins, const Real* moves, Real* strains) const {
+  const Quad half = Quad::all(Real(0.5)), tiny = Quad::all(Real(kTinySquare));
+  for (const Group& group : groups_) {
+    const QuadVectors<Quad> d = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b) +
+                                (gather<Quad>(moves, group.a) - gather<Quad>(moves, group.b));
+    const Quad rest = Quad::load(group.square.data());
+    (half * (dots(d, d) - rest) / max(rest, tiny)).store(strains);
+    strains += 4;
+  }
 }
 
 template class LengthGroups<Float4>;

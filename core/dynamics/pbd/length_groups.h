@@ -47,7 +47,16 @@ class LengthGroups {
   /// Projects each constraint once, unless the smoother is none.
   void sweep(const Real* begins, Real* moves, const Relaxation& relaxation);
 
-  std::size_t n_groups() const { return groups_.size(); }
+  /// Makes each length what its places are apart now, less a strain. In arrays of strains a length
+  /// stands at its place_of.
+  void aim_at(const Real* begins, const Real* moves, const Real* strains);
+  /// By how much places are further apart than their lengths, relatively.
+  void strains(const Real* begins, const Real* moves, Real* strains) const;
+
+  int n_lengths() const { return n_lengths_; }
+  std::size_t n_strains() const { return 4 * groups_.size(); }
+  /// Of the lengths in the order in which they were given.
+  const std::vector<int>& strain_places() const { return strain_places_; }
 
  private:
   struct Group {
@@ -60,6 +69,8 @@ class LengthGroups {
   void project(const Real* begins, const Real* moves, Real* to, Real omega);
 
   LengthSide side_ = LengthSide::both;
+  int n_lengths_ = 0;
+  std::vector<int> strain_places_;
   std::vector<Group> groups_;
   MeanCorrection<Quad> mean_;
 };

@@ -1,7 +1,6 @@
 #include "core/dynamics/pbd/mesh_sweeps.h"
 
 #include "core/dynamics/pbd/gathered_bends.h"
-#include "core/dynamics/pbd/gathered_springs.h"
 #include "core/dynamics/xpbd/hanging_program.h"
 #include "core/dynamics/xpbd/lane_projections.h"
 
@@ -43,6 +42,9 @@ class GatheredSweeps final : public MeshSweeps {
     is_first ? hanging_.first_sweep(view) : hanging_.next_sweep(view);
   }
 
+  int size() const override { return springs_.size() + bends_.size() + hanging_.size(); }
+  GatheredSprings* springs() override { return &springs_; }
+
   double squared_residual(GatheredVertices& vertices) override {
     const double of_hanging = hanging_.squared_residual(vertices.lanes());
     return of_hanging + springs_.squared_residual(vertices.begins(), vertices.moves()) +
@@ -75,6 +77,8 @@ class LineSweeps final : public MeshSweeps {
   void sweep(GatheredVertices& vertices, const Relaxation& relaxation, bool is_first) override {
     if (relaxation.smoother != Smoother::none) lanes_.sweep(vertices.lanes(), is_first);
   }
+
+  int size() const override { return lanes_.size(); }
 
   double squared_residual(GatheredVertices& vertices) override {
     return lanes_.squared_residual(vertices.lanes());

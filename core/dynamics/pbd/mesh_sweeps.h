@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "core/dynamics/method_options.h"
+#include "core/dynamics/pbd/gathered_springs.h"
 #include "core/dynamics/pbd/gathered_vertices.h"
-#include "core/dynamics/pbd/length_groups.h"
 #include "core/dynamics/xpbd/lane_layout.h"
 #include "core/dynamics/xpbd/spring_law.h"
 #include "core/model/cloth_model.h"
@@ -26,6 +26,11 @@ class MeshSweeps {
   ///
   /// is_first  starts from multipliers of zero
   virtual void sweep(GatheredVertices& vertices, const Relaxation& relaxation, bool is_first) = 0;
+
+  /// How many constraints there are.
+  virtual int size() const = 0;
+  /// Springs that are projected one by one, whose errors can be asked for; null where they are not.
+  virtual GatheredSprings* springs() { return nullptr; }
 
   /// See Projections.
   virtual double squared_residual(GatheredVertices& vertices) = 0;

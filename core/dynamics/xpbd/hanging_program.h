@@ -27,6 +27,7 @@ class HangingProgram {
   /// Takes over changed rest lengths. Allocates nothing.
   void refresh_rest_lengths(const ClothModel& model);
 
+  int size() const { return static_cast<int>(springs_.size() + bends_.size()); }  ///< elements
   bool empty() const { return springs_.empty() && bends_.empty(); }
 
   /// Projects each element once. The first sweep of a substep starts from multipliers of zero.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/model/cloth_model.h"
@@ -35,6 +36,14 @@ struct LaneLayout {
   int n_slots = 0;  ///< a multiple of 4, padding included
 
   int row_slots() const { return 4 * stride; }
+  /// Floats from one array to the next in memory: an odd number of cache lines. At a multiple of
+  /// 4096 bytes a load would wait for stores to the other arrays.
+  std::size_t pitch() const {
+    constexpr std::size_t kFloatsPerLine = 16;
+    const std::size_t lines =
+        (static_cast<std::size_t>(n_slots) + kFloatsPerLine - 1) / kFloatsPerLine;
+    return (lines | 1) * kFloatsPerLine;
+  }
 };
 
 /// Allocates; meant for once per model.

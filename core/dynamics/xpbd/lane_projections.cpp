@@ -2,6 +2,15 @@
 
 namespace pleat {
 
+LaneProjections::LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
+                                 double h)
+    : springs_(model, layout, law, h),
+      bends_(model, layout, h),
+      hanging_(model, layout, law, h),
+      n_constraints_(static_cast<int>(active_springs(model, law).size())) {
+  for (const BendElement& bend : model.bends) n_constraints_ += bend.stiffness != 0 ? 1 : 0;
+}
+
 void LaneProjections::refresh_rest_lengths(const ClothModel& model) {
   springs_.refresh_rest_lengths(model);
   hanging_.refresh_rest_lengths(model);

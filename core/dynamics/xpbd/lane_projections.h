@@ -12,10 +12,7 @@ namespace pleat {
 class LaneProjections final : public Projections {
  public:
   /// h  substep [s]
-  LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h)
-      : springs_(model, layout, law, h),
-        bends_(model, layout, h),
-        hanging_(model, layout, law, h) {}
+  LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h);
 
   void refresh_pins(const ClothModel&, const float*) override {}
   void refresh_rest_lengths(const ClothModel& model) override;
@@ -24,6 +21,9 @@ class LaneProjections final : public Projections {
   /// One round; the first of a substep starts from multipliers of zero.
   void sweep(const LaneView& view, bool is_first);
 
+  int size() const { return n_constraints_; }
+  double sweeps_per_round() const override { return 1; }
+
   double squared_residual(const LaneView& view) override;
   double squared_residual_before(const LaneView& view) override;
 
@@ -31,6 +31,7 @@ class LaneProjections final : public Projections {
   SpringProgram springs_;
   BendProgram bends_;
   HangingProgram hanging_;
+  int n_constraints_;
 };
 
 /// Makes them for `xpbd`.

@@ -26,6 +26,10 @@ class Projections {
   /// one starts from multipliers of zero. Allocates nothing after the first call.
   virtual void solve(const LaneView& view, int rounds) = 0;
 
+  /// Sweeps of the finest mesh that a round costs: those of coarser levels count by their share of
+  /// constraints.
+  virtual double sweeps_per_round() const = 0;
+
   /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2], after
   /// `solve`, or with multipliers of zero, as before it.
   virtual double squared_residual(const LaneView& view) = 0;

@@ -4,6 +4,15 @@
 
 namespace pleat {
 
+SpringLaw spring_law(const ClothModel& model, Constraints constraints) {
+  if (constraints == Constraints::rigid) return SpringLaw::rigid;
+  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
+                                  [](const Spring& spring) { return spring.damping > 0; });
+  if (!damped) return SpringLaw::elastic;
+  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
+                                                                : SpringLaw::damped;
+}
+
 std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
   std::vector<int> active;
   for (std::size_t s = 0; s < model.springs.size(); ++s) {

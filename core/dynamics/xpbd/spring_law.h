@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/dynamics/method_options.h"
 #include "core/dynamics/xpbd/lane_operations.h"
 #include "core/model/cloth_model.h"
 
@@ -15,6 +16,9 @@ enum class SpringLaw {
   damped,            ///< stiffness, and damping along the spring
   damped_isotropic,  ///< stiffness, and damping of every relative velocity
 };
+
+/// The law of a model's springs.
+SpringLaw spring_law(const ClothModel& model, Constraints constraints);
 
 /// Calls work(constant) with the law as a compile-time constant.
 template <class Work>

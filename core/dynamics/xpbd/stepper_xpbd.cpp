@@ -9,24 +9,6 @@
 namespace pleat {
 namespace {
 
-/// Arrays begin an odd number of cache lines apart: at a multiple of 4096 bytes a load would wait
-/// for stores to the other arrays.
-std::size_t pitch_for(int n_slots) {
-  constexpr std::size_t kFloatsPerLine = 16;
-  const std::size_t lines =
-      (static_cast<std::size_t>(n_slots) + kFloatsPerLine - 1) / kFloatsPerLine;
-  return (lines | 1) * kFloatsPerLine;
-}
-
-SpringLaw spring_law(const ClothModel& model, const MethodOptions& options) {
-  if (options.constraints == Constraints::rigid) return SpringLaw::rigid;
-  const bool damped = std::any_of(model.springs.begin(), model.springs.end(),
-                                  [](const Spring& spring) { return spring.damping > 0; });
-  if (!damped) return SpringLaw::elastic;
-  return model.damping_direction == DampingDirection::isotropic ? SpringLaw::damped_isotropic
-                                                                : SpringLaw::damped;
-}
-
 double step_of(const MethodOptions& options) { return options.step / options.substeps; }
 
 }  // namespace
@@ -35,10 +17,10 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
                          MakeProjections make_projections)
     : Stepper(model, options, options.substeps, ContactMemory::none),
       layout_(lane_layout(model)),
-      projections_(
-          make_projections(model, options, layout_, spring_law(model, options), step_of(options))),
+      projections_(make_projections(model, options, layout_, spring_law(model, options.constraints),
+                                    step_of(options))),
       mean_mass_(model.masses.mean()),
-      pitch_(pitch_for(layout_.n_slots)),
+      pitch_(layout_.pitch()),
       data_(pitch_ * kArrays, 0.0f) {
   const double h = step_of(options);
   for (int k = 0; k < 3; ++k)

@@ -216,6 +216,69 @@ TEST_CASE("coarse levels: their corrections keep momentum, and what is fixed sta
   CHECK((held - stretched).norm() > 0.1);
 }
 
+TEST_CASE("coarse levels: by errors, what has none is left alone, stretched and folded as it is",
+          "[dynamics]") {
+  Random random(11);
+  const TriangleMesh mesh = triangulated_sheet(Triangulation::alternating, 16, 16, 0.05);
+  const std::vector<double> inverse_masses(static_cast<std::size_t>(mesh.n_vertices()), 1);
+  const MeshHierarchy hierarchy = levels_of(mesh);
+  StrainedEdges edges;
+  for (const LevelEdge& edge : hierarchy.levels[0].edges) {
+    edges.places.push_back(static_cast<int>(edges.ends.size()));
+    edges.ends.push_back({edge.a, edge.b});
+  }
+  CoarseLevels<Double4> levels(hierarchy, in_order(mesh.n_vertices()), inverse_masses, edges,
+                               mesh.rest_positions);
+  const Positions crumpled = 1.3 * on_cylinder(mesh.rest_positions, 0.3, 0.1) +
+                             0.01 * random_positions(mesh.n_vertices(), random);
+  const auto moved = [&](const Positions& now, const std::vector<double>& strains) {
+    std::vector<double> moves = in_fours(now - mesh.rest_positions);
+    levels.correct(in_fours(mesh.rest_positions).data(), moves.data(), {}, strains.data());
+    return Positions(mesh.rest_positions + from_fours(moves));
+  };
+  const std::vector<double> none(edges.ends.size(), 0);
+  CHECK((moved(crumpled, none) - crumpled).cwiseAbs().maxCoeff() < 1e-12);
+
+  // Of a sheet that is 1 % too long both ways, a correction mends most where it is asked for.
+  const std::vector<double> too_long(edges.ends.size(), 0.01);
+  const Positions stretched = 1.01 * mesh.rest_positions;
+  const Positions after = moved(stretched, too_long);
+  const double diagonal = box_diagonal(mesh.rest_positions);
+  CHECK(box_diagonal(after) < 1.004 * diagonal);
+  CHECK(box_diagonal(after) > 0.996 * diagonal);
+  const Vec3 drift = (after - stretched).rowwise().mean();
+  CHECK(drift.norm() < 1e-12);
+}
+
+TEST_CASE("strain rows: they are means, along threads of the strain along them", "[dynamics]") {
+  const TriangleMesh mesh = triangulated_sheet(Triangulation::alternating, 8, 8, 0.1);
+  StrainedEdges fine, coarse;
+  std::vector<double> strains;
+  for (const MeshEdge& edge : mesh_edges(mesh.triangles)) {
+    const Vec3 along =
+        (mesh.rest_positions.col(edge.a) - mesh.rest_positions.col(edge.b)).normalized();
+    fine.places.push_back(static_cast<int>(fine.ends.size()));
+    fine.ends.push_back({edge.a, edge.b});
+    strains.push_back(0.03 * along.x() * along.x());  // stretched along x alone
+  }
+  const auto at = [&](double x, double y) {
+    Eigen::Index v = 0;
+    (mesh.rest_positions.colwise() - Vec3(x, y, 0)).colwise().norm().minCoeff(&v);
+    return VertexId(v);
+  };
+  coarse.ends = {{at(0.2, 0.4), at(0.4, 0.4)}, {at(0.4, 0.2), at(0.4, 0.4)}};
+  coarse.places = {1, 0};
+  std::vector<double> found(2, -1);
+  const StrainRows rows = strain_rows(coarse, fine, mesh.rest_positions);
+  rows.apply(strains.data(), found.data());
+  CHECK(found[1] == Approx(0.03).epsilon(0.1));
+  CHECK(found[0] == Approx(0).margin(0.003));
+  std::fill(strains.begin(), strains.end(), 0.02);
+  rows.apply(strains.data(), found.data());
+  CHECK(found[0] == Approx(0.02));
+  CHECK(found[1] == Approx(0.02));
+}
+
 TEST_CASE("attachments: on a flat sheet they are straight, to the nearest pin of each patch",
           "[dynamics]") {
   const QuadMesh mesh = lying_sheet(6);

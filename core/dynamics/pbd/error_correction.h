@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/pbd/coarse_levels.h"
+#include "core/dynamics/pbd/gathered_springs.h"
+
+namespace pleat {
+
+/// Corrections by coarse levels whose lengths are what the errors of springs ask for, cycle after
+/// cycle of one solve.
+///
+/// Levels are asked again for what no move can mend, such as springs that contradict each other:
+/// handed back whole, their corrections then add up. So as long as errors get less from cycle to
+/// cycle corrections count whole, and else a share of them, down to the one that leaves least error
+/// at once: that is too small where all is well, as an interpolated correction has errors of its
+/// own, which the next sweep takes away.
+class ErrorCorrection {
+ public:
+  ErrorCorrection() = default;
+  /// levels  made for these springs
+  ErrorCorrection(CoarseLevels<Float4> levels, const GatheredSprings& springs)
+      : levels_(std::move(levels)), errors_(springs.n_strains()), errors_after_(errors_) {}
+
+  bool empty() const { return errors_.empty(); }
+  const CoarseLevels<Float4>& levels() const { return levels_; }
+
+  /// Begins a solve.
+  void begin();
+  /// Corrects the moves once; arrays as of GatheredSprings. Allocates once.
+  ///
+  /// n_numbers  in the array of moves
+  void correct(const GatheredSprings& springs, const float* begins, float* moves,
+               std::size_t n_numbers, const CycleSmoothing& smoothing);
+
+ private:
+  CoarseLevels<Float4> levels_;
+  std::vector<float> errors_, errors_after_;  // of springs, relative
+  std::vector<float> moves_before_;
+  double last_square_ = 0;  // of all errors, a cycle ago
+  double trust_ = 1;        // the least share of a correction
+};
+
+}  // namespace pleat
