@@ -19,6 +19,7 @@ Outcome deform_command(Arguments arguments);
 Outcome modes_command(Arguments arguments);
 Outcome inbetween_command(Arguments arguments);
 Outcome hierarchy_command(Arguments arguments);
+Outcome convergence_command(Arguments arguments);
 Outcome hard_cases_command(Arguments arguments);
 Outcome bench_deform(Arguments arguments);     ///< bench deform
 Outcome bench_inbetween(Arguments arguments);  ///< bench inbetween

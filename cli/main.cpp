@@ -99,6 +99,13 @@ pleat hierarchy MESH.obj | SCENE.json   ever coarser meshes of vertices of a mes
   --levels N             beside the finest (default 3);  --ratio R  of vertices kept (default 0.5)
   --weights NAME         of corrections: inverse_distance (default) or moving_least_squares
   --out DIR              write each level as an OBJ file
+pleat convergence SCENE.json   one step solved from the same predicted places: error after 1, 2, 3,
+                         5, 9, ... rounds of each method, and where it is first below 0.1 to 0.0001
+  --at S                 when the step begins (default 0); until then the scene's method runs
+  --methods A,B,M.json   steppers, or files with a "method" (default: pbd,hpbd,multigrid,xpbd)
+  --constraints rigid|compliant    of position-based methods (default: rigid)
+  --diagonals one|both   of quads, as springs (default: one, as rigid ones contradict each other)
+  --rounds N             at most (default 1025);  --repeat N  timed batches of each (default 1)
 pleat hard-cases [NAME ...]   what breaks cloth systems, run with every stepper: ok, or why not
   --stepper NAME         with this one alone
   --short                the lengths that are tests
@@ -159,6 +166,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   if (command == "modes") return modes_command(std::move(arguments));
   if (command == "inbetween") return inbetween_command(std::move(arguments));
   if (command == "hierarchy") return hierarchy_command(std::move(arguments));
+  if (command == "convergence") return convergence_command(std::move(arguments));
   if (command == "hard-cases") return hard_cases_command(std::move(arguments));
   if (command == "help" || command == "--help" || command == "-h") {
     arguments.finish();
@@ -173,7 +181,7 @@ Outcome dispatch(const std::string& command, Arguments arguments) {
   }
   throw InputError(cut(command),
                    "unknown command; the commands are run, sweep, reference, refine, deform, "
-                   "modes, inbetween, hierarchy, hard-cases, bench and help");
+                   "modes, inbetween, hierarchy, convergence, hard-cases, bench and help");
 }
 
 int run(const std::vector<std::string>& words) {

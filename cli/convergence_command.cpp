@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/scene_input.h"
+#include "core/base/check.h"
+#include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
+#include "core/files/whole_file.h"
+#include "core/run/convergence_study.h"
+#include "core/scene/method_section.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kMostRounds = 100000;
+constexpr int kMostRepeats = 1000;
+constexpr double kTargets[] = {1e-1, 1e-2, 1e-3, 1e-4};
+
+/// A section "method" as scenes have it, in a file of its own.
+MethodOptions read_method_file(const std::string& file) {
+  try {
+    const Json json = parse_json(read_file(file));
+    return read_method(JsonReader(json), standard_steppers());
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw InputError(error.where().empty() ? file : file + ": " + error.where(), error.what());
+  }
+}
+
+std::vector<MethodOptions> take_methods(Arguments& arguments) {
+  std::vector<std::string> words = arguments.list("--methods");
+  if (words.empty()) words = {"pbd", "hpbd", "multigrid", "xpbd"};
+  std::vector<MethodOptions> methods;
+  for (const std::string& word : words) {
+    if (word.find(".json") != std::string::npos) {
+      methods.push_back(read_method_file(word));
+      continue;
+    }
+    const StepperType* const type = find_stepper(standard_steppers(), word);
+    if (type == nullptr)
+      throw InputError("--methods", "expected steppers (" + stepper_names(standard_steppers()) +
+                                        ") or JSON files with a method, got " + cut(word));
+    methods.push_back(type->usual_method());
+  }
+  return methods;
+}
+
+/// 0 or 1: which of two words stands after an option.
+int take_choice(Arguments& arguments, const char* option, const char* first, const char* second) {
+  const auto text = arguments.text(option);
+  if (!text || *text == first) return 0;
+  if (*text == second) return 1;
+  throw InputError(option,
+                   std::string("expected ") + first + " or " + second + ", got " + cut(*text));
+}
+
+ConvergenceOptions take_convergence_options(Arguments& arguments) {
+  ConvergenceOptions options;
+  options.targets.assign(std::begin(kTargets), std::end(kTargets));
+  if (const auto at = arguments.text("--at")) options.time = parse_number_from_zero(*at, "--at");
+  options.constraints = take_choice(arguments, "--constraints", "rigid", "compliant") == 0
+                            ? Constraints::rigid
+                            : Constraints::compliant;
+  options.diagonals =
+      take_choice(arguments, "--diagonals", "one", "both") == 0 ? Diagonals::one : Diagonals::both;
+  options.most_rounds =
+      arguments.whole_number("--rounds", 1, kMostRounds).value_or(options.most_rounds);
+  options.repeat = arguments.whole_number("--repeat", 1, kMostRepeats).value_or(options.repeat);
+  options.methods = take_methods(arguments);
+  return options;
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json json_study(const SceneInput& input, const ConvergenceStudy& study) {
+  Json all = Json::array();
+  for (const ConvergenceSeries& series : study.series) {
+    Json points = Json::array();
+    for (const ConvergencePoint& point : series.points)
+      points.push_back({{"rounds", point.rounds},
+                        {"sweeps", number_or_null(point.sweeps)},
+                        {"ms", point.ms},
+                        {"relative_error", number_or_null(point.relative_error)},
+                        {"relative_distance", number_or_null(point.relative_distance)}});
+    all.push_back({{"method", json_method(series.method)},
+                   {"distance_begin_m", number_or_null(series.distance_begin)},
+                   {"distance_unknown_m", number_or_null(series.distance_unknown)},
+                   {"points", std::move(points)}});
+  }
+  return {{"scene", input.scene.name},    {"time_s", study.time},
+          {"step_s", study.step},         {"n_vertices", study.n_vertices},
+          {"n_springs", study.n_springs}, {"n_bends", study.n_bends},
+          {"series", std::move(all)},     {"core", core_version()}};
+}
+
+void print_study(const SceneInput& input, const ConvergenceStudy& study) {
+  std::printf("%s: the step of %.4g s at %.4g s; %d vertices, %d springs, %d bending elements\n",
+              printable(input.scene.name).c_str(), study.step, study.time, study.n_vertices,
+              study.n_springs, study.n_bends);
+  for (const ConvergenceSeries& series : study.series) {
+    std::printf("\n%s: %.3g mm from converged at first, known to %.1g mm\n",
+                series.method.stepper->name, 1e3 * series.distance_begin,
+                1e3 * series.distance_unknown);
+    std::printf("rounds    sweeps        ms  relative error  distance\n");
+    for (const ConvergencePoint& point : series.points)
+      std::printf("%6d  %8.4g  %8.4g  %14.3g  %8.3g\n", point.rounds, point.sweeps, point.ms,
+                  point.relative_error, point.relative_distance);
+  }
+}
+
+}  // namespace
+
+Outcome convergence_command(Arguments arguments) {
+  const bool for_machines = arguments.flag("--json");
+  const ConvergenceOptions options = take_convergence_options(arguments);
+  const SceneInput input = take_scene(arguments);
+  arguments.finish();
+  if (options.time > input.scene.duration)
+    throw InputError("--at", "expected a time within the scene's " +
+                                 Json(input.scene.duration).dump() + " s, got " +
+                                 Json(options.time).dump());
+  const ConvergenceStudy study =
+      with_source_named(input, [&] { return study_convergence(input.scene, options); });
+  if (for_machines)
+    std::printf("%s\n", json_study(input, study).dump().c_str());
+  else
+    print_study(input, study);
+  return Outcome::ok;
+}
+
+}  // namespace pleat
