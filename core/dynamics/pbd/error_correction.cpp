@@ -4,18 +4,21 @@
 #include <limits>
 
 namespace pleat {
+namespace {
+
+constexpr double kFirstTrust = 0.125;  // doubled in the first cycle
+
+}  // namespace
 
 void ErrorCorrection::begin() {
   last_square_ = std::numeric_limits<double>::infinity();
-  trust_ = 1;
+  trust_ = kFirstTrust;
 }
 
 // With errors e before and e' after a whole correction, a share s of it leaves |e - s (e - e')|,
 // least at s = e.(e - e') / |e - e'|^2.
 void ErrorCorrection::correct(const GatheredSprings& springs, const float* begins, float* moves,
                               std::size_t n_numbers, const CycleSmoothing& smoothing) {
-  constexpr double kLess = 0.1;  // of the trust where errors grew
-  constexpr double kMore = 1.1;  // where they did not
   springs.strains(begins, moves, errors_.data());
   moves_before_.assign(moves, moves + n_numbers);
   levels_.correct(begins, moves, smoothing, errors_.data());
@@ -27,7 +30,7 @@ void ErrorCorrection::correct(const GatheredSprings& springs, const float* begin
     along += error * mended;
     change += mended * mended;
   }
-  trust_ = square < last_square_ ? std::min(1.0, kMore * trust_) : kLess * trust_;
+  trust_ = square < last_square_ ? std::min(1.0, 2 * trust_) : 0;
   last_square_ = square;
   const double best = change > 0 ? std::clamp(along / change, 0.0, 1.0) : 0;
   const auto share = static_cast<float>(std::max(best, trust_));

@@ -10,11 +10,11 @@ namespace pleat {
 /// Corrections by coarse levels whose lengths are what the errors of springs ask for, cycle after
 /// cycle of one solve.
 ///
-/// Levels are asked again for what no move can mend, such as springs that contradict each other:
-/// handed back whole, their corrections then add up. So as long as errors get less from cycle to
-/// cycle corrections count whole, and else a share of them, down to the one that leaves least error
-/// at once: that is too small where all is well, as an interpolated correction has errors of its
-/// own, which the next sweep takes away.
+/// A correction counts by the share that leaves least error at once, or by more while errors get
+/// less from cycle to cycle: that share is too small where all is well, as an interpolated
+/// correction has errors of its own, which the next sweep takes away. Where errors grow the levels
+/// are asked for what no move can mend, such as springs that contradict each other, and more than
+/// that share would add up.
 class ErrorCorrection {
  public:
   ErrorCorrection() = default;
@@ -38,7 +38,7 @@ class ErrorCorrection {
   std::vector<float> errors_, errors_after_;  // of springs, relative
   std::vector<float> moves_before_;
   double last_square_ = 0;  // of all errors, a cycle ago
-  double trust_ = 1;        // the least share of a correction
+  double trust_ = 0;        // the least share of a correction; 0 once errors have grown
 };
 
 }  // namespace pleat
