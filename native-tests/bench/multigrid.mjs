@@ -1,12 +1,13 @@
 // ./pleat bench multigrid (--help tells the options)
-// What coarser levels save: position-based steps against a plain loop, and solves of implicit steps;
-// and what it takes to make them.
+// What coarser levels save: position-based steps against a plain loop and one by one, and solves of
+// implicit steps; and what it takes to make them.
 import { runParts } from './parts/bench-parts.mjs';
+import { convergence } from './parts/convergence.mjs';
 import { hierarchy } from './parts/hierarchy.mjs';
 import { contact } from './parts/loop-contact.mjs';
 import { loop, loopOptions } from './parts/loop-contest.mjs';
 import { clothOption, preconditioner } from './parts/multigrid-preconditioner.mjs';
 
-const parts = { loop, contact, preconditioner, hierarchy };
+const parts = { loop, contact, convergence, preconditioner, hierarchy };
 
 await runParts('multigrid', 'what coarser levels save', parts, [...loopOptions, clothOption]);
