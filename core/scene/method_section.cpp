@@ -258,15 +258,17 @@ struct WordTitle {
   const char* title;
 };
 
-constexpr std::array<WordTitle, 9> kWordTitles{{{"none", "None"},
-                                                {"jacobi", "Jacobi"},
-                                                {"gauss_seidel", "Gauss-Seidel"},
-                                                {"sor", "SOR"},
-                                                {"surface", "Along the surface"},
-                                                {"chord", "Straight"},
-                                                {"long_range", "Long range"},
-                                                {"rigid", "Rigid"},
-                                                {"compliant", "Compliant"}}};
+constexpr std::array<WordTitle, 11> kWordTitles{{{"none", "None"},
+                                                 {"jacobi", "Jacobi"},
+                                                 {"gauss_seidel", "Gauss-Seidel"},
+                                                 {"lines", "Lines"},
+                                                 {"sor", "SOR"},
+                                                 {"surface", "Along the surface"},
+                                                 {"chord", "Straight"},
+                                                 {"error", "By errors"},
+                                                 {"long_range", "Long range"},
+                                                 {"rigid", "Rigid"},
+                                                 {"compliant", "Compliant"}}};
 
 const char* title_of(const char* word) {
   for (const WordTitle& known : kWordTitles)

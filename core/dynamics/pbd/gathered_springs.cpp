@@ -137,8 +137,8 @@ double GatheredSprings::squared_residual(const float* begins, const float* moves
     for (const Group& group : groups_) {
       const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
       const auto change = gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b);
-      sum = sum + squared_error<Float4, kLaw, true>(in_lanes(d_begin), in_lanes(change),
-                                                    group.block, 0, multiplier);
+      sum = sum + squared_error<Float4, kLaw>(in_lanes(d_begin), in_lanes(change), group.block, 0,
+                                              multiplier);
       multiplier += multiplier_floats(kLaw);
     }
     return sum_of_lanes(sum);

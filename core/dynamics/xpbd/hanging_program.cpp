@@ -129,21 +129,20 @@ void HangingProgram::sweep(const LaneView& view) {
 void HangingProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
 void HangingProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
 
-template <bool with_multipliers>
-double HangingProgram::sum_of_squares(const LaneView& view) const {
+double HangingProgram::squared_residual(const LaneView& view) const {
   double total = 0;
   for (std::size_t i = 0; i < bends_.size(); ++i) {
     const auto& [sum, compliance] = bends_[i];
     const float* const multiplier = bend_multipliers_.data() + 3 * i;
-    const Vec3Lanes<Float1> error = bend_error<with_multipliers>(sum, compliance, multiplier, view);
+    const Vec3Lanes<Float1> error = bend_error<true>(sum, compliance, multiplier, view);
     total += dot(error, error).value;
   }
   with_law(law_, [&](auto law) {
     const float* multiplier = spring_multipliers_.data();
     for (const JoinedSpring& spring : springs_) {
-      total += squared_error<Float1, decltype(law)::value, with_multipliers>(
-                   value(spring.sum, view.begins), value(spring.sum, view.moves), spring.block, 0,
-                   multiplier)
+      total += squared_error<Float1, decltype(law)::value>(value(spring.sum, view.begins),
+                                                           value(spring.sum, view.moves),
+                                                           spring.block, 0, multiplier)
                    .value;
       multiplier += multiplier_floats(law);
     }
@@ -151,11 +150,10 @@ double HangingProgram::sum_of_squares(const LaneView& view) const {
   return total;
 }
 
-double HangingProgram::squared_residual(const LaneView& view) const {
-  return sum_of_squares<true>(view);
-}
-double HangingProgram::squared_residual_before_sweeps(const LaneView& view) const {
-  return sum_of_squares<false>(view);
+double HangingProgram::squared_residual_before_sweeps(const LaneView& view) {
+  std::fill(spring_multipliers_.begin(), spring_multipliers_.end(), 0.0f);
+  std::fill(bend_multipliers_.begin(), bend_multipliers_.end(), 0.0f);
+  return squared_residual(view);
 }
 
 }  // namespace pleat

@@ -35,9 +35,9 @@ class HangingProgram {
   void next_sweep(const LaneView& view);
 
   /// Sum of |C + compliance/h^2 lambda|^2 [m^2], with the multipliers of the last sweep, or with
-  /// none.
+  /// none, which then are zero.
   double squared_residual(const LaneView& view) const;
-  double squared_residual_before_sweeps(const LaneView& view) const;
+  double squared_residual_before_sweeps(const LaneView& view);
 
  private:
   struct JoinedSpring {
@@ -56,8 +56,6 @@ class HangingProgram {
   void project_bends(const LaneView& view);
   template <SpringLaw law, bool first>
   void project_springs(const LaneView& view);
-  template <bool with_multipliers>
-  double sum_of_squares(const LaneView& view) const;
 
   SpringLaw law_;
   double h_;          // [s]

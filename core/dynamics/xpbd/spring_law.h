@@ -149,12 +149,11 @@ Vec3Lanes<Lanes> pull_of(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>
 }
 
 /// (C + compliance/h^2 lambda)^2 [m^2], 0 in empty lanes.
-template <class Lanes, SpringLaw law, bool with_multipliers>
+template <class Lanes, SpringLaw law>
 Lanes squared_error(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& change_of_d,
                     const SpringBlock& block, int lane, const float* multiplier) {
   constexpr float kLargest = std::numeric_limits<float>::max();
-  const auto spring =
-      linearise<Lanes, law, !with_multipliers>(d_begin, change_of_d, block, lane, multiplier);
+  const auto spring = linearise<Lanes, law, false>(d_begin, change_of_d, block, lane, multiplier);
   Lanes error;  // (l^2 - L^2)/2 = (l - L) (l + L)/2
   if constexpr (law == SpringLaw::rigid) {
     const Lanes rest = Lanes::load(block.rest.data() + lane);
@@ -166,11 +165,9 @@ Lanes squared_error(const Vec3Lanes<Lanes>& d_begin, const Vec3Lanes<Lanes>& cha
   if constexpr (law == SpringLaw::damped_isotropic) {
     const Lanes compliance = Lanes::load(block.across_compliance.data() + lane);
     Vec3Lanes<Lanes> motion = across(change_of_d, spring.d);
-    if constexpr (with_multipliers)
-      motion =
-          motion + where_positive(Lanes::all(kLargest) - compliance, compliance) *
-                       Vec3Lanes<Lanes>{Lanes::load(multiplier + 4), Lanes::load(multiplier + 8),
-                                        Lanes::load(multiplier + 12)};
+    motion = motion + where_positive(Lanes::all(kLargest) - compliance, compliance) *
+                          Vec3Lanes<Lanes>{Lanes::load(multiplier + 4), Lanes::load(multiplier + 8),
+                                           Lanes::load(multiplier + 12)};
     square = square + where_positive(Lanes::all(kLargest) - compliance, dot(motion, motion));
   }
   const Lanes occupied = Lanes::all(kLargest) - Lanes::load(block.denominator_share.data() + lane);

@@ -1,5 +1,6 @@
 #include "core/dynamics/xpbd/spring_program.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -243,32 +244,25 @@ void SpringProgram::sweep(const LaneView& view) {
 void SpringProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
 void SpringProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
 
-template <SpringLaw law, bool with_multipliers>
-double SpringProgram::sum_of_squares(const LaneView& v) const {
-  Float4 sum = Float4::all(0);
-  for (std::size_t i = 0; i < operations_.size(); ++i) {
-    const auto [a, b, index] = operations_[i];
-    const float* const multiplier =
-        multipliers_.data() + static_cast<std::size_t>(multiplier_floats(law)) * i;
-    sum = sum + squared_error<Float4, law, with_multipliers>(
-                    load<Float4>(v.begins, a) - load<Float4>(v.begins, b),
-                    load<Float4>(v.moves, a) - load<Float4>(v.moves, b),
-                    blocks_[static_cast<std::size_t>(index)], 0, multiplier);
-  }
-  return sum_of_lanes(sum);
+double SpringProgram::squared_residual(const LaneView& v) const {
+  return with_law(law_, [&](auto constant) {
+    constexpr SpringLaw kLaw = decltype(constant)::value;
+    Float4 sum = Float4::all(0);
+    const float* multiplier = multipliers_.data();
+    for (const auto& [a, b, index] : operations_) {
+      sum = sum + squared_error<Float4, kLaw>(load<Float4>(v.begins, a) - load<Float4>(v.begins, b),
+                                              load<Float4>(v.moves, a) - load<Float4>(v.moves, b),
+                                              blocks_[static_cast<std::size_t>(index)], 0,
+                                              multiplier);
+      multiplier += multiplier_floats(kLaw);
+    }
+    return sum_of_lanes(sum);
+  });
 }
 
-template <bool with_multipliers>
-double SpringProgram::sum_of_squares(const LaneView& view) const {
-  return with_law(
-      law_, [&](auto law) { return sum_of_squares<decltype(law)::value, with_multipliers>(view); });
-}
-
-double SpringProgram::squared_residual(const LaneView& view) const {
-  return sum_of_squares<true>(view);
-}
-double SpringProgram::squared_residual_before_sweeps(const LaneView& view) const {
-  return sum_of_squares<false>(view);
+double SpringProgram::squared_residual_before_sweeps(const LaneView& view) {
+  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  return squared_residual(view);
 }
 
 }  // namespace pleat

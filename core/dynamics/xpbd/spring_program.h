@@ -24,9 +24,9 @@ class SpringProgram {
   void next_sweep(const LaneView& view);
 
   /// Sum of (C + compliance/h^2 lambda)^2 [m^2], with the multipliers of the last sweep, or with
-  /// none.
+  /// none, which then are zero.
   double squared_residual(const LaneView& view) const;
-  double squared_residual_before_sweeps(const LaneView& view) const;
+  double squared_residual_before_sweeps(const LaneView& view);
 
   /// Works on the lanes of what is in no line one after the other: same result, to hold the two
   /// against each other.
@@ -59,10 +59,6 @@ class SpringProgram {
   float* line_scratch(int row, int channel);
   template <SpringLaw law, bool first>
   void project(const LaneView& view);
-  template <bool with_multipliers>
-  double sum_of_squares(const LaneView& view) const;
-  template <SpringLaw law, bool with_multipliers>
-  double sum_of_squares(const LaneView& view) const;
 
   SpringLaw law_;
   double h_;          // [s]
