@@ -155,7 +155,7 @@ describe('details of a method', () => {
     const { problems } = decodeMotionLink('#scene=curtain&stepper=pbd&levels=2&omega=2&smoother=x');
     expect(problems.join()).toContain('levels: not a known part');
     expect(problems.join()).toContain('omega: expected 0.05 to 1.95');
-    expect(problems.join()).toContain('smoother: expected none, jacobi, gauss_seidel, sor');
+    expect(problems.join()).toContain('smoother: expected none, jacobi, gauss_seidel, lines, sor');
   });
 
   it('have an omega only beside a smoother that relaxes', () => {
