@@ -2,8 +2,8 @@
 
 namespace pleat {
 
-ContactHold::ContactHold(const ClothModel& model)
-    : contact_(*model.contact), resistances_(model.masses) {
+ContactHold::ContactHold(const ClothModel& model, double share)
+    : contact_(*model.contact), share_(share), resistances_(model.masses) {
   held_.reserve(static_cast<std::size_t>(model.n_vertices()));
 }
 
@@ -19,8 +19,8 @@ void ContactHold::choose(std::span<const ContactStage::Touch> touches,
     const VertexId v = touch.vertex;
     const Mat3 held_parts =
         touch.sticks ? Mat3(Mat3::Identity()) : Mat3(touch.normal * touch.normal.transpose());
-    held_.push_back(
-        {v, resistances_[v] * held_parts, contact_.solid_velocity(touch, positions_begin.col(v))});
+    held_.push_back({v, share_ * resistances_[v] * held_parts,
+                     contact_.solid_velocity(touch, positions_begin.col(v))});
   }
 }
 

@@ -21,7 +21,8 @@ namespace pleat {
 /// Applications 4, 1969; docs/methods/contact.md.
 class ContactHold {
  public:
-  explicit ContactHold(const ClothModel& model);
+  /// share  of what a vertex resists with alone, with which it is held
+  explicit ContactHold(const ClothModel& model, double share = 1);
 
   /// What holds a touched vertex: the force R (u - v)/h at its velocity v.
   struct Held {
@@ -32,6 +33,7 @@ class ContactHold {
 
   /// From the matrix of a substep without what holds; mass_unit turns its entries into kg.
   void set_resistances(const SystemMatrix& matrix, double mass_unit = 1);
+  void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
 
   /// Says which vertices are held in the substep that the contact stage is at.
   void choose(std::span<const ContactStage::Touch> touches, const Positions& positions_begin);
@@ -48,6 +50,7 @@ class ContactHold {
 
  private:
   const ContactStage& contact_;
+  double share_;
   Eigen::VectorXd resistances_;
   std::vector<Held> held_;
 };

@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kNotPinned = -1;
 
-/// From one change of the forces of solids to the next, where rounds are accelerated: a change
-/// spoils what is foretold from the rounds before it.
-constexpr int kAcceleratedRounds = 5;
+/// With how much of what it resists with alone a vertex is held: the more, the fewer substeps until
+/// the remembered force is what it should be, and the more rounds until one that may slip has.
+constexpr double kHeldShare = 0.1;
 
 bool damps_along_spring(const ClothModel& model) {
   return model.damping_direction == DampingDirection::along_spring;
@@ -41,10 +41,7 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     steady_side_.resize(model.n_vertices(), 3);
     proposed_.resize(3, model.n_vertices());
   }
-  if (contact_forces_.cols() > 0) {
-    contact_.emplace(model_);
-    found_forces_.resize(3, model.n_vertices());
-  }
+  if (model_.contact) hold_.emplace(model_, kHeldShare);
   refresh();
 }
 
@@ -92,7 +89,23 @@ void StepperProjective::refresh() {
   diagonal_ = matrix_.diagonal();
   solver_->analyze(matrix_);
   factor_report_ = solver_->factorize(matrix_);
-  if (contact_) contact_->refresh(diagonal_, h, is_free_);
+  if (!hold_) return;
+  hold_->set_resistances(h * h * diagonal_);
+  is_held_.assign(static_cast<std::size_t>(n), char{0});
+}
+
+void StepperProjective::hold() {
+  const StageScope scope(observer_, Stage::contact);
+  was_held_ = is_held_;
+  std::fill(is_held_.begin(), is_held_.end(), char{0});
+  for (const ContactStage::Touch& touch : touches_) is_held_[touch.vertex] = is_free_[touch.vertex];
+  hold_->choose(touches_, positions_begin_);
+  if (is_held_ == was_held_) return;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
+        (is_held_[i] ? 1 + kHeldShare : 1) * diagonal_[i];
+  const StageScope factor_scope(observer_, Stage::factor);
+  factor_report_ = solver_->factorize(matrix_);
 }
 
 void StepperProjective::set_targets(double h) {
@@ -124,6 +137,11 @@ void StepperProjective::add_up(double time_end, double h, const PullOfSpring& pu
     side.row(model_.springs[s].b) -= pull.transpose();
   }
   pull_to_parents(model_.hanging, side.transpose());
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held())
+      side.row(held.vertex) +=
+          (held.resistance / (h * h) * (positions_begin_.col(held.vertex) + h * held.velocity))
+              .transpose();
   for (const PinnedEntry& entry : pinned_entries_)
     side.row(entry.free_vertex) -=
         entry.value * model_.pins[entry.pin].position(time_end).transpose();
@@ -138,6 +156,15 @@ void StepperProjective::set_right_side(double time_end, double h) {
     return scale * d + target.damped;
   };
   add_up(time_end, h, projected, right_side_);
+  if (!hold_) return;
+  for (const ContactHold::Held& held : hold_->held())
+    if (is_held_[held.vertex])
+      right_side_.row(held.vertex) += (freedom(held, h) * positions_.col(held.vertex)).transpose();
+}
+
+/// What the matrix has too much of, where the held vertex may slip [N/m].
+Mat3 StepperProjective::freedom(const ContactHold::Held& held, double h) const {
+  return kHeldShare * diagonal_[held.vertex] * Mat3::Identity() - held.resistance / (h * h);
 }
 
 void StepperProjective::start_acceleration(double time_end, double h) {
@@ -153,7 +180,7 @@ void StepperProjective::start_acceleration(double time_end, double h) {
 // The rounds lower x.Ax/2 - x.b_0 - sum k L l(x): b(x) = b_0 + sum S^T p is where the last term
 // pulls. At the image x of a round, A x = b, so that from x to x + d this changes by
 // d.(b - b_0) + d.Ad/2 - sum k L (l(x + d) - l(x)), in which nothing large cancels.
-double StepperProjective::energy_change(const LoadedRows& change) const {
+double StepperProjective::energy_change(const LoadedRows& change, double h) const {
   double sum = places(change).cwiseProduct(right_side_ - steady_side_ + loads(change) / 2).sum();
   for (std::size_t s = 0; s < model_.springs.size(); ++s) {
     const Spring& spring = model_.springs[s];
@@ -163,28 +190,21 @@ double StepperProjective::energy_change(const LoadedRows& change) const {
     if (lengths > 0)
       sum -= targets_[s].weight * targets_[s].length * (end - begin).dot(end + begin) / lengths;
   }
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held()) {
+      const Vec3 begin = positions_.col(held.vertex);
+      const Vec3 end = proposed_.col(held.vertex);
+      if (is_held_[held.vertex]) sum -= (end - begin).dot(freedom(held, h) * (end + begin)) / 2;
+    }
   return sum;
 }
 
-/// The forces of solids are part of where each vertex would go without springs.
-void StepperProjective::press(double h) {
-  const StageScope scope(observer_, Stage::contact);
-  for (const ContactRounds::Change& change :
-       contact_->after_round(positions_begin_, positions_, contact_forces_, *solver_)) {
-    const VertexId v = change.vertex;
-    contact_forces_.col(v) += change.force;
-    found_forces_.col(v) += change.force;
-    predicted_.col(v) += h * h / model_.masses[v] * change.force;
-    if (acceleration_) steady_side_.row(v) += change.force.transpose();
-  }
-}
-
-void StepperProjective::accelerate() {
+void StepperProjective::accelerate(double h) {
   const auto* change = acceleration_->propose(solution_, right_side_);
   if (change == nullptr) return;
   proposed_ = (solution_ + places(*change)).transpose();
   place_between_parents(model_.hanging, proposed_);
-  if (energy_change(*change) < 0) {
+  if (energy_change(*change, h) < 0) {
     positions_.swap(proposed_);
     acceleration_->accept();
   } else {
@@ -202,12 +222,20 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
   place_between_parents(model_.hanging, positions_);
   first_change_ = positions_;
+  if (!hold_) return;
+  for (const ContactHold::Held& held : hold_->held()) {
+    const VertexId v = held.vertex;
+    if (!is_held_[v]) continue;
+    const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
+    positions_.col(v) += held.resistance * way / (kHeldShare * hold_->resistances()[v]);
+  }
 }
 
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
   if (!factor_report_.ok()) return factor_report_;
   positions_begin_ = state.positions;
-  found_forces_.setZero();
+  if (hold_) hold();
+  if (!factor_report_.ok()) return factor_report_;
   set_damped_external_forces(state, h, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
@@ -220,11 +248,9 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     set_targets(h);
     if (acceleration_) start_acceleration(time_end, h);
   }
-  const int rounds_per_press = acceleration_ ? kAcceleratedRounds : 1;
   SolveReport report;
   for (int round = 0; round < options().iterations; ++round) {
     {
-      if (contact_ && round > 0 && (round + 1) % rounds_per_press == 0) press(h);
       const StageScope scope(observer_, Stage::assembly);
       set_right_side(time_end, h);
     }
@@ -234,13 +260,14 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
     if (round == 0) first_change_ = solution_.transpose() - first_change_;
     positions_ = solution_.transpose();
     place_between_parents(model_.hanging, positions_);
-    if (acceleration_) accelerate();
+    if (acceleration_) accelerate(h);
   }
   report.iterations = options().iterations;
   time_end_ = time_end;
   state.positions = positions_;
   state.velocities = (positions_ - positions_begin_) / h;
-  correct(positions_begin_, state, time_end, h, contact_ ? contact_->resistances() : model_.masses);
+  if (hold_) hold_->add_forces(state.velocities, h, contact_forces_);
+  correct(positions_begin_, state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
   return report;
 }
 
@@ -260,7 +287,6 @@ void StepperProjective::store(State&, SolveReport& report) {
   };
   for (int c = 0; c < 3; ++c) {
     column_.noalias() = A * solution_.col(c);
-    if (contact_) column_ += found_forces_.row(c).transpose();
     clear_hanging();
     first += column_.squaredNorm();
     solution_.col(c) = positions_.row(c).transpose();

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/dynamics/anderson_acceleration.h"
-#include "core/dynamics/contact_rounds.h"
+#include "core/dynamics/contact_hold.h"
 #include "core/dynamics/stepper.h"
 
 namespace pleat {
@@ -14,14 +14,16 @@ namespace pleat {
 /// about the length (k L + c/h l_begin)/(k + c/h). Pinned vertices are eliminated: their places
 /// enter the right-hand side, so that a moving pin needs no new factor and does not lag.
 ///
-/// Solids press among the rounds (ContactRounds): each round's right-hand side has their forces, as
-/// the round before has left the vertices, and the matrix has nothing of them.
+/// A vertex that a solid holds (ContactHold) is projected too: onto the plane, or the place, where
+/// it is held. The matrix then has its resistance once more on the diagonal, whichever way the
+/// plane lies, and is factorised anew where other vertices are held than in the substep before.
 ///
 /// Where acceleration is asked for, a round ends where AndersonAcceleration proposes if the energy
 /// that the rounds lower is less there than where the round ends by itself.
 ///
 /// Source: Liu, Bargteil, O'Brien & Kavan, Fast simulation of mass-spring systems, SIGGRAPH Asia
-/// 2013.
+/// 2013. Projection onto planes: Bouaziz, Martin, Liu, Kavan & Pauly, Projective dynamics, SIGGRAPH
+/// 2014.
 class StepperProjective final : public Stepper {
  public:
   /// Throws InputError when the wanted solver is cg (it has no factor to keep) or not available.
@@ -49,7 +51,7 @@ class StepperProjective final : public Stepper {
     double value;
   };
 
-  void press(double h);
+  void hold();
   void place_first_guess(double time_end, double h);
   void set_targets(double h);
   /// The right-hand side of the global solve into `side`: M/h^2 y, what pull_of gives for each
@@ -57,16 +59,18 @@ class StepperProjective final : public Stepper {
   template <class PullOfSpring>
   void add_up(double time_end, double h, const PullOfSpring& pull_of, VertexRows& side) const;
   void set_right_side(double time_end, double h);
+  Mat3 freedom(const ContactHold::Held& held, double h) const;
   void start_acceleration(double time_end, double h);
-  void accelerate();
+  void accelerate(double h);
   /// Of what the rounds lower [J], from positions_ to proposed_, which are `change` apart.
-  double energy_change(const LoadedRows& change) const;
+  double energy_change(const LoadedRows& change, double h) const;
 
   SparseMatrix matrix_;
-  Eigen::VectorXd diagonal_;              // of the matrix
-  std::vector<char> is_free_;             // for each vertex: neither pinned nor hanging
-  std::optional<ContactRounds> contact_;  // where contact is remembered
-  Positions found_forces_;                // by its rounds in the last substep [N]
+  Eigen::VectorXd diagonal_;         // of the matrix, but for what holds
+  std::vector<char> is_free_;        // for each vertex: neither pinned nor hanging
+  std::optional<ContactHold> hold_;  // of models with contact
+  std::vector<char> is_held_;        // in the matrix as it is factorised, for each vertex
+  std::vector<char> was_held_;
   std::unique_ptr<LinearSolver> solver_;
   SolveReport factor_report_;
   std::vector<PinnedEntry> pinned_entries_;

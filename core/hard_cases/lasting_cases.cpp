@@ -45,11 +45,7 @@ std::vector<HardCase> lasting_cases() {
        .breaks = "Cloth on a ball trembles, or creeps down from it.",
        .brief = 30,
        .full = 600,
-       .checks = {no_nonsense(), rests(1, 1e-3), outside_solids(1e-9)},
-       .exceptions = {{"projective", no_nonsense().what,
-                       "where it first meets the ball, few rounds stop all of the sheet, and the "
-                       "run says so",
-                       1}}},
+       .checks = {no_nonsense(), rests(1, 1e-3), outside_solids(1e-9)}},
       {.name = "below_buckling",
        .breaks =
            "Steppers that drop the negative part of compressed springs buckle where cloth does "

@@ -35,9 +35,6 @@ constexpr const char* kPullIsSlow =
     "says "
     "so";
 
-constexpr const char* kStoppedLikeAPlate =
-    "where it first meets the ball, few rounds stop all of the sheet, and the run says so";
-
 /// Solvers that stop early stop at something that is not symmetric.
 std::vector<StepperSetting> solved_exactly() {
   return {{"implicit", {"/method/tolerance", 1e-12}}, {"imex", {"/method/tolerance", 1e-12}}};
@@ -67,8 +64,7 @@ std::vector<HardCase> likeness_cases() {
        .full = 2,
        .variants = in_three_sizes(scaled_sheet_and_ball),
        .checks = {no_nonsense()},
-       .variant_checks = {variants_agree(1e-4)},
-       .exceptions = {{"projective", no_nonsense().what, kStoppedLikeAPlate, 1}}},
+       .variant_checks = {variants_agree(1e-4)}},
       {.name = "sag_of_rows",
        .breaks = "The same cloth hangs down further the finer its mesh is.",
        .brief = 5,
@@ -114,8 +110,7 @@ std::vector<HardCase> likeness_cases() {
        .settings = solved_exactly(),
        .checks = {no_nonsense(), stays_symmetric(1e-6)},
        .exceptions = {{"xpbd", stays_symmetric(0).what,
-                       "it takes springs one after another, and their order has no mirror image"},
-                      {"projective", no_nonsense().what, kStoppedLikeAPlate, 1}}},
+                       "it takes springs one after another, and their order has no mirror image"}}},
       {.name = "switched_while_moving",
        .breaks = "Another fabric or mesh during the motion makes the cloth jump.",
        .brief = 2,
