@@ -130,7 +130,11 @@ export async function checkRefinement(harness) {
     visit('#view=refinement', async (page) => {
       await page.getByRole('link', { name: 'the swinging sheet' }).click();
       await until(page, (state) => state.setting?.preset === 'swinging-sheet');
-      expectThat(await button(page, 'Measure speed and error').isVisible(), 'nothing to press');
+      // The panel comes after the cloth.
+      await eventually(
+        () => button(page, 'Measure speed and error').isVisible(),
+        'a button to press',
+      );
     }),
   );
 
