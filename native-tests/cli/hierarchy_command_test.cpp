@@ -47,7 +47,7 @@ TEST_CASE("hierarchy command: levels halve, are written and told of", "[cli]") {
   REQUIRE(ending.status == 0);
   const Json told = parse_json(ending.out);
   CHECK(told.at("processor_ms") > 0);
-  const Json levels = told.at("levels");
+  const Json& levels = told.at("levels");
   REQUIRE(levels.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) {
     const ObjMesh mesh = read_obj(text_of(place.out + "/frame_00000" + std::to_string(k) + ".obj"));
