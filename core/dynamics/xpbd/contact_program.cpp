@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "core/dynamics/xpbd/simd4.h"
@@ -16,7 +15,8 @@ constexpr double kRounding = 4e-7;
 /// Vertices deeper inside than so many roundings did not come there by rounding.
 constexpr float kDeep = 8;
 
-constexpr float kNever = std::numeric_limits<float>::infinity();
+/// In place of a solid's index.
+constexpr int kSeveral = -1;
 
 std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
@@ -33,33 +33,55 @@ Vec3Lanes<Float4> all(const std::array<float, 3>& v) {
 
 Float4 zero() { return Float4::all(0); }
 
+template <class Pointer>
+Vec3Lanes<Float4> gather(const std::array<Pointer, 3>& arrays, const LaneMembers& slots) {
+  return {Float4::gather(arrays[0], slots), Float4::gather(arrays[1], slots),
+          Float4::gather(arrays[2], slots)};
+}
+
+void scatter(const Vec3Lanes<Float4>& value, const std::array<float*, 3>& arrays,
+             const LaneMembers& slots) {
+  value.x.scatter(arrays[0], slots);
+  value.y.scatter(arrays[1], slots);
+  value.z.scatter(arrays[2], slots);
+}
+
 }  // namespace
+
+/// Of places above a solid's surface [m]; of a ball to first order.
+inline Float4 ContactProgram::gap_of(const Solid& solid, const Vec3Lanes<Float4>& place) {
+  const Float4 size = Float4::all(solid.size);
+  if (!solid.is_ball) return dot(all(solid.place), place) - size - Float4::all(solid.size_low);
+  return Float4::all(0.5f / solid.size) * (dot(place, place) - size * size);
+}
 
 struct ContactProgram::Ways {
   Vec3Lanes<Float4> begin;  // from the centre; of a plane from the origin
   Vec3Lanes<Float4> way;
+  Vec3Lanes<Float4> offset;  // of the begin above from the vertex's rounded begin
 };
 
-/// Where vertices meet a solid, in each lane where `hits` is positive.
+/// Where vertices meet a solid.
 struct ContactProgram::Meeting {
-  Float4 hits;
-  Float4 gap;       // of the begin above the surface [m]
   Float4 fraction;  // of the way
   Float4 lift;      // along the normal, from there onto the surface [m]
   Vec3Lanes<Float4> normal;
 };
 
-ContactProgram::ContactProgram(const LaneLayout& layout) : n_slots_(layout.n_slots) {
+ContactProgram::ContactProgram(const LaneLayout& layout)
+    : n_slots_(layout.n_slots), near_(static_cast<std::size_t>(n_slots_ / Float4::kLanes)) {
   left_over_.reserve(static_cast<std::size_t>(n_slots_));
 }
 
-// A vertex whose straight way of length d about its middle m meets a solid has |m - c| <= r + d/2,
-// with c the middle of the centre's own way of length s and r larger by s/2. What one solid makes
-// of the way ends within d + 2 s of where it began. So no other one is met where |m - c| > r + 2 d
-// + 3 s.
+// A vertex that begins at b and goes a straight way of length d meets a solid only where
+// |b - c| <= r + d, with c the middle of the centre's own way of length s and r larger by s/2. What
+// one solid makes of the way ends within d + 2 s of where it began. So no other one is met where
+// |b - c| > r + d + 3 s.
 void ContactProgram::place_solids(const ContactStage& contact, const Vec3& origin, double extent) {
   contact.outlines(outlines_);
   solids_.clear();
+  hits_.resize(outlines_.size());
+  for (Slots& hits : hits_) hits.slots.resize(static_cast<std::size_t>(n_slots_) + 1);
   double longest_shift = 0;
   for (const ContactStage::Outline& outline : outlines_) {
     Solid solid{};
@@ -95,110 +117,147 @@ void ContactProgram::place_solids(const ContactStage& contact, const Vec3& origi
   for (Solid& solid : solids_) solid.reach += static_cast<float>(3 * longest_shift);
 }
 
-/// Positive where a vertex may meet the solid.
-Float4 ContactProgram::reached(const Solid& solid, const LaneView& view, int slot) {
-  const Vec3Lanes<Float4> way = load<Float4>(view.moves, slot);
-  const Vec3Lanes<Float4> middle = load<Float4>(view.begins, slot) + Float4::all(0.5f) * way;
-  const Float4 reach = Float4::all(solid.reach) + Float4::all(2) * sqrt(dot(way, way));
-  const Vec3Lanes<Float4> place = all(solid.middle);
-  if (!solid.is_ball) return reach - dot(place, middle);
-  const Vec3Lanes<Float4> apart = middle - place;
-  return reach * reach - dot(apart, apart);
+void ContactProgram::find_near(const Solid& solid, int index, const LaneView& view) {
+  const Vec3Lanes<Float4> middle = all(solid.middle);
+  const Float4 least = Float4::all(solid.reach);
+  Nearness* near = near_.data();
+  for (int slot = 0; slot < n_slots_; slot += Float4::kLanes, ++near) {
+    const Vec3Lanes<Float4> way = load<Float4>(view.moves, slot);
+    const Vec3Lanes<Float4> begin = load<Float4>(view.begins, slot);
+    const Float4 reach = least + sqrt(dot(way, way));
+    Float4 is_near;
+    if (solid.is_ball) {
+      const Vec3Lanes<Float4> apart = begin - middle;
+      is_near = reach * reach - dot(apart, apart);
+    } else {
+      is_near = reach - dot(middle, begin);
+    }
+    const int lanes = positive_lanes(is_near);
+    if (lanes == 0) continue;
+    near->solid = near->lanes == 0 ? index : kSeveral;
+    near->lanes |= lanes;
+  }
 }
 
-// The formulas are those of first_impact. Where a way begins within rounding of the surface, it
-// meets it there.
-ContactProgram::Meeting ContactProgram::meeting(const Solid& solid, const Ways& ways) {
-  const auto& [begin, way] = ways;
-  const Float4 band = Float4::all(solid.rounding);
-  const Float4 size = Float4::all(solid.size);
+inline ContactProgram::Ways ContactProgram::ways(const Solid& solid, const Vec3Lanes<Float4>& begin,
+                                                 const Vec3Lanes<Float4>& move,
+                                                 const Vec3Lanes<Float4>& low) {
+  const Vec3Lanes<Float4> shift = all(solid.shift);
+  const Vec3Lanes<Float4> offset = low + shift;
+  const Vec3Lanes<Float4> way = move - offset;
+  if (!solid.is_ball) return {begin + offset, way, offset};
+  return {(begin - all(solid.place)) + (offset - all(solid.place_low)), way, offset};
+}
+
+// The formulas are those of first_impact; a way ends inside, or begins outside, passes the nearest
+// place on it, and that is inside. No root is taken to see that.
+inline ContactProgram::Verdict ContactProgram::verdict(const Solid& solid, const Ways& ways) {
+  const auto& [begin, way, offset] = ways;
+  const Float4 gap = gap_of(solid, begin);
+  const Float4 is_deep = zero() - gap - Float4::all(kDeep * solid.rounding);
+  if (!solid.is_ball) return {zero() - dot(all(solid.place), way) - gap, is_deep};
+  const Float4 excess = Float4::all(2 * solid.size) * gap;
+  const Float4 approach = zero() - dot(begin, way);
+  const Float4 square = dot(way, way);
+  const Float4 ends_inside = approach + approach - square - excess;
+  const Float4 passes = min(min(approach, approach * approach - square * excess),
+                            min(approach - excess, gap - Float4::all(solid.rounding)));
+  return {max(ends_inside, passes), is_deep};
+}
+
+// Where a way begins within rounding of the surface, it meets it there. Every place that counts is
+// within a few roundings of a ball's surface: its height, and the inverse of that, are known from
+// its square to first order.
+inline ContactProgram::Meeting ContactProgram::meeting(const Solid& solid, const Ways& ways) {
+  const auto& [begin, way, offset] = ways;
+  const Float4 gap = gap_of(solid, begin);
+  const Float4 is_apart = gap - Float4::all(solid.rounding);
   Meeting met;
   if (!solid.is_ball) {
     met.normal = all(solid.place);
-    met.gap = dot(met.normal, begin) - size - Float4::all(solid.size_low);
     const Float4 falls = zero() - dot(met.normal, way);
-    met.hits = falls - met.gap;
-    met.fraction = where_positive(met.gap - band, met.gap / falls);
-    met.lift = met.fraction * falls - met.gap;
+    met.fraction = where_positive(is_apart, gap / falls);
+    met.lift = met.fraction * falls - gap;
     return met;
   }
-  const Float4 distance = sqrt(dot(begin, begin));
-  met.gap = distance - size;
-  const Float4 excess = met.gap * (distance + size);
+  const Float4 excess = Float4::all(2 * solid.size) * gap;
   const Float4 approach = zero() - dot(begin, way);
   const Float4 discriminant = approach * approach - dot(way, way) * excess;
   const Float4 nearer = approach + sqrt(max(discriminant, zero()));
-  const Vec3Lanes<Float4> end = begin + way;
-  const Float4 ends_inside = size - sqrt(dot(end, end));
-  const Float4 passes = min(min(approach, discriminant), min(nearer - excess, met.gap - band));
-  met.hits = max(ends_inside, passes);
   met.fraction =
-      where_positive(met.gap - band, where_positive(nearer, min(excess / nearer, Float4::all(1))));
+      where_positive(is_apart, where_positive(nearer, min(excess / nearer, Float4::all(1))));
   const Vec3Lanes<Float4> place = begin + met.fraction * way;
-  const Float4 height = sqrt(dot(place, place));
-  met.normal = (Float4::all(1) / height) * place;
-  met.lift = size - height;
+  const Float4 inverse = Float4::all(1 / solid.size);
+  met.lift = zero() - gap_of(solid, place);
+  met.normal = (inverse * (Float4::all(1) + inverse * met.lift)) * place;
   return met;
 }
 
 // With d the way and v = d the velocity times the substep, both relative to the solid, and f the
 // share of the way at which it is met: the vertex ends at f d + lift n + (1 - f) slip d_t, and goes
 // on at slip d_t + max(d_n, 0) n. All are small, so that nothing is rounded to a place's last bit.
-// Returns the lanes of vertices that begin deep inside: they are left as they are.
-int ContactProgram::meet(const Solid& solid, const LaneView& view,
-                         const std::array<float*, 3>& rounded_off, int slot) {
-  const Vec3Lanes<Float4> move = load<Float4>(view.moves, slot);
-  const Vec3Lanes<Float4> low = load<Float4>(rounded_off, slot);
-  const Vec3Lanes<Float4> shift = all(solid.shift);
-  Ways ways{load<Float4>(view.begins, slot), move - low - shift};
-  ways.begin = solid.is_ball
-                   ? (ways.begin - all(solid.place)) + (low + shift - all(solid.place_low))
-                   : ways.begin + (low + shift);
-  Meeting met = meeting(solid, ways);
-  const Float4 is_moving = Float4::load(view.inverse_masses + slot);
-  const Float4 depth = zero() - met.gap - Float4::all(kDeep * solid.rounding);
-  const Float4 hits =
-      where_positive(is_moving, met.hits) - where_positive(depth, Float4::all(kNever));
-
+void ContactProgram::respond(const Solid& solid, const LaneView& view,
+                             const std::array<float*, 3>& rounded_off, const LaneMembers& slots) {
+  const Ways ways = ContactProgram::ways(solid, gather(view.begins, slots),
+                                         gather(view.moves, slots), gather(rounded_off, slots));
+  const Meeting met = meeting(solid, ways);
   const Vec3Lanes<Float4>& way = ways.way;
   const Float4 normal_way = dot(met.normal, way);
   const Vec3Lanes<Float4> across = way - normal_way * met.normal;
   const Float4 limit = Float4::all(solid.friction) * max(zero() - normal_way, zero());
   const Float4 length = sqrt(dot(across, across));
   const Float4 slip = where_positive(length - limit, Float4::all(1) - limit / length);
-  const Vec3Lanes<Float4> goes_on = slip * across + max(normal_way, zero()) * met.normal + shift;
-  const Vec3Lanes<Float4> to = low + shift + met.fraction * way + met.lift * met.normal +
+  const Vec3Lanes<Float4> goes_on =
+      slip * across + max(normal_way, zero()) * met.normal + all(solid.shift);
+  const Vec3Lanes<Float4> to = ways.offset + met.fraction * way + met.lift * met.normal +
                                ((Float4::all(1) - met.fraction) * slip) * across;
-  const auto keep = [&](const Vec3Lanes<Float4>& from, const Vec3Lanes<Float4>& changed) {
-    return Vec3Lanes<Float4>{from.x + where_positive(hits, changed.x - from.x),
-                             from.y + where_positive(hits, changed.y - from.y),
-                             from.z + where_positive(hits, changed.z - from.z)};
+  scatter(to, view.moves, slots);
+  scatter(to - goes_on, rounded_off, slots);
+}
+
+// Each lane is written, and stays where its vertex hits: as good as half of them do, in no order.
+inline void ContactProgram::Slots::append(int lanes, int slot) {
+  for (int lane = 0; lane < Float4::kLanes; ++lane) {
+    slots[static_cast<std::size_t>(count)] = slot + lane;
+    count += lanes >> lane & 1;
+  }
+}
+
+// Where hits are no multiple of four, the last is responded to more than once, alike.
+void ContactProgram::respond_to(const Slots& hits, const Solid& solid, const LaneView& view,
+                                const std::array<float*, 3>& rounded_off) {
+  const auto at = [&](int i) {
+    return hits.slots[static_cast<std::size_t>(std::min(i, hits.count - 1))];
   };
-  store(keep(move, to), view.moves, slot);
-  store(keep(low, to - goes_on), rounded_off, slot);
-  return positive_lanes(where_positive(is_moving, depth));
+  for (int i = 0; i < hits.count; i += Float4::kLanes)
+    respond(solid, view, rounded_off, {at(i), at(i + 1), at(i + 2), at(i + 3)});
 }
 
 const std::vector<int>& ContactProgram::resolve(const LaneView& view,
                                                 const std::array<float*, 3>& rounded_off) {
   left_over_.clear();
+  for (Slots& hits : hits_) hits.count = 0;
+  std::fill(near_.begin(), near_.end(), Nearness{});
+  for (std::size_t i = 0; i < solids_.size(); ++i) find_near(solids_[i], static_cast<int>(i), view);
   for (int slot = 0; slot < n_slots_; slot += Float4::kLanes) {
-    const Solid* met = nullptr;
-    int lanes = 0;
-    int n_met = 0;
-    for (const Solid& solid : solids_) {
-      const int near = positive_lanes(reached(solid, view, slot));
-      if (near == 0) continue;
-      ++n_met;
-      met = &solid;
-      lanes |= near;
+    const Nearness& near = near_[static_cast<std::size_t>(slot / Float4::kLanes)];
+    if (near.lanes == 0) continue;
+    int lanes = near.lanes;
+    const int moving = positive_lanes(Float4::load(view.inverse_masses + slot));
+    if (near.solid != kSeveral && solids_[static_cast<std::size_t>(near.solid)].is_exact) {
+      const Solid& solid = solids_[static_cast<std::size_t>(near.solid)];
+      const auto [hits, is_deep] =
+          verdict(solid, ways(solid, load<Float4>(view.begins, slot),
+                              load<Float4>(view.moves, slot), load<Float4>(rounded_off, slot)));
+      lanes = positive_lanes(is_deep);
+      hits_[static_cast<std::size_t>(near.solid)].append(positive_lanes(hits) & moving & ~lanes,
+                                                         slot);
     }
-    if (lanes == 0) continue;
-    if (n_met == 1 && met->is_exact) lanes = meet(*met, view, rounded_off, slot);
     for (int lane = 0; lane < Float4::kLanes; ++lane)
-      if ((lanes >> lane & 1) != 0 && view.inverse_masses[slot + lane] > 0)
-        left_over_.push_back(slot + lane);
+      if ((lanes & moving) >> lane & 1) left_over_.push_back(slot + lane);
   }
+  for (std::size_t i = 0; i < solids_.size(); ++i)
+    respond_to(hits_[i], solids_[i], view, rounded_off);
   return left_over_;
 }
 

@@ -41,23 +41,46 @@ class ContactProgram {
     std::array<float, 3> place_low;  // what single precision rounds off the centre [m]
     float size, size_low;            // radius, or level and what is rounded off that [m]
     std::array<float, 3> middle;     // of the centre's way [m], or n
-    float reach;                     // how near the middle of a vertex's way may touch [m]
+    float reach;                     // a vertex that moves no further may touch from so near [m]
     std::array<float, 3> shift;      // during the substep [m]
     float rounding;                  // of a vertex's place [m]
     float friction;
   };
+  /// Of a group: lanes of vertices that may meet a solid, and which.
+  struct Nearness {
+    int lanes = 0;
+    int solid = 0;  // or kSeveral
+  };
+  struct Slots {
+    std::vector<int> slots;
+    int count = 0;
+
+    void append(int lanes, int slot);
+  };
   /// Ways of four vertices, as a solid sees them [m].
   struct Ways;
   struct Meeting;
+  /// Positive where a vertex meets the solid, and where it begins deep inside.
+  struct Verdict {
+    Float4 hits, is_deep;
+  };
 
-  static Float4 reached(const Solid& solid, const LaneView& view, int slot);
+  void find_near(const Solid& solid, int index, const LaneView& view);
+  static Float4 gap_of(const Solid& solid, const Vec3Lanes<Float4>& place);
+  static Ways ways(const Solid& solid, const Vec3Lanes<Float4>& begin,
+                   const Vec3Lanes<Float4>& move, const Vec3Lanes<Float4>& low);
+  static Verdict verdict(const Solid& solid, const Ways& ways);
   static Meeting meeting(const Solid& solid, const Ways& ways);
-  static int meet(const Solid& solid, const LaneView& view,
-                  const std::array<float*, 3>& rounded_off, int slot);
+  static void respond(const Solid& solid, const LaneView& view,
+                      const std::array<float*, 3>& rounded_off, const LaneMembers& slots);
+  static void respond_to(const Slots& hits, const Solid& solid, const LaneView& view,
+                         const std::array<float*, 3>& rounded_off);
 
   int n_slots_;
   std::vector<ContactStage::Outline> outlines_;
   std::vector<Solid> solids_;
+  std::vector<Nearness> near_;
+  std::vector<Slots> hits_;  // of each solid, where it alone is met
   std::vector<int> left_over_;
 };
 

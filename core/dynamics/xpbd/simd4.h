@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -52,22 +53,36 @@ struct Float4 {
 
   static Float4 load(const float* from) { return {wasm_v128_load(from)}; }
   static Float4 all(float number) { return {wasm_f32x4_splat(number)}; }
+  static Float4 gather(const float* from, const std::array<int, 4>& at) {
+    return {wasm_f32x4_make(from[at[0]], from[at[1]], from[at[2]], from[at[3]])};
+  }
   void store(float* to) const { wasm_v128_store(to, value); }
 #elif defined(__SSE2__)
   __m128 value;
 
   static Float4 load(const float* from) { return {_mm_loadu_ps(from)}; }
   static Float4 all(float number) { return {_mm_set1_ps(number)}; }
+  static Float4 gather(const float* from, const std::array<int, 4>& at) {
+    return {_mm_setr_ps(from[at[0]], from[at[1]], from[at[2]], from[at[3]])};
+  }
   void store(float* to) const { _mm_storeu_ps(to, value); }
 #else
   Float1 value[4];
 
   static Float4 load(const float* from) { return {{{from[0]}, {from[1]}, {from[2]}, {from[3]}}}; }
   static Float4 all(float number) { return {{{number}, {number}, {number}, {number}}}; }
+  static Float4 gather(const float* from, const std::array<int, 4>& at) {
+    return {{{from[at[0]]}, {from[at[1]]}, {from[at[2]]}, {from[at[3]]}}};
+  }
   void store(float* to) const {
     for (int lane = 0; lane < 4; ++lane) value[lane].store(to + lane);
   }
 #endif
+  void scatter(float* to, const std::array<int, 4>& at) const {
+    std::array<float, 4> numbers;
+    store(numbers.data());
+    for (std::size_t lane = 0; lane < 4; ++lane) to[at[lane]] = numbers[lane];
+  }
 };
 
 #if defined(__wasm_simd128__)

@@ -99,27 +99,25 @@ void StepperXpbd::load(const State& state) {
 // begin' = begin + move is rounded; begin' - begin is not, for the two are near each other. So
 // rounded_off' is exactly what the rounding took away, and goes into the next move.
 void StepperXpbd::predict() {
-  const float* const inverse_masses = array(inverse_mass);
-  float* const first = array(begin);
-  const std::size_t pitch = pitch_;
-  const std::array<float, 3> fall = fall_;
+  const LaneView v = view();
+  const std::array<float*, 3> begins = {array(begin), array(begin + 1), array(begin + 2)};
+  const std::array<float*, 3> lows = {array(rounded_off), array(rounded_off + 1),
+                                      array(rounded_off + 2)};
+  const Vec3Lanes<Float4> fall = {Float4::all(fall_[0]), Float4::all(fall_[1]),
+                                  Float4::all(fall_[2])};
   const int n_slots = layout_.n_slots;
   for (int slot = 0; slot < n_slots; slot += Float4::kLanes) {
-    const Float4 w = Float4::load(inverse_masses + slot);
-    for (std::size_t k = 0; k < 3; ++k) {
-      float* const begins = first + k * pitch + slot;
-      float* const moves = begins + move * pitch;
-      float* const remainders = begins + rounded_off * pitch;
-      const Float4 from = Float4::load(begins);
-      const Float4 moved = Float4::load(moves);
-      const Float4 goes_on =
-          moved - Float4::load(remainders) + where_positive(w, Float4::all(fall[k]));
-      const Float4 to = from + moved;
-      const Float4 remainder = moved - (to - from);
-      to.store(begins);
-      remainder.store(remainders);
-      (remainder + goes_on).store(moves);
-    }
+    const Float4 w = Float4::load(v.inverse_masses + slot);
+    const Vec3Lanes<Float4> from = pleat::load<Float4>(begins, slot);
+    const Vec3Lanes<Float4> moved = pleat::load<Float4>(v.moves, slot);
+    const Vec3Lanes<Float4> gains = {where_positive(w, fall.x), where_positive(w, fall.y),
+                                     where_positive(w, fall.z)};
+    const Vec3Lanes<Float4> goes_on = moved - pleat::load<Float4>(lows, slot) + gains;
+    const Vec3Lanes<Float4> to = from + moved;
+    const Vec3Lanes<Float4> remainder = moved - (to - from);
+    pleat::store(to, begins, slot);
+    pleat::store(remainder, lows, slot);
+    pleat::store(remainder + goes_on, v.moves, slot);
   }
 }
 
