@@ -1,7 +1,9 @@
 #include "core/dynamics/stepper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "core/base/check.h"
 #include "core/model/elasticity.h"
@@ -15,15 +17,24 @@ namespace {
 constexpr double kLeastShare = 1e-12;
 
 /// False for NaN too.
-bool is_within_bounds(const Eigen::Ref<const Positions>& columns) {
-  return (columns.array().abs() <= kLargestCoordinate).all();
+bool is_within_bounds(std::span<const double> numbers) {
+  bool is_within = true;
+  for (const double number : numbers) is_within &= std::abs(number) <= kLargestCoordinate;
+  return is_within;
+}
+
+std::span<const double> numbers_of(const Eigen::Ref<const Positions>& columns) {
+  return {columns.data(), static_cast<std::size_t>(columns.size())};
 }
 
 /// The first vertex that has left all bounds; invalid when none has.
 VertexId first_lost(const State& state) {
-  if (is_within_bounds(state.positions) && is_within_bounds(state.velocities)) return VertexId();
+  if (is_within_bounds(numbers_of(state.positions)) &&
+      is_within_bounds(numbers_of(state.velocities)))
+    return VertexId();
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
-    if (!is_within_bounds(state.positions.col(i)) || !is_within_bounds(state.velocities.col(i)))
+    if (!is_within_bounds(numbers_of(state.positions.col(i))) ||
+        !is_within_bounds(numbers_of(state.velocities.col(i))))
       return VertexId(i);
   return VertexId();
 }

@@ -64,9 +64,38 @@ double holding_stiffness(const Simulation& simulation) {
   return held > 0 ? std::min(held, weakest) : weakest;
 }
 
-double height(const Vec3& up, const Eigen::Ref<const Positions>& positions, bool highest) {
-  const Eigen::RowVectorXd heights = up.transpose() * positions;
-  return highest ? heights.maxCoeff() : heights.minCoeff();
+double greatest_height(const Vec3& up, const Positions& positions) {
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < positions.cols(); ++i)
+    greatest = std::max(greatest, up.dot(positions.col(i)));
+  return greatest;
+}
+
+/// Longer or shorter than at rest by more than this share of it. No root is taken: it is asked of
+/// every edge after every step.
+bool is_strained(const GaugeEdge& edge, const Positions& positions, double share) {
+  const double square = (positions.col(edge.a) - positions.col(edge.b)).squaredNorm();
+  const double longest = (1 + share) * edge.rest_length;
+  const double shortest = std::max(0.0, 1 - share) * edge.rest_length;
+  return square > longest * longest || square < shortest * shortest;
+}
+
+struct Fastest {
+  VertexId vertex;
+  double speed = 0;  // [m/s]
+};
+
+Fastest fastest_of(const Positions& velocities) {
+  Fastest fastest;
+  double most = 0;
+  for (int i = 0; i < velocities.cols(); ++i) {
+    const double square = velocities.col(i).squaredNorm();
+    if (square <= most) continue;
+    most = square;
+    fastest.vertex = VertexId(i);
+  }
+  fastest.speed = std::sqrt(most);
+  return fastest;
 }
 
 /// Against gravity, unit; zero without gravity.
@@ -96,10 +125,6 @@ Vec3 middle_of(const SolidShape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->centre;
   const auto& cone = std::get<RoundedCone>(shape);
   return (cone.centre_a + cone.centre_b) / 2;
-}
-
-double largest_speed(const State& state) {
-  return state.velocities.cols() > 0 ? state.velocities.colwise().norm().maxCoeff() : 0;
 }
 
 double driven_speed(const Simulation& simulation) {
@@ -227,10 +252,10 @@ RunWatch::RunWatch(const Simulation& simulation) {
   // Cloth that starts as the wreck of another run does not explain more wreck.
   start_stretch_ = stretch(simulation.gauge(), state.positions).largest;
   if (is_surface) start_stretch_ = std::min(start_stretch_, kMostStretch);
-  start_height_ = height(up_of(model), state.positions, true);
+  start_height_ = greatest_height(up_of(model), state.positions);
   const double mass = model.masses.sum();
   const double stored = elastic_energy(model, state.positions);
-  start_speed_ = largest_speed(state) + (mass > 0 ? std::sqrt(2 * stored / mass) : 0);
+  start_speed_ = fastest_of(state.velocities).speed + (mass > 0 ? std::sqrt(2 * std::max(0.0, stored) / mass) : 0);
 }
 
 void RunWatch::look(const Simulation& simulation, const SolveReport& step) {
@@ -249,11 +274,9 @@ void RunWatch::look_at_stretch(const Simulation& simulation) {
                      load_stretch_ + start_stretch_,
                      {}};
   for (const GaugeEdge& edge : simulation.gauge()) {
-    const double stretched = std::abs(strain(edge, positions));
-    if (stretched > warning.value) {
-      warning.value = stretched;
-      warning.vertex = edge.a;
-    }
+    if (!is_strained(edge, positions, std::max(warning.value, warning.bound))) continue;
+    warning.value = std::abs(strain(edge, positions));
+    warning.vertex = edge.a;
   }
   if (warning.value <= warning.bound) return;
   warning.bound += stretch_between_pins(simulation);
@@ -263,16 +286,19 @@ void RunWatch::look_at_stretch(const Simulation& simulation) {
 void RunWatch::look_at_speed(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
-  const double drop = std::max(0.0, start_height_ - height(up_of(model), state.positions, false));
-  const double explained =
-      std::sqrt(2 * model.gravity.norm() * drop) + driven_speed_ + start_speed_ + kLeastSpeed;
-  RunWarning warning{
-      RunWarning::Kind::speed, simulation.time(), VertexId(0), 0, kWhip * explained, {}};
-  Eigen::Index fastest = 0;
-  if (state.velocities.cols() == 0) return;
-  warning.value = std::sqrt(state.velocities.colwise().squaredNorm().maxCoeff(&fastest));
-  warning.vertex = VertexId(static_cast<int>(fastest));
-  if (warning.value > warning.bound) warn(simulation, std::move(warning));
+  const Fastest fastest = fastest_of(state.velocities);
+  const double at_start = driven_speed_ + start_speed_ + kLeastSpeed;
+  if (fastest.speed <= kWhip * at_start) return;
+  const double drop =
+      std::max(0.0, start_height_ + greatest_height(-up_of(model), state.positions));
+  const double explained = std::sqrt(2 * model.gravity.norm() * drop) + at_start;
+  if (fastest.speed <= kWhip * explained) return;
+  warn(simulation, {RunWarning::Kind::speed,
+                    simulation.time(),
+                    fastest.vertex,
+                    fastest.speed,
+                    kWhip * explained,
+                    {}});
 }
 
 void RunWatch::look_at_report(const Simulation& simulation, const SolveReport& step) {

@@ -14,7 +14,9 @@ const kLoopSubsteps = [30, 100, 300];
 const kTurnFrames = 4;
 /** From few substeps to many: what comes first that is good enough is the cheapest of its kind. */
 const kCandidates = {
-  xpbd: [5, 7, 10, 14, 20, 30, 40, 50, 70, 100, 200].map((substeps) => ({
+  xpbd: [
+    5, 7, 8, 9, 10, 11, 12, 14, 17, 20, 23, 26, 30, 40, 50, 60, 70, 85, 100, 140, 200, 220, 250, 300,
+  ].map((substeps) => ({
     stepper: 'xpbd',
     constraints: 'rigid',
     substeps,
