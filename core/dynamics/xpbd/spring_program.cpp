@@ -261,7 +261,8 @@ double SpringProgram::squared_residual(const LaneView& v) const {
 }
 
 double SpringProgram::squared_residual_before_sweeps(const LaneView& view) {
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  // Rigid springs ask for none.
+  if (law_ != SpringLaw::rigid) std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
   return squared_residual(view);
 }
 
