@@ -255,7 +255,8 @@ RunWatch::RunWatch(const Simulation& simulation) {
   start_height_ = greatest_height(up_of(model), state.positions);
   const double mass = model.masses.sum();
   const double stored = elastic_energy(model, state.positions);
-  start_speed_ = fastest_of(state.velocities).speed + (mass > 0 ? std::sqrt(2 * std::max(0.0, stored) / mass) : 0);
+  start_speed_ = fastest_of(state.velocities).speed +
+                 (mass > 0 ? std::sqrt(2 * std::max(0.0, stored) / mass) : 0);
 }
 
 void RunWatch::look(const Simulation& simulation, const SolveReport& step) {
