@@ -84,6 +84,9 @@ enum class Attachments {
 /// The tolerance that newton, which makes references, starts from.
 constexpr double kNewtonTolerance = 1e-10;
 
+/// With half of it carried nothing would be damped.
+constexpr double kMostCarried = 0.4;
+
 /// A stepper with its settings. Each stepper reads its step and the settings that its row of the
 /// table names.
 struct MethodOptions {
@@ -111,6 +114,9 @@ struct MethodOptions {
   double first_contact = 0;
   NewtonRule rule = NewtonRule::backward_euler;
   Constraints constraints = Constraints::compliant;
+  /// multigrid: share of the last substep's acceleration by gravity and constraints in that of this
+  /// one, in [0, kMostCarried].
+  double carried_acceleration = 0;
   Acceleration acceleration = Acceleration::none;
   int levels = 0;      ///< coarser than the mesh, not negative
   double ratio = 0.5;  ///< of vertices that a level keeps, in (0.1, 0.9)

@@ -48,9 +48,11 @@ constexpr std::array kHpbdSettings = {MethodSetting::substeps,   MethodSetting::
                                       MethodSetting::smoother,   MethodSetting::omega,
                                       MethodSetting::attachments};
 constexpr std::array kMultigridSettings = {
-    MethodSetting::substeps, MethodSetting::iterations,    MethodSetting::levels,
-    MethodSetting::ratio,    MethodSetting::level_lengths, MethodSetting::smoother_before,
-    MethodSetting::smoother, MethodSetting::omega,         MethodSetting::attachments};
+    MethodSetting::substeps,      MethodSetting::iterations,
+    MethodSetting::levels,        MethodSetting::ratio,
+    MethodSetting::level_lengths, MethodSetting::smoother_before,
+    MethodSetting::smoother,      MethodSetting::omega,
+    MethodSetting::attachments,   MethodSetting::carried_acceleration};
 constexpr std::array kNewtonSettings = {MethodSetting::substeps, MethodSetting::solver,
                                         MethodSetting::tolerance, MethodSetting::preconditioner,
                                         MethodSetting::rule};
@@ -331,6 +333,8 @@ const char* key(MethodSetting setting) {
       return "smoother";
     case MethodSetting::attachments:
       return "attachments";
+    case MethodSetting::carried_acceleration:
+      return "carried_acceleration";
   }
   return "";
 }

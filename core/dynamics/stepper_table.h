@@ -35,17 +35,31 @@ enum class MethodSetting {
   level_lengths,
   smoother_before,
   smoother,
-  attachments
+  attachments,
+  carried_acceleration
 };
 
-constexpr std::array<MethodSetting, 20> kMethodSettings = {
-    MethodSetting::substeps,     MethodSetting::iterations,     MethodSetting::solver,
-    MethodSetting::tolerance,    MethodSetting::omega,          MethodSetting::preconditioner,
-    MethodSetting::split,        MethodSetting::constraints,    MethodSetting::rule,
-    MethodSetting::acceleration, MethodSetting::explicit_share, MethodSetting::euler,
-    MethodSetting::beyond_bound, MethodSetting::first_contact,  MethodSetting::levels,
-    MethodSetting::ratio,        MethodSetting::level_lengths,  MethodSetting::smoother_before,
-    MethodSetting::smoother,     MethodSetting::attachments};
+constexpr std::array<MethodSetting, 21> kMethodSettings = {MethodSetting::substeps,
+                                                           MethodSetting::iterations,
+                                                           MethodSetting::solver,
+                                                           MethodSetting::tolerance,
+                                                           MethodSetting::omega,
+                                                           MethodSetting::preconditioner,
+                                                           MethodSetting::split,
+                                                           MethodSetting::constraints,
+                                                           MethodSetting::rule,
+                                                           MethodSetting::acceleration,
+                                                           MethodSetting::explicit_share,
+                                                           MethodSetting::euler,
+                                                           MethodSetting::beyond_bound,
+                                                           MethodSetting::first_contact,
+                                                           MethodSetting::levels,
+                                                           MethodSetting::ratio,
+                                                           MethodSetting::level_lengths,
+                                                           MethodSetting::smoother_before,
+                                                           MethodSetting::smoother,
+                                                           MethodSetting::attachments,
+                                                           MethodSetting::carried_acceleration};
 
 /// Spelled as in scenes.
 const char* key(MethodSetting setting);

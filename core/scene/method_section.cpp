@@ -163,6 +163,9 @@ void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions
     case MethodSetting::attachments:
       method.attachments = reader.word(kAttachments);
       return;
+    case MethodSetting::carried_acceleration:
+      method.carried_acceleration = reader.number({0, kMostCarried});
+      return;
   }
 }
 
@@ -217,6 +220,8 @@ Json json_setting(MethodSetting setting, const MethodOptions& method) {
       return word_for(kSmoothers, method.smoother_after);
     case MethodSetting::attachments:
       return word_for(kAttachments, method.attachments);
+    case MethodSetting::carried_acceleration:
+      return method.carried_acceleration;
   }
   return nullptr;
 }

@@ -50,6 +50,7 @@ Json setting_schema(const StepperType& type, MethodSetting setting) {
     case MethodSetting::ratio:
     case MethodSetting::smoother_before:
     case MethodSetting::smoother:
+    case MethodSetting::carried_acceleration:
       break;
   }
   return schema;

@@ -21,7 +21,7 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
                                     step_of(options))),
       mean_mass_(model.masses.mean()),
       pitch_(layout_.pitch()),
-      data_(pitch_ * kArrays, 0.0f) {
+      data_(pitch_ * (carries() ? kArrays : gained), 0.0f) {
   const double h = step_of(options);
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
@@ -42,6 +42,9 @@ void StepperXpbd::refresh() {
     inverse_masses[slot_of(VertexId(i))] =
         model_.hangs(VertexId(i)) ? 0 : static_cast<float>(mean_mass_ / model_.masses[i]);
   for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
+  if (carries())
+    for (int k = 0; k < 3; ++k)
+      std::fill_n(array(gained + k), layout_.n_slots, fall_[static_cast<std::size_t>(k)]);
   pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
   projections_->refresh_pins(model_, inverse_masses);
   refresh_rest_lengths();
@@ -50,9 +53,7 @@ void StepperXpbd::refresh() {
 void StepperXpbd::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
 
 LaneView StepperXpbd::view() {
-  return {{array(move), array(move + 1), array(move + 2)},
-          {array(begin), array(begin + 1), array(begin + 2)},
-          array(inverse_mass)};
+  return {lanes(move), {array(begin), array(begin + 1), array(begin + 2)}, array(inverse_mass)};
 }
 
 int StepperXpbd::slot_of(VertexId vertex) const {
@@ -98,11 +99,13 @@ void StepperXpbd::load(const State& state) {
 
 // begin' = begin + move is rounded; begin' - begin is not, for the two are near each other. So
 // rounded_off' is exactly what the rounding took away, and goes into the next move.
+template <bool carries>
 void StepperXpbd::predict() {
   const LaneView v = view();
-  const std::array<float*, 3> begins = {array(begin), array(begin + 1), array(begin + 2)};
-  const std::array<float*, 3> lows = {array(rounded_off), array(rounded_off + 1),
-                                      array(rounded_off + 2)};
+  const std::array<float*, 3> begins = lanes(begin);
+  const std::array<float*, 3> lows = lanes(rounded_off);
+  const std::array<float*, 3> gained_before = carries ? lanes(gained) : lows;
+  const Float4 carried = Float4::all(static_cast<float>(options().carried_acceleration));
   const Vec3Lanes<Float4> fall = {Float4::all(fall_[0]), Float4::all(fall_[1]),
                                   Float4::all(fall_[2])};
   const int n_slots = layout_.n_slots;
@@ -110,14 +113,28 @@ void StepperXpbd::predict() {
     const Float4 w = Float4::load(v.inverse_masses + slot);
     const Vec3Lanes<Float4> from = pleat::load<Float4>(begins, slot);
     const Vec3Lanes<Float4> moved = pleat::load<Float4>(v.moves, slot);
-    const Vec3Lanes<Float4> gains = {where_positive(w, fall.x), where_positive(w, fall.y),
-                                     where_positive(w, fall.z)};
-    const Vec3Lanes<Float4> goes_on = moved - pleat::load<Float4>(lows, slot) + gains;
+    Vec3Lanes<Float4> gains = {where_positive(w, fall.x), where_positive(w, fall.y),
+                               where_positive(w, fall.z)};
+    const Vec3Lanes<Float4> velocity = moved - pleat::load<Float4>(lows, slot);
+    if constexpr (carries) {
+      gains = gains + carried * (pleat::load<Float4>(gained_before, slot) - gains);
+      pleat::store(velocity, gained_before, slot);
+    }
+    const Vec3Lanes<Float4> goes_on = velocity + gains;
     const Vec3Lanes<Float4> to = from + moved;
     const Vec3Lanes<Float4> remainder = moved - (to - from);
     pleat::store(to, begins, slot);
     pleat::store(remainder, lows, slot);
     pleat::store(remainder + goes_on, v.moves, slot);
+  }
+}
+
+void StepperXpbd::take_gains() {
+  const std::array<float*, 3> gains = lanes(gained);
+  for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
+    const Vec3Lanes<Float4> velocity =
+        pleat::load<Float4>(lanes(move), slot) - pleat::load<Float4>(lanes(rounded_off), slot);
+    pleat::store(velocity - pleat::load<Float4>(gains, slot), gains, slot);
   }
 }
 
@@ -158,9 +175,7 @@ void StepperXpbd::add_air_drag(State& state, double h) {
 void StepperXpbd::resolve_contacts(double h) {
   const StageScope scope(observer_, Stage::contact);
   contact_->place_solids(*model_.contact, origin_, extent_);
-  const std::array<float*, 3> lows = {array(rounded_off), array(rounded_off + 1),
-                                      array(rounded_off + 2)};
-  for (const int slot : contact_->resolve(view(), lows)) {
+  for (const int slot : contact_->resolve(view(), lanes(rounded_off))) {
     Vec3 place_begin = origin_;
     for (int k = 0; k < 3; ++k)
       place_begin[k] += static_cast<double>(array(begin + k)[slot]) + array(rounded_off + k)[slot];
@@ -196,12 +211,13 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
   if (model_.air) add_air_drag(state, h);
   {
     const StageScope scope(observer_, Stage::solve);
-    predict();
+    carries() ? predict<true>() : predict<false>();
     place_pins(time_end, h);
     const LaneView v = view();
     const bool is_last = substeps_left_ == 1;
     if (is_last) residual_begin_ = std::sqrt(projections_->squared_residual_before(v));
     projections_->solve(v, options().iterations);
+    if (carries()) take_gains();
     if (is_last) residual_end_ = std::sqrt(projections_->squared_residual(v));
   }
   if (strain_limit() != nullptr) {

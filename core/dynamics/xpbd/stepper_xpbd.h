@@ -39,9 +39,17 @@ class StepperXpbd final : public Stepper {
   /// A vertex is at begin + move. Single precision rounds a begin; what it rounds off is
   /// `rounded_off` and is contained in the move, so that move - rounded_off is the velocity times
   /// h.
-  enum Array { begin, move = 3, rounded_off = 6, inverse_mass = 9, kArrays };
+  ///
+  /// `gained` is what gravity and projections added to the velocity in the last substep, times h;
+  /// during a substep, the velocity that it began with. It exists where accelerations are carried.
+  enum Array { begin, move = 3, rounded_off = 6, inverse_mass = 9, gained = 10, kArrays = 13 };
 
+  bool carries() const { return options().carried_acceleration > 0; }
   float* array(int which) { return data_.data() + static_cast<std::size_t>(which) * pitch_; }
+  /// x, y and z of it.
+  std::array<float*, 3> lanes(int which) {
+    return {array(which), array(which + 1), array(which + 2)};
+  }
   LaneView view();
   int slot_of(VertexId vertex) const;
   void copy_to(State& state, double h);
@@ -50,7 +58,10 @@ class StepperXpbd final : public Stepper {
   void set_motion(int slot, const Vec3& position, const Vec3& velocity, double h);
   /// Makes the end of a substep the begin of the next, which goes on at the same velocity, and
   /// lets gravity act.
+  template <bool carries>
   void predict();
+  /// Makes of the velocity at the substep's begin what has been added to it.
+  void take_gains();
   void place_pins(double time_end, double h);
   void add_air_drag(State& state, double h);
   void resolve_contacts(double h);

@@ -12,6 +12,8 @@ const kTimes = [0.5, 1]; // [s]
 
 const kLoopSubsteps = [30, 100, 300];
 const kTurnFrames = 4;
+/** With more, the noise of projections grows. */
+const kCarried = 0.3;
 const kCandidates = {
   xpbd: [
     5, 7, 8, 9, 10, 11, 12, 14, 17, 20, 23, 26, 30, 40, 50, 60, 70, 85, 100, 140, 200, 220, 250, 300,
@@ -25,6 +27,8 @@ const kCandidates = {
       {},
       { smoother_before: 'none' },
       { smoother_before: 'none', levels: 0 },
+      { carried_acceleration: kCarried },
+      { carried_acceleration: kCarried, smoother_before: 'none', levels: 0 },
       { smoother_before: 'gauss_seidel', smoother: 'gauss_seidel' },
       { smoother_before: 'none', smoother: 'gauss_seidel', levels: 0 },
     ].map((more) => ({ stepper: 'multigrid', substeps, ...more })),

@@ -109,6 +109,51 @@ TEST_CASE("multigrid: lines on the finest level leave half the stretch, and need
   CHECK(after(sheet, lines, 5).positions == after(sheet, one_by_one, 5).positions);
 }
 
+/// How far a pendulum of 1 m that is let go at the horizontal has swung after so long [rad].
+double swung(double seconds) {
+  constexpr int kSteps = 100000;
+  const double h = seconds / kSteps;
+  double angle = 0;
+  double velocity = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double half_way = velocity + h / 2 * 9.81 * std::cos(angle);
+    const double middle = angle + h / 2 * velocity;
+    velocity += h * 9.81 * std::cos(middle);
+    angle += h * half_way;
+  }
+  return angle;
+}
+
+TEST_CASE("multigrid: carried acceleration loses a fraction of a pendulum's energy", "[dynamics]") {
+  Held sheet = held_sheet(lying_sheet(1), By::edge);
+  sheet.model.gravity = {0, 0, -9.81};
+  constexpr int kSteps = 60;
+  const auto off = [&](double carried) {  // after one swing [m]
+    MethodOptions method = steppers::kMultigrid.usual_method();
+    method.carried_acceleration = carried;
+    const Positions end = after(sheet, method, kSteps).positions;
+    return std::abs(end(2, end.cols() - 1) + std::sin(swung(kSteps * method.step)));
+  };
+  CHECK(off(0) > 5e-3);
+  CHECK(off(0.3) < 1e-3);
+}
+
+TEST_CASE("multigrid: carried acceleration leaves free fall and rest on a plane as they are",
+          "[dynamics]") {
+  Held sheet = held_sheet(lying_sheet(4), By::edge);
+  sheet.model.pins.clear();
+  sheet.model.gravity = {0, 0, -9.81};
+  MethodOptions method = steppers::kMultigrid.usual_method();
+  const Positions plain = after(sheet, method, 6).positions;
+  method.carried_acceleration = 0.3;
+  CHECK((after(sheet, method, 6).positions - plain).colwise().norm().maxCoeff() < 1e-6);
+
+  const SolidShape plane = Plane{{0, 0, -0.1}, {0, 0, 1}};
+  sheet.model.contact.emplace(std::vector<Collider>{{plane, {}, 0.3}}, ContactOptions{});
+  const Positions at_rest = after(sheet, method, 30).positions;
+  CHECK((at_rest.row(2).array() + 0.1).abs().maxCoeff() < 1e-6);
+}
+
 TEST_CASE("multigrid: cycles keep momentum, and the same input gives the same bits", "[dynamics]") {
   const auto* const type = GENERATE(from_range(kHierarchical));
   CAPTURE(type->name);
