@@ -9,6 +9,12 @@
 namespace pleat {
 namespace {
 
+/// How long triangles are not asked what they feel of the air [s].
+constexpr double kDragPeriod = 1.0 / 120;
+/// Share of the bound D of -df/dv that counts until then. From 1/2 on, which is what uniform motion
+/// changes f by while the speed of the air is the same, what is steady is come to.
+constexpr double kResistanceShare = 0.6;
+
 double step_of(const MethodOptions& options) { return options.step / options.substeps; }
 
 }  // namespace
@@ -25,7 +31,10 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
   const double h = step_of(options);
   for (int k = 0; k < 3; ++k)
     fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
-  if (model.air) forces_.resize(3, model.n_vertices());
+  if (model.air) {
+    forces_.resize(3, model.n_vertices());
+    air_.resize(kAirArrays * pitch_);
+  }
   if (strain_limit() != nullptr) positions_begin_.resize(3, model.n_vertices());
   if (model.contact) {
     contact_.emplace(layout_);
@@ -157,16 +166,51 @@ void StepperXpbd::place_pins(double time_end, double h) {
   }
 }
 
-void StepperXpbd::add_air_drag(State& state, double h) {
+// What triangles feel costs more than all constraints, and is asked for now and then. Until the
+// next time the drag of a vertex is f - r D (v' - v), with f and the bound D of its resistance at
+// the velocity v of then, v' that at a substep's end and r the share above.
+void StepperXpbd::find_air_drag(State& state, double h) {
   const StageScope scope(observer_, Stage::forces);
   copy_to(state, h);
   forces_.setZero();
-  add_damped_air(state, h, forces_);
+  model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces_);
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const int slot = slot_of(VertexId(i));
-    if (array(inverse_mass)[slot] == 0) continue;  // it hangs or is held
-    for (int k = 0; k < 3; ++k)
-      array(rounded_off + k)[slot] -= static_cast<float>(h * h / model_.masses[i] * forces_(k, i));
+    Mat3 brake = Mat3::Zero();
+    Vec3 gain = Vec3::Zero();
+    if (array(inverse_mass)[slot] > 0) {  // else it hangs or is held
+      const double per_mass = h / model_.masses[i];
+      const Mat3 resistance = kResistanceShare * per_mass * model_.air->resistance(VertexId(i));
+      const Mat3 left = (Mat3::Identity() + resistance).inverse();
+      brake = Mat3::Identity() - left;
+      gain = left * h * (per_mass * forces_.col(i) + resistance * state.velocities.col(i)) -
+             brake * (h * h * model_.gravity);  // which is added afterwards
+    }
+    const std::array<double, kAirArrays> numbers = {gain[0],     gain[1],     gain[2],
+                                                    brake(0, 0), brake(1, 1), brake(2, 2),
+                                                    brake(0, 1), brake(0, 2), brake(1, 2)};
+    for (std::size_t k = 0; k < kAirArrays; ++k)
+      air_[k * pitch_ + static_cast<std::size_t>(slot)] = static_cast<float>(numbers[k]);
+  }
+}
+
+void StepperXpbd::add_air_drag() {
+  const StageScope scope(observer_, Stage::forces);
+  const std::array<float*, 3> moves = lanes(move);
+  const std::array<float*, 3> lows = lanes(rounded_off);
+  const auto air = [this](std::size_t which, int slot) {
+    return Float4::load(air_.data() + which * pitch_ + static_cast<std::size_t>(slot));
+  };
+  for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
+    const Vec3Lanes<Float4> low = pleat::load<Float4>(lows, slot);
+    const auto [x, y, z] = pleat::load<Float4>(moves, slot) - low;
+    const Float4 xy = air(6, slot);
+    const Float4 xz = air(7, slot);
+    const Float4 yz = air(8, slot);
+    pleat::store(low - Vec3Lanes<Float4>{air(0, slot) - air(3, slot) * x - xy * y - xz * z,
+                                         air(1, slot) - xy * x - air(4, slot) * y - yz * z,
+                                         air(2, slot) - xz * x - yz * y - air(5, slot) * z},
+                 lows, slot);
   }
 }
 
@@ -208,7 +252,11 @@ void StepperXpbd::copy_to(State& state, double h) {
 }
 
 SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
-  if (model_.air) add_air_drag(state, h);
+  if (model_.air) {
+    const int every = std::max(1, static_cast<int>(kDragPeriod / h + 0.5));
+    if ((substeps() - substeps_left_) % every == 0) find_air_drag(state, h);
+    add_air_drag();
+  }
   {
     const StageScope scope(observer_, Stage::solve);
     carries() ? predict<true>() : predict<false>();

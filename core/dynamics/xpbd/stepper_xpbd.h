@@ -45,6 +45,8 @@ class StepperXpbd final : public Stepper {
   enum Array { begin, move = 3, rounded_off = 6, inverse_mass = 9, gained = 10, kArrays = 13 };
 
   bool carries() const { return options().carried_acceleration > 0; }
+  static constexpr std::size_t kAirArrays = 9;
+
   float* array(int which) { return data_.data() + static_cast<std::size_t>(which) * pitch_; }
   /// x, y and z of it.
   std::array<float*, 3> lanes(int which) {
@@ -63,7 +65,8 @@ class StepperXpbd final : public Stepper {
   /// Makes of the velocity at the substep's begin what has been added to it.
   void take_gains();
   void place_pins(double time_end, double h);
-  void add_air_drag(State& state, double h);
+  void find_air_drag(State& state, double h);
+  void add_air_drag();
   void resolve_contacts(double h);
   void limit_in_double(State& state, double time_end, double h);
 
@@ -82,7 +85,9 @@ class StepperXpbd final : public Stepper {
   Positions pin_velocities_;                      // one column per pin [m/s]
   double time_end_ = 0;                           // of the last substep [s]
   Positions forces_;                              // of the air [N]
-  Positions positions_begin_;                     // of a substep whose strain is limited [m]
+  std::vector<float> air_;  // arrays as those above: to a move v it adds gain - brake v, as x y z
+                            // [m] and xx yy zz xy xz yz
+  Positions positions_begin_;  // of a substep whose strain is limited [m]
 };
 
 }  // namespace pleat

@@ -309,6 +309,31 @@ TEST_CASE("xpbd: a pin that holds is one that moves nowhere, in air too, to the 
   CHECK(held == after(Motion::Kind::oscillate));
 }
 
+/// A triangle that falls flat for half a second; its speed where it began with `speed` [m/s].
+double falls(double density, double speed, int substeps) {
+  System system = particles((Positions(3, 3) << 0, 1, 0, 0, 0, 0, 0, 0, 1).finished());
+  AirOptions air;
+  air.density = density;
+  system.model.air.emplace(std::vector<Triangle>{{VertexId(0), VertexId(1), VertexId(2)}}, air,
+                           system.model.n_vertices());
+  system.state.velocities.row(1).setConstant(-speed);
+  StepperXpbd stepper(system.model, xpbd_options(substeps));
+  advance(stepper, system.state, 30);
+  return -system.state.velocities(1, 1);
+}
+
+TEST_CASE("xpbd: in air it falls as the closed form says, and drag never turns it round",
+          "[dynamics]") {
+  const int substeps = GENERATE(1, 10);
+  const double mass = particles(Positions::Zero(3, 3)).model.masses.sum();
+  constexpr double kDensity = 1.2;
+  const double terminal = std::sqrt(mass * 9.81 / (0.5 * kDensity * 0.5));  // area 1/2, C_n 1
+  CHECK(falls(kDensity, 0, substeps) ==
+        Approx(terminal * std::tanh(9.81 * 0.5 / terminal)).epsilon(0.02));
+  const double in_mud = std::sqrt(mass * 9.81 / (0.5 * 1e6 * 0.5));
+  CHECK(falls(1e6, 10, substeps) == Approx(in_mud).epsilon(0.1));
+}
+
 TEST_CASE("xpbd: the same input gives the same bits", "[dynamics]") {
   const int n = GENERATE(5, 17, 22);
   CAPTURE(n);
