@@ -1,9 +1,13 @@
 #include "core/dynamics/pbd/cycle_projections.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
 
 #include "core/dynamics/pbd/attachments.h"
 #include "core/dynamics/pbd/coarse_levels.h"
+#include "core/dynamics/pbd/cycle_acceleration.h"
 #include "core/dynamics/pbd/error_correction.h"
 #include "core/dynamics/pbd/mesh_sweeps.h"
 
@@ -56,6 +60,9 @@ std::unique_ptr<MeshSweeps> sweeps_of(const ClothModel& model, const MethodOptio
   return (in_lines ? line_sweeps : gathered_sweeps)(model, layout, law, h);
 }
 
+/// Of the finest level behind each correction by errors: half of what the cycle costs.
+constexpr int kSweepsByError = 3;
+
 class CycleProjections final : public Projections {
  public:
   CycleProjections(const ClothModel& model, const MethodOptions& options, const LaneLayout& layout,
@@ -86,32 +93,24 @@ class CycleProjections final : public Projections {
 
   void refresh_rest_lengths(const ClothModel& model) override {
     sweeps_->refresh_rest_lengths(model);
+    if (options_.level_lengths != LevelLengths::error || model.springs.empty()) return;
+    double sum = 0;
+    for (const Spring& spring : model.springs) sum += spring.rest_length;
+    if (sum > 0) mean_length_ = static_cast<float>(sum / static_cast<double>(model.springs.size()));
   }
 
   void solve(const LaneView& view, int rounds) override {
     attachments_.sweep(view);
     vertices_.begin(view);
-    if (!by_error_.empty()) {
-      by_error_.begin();
-      sweeps_->springs()->forget();
-    }
-    bool is_first = true;
-    const auto sweep = [&](const Relaxation& relaxation) {
-      if (relaxation.smoother == Smoother::none) return;
-      sweeps_->sweep(vertices_, relaxation, is_first);
-      is_first = false;
-    };
-    for (int round = 0; round < rounds; ++round) {
-      sweep(smoothing_.before);
-      correct();
-      sweep(smoothing_.after);
-    }
+    is_swept_ = false;
+    by_error_.empty() ? solve_by_lengths(rounds) : solve_by_errors(rounds);
     vertices_.lanes();
   }
 
   double sweeps_per_round() const override {
+    const double n_after = by_error_.empty() ? 1 : kSweepsByError;
     const double n_sweeps = (smoothing_.before.smoother != Smoother::none ? 1 : 0) +
-                            (smoothing_.after.smoother != Smoother::none ? 1 : 0);
+                            (smoothing_.after.smoother != Smoother::none ? n_after : 0);
     const CoarseLevels<Float4>& levels = by_error_.empty() ? levels_ : by_error_.levels();
     return n_sweeps + static_cast<double>(levels.n_projections(smoothing_)) / sweeps_->size();
   }
@@ -127,13 +126,54 @@ class CycleProjections final : public Projections {
   }
 
  private:
-  void correct() {
-    if (!by_error_.empty()) {
-      by_error_.correct(*sweeps_->springs(), vertices_.begins(), vertices_.moves(),
-                        vertices_.n_numbers(), smoothing_);
-    } else if (levels_.n_levels() > 0) {
-      levels_.correct(vertices_.begins(), vertices_.moves(), smoothing_);
+  void sweep(const Relaxation& relaxation) {
+    if (relaxation.smoother == Smoother::none) return;
+    sweeps_->sweep(vertices_, relaxation, !is_swept_);
+    is_swept_ = true;
+  }
+
+  void solve_by_lengths(int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+      sweep(smoothing_.before);
+      if (levels_.n_levels() > 0)
+        levels_.correct(vertices_.begins(), vertices_.moves(), smoothing_);
+      sweep(smoothing_.after);
     }
+  }
+
+  void solve_by_errors(int rounds) {
+    GatheredSprings& springs = *sweeps_->springs();
+    GatheredBends& bends = *sweeps_->bends();
+    by_error_.begin();
+    acceleration_.begin();
+    springs.forget();
+    bends.forget();
+    look();
+    for (int round = 0; round < rounds; ++round) {
+      if (smoothing_.before.smoother != Smoother::none) {
+        sweep(smoothing_.before);
+        look();
+      }
+      by_error_.correct(springs, vertices_.begins(), vertices_.moves(), vertices_.n_numbers(),
+                        errors_.data(), smoothing_);
+      for (int i = 0; i < kSweepsByError; ++i) sweep(smoothing_.after);
+      look();
+      const std::array<std::span<float>, 3> point = {
+          std::span(vertices_.moves(), vertices_.n_numbers()), springs.multipliers(),
+          bends.multipliers()};
+      if (acceleration_.propose(point, errors_)) look();
+      acceleration_.settle(point, errors_);
+    }
+  }
+
+  /// Where errors are: of springs, and of bending beside the springs' mean length.
+  void look() {
+    const GatheredSprings& springs = *sweeps_->springs();
+    const GatheredBends& bends = *sweeps_->bends();
+    errors_.resize(springs.n_strains() + bends.n_errors());
+    springs.strains(vertices_.begins(), vertices_.moves(), errors_.data());
+    bends.errors(vertices_.begins(), vertices_.moves(), mean_length_,
+                 errors_.data() + springs.n_strains());
   }
 
   MethodOptions options_;
@@ -144,6 +184,10 @@ class CycleProjections final : public Projections {
   std::vector<int> slots_;  // of each vertex
   CoarseLevels<Float4> levels_;
   ErrorCorrection by_error_;  // in the place of levels_, where the options ask for it
+  CycleAcceleration acceleration_;
+  std::vector<float> errors_;  // as look() has them
+  float mean_length_ = 1;      // of springs [m]
+  bool is_swept_ = false;      // in this solve
   AttachmentProgram attachments_;
 };
 

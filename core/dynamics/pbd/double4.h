@@ -40,6 +40,10 @@ inline Double4 operator*(Double4 a, Double4 b) {
 inline Double4 operator/(Double4 a, Double4 b) {
   return lane_by_lane(a, b, [](double p, double q) { return p / q; });
 }
+inline Double4 sqrt(Double4 a) {
+  for (double& number : a.value) number = std::sqrt(number);
+  return a;
+}
 /// As of Float4: a when it is not a number.
 inline Double4 max(Double4 a, Double4 b) {
   return lane_by_lane(a, b, [](double p, double q) { return p < q ? q : p; });

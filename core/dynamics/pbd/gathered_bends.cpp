@@ -76,8 +76,21 @@ void GatheredBends::next_sweep(const float* begins, float* moves, float omega) {
 }
 
 void GatheredBends::first_sweep(const float* begins, float* moves, float omega) {
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  forget();
   next_sweep(begins, moves, omega);
+}
+
+void GatheredBends::errors(const float* begins, const float* moves, float unit,
+                           float* errors) const {
+  const float lanes[Float4::kLanes] = {1 / unit, 1 / unit, 1 / unit, 0};  // the fourth is unused
+  const Float4 inverse = Float4::load(lanes);
+  const float* multiplier = multipliers_.data();
+  for (const Element& e : elements_) {
+    (inverse * (error_of(e, begins, moves) + Float4::all(e.compliance) * Float4::load(multiplier)))
+        .store(errors);
+    errors += Float4::kLanes;
+    multiplier += Float4::kLanes;
+  }
 }
 
 double GatheredBends::squared_residual(const float* begins, const float* moves) const {
@@ -95,7 +108,7 @@ double GatheredBends::squared_residual(const float* begins, const float* moves) 
 }
 
 double GatheredBends::squared_residual_before_sweeps(const float* begins, const float* moves) {
-  std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  forget();
   return squared_residual(begins, moves);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/xpbd/lane_layout.h"
@@ -24,6 +26,15 @@ class GatheredBends {
   /// omega  times what a projection alone would correct
   void first_sweep(const float* begins, float* moves, float omega);
   void next_sweep(const float* begins, float* moves, float omega);
+
+  /// Makes the multipliers zero.
+  void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
+  std::span<float> multipliers() { return multipliers_; }
+  std::size_t n_errors() const { return multipliers_.size(); }
+  /// (C + compliance/h^2 lambda)/unit of each element, four numbers each.
+  ///
+  /// unit  [m]
+  void errors(const float* begins, const float* moves, float unit, float* errors) const;
 
   /// Sum of |C + compliance/h^2 lambda|^2 [m^2], with the multipliers of the last sweep, or with
   /// none.

@@ -1,6 +1,7 @@
 #include "core/dynamics/pbd/gathered_springs.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/dynamics/pbd/quad_vectors.h"
 
@@ -94,21 +95,27 @@ void GatheredSprings::first_sweep(const float* begins, float* moves, const Relax
   next_sweep(begins, moves, relaxation);
 }
 
+std::span<float> GatheredSprings::multipliers() {
+  if (law_ == SpringLaw::rigid) return {};
+  return multipliers_;
+}
+
 void GatheredSprings::strains(const float* begins, const float* moves, float* strains) const {
   const bool is_rigid = law_ == SpringLaw::rigid;
-  const Float4 tiny = Float4::all(kTinySquare), half = Float4::all(0.5f);
+  const Float4 tiny = Float4::all(kTinySquare);
+  const Float4 largest = Float4::all(std::numeric_limits<float>::max());
   const float* multiplier = multipliers_.data();
   for (const Group& group : groups_) {
     const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
     const auto d = d_begin + (gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b));
-    const Float4 square = dots(d, d);
-    const Float4 rest = Float4::load(group.block.rest.data());
-    Float4 error = half * (square - rest);
+    const Float4 kept = Float4::load(group.block.rest.data());
+    const Float4 rest = is_rigid ? sqrt(kept) : kept;
+    Float4 error = sqrt(dots(d, d)) - rest;
     if (!is_rigid)
-      error = sqrt(square) - rest +
-              Float4::load(group.block.compliance.data()) * Float4::load(multiplier) -
+      error = error + Float4::load(group.block.compliance.data()) * Float4::load(multiplier) -
               Float4::load(group.block.damper_share.data()) * (sqrt(dots(d_begin, d_begin)) - rest);
-    (error / max(rest, tiny)).store(strains);
+    const Float4 occupied = largest - Float4::load(group.block.denominator_share.data());
+    where_positive(occupied, error / max(rest, tiny)).store(strains);
     strains += 4;
     multiplier += multiplier_floats(law_);
   }

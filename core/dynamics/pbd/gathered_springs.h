@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/dynamics/pbd/length_groups.h"
@@ -33,7 +34,9 @@ class GatheredSprings {
 
   /// Makes the multipliers zero.
   void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
-  /// (C + compliance/h^2 lambda)/L of each spring, four a group.
+  /// None of rigid springs.
+  std::span<float> multipliers();
+  /// (C + compliance/h^2 lambda)/L of each spring, four a group; 0 where a group has none.
   void strains(const float* begins, const float* moves, float* strains) const;
   std::size_t n_strains() const { return 4 * groups_.size(); }
   /// Those that this projects, and where their strains stand.

@@ -80,12 +80,16 @@ void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation
   if (is_averaged) mean_.add_to(moves, omega);
 }
 
+// What is longer by e of its length comes back over 1 + e. Times 1 - e is the same for small e, but
+// below zero where e is large; what is shorter, e < 0, is stretched by that.
 template <class Quad>
 void LengthGroups<Quad>::aim_at(const Real* begins, const Real* moves, const Real* strains) {
+  const Quad zero = Quad::all(0);
   for (Group& group : groups_) {
     const QuadVectors<Quad> d = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b) +
                                 (gather<Quad>(moves, group.a) - gather<Quad>(moves, group.b));
-    const Quad share = Quad::all(1) - Quad::load(strains);
+    const Quad strain = Quad::load(strains);
+    const Quad share = (Quad::all(1) - min(strain, zero)) / (Quad::all(1) + max(strain, zero));
     (share * share * dots(d, d)).store(group.square.data());
     strains += 4;
   }
@@ -93,12 +97,12 @@ void LengthGroups<Quad>::aim_at(const Real* begins, const Real* moves, const Rea
 
 template <class Quad>
 void LengthGroups<Quad>::strains(const Real* begins, const Real* moves, Real* strains) const {
-  const Quad half = Quad::all(Real(0.5)), tiny = Quad::all(Real(kTinySquare));
+  const Quad tiny = Quad::all(Real(kTinySquare));
   for (const Group& group : groups_) {
     const QuadVectors<Quad> d = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b) +
                                 (gather<Quad>(moves, group.a) - gather<Quad>(moves, group.b));
-    const Quad rest = Quad::load(group.square.data());
-    (half * (dots(d, d) - rest) / max(rest, tiny)).store(strains);
+    const Quad rest = sqrt(Quad::load(group.square.data()));
+    ((sqrt(dots(d, d)) - rest) / max(rest, tiny)).store(strains);
     strains += 4;
   }
 }

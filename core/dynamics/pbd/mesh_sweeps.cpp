@@ -1,6 +1,5 @@
 #include "core/dynamics/pbd/mesh_sweeps.h"
 
-#include "core/dynamics/pbd/gathered_bends.h"
 #include "core/dynamics/xpbd/hanging_program.h"
 #include "core/dynamics/xpbd/lane_projections.h"
 
@@ -44,6 +43,7 @@ class GatheredSweeps final : public MeshSweeps {
 
   int size() const override { return springs_.size() + bends_.size() + hanging_.size(); }
   GatheredSprings* springs() override { return &springs_; }
+  GatheredBends* bends() override { return &bends_; }
 
   double squared_residual(GatheredVertices& vertices) override {
     const double of_hanging = hanging_.squared_residual(vertices.lanes());

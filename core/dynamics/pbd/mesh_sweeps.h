@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/dynamics/method_options.h"
+#include "core/dynamics/pbd/gathered_bends.h"
 #include "core/dynamics/pbd/gathered_springs.h"
 #include "core/dynamics/pbd/gathered_vertices.h"
 #include "core/dynamics/xpbd/lane_layout.h"
@@ -31,6 +32,9 @@ class MeshSweeps {
   virtual int size() const = 0;
   /// Springs that are projected one by one, whose errors can be asked for; null where they are not.
   virtual GatheredSprings* springs() { return nullptr; }
+
+  /// Bending elements beside them.
+  virtual GatheredBends* bends() { return nullptr; }
 
   /// See Projections.
   virtual double squared_residual(GatheredVertices& vertices) = 0;

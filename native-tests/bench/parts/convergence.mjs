@@ -12,7 +12,9 @@ const kSizes = [33, 65, 129];
 const kCorners = [{ part: 'upper_left' }, { part: 'upper_right' }];
 const upright = (n) => squareSheet(n, [0, 0, 0], [0, -1, 0], [1, 0, 0]);
 const lying = (n) => squareSheet(n, [0, 0, 0], [0, 0, 1], [1, 0, 0]);
-const comes = (x) => ({ kind: 'ease', offset_m: [x, 0, 0], begin_s: 0, end_s: 1 });
+const comes = (x, z) => ({ kind: 'ease', offset_m: [x, 0, z], begin_s: 0, end_s: 1 });
+/** Out of the sheet's plane [m]: in it no fold forms, and cloth that is gathered is crushed. */
+const kTwist = 0.05;
 
 /** What the step is of, and when it begins [s]. */
 const kSteps = {
@@ -21,8 +23,8 @@ const kSteps = {
   gathered: {
     cloth: upright,
     pins: [
-      { part: 'upper_left', motion: comes(0.25) },
-      { part: 'upper_right', motion: comes(-0.25) },
+      { part: 'upper_left', motion: comes(0.25, kTwist) },
+      { part: 'upper_right', motion: comes(-0.25, -kTwist) },
     ],
     at: 0.5,
   },

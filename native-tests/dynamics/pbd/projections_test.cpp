@@ -114,6 +114,26 @@ TEST_CASE("lengths: those that hold from above leave what is nearer alone", "[dy
   CHECK(swept(both, x, x) != x);
 }
 
+TEST_CASE("lengths: what aims at its places less their strain aims at its length, however far off",
+          "[dynamics]") {
+  const double apart = GENERATE(0.5, 0.999, 1.001, 5.0, 40.0);
+  CAPTURE(apart);
+  Positions x(3, 2), at_rest(3, 2);
+  x << 0, apart, 0, 0, 0, 0;
+  at_rest << 0, 1, 0, 0, 0, 0;
+  const std::vector<double> begins = in_fours(x), moves(begins.size(), 0);
+  const LengthGroups<Double4> lengths({{{0, 1}, 1}}, {1, 1, 0}, LengthSide::both);
+  std::vector<double> strains(lengths.n_strains());
+  lengths.strains(begins.data(), moves.data(), strains.data());
+  CHECK(strains[0] == Approx(apart - 1));
+  LengthGroups<Double4> aimed({{{0, 1}, 7}}, {1, 1, 0}, LengthSide::both);
+  aimed.aim_at(begins.data(), moves.data(), strains.data());
+  std::vector<double> left(aimed.n_strains());
+  aimed.strains(in_fours(at_rest).data(), moves.data(), left.data());
+  // 1 - e of what is squeezed is its length to first order.
+  CHECK(left[0] == Approx(0).margin(apart < 1 ? 1.001 * (1 - apart) * (1 - apart) / apart : 1e-12));
+}
+
 TEST_CASE("lengths: every smoother keeps momentum, and sor moves omega times as far",
           "[dynamics]") {
   Random random(5);
