@@ -1,4 +1,5 @@
 // What is drawn of a coarser level: its marks and lines, and how many.
+import './level-legend.css';
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
