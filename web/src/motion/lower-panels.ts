@@ -66,7 +66,7 @@ export function createLowerPanels(
   createLevelPanel(panel, store);
   createEnergyPanel(panel, store);
   createLaterContact(panel, store);
-  createConvergencePanel(panel, store);
+  createConvergencePanel(panel, store, run);
   const showChart = createSweepTray(tray, store, run);
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createKeysPanel(panel);

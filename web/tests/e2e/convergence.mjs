@@ -62,6 +62,8 @@ export async function checkConvergence({ check }, visit) {
         await page.keyboard.press('ArrowRight');
         const values = await page.locator('.way-values').textContent();
         expectThat(/^PBD after 2 rounds: .* ms, .* left\.$/.test(values), values);
+        const isWide = () => document.documentElement.scrollWidth > window.innerWidth;
+        expectThat(!(await page.evaluate(isWide)), 'the page scrolls sideways');
         await expectAccessible(page, '.convergence details');
       },
       PHONE,

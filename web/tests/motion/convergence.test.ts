@@ -4,10 +4,10 @@ import { storyWords } from '../../src/motion/panels/convergence-figure';
 import { pointWords, readingOf, type Way, waysOf } from '../../src/motion/panels/convergence-words';
 import { ConvergenceRun } from '../../src/motion/run/convergence-run';
 import {
-  type ConvergenceState,
   comparedMethods,
   constraintsOf,
   convergenceWish,
+  NO_CONVERGENCE,
 } from '../../src/motion/state/convergence';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
 import { initialMotionState } from '../../src/motion/state/motion-state';
@@ -130,13 +130,12 @@ function comparison(hash: string) {
   let say: (message: FromConvergence) => void = () => undefined;
   let breakDown: (reason: string) => void = () => undefined;
   const motion = createStore(initialMotionState(decodeMotionLink(hash).link, []));
-  const store = createStore<ConvergenceState>({
-    begin: null,
-    constraints: null,
-    of: '',
-    story: 'unasked',
-  });
-  const run = new ConvergenceRun(motion, store, ({ news, broken }) => {
+  const store = createStore(NO_CONVERGENCE);
+  let nRests = 0;
+  const rest = async () => {
+    nRests += 1;
+  };
+  const run = new ConvergenceRun(motion, store, rest, ({ news, broken }) => {
     say = (message) => news?.(message);
     breakDown = (reason) => broken?.(reason);
     return {
@@ -153,18 +152,18 @@ function comparison(hash: string) {
     run,
     told,
     ended: () => nEnded,
+    rests: () => nRests,
     say: (message: FromConvergence) => say(message),
     breakDown: (reason: string) => breakDown(reason),
   };
 }
 
 describe('a comparison', () => {
-  it('asks for the step that is chosen, stops the cloth, tells how far it is, and can be cancelled', () => {
-    const { motion, store, run, told, say, ended } = comparison('scene=curtain&level=1');
-    motion.set({ playing: true });
+  it('asks for the step that is chosen, stops the cloth, tells how far it is, and can be cancelled', async () => {
+    const { motion, store, run, told, say, ended, rests } = comparison('scene=curtain&level=1');
     store.set({ begin: 0.25, constraints: 'compliant' });
-    run.start();
-    expect(motion.get().playing).toBe(false);
+    await run.start();
+    expect(rests()).toBe(1);
     expect(JSON.parse(told[0]?.wishText ?? '')).toEqual(
       JSON.parse(
         JSON.stringify(
@@ -177,15 +176,26 @@ describe('a comparison', () => {
       'Curtain, fine cotton, level 1: the step of 1/60 s at 0.25\u00a0s.',
     );
     say({ type: 'progress', done: 0.4 });
-    expect(store.get().story).toEqual({ done: 0.4 });
+    expect(store.get()).toMatchObject({ story: { done: 0.4 }, disturbed: false });
+    motion.set({ playing: true });
+    expect(store.get().disturbed).toBe(true);
     run.cancel();
     expect(store.get().story).toBe('unasked');
     expect(ended()).toBe(1);
   });
 
-  it('says why a step cannot be studied, and what helps', () => {
+  it('is not begun when it is cancelled before the cloth rests', async () => {
+    const { store, run, told } = comparison('scene=curtain');
+    const begun = run.start();
+    run.cancel();
+    await begun;
+    expect(told).toEqual([]);
+    expect(store.get().story).toBe('unasked');
+  });
+
+  it('says why a step cannot be studied, and what helps', async () => {
     const { store, run, say, breakDown } = comparison('scene=curtain&model=membrane');
-    run.start();
+    await run.start();
     const failure = {
       ok: false,
       kind: 'input',
@@ -196,9 +206,13 @@ describe('a comparison', () => {
     expect(storyWords(store.get().story)).toBe(
       'This step cannot be studied: /model: expected springs. Springs can be compared: choose them as the model of the cloth.',
     );
-    run.start();
+    await run.start();
     breakDown('no network');
     expect(storyWords(store.get().story)).toMatch(/The comparison cannot be computed.*no network/);
+    const mesh = comparison('scene=obj');
+    await mesh.run.start();
+    mesh.say({ type: 'refused', failure });
+    expect(storyWords(mesh.store.get().story)).toMatch(/Springs need the threads of a sheet\.$/);
   });
 
   it('hands over what the module says, and little progress not at all', () => {

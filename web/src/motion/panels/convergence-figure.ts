@@ -5,11 +5,13 @@ import { digits, milliseconds } from '../../shared/panels/quantity';
 import { createStore, type Store, watch } from '../../shared/state/store';
 import type { Constraints } from '../bindings/convergence-module';
 import { ConvergenceRun } from '../run/convergence-run';
+import type { MotionRun } from '../run/motion-run';
 import {
   type ConvergenceState,
   type ConvergenceStory,
   constraintsOf,
   MOST_COMPLIANT_VERTICES,
+  NO_CONVERGENCE,
   type StepBegin,
 } from '../state/convergence';
 import type { MotionState } from '../state/motion-state';
@@ -32,6 +34,8 @@ const HOW =
 
 const NEWTON =
   'Methods that solve a step as a whole are held against where Newton’s iterations end.';
+
+const DISTURBED = 'The cloth was playing meanwhile: the times are too long.';
 
 /** As choices have them: no number stands for now. */
 const NOW = -1;
@@ -107,18 +111,17 @@ function createWish(motion: Store<MotionState>, store: Store<ConvergenceState>):
   return element('div', {}, pair, words);
 }
 
-export function createConvergenceFigure(parent: HTMLElement, motion: Store<MotionState>): void {
-  const store = createStore<ConvergenceState>({
-    begin: null,
-    constraints: null,
-    of: '',
-    story: 'unasked',
-  });
-  const run = new ConvergenceRun(motion, store);
+export function createConvergenceFigure(
+  parent: HTMLElement,
+  motion: Store<MotionState>,
+  shown: Pick<MotionRun, 'rest'>,
+): void {
+  const store = createStore(NO_CONVERGENCE);
+  const run = new ConvergenceRun(motion, store, () => shown.rest());
   const wide = { type: 'button', class: 'wide' };
   const start = element(
     'button',
-    { ...wide, click: () => run.start() },
+    { ...wide, click: () => void run.start() },
     'Compare methods on this step',
   );
   const cancel = element('button', { ...wide, click: () => run.cancel() }, 'Cancel');
@@ -145,7 +148,7 @@ export function createConvergenceFigure(parent: HTMLElement, motion: Store<Motio
   watch(motion, ['phase'], ({ phase }) => {
     start.disabled = phase !== 'ready';
   });
-  watch(store, ['story', 'of'], ({ story, of: subject }) => {
+  watch(store, ['story', 'of'], ({ story, of: subject, disturbed }) => {
     const isRunning = typeof story === 'object' && 'done' in story;
     const isDrawn = typeof story === 'object' && 'study' in story;
     start.hidden = isRunning;
@@ -161,6 +164,7 @@ export function createConvergenceFigure(parent: HTMLElement, motion: Store<Motio
     const ways = waysOf(story);
     plot.draw(ways, axis);
     table.fill(ways, axis);
-    setText(note, story.constraints === 'rigid' ? HOW : `${HOW} ${NEWTON}`);
+    const also = story.constraints === 'rigid' ? '' : ` ${NEWTON}`;
+    setText(note, `${HOW}${also}${disturbed ? ` ${DISTURBED}` : ''}`);
   });
 }

@@ -11,7 +11,7 @@ import {
   convergenceWish,
 } from '../state/convergence';
 import type { MotionState } from '../state/motion-state';
-import { PRESETS, sceneOf } from '../state/setting';
+import { MODEL_TRAITS, modelsOf, PRESETS, type Setting, sceneOf } from '../state/setting';
 import {
   type ConvergenceClient,
   type StartConvergence,
@@ -26,29 +26,38 @@ function subject({ setting, mesh, astray }: MotionState, timeS: number, isNow: b
   return `${cloth}, ${setting.fabric}, level ${setting.level}: ${step}${byItself}.`;
 }
 
-/** What helps where a part of the scene is at fault, by its JSON pointer. */
-const REMEDIES: Readonly<Record<string, string>> = {
-  '/model': ' Springs can be compared: choose them as the model of the cloth.',
-  '/model/damping': ' Rigid springs can be compared.',
-  '/method': ' An earlier step may do.',
-};
+/** What helps where that part of the scene is at fault; its JSON pointer. */
+function remedy(where: string, { preset }: Setting): string {
+  if (where === '/model/damping') return ' Rigid springs can be compared.';
+  if (where === '/method') return ' An earlier step may do.';
+  if (where !== '/model') return '';
+  return modelsOf(preset).includes('springs')
+    ? ' Springs can be compared: choose them as the model of the cloth.'
+    : ` ${MODEL_TRAITS.springs.need}`;
+}
 
-function refusal(failure: Failure): string {
-  return `This step cannot be studied: ${sentenceOf(failure)}.${REMEDIES[failure.where] ?? ''}`;
+function refusal(failure: Failure, setting: Setting): string {
+  return `This step cannot be studied: ${sentenceOf(failure)}.${remedy(failure.where, setting)}`;
 }
 
 export class ConvergenceRun {
   private client: ConvergenceClient | null = null;
+  private isWanted = false;
+  private stopWatching: () => void = () => undefined;
 
   constructor(
     private readonly motion: Store<MotionState>,
     private readonly store: Store<ConvergenceState>,
+    private readonly rest: () => Promise<void>,
     private readonly startWorker: StartConvergence = startConvergenceWorker,
   ) {}
 
-  start(): void {
-    this.client?.terminate();
-    this.motion.set({ playing: false }); // a second busy worker would make every time too long
+  /** The cloth rests meanwhile: a second busy worker would make every time too long. */
+  async start(): Promise<void> {
+    this.isWanted = true;
+    this.store.set({ of: '', story: { done: 0 } });
+    await this.rest();
+    if (!this.isWanted || this.client) return;
     const state = this.motion.get();
     const { setting, mesh, numbers } = state;
     const { begin } = this.store.get();
@@ -61,13 +70,16 @@ export class ConvergenceRun {
         this.end(
           message.type === 'studied'
             ? { study: message.study, methods, constraints }
-            : { refused: refusal(message.failure) },
+            : { refused: refusal(message.failure, setting) },
         );
       },
       broken: (reason) => this.end({ refused: brokenSentence('The comparison', reason) }),
     });
     this.client = client;
-    this.store.set({ of: subject(state, timeS, begin === null), story: { done: 0 } });
+    this.stopWatching = this.motion.subscribe(({ playing }) => {
+      if (playing) this.store.set({ disturbed: true });
+    });
+    this.store.set({ of: subject(state, timeS, begin === null), disturbed: false });
     client.tell({
       type: 'studyConvergence',
       fabricsText,
@@ -81,6 +93,8 @@ export class ConvergenceRun {
   }
 
   private end(story: ConvergenceStory): void {
+    this.isWanted = false;
+    this.stopWatching();
     this.client?.terminate();
     this.client = null;
     this.store.set({ story });

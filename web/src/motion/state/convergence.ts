@@ -52,6 +52,8 @@ export interface ConvergenceState {
   constraints: Constraints | null;
   /** What the story is of, in words. */
   of: string;
+  /** The cloth was playing meanwhile, which made its times too long. */
+  disturbed: boolean;
   story: ConvergenceStory;
 }
 
@@ -104,3 +106,11 @@ export function convergenceWish(
     methods: methods.map(({ method }) => method),
   };
 }
+
+export const NO_CONVERGENCE: ConvergenceState = {
+  begin: null,
+  constraints: null,
+  of: '',
+  disturbed: false,
+  story: 'unasked',
+};
