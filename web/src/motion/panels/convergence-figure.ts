@@ -160,10 +160,10 @@ export function createConvergenceFigure(
     setText(reading, storyWords(story));
     for (const part of [figure, asTable, note]) part.hidden = !isDrawn;
     if (!isDrawn) return;
-    const { axis } = MEASURES[story.constraints];
+    const { title } = MEASURES[story.constraints];
     const ways = waysOf(story);
-    plot.draw(ways, axis);
-    table.fill(ways, axis);
+    plot.draw(ways, title);
+    table.fill(ways, title);
     const also = story.constraints === 'rigid' ? '' : ` ${NEWTON}`;
     setText(note, `${HOW}${also}${disturbed ? ` ${DISTURBED}` : ''}`);
   });

@@ -23,10 +23,10 @@ const TARGETS = [0.1, 0.01, 0.001];
 /** What is measured: compliant constraints single out one place, which all methods can be held against. */
 export const MEASURES: Record<
   Constraints,
-  { axis: string; left(point: ConvergencePoint): number | null }
+  { title: string; left(point: ConvergencePoint): number | null }
 > = {
-  rigid: { axis: 'error left', left: ({ relative_error }) => relative_error },
-  compliant: { axis: 'distance left', left: ({ relative_distance }) => relative_distance },
+  rigid: { title: 'Error left', left: ({ relative_error }) => relative_error },
+  compliant: { title: 'Distance left', left: ({ relative_distance }) => relative_distance },
 };
 
 /** A solve of fewer rounds takes no longer than one of more: where it did, something else was slow. */
