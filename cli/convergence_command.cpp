@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "cli/commands.h"
@@ -8,7 +6,7 @@
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/files/whole_file.h"
-#include "core/run/convergence_study.h"
+#include "core/run/convergence_json.h"
 #include "core/scene/method_section.h"
 
 namespace pleat {
@@ -16,7 +14,6 @@ namespace {
 
 constexpr int kMostRounds = 100000;
 constexpr int kMostRepeats = 1000;
-constexpr double kTargets[] = {1e-1, 1e-2, 1e-3, 1e-4};
 
 /// A section "method" as scenes have it, in a file of its own.
 MethodOptions read_method_file(const std::string& file) {
@@ -59,7 +56,6 @@ int take_choice(Arguments& arguments, const char* option, const char* first, con
 
 ConvergenceOptions take_convergence_options(Arguments& arguments) {
   ConvergenceOptions options;
-  options.targets.assign(std::begin(kTargets), std::end(kTargets));
   if (const auto at = arguments.text("--at")) options.time = parse_number_from_zero(*at, "--at");
   options.constraints = take_choice(arguments, "--constraints", "rigid", "compliant") == 0
                             ? Constraints::rigid
@@ -71,29 +67,6 @@ ConvergenceOptions take_convergence_options(Arguments& arguments) {
   options.repeat = arguments.whole_number("--repeat", 1, kMostRepeats).value_or(options.repeat);
   options.methods = take_methods(arguments);
   return options;
-}
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json json_study(const SceneInput& input, const ConvergenceStudy& study) {
-  Json all = Json::array();
-  for (const ConvergenceSeries& series : study.series) {
-    Json points = Json::array();
-    for (const ConvergencePoint& point : series.points)
-      points.push_back({{"rounds", point.rounds},
-                        {"sweeps", number_or_null(point.sweeps)},
-                        {"ms", point.ms},
-                        {"relative_error", number_or_null(point.relative_error)},
-                        {"relative_distance", number_or_null(point.relative_distance)}});
-    all.push_back({{"method", json_method(series.method)},
-                   {"distance_begin_m", number_or_null(series.distance_begin)},
-                   {"distance_unknown_m", number_or_null(series.distance_unknown)},
-                   {"points", std::move(points)}});
-  }
-  return {{"scene", input.scene.name},    {"time_s", study.time},
-          {"step_s", study.step},         {"n_vertices", study.n_vertices},
-          {"n_springs", study.n_springs}, {"n_bends", study.n_bends},
-          {"series", std::move(all)},     {"core", core_version()}};
 }
 
 void print_study(const SceneInput& input, const ConvergenceStudy& study) {
@@ -124,10 +97,14 @@ Outcome convergence_command(Arguments arguments) {
                                  Json(options.time).dump());
   const ConvergenceStudy study =
       with_source_named(input, [&] { return study_convergence(input.scene, options); });
-  if (for_machines)
-    std::printf("%s\n", json_study(input, study).dump().c_str());
-  else
+  if (for_machines) {
+    Json json = {{"scene", input.scene.name}};
+    json.update(json_convergence(study));
+    json["core"] = core_version();
+    std::printf("%s\n", json.dump().c_str());
+  } else {
     print_study(input, study);
+  }
   return Outcome::ok;
 }
 

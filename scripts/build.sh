@@ -12,7 +12,7 @@ build_preset() {
 build_wasm() {
   local file
   build_preset wasm && mkdir -p web/src/wasm || return 1
-  for file in {pleat,sweep,deform,refinement,modal}.{mjs,wasm}; do
+  for file in {pleat,sweep,convergence,deform,refinement,modal}.{mjs,wasm}; do
     cmp -s "build/wasm/wasm/$file" "web/src/wasm/$file" ||
       cp "build/wasm/wasm/$file" "web/src/wasm/$file" || return 1
   done

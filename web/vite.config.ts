@@ -11,7 +11,7 @@ const repository = fileURLToPath(new URL('..', import.meta.url));
 
 /** Of the state, what a first load takes. */
 const FIRST_STATE =
-  /src\/(motion|shared)\/(state|steppers)\/(?!sweep-cost|obj-file)|pleat-steppers/;
+  /src\/(motion|shared)\/(state|steppers)\/(?!sweep-cost|obj-file|convergence)|pleat-steppers/;
 
 export default defineConfig({
   base: './', // any static folder will do

@@ -12,9 +12,9 @@
 #include "core/dynamics/pbd/converged_step.h"
 #include "core/dynamics/pbd/step_solve.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/dynamics/xpbd/spring_law.h"
 #include "core/run/simulation.h"
 #include "core/run/stage_timer.h"
-#include "core/scene/rest_cloth.h"
 
 namespace pleat {
 namespace {
@@ -39,6 +39,14 @@ void keep_one_diagonal(ClothModel& model) {
     }
 }
 
+/// What takes the time: the run until the step, the rounds, and the time of each number of them.
+constexpr int kRunPart = 0, kRoundsPart = 1, kTimesPart = 2, kParts = 3;
+
+/// So many of a part's pieces are done.
+void tell(const ConvergenceOptions& options, int part, double done, double all) {
+  if (options.hear) options.hear((part + done / all) / kParts);
+}
+
 /// A model with its surface, and the state that the step begins in.
 struct Begin {
   ClothModel model;
@@ -46,20 +54,29 @@ struct Begin {
   double time = 0;  // [s]
 };
 
+void check_cloth(const Simulation& simulation, Constraints constraints) {
+  const ClothModel& model = simulation.model();
+  if (!model.is_plain_spring_lattice() || model.springs.empty())
+    throw InputError("/model", "expected springs with quadratic bending or none");
+  if (!model.hanging.empty())
+    throw InputError("/refinement", "expected a uniform mesh, on which no vertex hangs");
+  if (simulation.triangles().empty())
+    throw InputError("/cloth", "expected a surface, of which coarser levels are made");
+  if (spring_law(model, constraints) == SpringLaw::damped_isotropic)
+    throw InputError("/model/damping", "expected damping along springs where these are compliant");
+}
+
 Begin run_until(const Scene& scene, const ConvergenceOptions& options) {
   Simulation simulation(scene);
+  check_cloth(simulation, options.constraints);
   const auto n_steps = std::llround(options.time / scene.method.step);
-  for (std::int64_t s = 0; s < n_steps; ++s)
+  for (std::int64_t s = 0; s < n_steps; ++s) {
     if (const SolveReport report = simulation.step(); report.ends_run())
       throw InputError("/method", "the run ended before the step: " + report.message);
+    tell(options, kRunPart, static_cast<double>(s + 1), static_cast<double>(n_steps));
+  }
   Begin begin{simulation.model(), simulation.state(), simulation.time()};
-  if (!begin.model.is_plain_spring_lattice() || begin.model.springs.empty())
-    throw InputError("/model", "expected springs with quadratic bending or none");
-  if (!begin.model.hanging.empty())
-    throw InputError("/refinement", "expected a uniform mesh, on which no vertex hangs");
-  begin.model.surface = rest_cloth(scene).mesh;
-  if (begin.model.surface.triangles.empty())
-    throw InputError("/cloth", "expected a surface, of which coarser levels are made");
+  begin.model.surface = {simulation.rest_positions(), simulation.triangles(), {}};
   begin.model.air.reset();
   begin.model.contact.reset();
   begin.model.strain_limit.reset();
@@ -177,8 +194,11 @@ std::vector<ConvergencePoint> points_of(Contestant& contestant, const Convergenc
                            ? 0
                            : *std::min_element(options.targets.begin(), options.targets.end());
   for (int more = 0, rounds = 1; rounds <= options.most_rounds; rounds = 1 + more) {
+    const Stopwatch watch;
     points.push_back(measure(rounds));
-    if (!contestant.takes_rounds() || points.back().relative_error <= least) break;
+    const bool is_enough =
+        points.back().relative_error <= least || watch.elapsed() > options.longest_solve;
+    if (!contestant.takes_rounds() || is_enough) break;
     more = more == 0 ? 1 : 2 * more;
   }
   if (!contestant.has_error()) return points;
@@ -214,8 +234,9 @@ double timed(Contestant& contestant, int rounds) {
   return 1e3 * watch.elapsed() / n;
 }
 
+/// Of an even number of values, the lower one in the middle.
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -223,16 +244,20 @@ double median(std::vector<double> values) {
 /// One batch of each number of rounds of each contestant in turn, so that a change of the machine's
 /// speed meets all of them alike.
 void add_times(std::vector<ConvergenceSeries>& series,
-               const std::vector<std::unique_ptr<Contestant>>& contestants, int repeat) {
+               const std::vector<std::unique_ptr<Contestant>>& contestants,
+               const ConvergenceOptions& options) {
   std::vector<std::vector<std::vector<double>>> times(series.size());
   for (std::size_t i = 0; i < series.size(); ++i) times[i].resize(series[i].points.size());
   std::size_t most = 0;
   for (const ConvergenceSeries& one : series) most = std::max(most, one.points.size());
-  for (int round = 0; round < repeat; ++round)
-    for (std::size_t p = 0; p < most; ++p)
+  for (int round = 0; round < options.repeat; ++round)
+    for (std::size_t p = 0; p < most; ++p) {
       for (std::size_t i = 0; i < series.size(); ++i)
         if (p < series[i].points.size())
           times[i][p].push_back(timed(*contestants[i], series[i].points[p].rounds));
+      tell(options, kTimesPart, round + static_cast<double>(p + 1) / static_cast<double>(most),
+           options.repeat);
+    }
   for (std::size_t i = 0; i < series.size(); ++i)
     for (std::size_t p = 0; p < series[i].points.size(); ++p)
       series[i].points[p].ms = median(times[i][p]);
@@ -276,8 +301,10 @@ ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions&
           std::make_unique<WholeStep>(begin.model, method, begin.state, begin.time, *converged));
     study.series.push_back({method, points_of(*contestants.back(), options),
                             converged->distance_begin, converged->unknown});
+    tell(options, kRoundsPart, static_cast<double>(contestants.size()),
+         static_cast<double>(options.methods.size()));
   }
-  add_times(study.series, contestants, options.repeat);
+  add_times(study.series, contestants, options);
   return study;
 }
 

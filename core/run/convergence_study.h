@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -19,10 +20,14 @@ struct ConvergenceOptions {
   std::vector<MethodOptions> methods;
   Constraints constraints = Constraints::rigid;  ///< of position-based methods
   Diagonals diagonals = Diagonals::one;
-  double time = 0;              ///< the step begins at the step of the scene nearest to it [s]
-  int most_rounds = 1025;       ///< of each method
-  std::vector<double> targets;  ///< relative errors whose rounds are found, in (0, 1)
-  int repeat = 1;               ///< timed batches of each number of rounds, methods in turn
+  double time = 0;         ///< the step begins at the step of the scene nearest to it [s]
+  int most_rounds = 1025;  ///< of each method
+  /// A method that took longer for a solve is not given more rounds [s].
+  double longest_solve = std::numeric_limits<double>::infinity();
+  /// Relative errors whose rounds are found, in (0, 1).
+  std::vector<double> targets = {1e-1, 1e-2, 1e-3, 1e-4};
+  int repeat = 1;                    ///< timed batches of each number of rounds, methods in turn
+  std::function<void(double)> hear;  ///< told how much of the study is done, 0 to 1
 };
 
 /// What so many rounds of a method make of the step.
@@ -61,8 +66,9 @@ struct ConvergenceStudy {
 /// reaches each target. Others take one substep, with as many iterations where they read them.
 /// Milliseconds are of solves from the start, again and again for 50 ms and more.
 ///
-/// Throws InputError where the cloth has no surface or is not of springs, where vertices hang, and
-/// for a run that ends before its time.
+/// Throws InputError where the cloth has no surface or is not of springs, where vertices hang,
+/// where compliant springs damp other than along themselves, and for a run that ends before its
+/// time.
 ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions& options);
 
 }  // namespace pleat

@@ -2,6 +2,7 @@
 import { element } from '../shared/panels/element';
 import { createKeysPanel } from '../shared/panels/keys-panel';
 import { type Store, watch } from '../shared/state/store';
+import { createConvergencePanel } from './panels/convergence-panel';
 import { createEnergyPanel } from './panels/energy-panel';
 import { later } from './panels/later';
 import { createLevelPanel } from './panels/level-panel';
@@ -65,6 +66,7 @@ export function createLowerPanels(
   createLevelPanel(panel, store);
   createEnergyPanel(panel, store);
   createLaterContact(panel, store);
+  createConvergencePanel(panel, store, run);
   const showChart = createSweepTray(tray, store, run);
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
   createKeysPanel(panel);

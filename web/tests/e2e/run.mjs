@@ -1,5 +1,6 @@
 // The page in a real browser: `npm run e2e` after `npm run build`.
 import { readFileSync } from 'node:fs';
+import { checkConvergence } from './convergence.mjs';
 import { checkFabrics } from './fabrics.mjs';
 import { checkFailures } from './failures.mjs';
 import {
@@ -673,6 +674,7 @@ await checkWithoutModule('#scene=curtain', '**/*.wasm', 'the text stays', async 
 await checkMotion(harness, visit);
 await checkKnit(harness, visit);
 await checkLevels(harness, visit);
+await checkConvergence(harness, visit);
 await checkTearing(harness, visit);
 await checkFabrics(harness);
 await checkModes(harness);

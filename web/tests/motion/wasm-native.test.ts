@@ -1,11 +1,13 @@
 // The same core natively and in WebAssembly: smooth scenes end at the same places.
 import { beforeAll, describe, expect, it } from 'vitest';
-import { MODELS } from '../../src/motion/state/setting';
+import type { Constraints, ConvergenceStudy } from '../../src/motion/bindings/convergence-module';
+import { comparedMethods, convergenceWish } from '../../src/motion/state/convergence';
+import { MODELS, presetSetting } from '../../src/motion/state/setting';
 import { ENERGY_NUMBERS, type PleatModule } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { canRun, type Model, STEPPER_NAMES } from '../../src/shared/steppers/steppers';
 import { loadModule } from '../support/built-module';
-import { nativeEnergy, nativePositions } from '../support/native-command';
+import { nativeConvergence, nativeEnergy, nativePositions } from '../support/native-command';
 
 /** Steps of a run: rk4, in its hundreds of stable substeps, takes seconds for twenty. */
 const stepsOf = (stepper: string) => (stepper === 'rk4' ? 20 : 100);
@@ -128,6 +130,12 @@ const runs = Object.entries(scenes).flatMap(([sceneName, scene]) =>
   ),
 );
 
+/** Both null, or within the rounding of a solve in 32 bits. */
+function expectNear(value: number | null, other: number | null): void {
+  if (value === null || other === null) return expect(value).toBe(other);
+  expect(Math.abs(value - other)).toBeLessThan(1e-3 * Math.abs(other) + 1e-6);
+}
+
 describe('WebAssembly against native', () => {
   it('is held for every stepper and every model of the page', () => {
     const held = (model: Model) =>
@@ -178,4 +186,50 @@ describe('WebAssembly against native', () => {
       expect((value ?? Number.NaN) / largest).toBeCloseTo((native[nativeName] ?? 0) / largest, 9);
     }
   });
+
+  it.each<Constraints>(['rigid', 'compliant'])(
+    'compares methods on one step alike: %s',
+    async (constraints) => {
+      const scene = { name: 'sheet', ...scenes['sheet swinging from its edge'], duration_s: 1 };
+      const methods = comparedMethods(presetSetting('curtain'), constraints).map(({ method }) => ({
+        title: '',
+        isOwn: false,
+        method: { stepper: method.stepper },
+      }));
+      const wish = {
+        ...convergenceWish(methods, constraints, 0.25),
+        most_rounds: 65,
+        longest_solve_s: 100,
+        repeat: 1,
+      };
+      const names = methods.map(({ method }) => method.stepper).join();
+      const words = ['--methods', names, '--constraints', constraints];
+      const native = nativeConvergence(scene, [...words, '--at', '0.25', '--rounds', '65']);
+      const { studyConvergence } = await loadModule('convergence');
+      const told: number[] = [];
+      const answer = JSON.parse(
+        studyConvergence(fabricsText, JSON.stringify(scene), JSON.stringify(wish), (done) =>
+          told.push(done),
+        ),
+      );
+      expect(answer).toMatchObject({ ok: true });
+      expect(told.at(-1)).toBe(1);
+      expect(told).toEqual(told.toSorted((a, b) => a - b));
+      const study: ConvergenceStudy = answer.study;
+      expect(study.time_s).toBeCloseTo(0.25, 12);
+      study.series.forEach(({ method, points }, index) => {
+        const other = native.series[index];
+        expect(other?.method).toEqual(method);
+        expect(points.map(({ rounds }) => rounds)).toEqual(
+          other?.points.map(({ rounds }) => rounds),
+        );
+        points.forEach((point, at) => {
+          expect(point.ms).toBeGreaterThan(0);
+          for (const key of ['relative_error', 'relative_distance'] as const)
+            expectNear(point[key], other?.points[at]?.[key] ?? null);
+        });
+      });
+    },
+    PATIENCE_MS,
+  );
 });

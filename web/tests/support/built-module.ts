@@ -2,6 +2,7 @@
 import { existsSync, readFileSync } from 'node:fs';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import type { ModalModule } from '../../src/modes/bindings/modal-module';
+import type { ConvergenceModule } from '../../src/motion/bindings/convergence-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
@@ -9,6 +10,7 @@ import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 interface Modules {
   pleat: PleatModule;
   sweep: SweepModule;
+  convergence: ConvergenceModule;
   deform: DeformModule;
   refinement: RefinementModule;
   modal: ModalModule;

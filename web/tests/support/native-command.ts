@@ -4,6 +4,7 @@ import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'n
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import type { ConvergenceStudy } from '../../src/motion/bindings/convergence-module';
 
 const command = fileURLToPath(new URL('../../../build/release/cli/pleat', import.meta.url));
 
@@ -28,6 +29,19 @@ export function nativeLevels(scene: object, words: readonly string[]) {
       ),
       coarsest: points.map((line) => line.split(' ').slice(1, 4).map(Number)),
     };
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+/** What `pleat convergence` tells of one step of the scene. */
+export function nativeConvergence(scene: object, words: readonly string[]): ConvergenceStudy {
+  const folder = mkdtempSync(join(tmpdir(), 'pleat-native-'));
+  try {
+    const file = join(folder, 'scene.json');
+    writeFileSync(file, JSON.stringify(scene));
+    const all = ['convergence', file, '--json', ...words];
+    return JSON.parse(execFileSync(command, all, { stdio: 'pipe', encoding: 'utf8' }));
   } finally {
     rmSync(folder, { recursive: true });
   }

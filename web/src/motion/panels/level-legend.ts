@@ -1,14 +1,25 @@
 // What is drawn of a coarser level: its marks and lines, and how many.
+import './level-legend.css';
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
 import { levelCounts, levelName } from './level-words';
 
+/** A mark with words, of which `of` is left out where there is no room. */
 function key(kind: 'kept' | 'out' | 'edge') {
-  const text = element('span');
+  const [what, of, count] = [
+    element('span'),
+    element('span', { class: 'level-of' }),
+    element('span'),
+  ];
+  const text = element('span', {}, what, of, count);
   return {
     line: element('li', {}, element('span', { class: `level-key level-${kind}` }), text),
-    text,
+    tell(words: string, n: number, among = '') {
+      setText(what, words);
+      setText(of, among);
+      setText(count, `: ${n}`);
+    },
   };
 }
 
@@ -29,8 +40,8 @@ export function createLevelLegend(parent: HTMLElement, store: Store<MotionState>
     legend.hidden = !counts || phase !== 'ready';
     if (!counts) return;
     setText(title, `Level ${counts.level}`);
-    setText(kept.text, `kept: ${counts.n}`);
-    setText(out.text, `left out of ${levelName(counts.level - 1)}: ${counts.nOut}`);
-    setText(edge.text, `lengths: ${counts.nEdges}`);
+    kept.tell('kept', counts.n);
+    out.tell('left out', counts.nOut, ` of ${levelName(counts.level - 1)}`);
+    edge.tell('lengths', counts.nEdges);
   });
 }

@@ -1,15 +1,15 @@
 // Milliseconds against error, one mark and colour per stepper, the front as a line.
 
-import { type LogScale, logScale } from '../../shared/chart/log-scale';
 import { svg } from '../../shared/panels/element';
-import { digits, milliseconds, smallLength } from '../../shared/panels/quantity';
+import { milliseconds, smallLength } from '../../shared/panels/quantity';
 import { warningSentence } from '../../shared/panels/warning-words';
-import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
 import { hasFinished } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
-import { boundOf, type Floor, floorMarks, floorsOf } from './mesh-floors';
+import { type Axes, axisTitles, gridMarks, logAxes } from './log-plot';
+import { boundOf, floorMarks, floorsOf } from './mesh-floors';
 import { errorName } from './mesh-words';
+import { markOf } from './stepper-mark';
 
 export interface PlotContent {
   rows: BenchRow[];
@@ -22,21 +22,11 @@ export interface PlotContent {
 
 const WIDTH = 520;
 const HEIGHT = 300;
-const LEFT = 62;
-const RIGHT = 12;
-const TOP = 12;
-const BOTTOM = 46;
+const FIELD = { left: 62, right: WIDTH - 12, top: 12, bottom: HEIGHT - 46 };
 /** Radius that a finger or a pointer can hit. */
 const HIT_RADIUS = 12;
 /** Strikes out the point of a run of nonsense. */
 export const CROSS = 'M-7 -7L7 7M-7 7L7 -7';
-
-/** The mark of a stepper about the origin, and a style with its colours; a plus for an unknown one. */
-export function markOf(name: string): { path: string; style: string } {
-  const row = STEPPERS.find((one) => one.name === name);
-  if (!row) return { path: 'M-5 0H5M0-5V5', style: '' };
-  return { path: row.mark, style: `--mark: ${row.colour}; --mark-dark: ${row.dark_colour}` };
-}
 
 /** A setting in words: "xpbd, level 2, 1/60 s, 30 substeps"; no line ends before the "s". */
 export function titleOf(row: BenchRow): string {
@@ -80,60 +70,6 @@ function labelOf(row: BenchRow): string {
   const numbers = `${milliseconds(row.ms_per_frame)} a frame, ${errorText(row)}`;
   const [warning] = row.warnings ?? [];
   return `${titleOf(row)}: ${numbers}${warning ? `. ${warningSentence(warning)}` : ''}`;
-}
-
-function axisTitles(meshError: MeshError): SVGElement[] {
-  const middle = TOP + (HEIGHT - TOP - BOTTOM) / 2;
-  return [
-    svg(
-      'text',
-      { x: LEFT + (WIDTH - LEFT - RIGHT) / 2, y: HEIGHT - 8, class: 'axis' },
-      'ms for a frame (1/60 s of motion)',
-    ),
-    svg(
-      'text',
-      { x: 14, y: middle, class: 'axis', transform: `rotate(-90 14 ${middle})` },
-      `${errorName(meshError)} [mm]`,
-    ),
-  ];
-}
-
-/** Where numbers lie in the chart. */
-interface Axes {
-  across: LogScale;
-  upward: LogScale;
-  xOf(ms: number): number;
-  yOf(mm: number): number;
-}
-
-/** Axes that reach over all these points and floors. */
-function axesOf(places: readonly [number, number][], floors: readonly Floor[]): Axes {
-  const across = logScale([...places.map(([ms]) => ms), ...floors.flatMap(({ ms }) => ms)]);
-  const upward = logScale([...places.map(([, mm]) => mm), ...floors.map(({ mm }) => mm)]);
-  return {
-    across,
-    upward,
-    xOf: (ms) => LEFT + across.part(ms) * (WIDTH - LEFT - RIGHT),
-    yOf: (mm) => HEIGHT - BOTTOM - upward.part(mm) * (HEIGHT - TOP - BOTTOM),
-  };
-}
-
-function gridMarks({ across, upward, xOf, yOf }: Axes): SVGElement[] {
-  const upright = (ms: number, kind: string) =>
-    svg('line', { x1: xOf(ms), y1: TOP, x2: xOf(ms), y2: HEIGHT - BOTTOM, class: kind });
-  const level = (mm: number, kind: string) =>
-    svg('line', { x1: LEFT, y1: yOf(mm), x2: WIDTH - RIGHT, y2: yOf(mm), class: kind });
-  const tick = (x: number, y: number, kind: string, value: number) =>
-    svg('text', { x, y, class: `tick ${kind}` }, digits(value, 1));
-  return [
-    ...across.minorTicks.map((ms) => upright(ms, 'grid-minor')),
-    ...upward.minorTicks.map((mm) => level(mm, 'grid-minor')),
-    ...across.ticks.flatMap((ms) => [
-      upright(ms, 'grid'),
-      tick(xOf(ms), HEIGHT - BOTTOM + 17, 'tick-x', ms),
-    ]),
-    ...upward.ticks.flatMap((mm) => [level(mm, 'grid'), tick(LEFT - 8, yOf(mm) + 4, 'tick-y', mm)]),
-  ];
 }
 
 /** The rows of `front`, those that are compared with the same motion together. */
@@ -202,12 +138,18 @@ export function createSpeedErrorPlot(
     const hadFocus = focused !== null && root.contains(document.activeElement);
     const places = rows.map(placeOf);
     const floors = floorsOf(rows);
-    const axes = axesOf(
-      places.filter((place) => place !== null),
-      floors,
+    const known = places.filter((place) => place !== null);
+    const axes = logAxes(
+      FIELD,
+      [...known.map(([ms]) => ms), ...floors.flatMap(({ ms }) => ms)],
+      [...known.map(([, mm]) => mm), ...floors.map(({ mm }) => mm)],
     );
     const { xOf, yOf } = axes;
-    const parts = [...gridMarks(axes), ...axisTitles(meshError), ...floorMarks(floors, xOf, yOf)];
+    const parts = [
+      ...gridMarks(axes),
+      ...axisTitles(FIELD, 'ms for a frame (1/60 s of motion)', `${errorName(meshError)} [mm]`),
+      ...floorMarks(floors, xOf, yOf),
+    ];
     for (const indices of frontsOf(rows, front)) {
       const fronted = indices.map((index) => places[index] ?? null);
       parts.push(frontMark(fronted, axes));

@@ -1,5 +1,6 @@
 // The sweep's chart with its table beside it; a chosen point is run to the time that its error is of.
-import { element, setText, svg } from '../../shared/panels/element';
+import './speed-error.css';
+import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { STEPPERS } from '../../shared/steppers/steppers';
 import type { BenchRow } from '../bindings/sweep-module';
@@ -9,21 +10,9 @@ import { PRESETS } from '../state/setting';
 import { durationS, hasFinished, settingOfRow } from '../state/sweep-plan';
 import { rowOfSetting, type SweepState } from '../state/sweep-state';
 import { errorSentence, headline, methodSentence } from './mesh-words';
-import {
-  CROSS,
-  createSpeedErrorPlot,
-  isNonsense,
-  markOf,
-  type PlotContent,
-} from './speed-error-plot';
+import { CROSS, createSpeedErrorPlot, isNonsense, type PlotContent } from './speed-error-plot';
 import { createSpeedErrorTable } from './speed-error-table';
-
-/** A line of the legend: a mark, and what it means. */
-function legendItem(path: string, kind: string, words: string, style = ''): HTMLElement {
-  const picture = svg('svg', { viewBox: '-8 -8 16 16', 'aria-hidden': 'true' });
-  picture.append(svg('path', { class: kind, d: path }));
-  return element('li', { style }, picture, words);
-}
+import { legendItem, markOf } from './stepper-mark';
 
 const NONSENSE = 'crossed out: not how cloth moves';
 
@@ -38,10 +27,10 @@ function createLegend() {
   const list = element('ul', { class: 'marks' });
   const items = STEPPERS.map(({ name, title }) => {
     const { path, style } = markOf(name);
-    return legendItem(path, 'point-mark', title, style);
+    return legendItem({ 'point-mark': path }, title, style);
   });
-  const nonsense = legendItem(CROSS, 'point-cross', NONSENSE);
-  const front = legendItem('M-8 0H8', 'front', '');
+  const nonsense = legendItem({ 'point-cross': CROSS }, NONSENSE);
+  const front = legendItem({ front: 'M-8 0H8' }, '');
   const frontTitle = element('span');
   front.append(frontTitle);
   list.append(...items, nonsense, front);

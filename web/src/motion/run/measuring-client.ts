@@ -1,5 +1,6 @@
 // Starts the workers that measure beside the shown cloth.
 import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
+import type { FromConvergence, ToConvergence } from '../worker/convergence-protocol';
 import type { RacedMessage, StudiedMessage, ToMeasuring } from '../worker/measuring-protocol';
 import type { FromSweep, PlannedMessage, ToSweep } from '../worker/sweep-protocol';
 
@@ -24,6 +25,17 @@ export type StartSweep = (listener: Listener<FromSweep>) => SweepClient;
 export function startSweepWorker(listener: Listener<FromSweep>): SweepClient {
   return createAsked(
     new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' }),
+    listener,
+  );
+}
+
+export type ConvergenceClient = Asked<ToConvergence, { studyConvergence: Done }>;
+export type StartConvergence = (listener: Listener<FromConvergence>) => ConvergenceClient;
+
+/** Compares methods on one step, told to: how far it is, and what comes of it, is news. */
+export function startConvergenceWorker(listener: Listener<FromConvergence>): ConvergenceClient {
+  return createAsked(
+    new Worker(new URL('../worker/convergence-worker.ts', import.meta.url), { type: 'module' }),
     listener,
   );
 }

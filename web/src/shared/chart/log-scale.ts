@@ -11,7 +11,7 @@ export interface LogScale {
   minorTicks: number[];
 }
 
-/** An axis of fewer decades than this has labels at 2 and 5 too. */
+/** A wide axis of fewer decades than this has room for labels at 2 and 5 too. */
 const FEW_DECADES = 3;
 
 function multiples(factors: readonly number[], low: number, high: number): number[] {
@@ -28,9 +28,9 @@ function multiples(factors: readonly number[], low: number, high: number): numbe
 
 /**
  * A scale that holds every positive finite value with some room on both sides; one decade about 1
- * when there is none.
+ * when there is none. `few`: so many decades have labels at 2 and 5 too.
  */
-export function logScale(values: readonly number[]): LogScale {
+export function logScale(values: readonly number[], few = FEW_DECADES): LogScale {
   const usable = values.filter((value) => value > 0 && Number.isFinite(value));
   const room = 1.35;
   let low = usable.length > 0 ? Math.min(...usable) / room : 0.3;
@@ -45,7 +45,7 @@ export function logScale(values: readonly number[]): LogScale {
     low,
     high,
     part: (value) => Math.log10(value / low) / decades,
-    ticks: multiples(decades < FEW_DECADES ? [1, 2, 5] : [1], low, high),
+    ticks: multiples(decades < few ? [1, 2, 5] : [1], low, high),
     minorTicks: multiples([2, 3, 4, 5, 6, 7, 8, 9], low, high),
   };
 }

@@ -1,0 +1,37 @@
+// One step of a scene by several methods, for a page. It is a module of its own: only who presses
+// the button fetches it.
+#include <emscripten/bind.h>
+
+#include <string>
+
+#include "core/run/convergence_json.h"
+#include "core/scene/scene_file.h"
+#include "core/scene/tearing.h"
+#include "wasm/envelope.h"
+
+namespace {
+
+using emscripten::val;
+
+/// The "study" (json_convergence) of what is wished (read_convergence_options). Meanwhile `hear` is
+/// told how much of it is done, from 0 to 1.
+std::string study_convergence(const std::string& fabrics_json, const std::string& scene_text,
+                              const std::string& wish_text, const val& hear) {
+  return pleat::guarded([&](val& envelope) {
+    pleat::SceneParts parts = pleat::scene_parts_with_files();
+    parts.read_tearing = pleat::read_tearing;
+    const pleat::Scene scene =
+        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json), {}, parts);
+    const pleat::Json wish = pleat::parse_json(wish_text);
+    pleat::ConvergenceOptions options = pleat::read_convergence_options(pleat::JsonReader(wish));
+    options.hear = [&](double done) { hear(done); };
+    const pleat::Json study = pleat::json_convergence(pleat::study_convergence(scene, options));
+    envelope.set("study", pleat::json_value(study.dump()));
+  });
+}
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(pleat_convergence) {
+  emscripten::function("studyConvergence", &study_convergence);
+}

@@ -1,0 +1,29 @@
+// Compares methods on one step, as a function of the module.
+import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import type { Post } from '../../shared/workers/serve';
+import type { ConvergenceModule, ConvergenceStudy } from '../bindings/convergence-module';
+import type { FromConvergence, ToConvergence } from './convergence-protocol';
+
+/** Less progress is not told. */
+const LEAST_PROGRESS = 0.01;
+
+export function studyConvergence(
+  module: ConvergenceModule,
+  { fabricsText, sceneText, wishText }: ToConvergence,
+  post: Post<FromConvergence>,
+): void {
+  let told = 0;
+  function hear(done: number): void {
+    if (done < told + LEAST_PROGRESS) return;
+    told = done;
+    post({ type: 'progress', done }, []);
+  }
+  try {
+    const text = module.studyConvergence(fabricsText, sceneText, wishText, hear);
+    const answer = read<{ study: ConvergenceStudy }>(text);
+    if (answer.ok) post({ type: 'studied', study: answer.study }, []);
+    else post({ type: 'refused', failure: answer }, []);
+  } catch (error) {
+    post({ type: 'refused', failure: internalFailure(describe(error)) }, []);
+  }
+}

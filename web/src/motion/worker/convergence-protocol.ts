@@ -1,0 +1,17 @@
+// Messages between the page and the worker that compares methods on one step, both ways. It is told
+// once; to cancel, terminate the worker.
+import type { Failure } from '../../shared/bindings/answers';
+import type { ConvergenceStudy } from '../bindings/convergence-module';
+
+export interface ToConvergence {
+  type: 'studyConvergence';
+  fabricsText: string;
+  sceneText: string;
+  wishText: string;
+}
+
+export type FromConvergence =
+  /** From 0 to 1. */
+  | { type: 'progress'; done: number }
+  | { type: 'studied'; study: ConvergenceStudy }
+  | { type: 'refused'; failure: Failure };
