@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/dynamics/xpbd/simd4.h"
+#include "core/dynamics/xpbd/thread_grid.h"
 
 namespace pleat {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kRowTolerance = 1e-6;
 constexpr double kMostPlacesPerVertex = 3;
 constexpr int kSmallSheet = 256;
 
-using Rows = std::vector<std::vector<int>>;
+using Grid = std::vector<GridPlace>;
 
 /// Rest coordinates turned so that .x() grows away from the pins and .y() runs along the rows.
 std::vector<Eigen::Vector2d> row_coordinates(const ClothModel& model) {
@@ -39,58 +40,89 @@ std::vector<Eigen::Vector2d> row_coordinates(const ClothModel& model) {
   return coordinates;
 }
 
-Rows grid_rows(const ClothModel& model) {
+Grid sheet_grid(const ClothModel& model) {
   const std::vector<Eigen::Vector2d> at = row_coordinates(model);
   std::vector<int> order(at.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return at[i].x() < at[j].x(); });
   const double tolerance = kRowTolerance * (at[order.back()].x() - at[order.front()].x());
-  Rows rows;
+  std::vector<std::vector<int>> rows;
   for (int vertex : order) {
     if (rows.empty() || at[vertex].x() > at[rows.back().front()].x() + tolerance)
       rows.emplace_back();
     rows.back().push_back(vertex);
   }
-  for (std::vector<int>& row : rows)
+  Grid grid(at.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::vector<int>& row = rows[r];
     std::stable_sort(row.begin(), row.end(), [&](int i, int j) { return at[i].y() < at[j].y(); });
-  return rows;
+    for (std::size_t c = 0; c < row.size(); ++c)
+      grid[static_cast<std::size_t>(row[c])] = {static_cast<int>(r), static_cast<int>(c)};
+  }
+  return grid;
 }
 
-Rows one_row(int n_vertices) {
-  Rows rows(1, std::vector<int>(static_cast<std::size_t>(n_vertices)));
-  std::iota(rows[0].begin(), rows[0].end(), 0);
-  return rows;
+/// True where no thread joins places of a row that are not side by side.
+bool is_flat(const ClothModel& model, const Grid& grid) {
+  return std::none_of(model.springs.begin(), model.springs.end(), [&](const Spring& spring) {
+    const GridPlace& a = grid[static_cast<std::size_t>(spring.a)];
+    const GridPlace& b = grid[static_cast<std::size_t>(spring.b)];
+    const bool is_thread = spring.kind == SpringKind::warp || spring.kind == SpringKind::weft;
+    return is_thread && a.row == b.row && std::abs(a.column - b.column) > 1;
+  });
 }
 
-int stride_of(const Rows& rows) {
-  std::size_t longest = 0;
-  for (const std::vector<int>& row : rows) longest = std::max(longest, row.size());
-  return std::max(kSmallestStride,
-                  (static_cast<int>(longest) + Float4::kLanes - 1) / Float4::kLanes);
+Grid one_row(int n_vertices) {
+  Grid grid(static_cast<std::size_t>(n_vertices));
+  for (std::size_t v = 0; v < grid.size(); ++v) grid[v].column = static_cast<int>(v);
+  return grid;
+}
+
+/// How many rows and columns there are.
+GridPlace extent_of(const Grid& grid) {
+  GridPlace extent;
+  for (const GridPlace& place : grid) {
+    extent.row = std::max(extent.row, place.row + 1);
+    extent.column = std::max(extent.column, place.column + 1);
+  }
+  return extent;
+}
+
+int stride_of(const GridPlace& extent) {
+  return std::max(kSmallestStride, (extent.column + Float4::kLanes - 1) / Float4::kLanes);
+}
+
+bool fills_its_places(const Grid& grid) {
+  const auto n = static_cast<int>(grid.size());
+  const GridPlace extent = extent_of(grid);
+  const double places = static_cast<double>(extent.row) * Float4::kLanes * stride_of(extent);
+  return n <= kSmallSheet || places <= kMostPlacesPerVertex * n;
+}
+
+Grid grid_of(const ClothModel& model) {
+  const int n = model.n_vertices();
+  Grid sheet;
+  if (model.rest_coordinates.cols() == n) sheet = sheet_grid(model);
+  if (!sheet.empty() && is_flat(model, sheet) && fills_its_places(sheet)) return sheet;
+  std::optional<Grid> threads = thread_grid(model);
+  if (threads && fills_its_places(*threads)) return *std::move(threads);
+  return !sheet.empty() && fills_its_places(sheet) ? sheet : one_row(n);
 }
 
 }  // namespace
 
 LaneLayout lane_layout(const ClothModel& model) {
-  const int n = model.n_vertices();
-  Rows rows = model.rest_coordinates.cols() == n ? grid_rows(model) : one_row(n);
-  const double places = static_cast<double>(rows.size()) * Float4::kLanes * stride_of(rows);
-  if (n > kSmallSheet && places > kMostPlacesPerVertex * n) rows = one_row(n);
-
+  const Grid grid = grid_of(model);
+  const GridPlace extent = extent_of(grid);
   LaneLayout layout;
-  layout.stride = stride_of(rows);
-  layout.places.resize(static_cast<std::size_t>(n));
+  layout.stride = stride_of(extent);
+  layout.n_rows = extent.row;
   const int row_slots = Float4::kLanes * layout.stride;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t c = 0; c < rows[r].size(); ++c) {
-      const int row = static_cast<int>(r);
-      const int column = static_cast<int>(c);
-      const int slot = Float4::kLanes + row * row_slots +
-                       Float4::kLanes * (column % layout.stride) + column / layout.stride;
-      layout.places[static_cast<std::size_t>(rows[r][c])] = {row, column, slot};
-    }
-  }
-  layout.n_rows = static_cast<int>(rows.size());
+  for (const auto& [row, column] : grid)
+    layout.places.push_back({row, column,
+                             Float4::kLanes + row * row_slots +
+                                 Float4::kLanes * (column % layout.stride) +
+                                 column / layout.stride});
   layout.n_slots = layout.n_rows * row_slots + 2 * Float4::kLanes;
   return layout;
 }

@@ -1,5 +1,8 @@
 #include "core/dynamics/xpbd/spring_order.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace pleat {
 namespace {
 
@@ -17,11 +20,28 @@ std::array<int, 5> rank_of(const LaneLayout& layout, const LaneLayout::Place& a,
   return {a.row / kPanelRows, 0, a.row, column % 2, column};
 }
 
-/// Chains of operations that stay in their lanes, each as indices from end to end. Where two
-/// springs join the same vertices, only one of them is in a chain.
+/// True where a spring joins the ends of every row.
+bool closes_to_a_tube(const ClothModel& model, const LaneLayout& layout) {
+  std::vector<int> last(static_cast<std::size_t>(layout.n_rows), 0);
+  for (const auto& [row, column, slot] : layout.places) {
+    int& known = last[static_cast<std::size_t>(row)];
+    known = std::max(known, column);
+  }
+  std::vector<bool> is_open(last.size(), true);
+  for (const Spring& spring : model.springs) {
+    const LaneLayout::Place& a = layout.places[static_cast<std::size_t>(spring.a)];
+    const LaneLayout::Place& b = layout.places[static_cast<std::size_t>(spring.b)];
+    const auto row = static_cast<std::size_t>(a.row);
+    if (a.row == b.row && last[row] > 1 && std::abs(a.column - b.column) == last[row])
+      is_open[row] = false;
+  }
+  return std::find(is_open.begin(), is_open.end(), true) == is_open.end();
+}
+
+/// Chains of operations that are so many slots apart and stay in their lanes, each as indices from
+/// end to end. Where two springs join the same vertices, only one of them is in a chain.
 std::vector<std::vector<int>> chains_of(const std::vector<LaneOperation>& operations,
-                                        const LaneLayout& layout) {
-  const int step = layout.n_rows > 1 ? layout.row_slots() : Float4::kLanes;
+                                        const LaneLayout& layout, int step) {
   std::vector<int> from(static_cast<std::size_t>(layout.n_slots), kNone);
   std::vector<bool> is_reached(static_cast<std::size_t>(layout.n_slots), false);
   for (std::size_t i = 0; i < operations.size(); ++i) {
@@ -59,14 +79,18 @@ SpringOrder order_springs(const ClothModel& model, const LaneLayout& layout,
 
   SpringOrder order;
   std::vector<bool> is_taken(operations.size(), false);
-  for (const std::vector<int>& chain : chains_of(operations, layout)) {
-    order.lines.push_back(
-        {static_cast<int>(order.operations.size()), static_cast<int>(chain.size())});
-    for (int i : chain) {
-      order.operations.push_back(operations[static_cast<std::size_t>(i)]);
-      is_taken[static_cast<std::size_t>(i)] = true;
+  const auto take_lines = [&](int step) {
+    for (const std::vector<int>& chain : chains_of(operations, layout, step)) {
+      order.lines.push_back(
+          {static_cast<int>(order.operations.size()), static_cast<int>(chain.size())});
+      for (int i : chain) {
+        order.operations.push_back(operations[static_cast<std::size_t>(i)]);
+        is_taken[static_cast<std::size_t>(i)] = true;
+      }
     }
-  }
+  };
+  if (layout.n_rows > 1) take_lines(layout.row_slots());
+  if (layout.n_rows == 1 || closes_to_a_tube(model, layout)) take_lines(Float4::kLanes);
   for (std::size_t i = 0; i < operations.size(); ++i)
     if (!is_taken[i]) order.operations.push_back(operations[i]);
   return order;

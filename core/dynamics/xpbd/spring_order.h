@@ -21,7 +21,8 @@ struct SpringOrder {
 };
 
 /// Orders springs. Lines run across the rows of the layout, away from the pins, or along its only
-/// row. Then come the diagonals, then springs along the rows.
+/// row; where cloth closes to a tube, which is squeezed and widened as a whole, along the rows too.
+/// Then come the diagonals, then springs along the rows.
 ///
 /// springs  indices of those to order
 SpringOrder order_springs(const ClothModel& model, const LaneLayout& layout,

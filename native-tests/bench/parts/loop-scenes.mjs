@@ -17,7 +17,8 @@ function limpSheet(name, n, cloth, pins, more = {}) {
 const kCorners = [{ part: 'upper_left' }, { part: 'upper_right' }];
 const lying = (u, v) => [u, 0, v];
 const upright = (u, v) => [u, -v, 0];
-const kMeet = 0.25; // how far each corner goes [m]
+/** How far a corner goes, the other one as far back [m]: out of the plane too, for else nothing folds. */
+const kMeet = [0.25, 0, 0.05];
 
 /** 0 to 1 in a second as motions of kind "ease" go. */
 const ease = (time) => {
@@ -73,12 +74,17 @@ export const kScenes = {
   },
   gathered: {
     ours: (n) => {
-      const comes = (x) => ({ kind: 'ease', offset_m: [x, 0, 0], begin_s: 0, end_s: 1 });
+      const comes = (sign) => ({
+        kind: 'ease',
+        offset_m: kMeet.map((offset) => sign * offset),
+        begin_s: 0,
+        end_s: 1,
+      });
       return limpSheet('gather', n, squareSheet(n, [0, 0, 0], [0, -1, 0], [1, 0, 0]), [
-        { part: 'upper_left', motion: comes(kMeet) },
-        { part: 'upper_right', motion: comes(-kMeet) },
+        { part: 'upper_left', motion: comes(1) },
+        { part: 'upper_right', motion: comes(-1) },
       ]);
     },
-    loop: { pins: 'corners', placeOf: upright, pinsMove: (time) => kMeet * ease(time) },
+    loop: { pins: 'corners', placeOf: upright, pinsMove: (time) => kMeet.map((offset) => offset * ease(time)) },
   },
 };

@@ -8,7 +8,7 @@ import { makeSheet, stretch } from './yardstick.mjs';
  * placeOf: (u, v) => [x, y, z] of a vertex at u [m] along the rows and v across them
  * masses: of each vertex [kg]
  * ball: {centre, radius, friction}, or undefined
- * pinsMove: (time) => how far a pin at x = 0 has gone along x, those at the other end as far back [m]
+ * pinsMove: (time) => how far a pin at x = 0 has gone [x, y, z], those at the other end as far back [m]
  */
 function loopSheet(n, { pins, placeOf, masses, ball, pinsMove }) {
   const sheet = makeSheet(n, 'rows', pins === 'none' ? 'corners' : pins);
@@ -56,7 +56,9 @@ function holdOff({ x, p, w }, { centre, radius, friction }) {
 function placePins({ x, w, begin, pinsMove }, time) {
   const offset = pinsMove(time);
   for (let i = 0; i < w.length; ++i)
-    if (w[i] === 0) x[3 * i] = begin[3 * i] + (begin[3 * i] < 0.5 ? offset : -offset);
+    if (w[i] === 0)
+      for (let k = 0; k < 3; ++k)
+        x[3 * i + k] = begin[3 * i + k] + (begin[3 * i] < 0.5 ? offset[k] : -offset[k]);
 }
 
 /** A frame of the yardstick, with the ball after each substep's projections. */

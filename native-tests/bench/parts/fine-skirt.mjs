@@ -1,0 +1,63 @@
+// The fine skirt in a fast walk: position-based steps against implicit ones.
+import { commit, described, tell } from './bench-parts.mjs';
+import { goal, measure } from './bench-rows.mjs';
+import { nativeRun, reference } from './command.mjs';
+import { contestant } from './contestants.mjs';
+import { garmentScene } from './refinement-runs.mjs';
+
+const kFrames = 120; // two seconds
+const kTurnFrames = 6;
+const kFramesPerPicture = 2; // a picture is shown for 1/30 s
+const kStep = 1 / 60; // [s]
+/** When it is told how far methods are from a run of implicit steps [s]. */
+const kTimes = [0.25];
+const kMostMsPerPicture = 33;
+const kPercent = 100;
+
+const kOurs = {
+  stepper: 'multigrid',
+  substeps: 18,
+  carried_acceleration: 0.3,
+};
+const kImplicit = { stepper: 'implicit', substeps: 2 };
+const kMethods = [
+  ['native', 'multigrid', kOurs],
+  ['native', 'implicit', kImplicit],
+  ['wasm', 'multigrid', kOurs],
+];
+
+/** The scene on its fine mesh with just this method. */
+function fineSkirt(method) {
+  const scene = garmentScene('skirt', 'fast_walk');
+  return { ...scene, refinement: { level: 2 }, method: { step_s: kStep, ...method } };
+}
+
+export async function skirt({ repeat, scale }) {
+  const { n_vertices } = nativeRun(fineSkirt(kOurs), 2);
+  const contestants = kMethods.map(([target, label, method]) =>
+    contestant(target, `${label}, ${target}`, fineSkirt(method), n_vertices, kFrames),
+  );
+  const rows = await measure(contestants, {
+    repeat,
+    frames: kFrames,
+    times: kTimes,
+    against: reference(fineSkirt(kImplicit), 'run', kTimes),
+    commit,
+    tell,
+    turnFrames: kTurnFrames,
+  });
+  const [ours, implicit, wasm] = rows;
+  const goals = [
+    goal('skirt_of_implicit', ours.ms_per_frame / implicit.ms_per_frame, 'at-most', 1 / 3, rows),
+    goal('skirt_rms_stretch_percent', kPercent * ours.rms_stretch, 'at-most', 0.5, rows),
+    goal('skirt_largest_stretch_percent', kPercent * ours.largest_stretch, 'at-most', 15, rows),
+    goal(
+      'skirt_wasm_ms_per_picture',
+      kFramesPerPicture * wasm.ms_per_frame,
+      'at-most',
+      kMostMsPerPicture * scale,
+      rows,
+    ),
+  ];
+  return { rows, goals, text: described(rows) };
+}
