@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <type_traits>
 
 #include "core/dynamics/xpbd/simd4.h"
 
@@ -25,13 +24,15 @@ double squared_norm(std::span<const float> numbers) {
   return sum;
 }
 
-/// d_i.d_j of the differences d_i = known_i - last, and d_i.last, in the column behind them.
-template <std::size_t n>
-using Products = Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n) + 1>;
+constexpr int kDifferences = static_cast<int>(CycleAcceleration::kWindow);
+using KnownArrays = std::array<const float*, CycleAcceleration::kWindow>;
 
-template <std::size_t n>
-Products<n> products(const std::array<const float*, n>& known, std::span<const float> last) {
-  Products<n> sums = Products<n>::Zero();
+/// d_i.d_j of the differences d_i = known_i - last, and d_i.last, in the column behind them.
+using Products = Eigen::Matrix<double, kDifferences, kDifferences + 1>;
+
+Products products(const KnownArrays& known, std::span<const float> last) {
+  constexpr std::size_t n = kDifferences;
+  Products sums = Products::Zero();
   for (std::size_t begin = 0; begin < last.size(); begin += kStrip) {
     const std::size_t end = std::min(begin + kStrip, last.size());
     std::array<std::array<Float4, n + 1>, n> strip;
@@ -51,20 +52,20 @@ Products<n> products(const std::array<const float*, n>& known, std::span<const f
 }
 
 /// a of the least |last + sum of a_i d_i|.
-template <std::size_t n>
-std::array<float, n> least_errors(const std::array<const float*, n>& known,
-                                  std::span<const float> last) {
+std::array<float, kDifferences> least_errors(const KnownArrays& known,
+                                             std::span<const float> last) {
   // Of the mean of d_i.d_i: what is left of a difference beside those before it is rounding, or its
   // turn in the cycles since.
   constexpr double kLost = 1e-6;
-  const Products<n> sums = products<n>(known, last);
-  Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n)> normal =
-      sums.template leftCols<static_cast<int>(n)>().template selfadjointView<Eigen::Upper>();
-  normal.diagonal().array() += kLost * normal.trace() / static_cast<double>(n);
-  const Eigen::Matrix<double, static_cast<int>(n), 1> a = normal.ldlt().solve(-sums.col(n));
-  std::array<float, n> weights{};
+  const Products sums = products(known, last);
+  Eigen::Matrix<double, kDifferences, kDifferences> normal =
+      sums.leftCols<kDifferences>().selfadjointView<Eigen::Upper>();
+  normal.diagonal().array() += kLost * normal.trace() / kDifferences;
+  const Eigen::Matrix<double, kDifferences, 1> a = normal.ldlt().solve(-sums.col(kDifferences));
+  std::array<float, kDifferences> weights{};
   if (a.allFinite())
-    for (std::size_t i = 0; i < n; ++i) weights[i] = static_cast<float>(a[static_cast<int>(i)]);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights[i] = static_cast<float>(a[static_cast<int>(i)]);
   return weights;
 }
 
@@ -89,14 +90,13 @@ void copy(CycleAcceleration::Arrays from, std::vector<float>& to) {
 }
 
 /// Adds sum of a_i (known_i - last) to the arrays, which are `last`.
-template <std::size_t n>
-void add(const std::array<float, n>& weights, const std::array<const float*, n>& known,
+void add(const std::array<float, kDifferences>& weights, const KnownArrays& known,
          CycleAcceleration::Arrays arrays) {
   for_each_array(arrays, [&](std::size_t first, std::span<float> array) {
     for (std::size_t k = 0; k < array.size(); k += 4) {
       const Float4 last = Float4::load(&array[k]);
       Float4 sum = last;
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < known.size(); ++i)
         sum = sum + Float4::all(weights[i]) * (Float4::load(known[i] + first + k) - last);
       sum.store(&array[k]);
     }
@@ -109,32 +109,16 @@ bool CycleAcceleration::propose(Arrays point, std::span<const float> errors) {
   copy(point, image_.point);
   image_.errors.assign(errors.begin(), errors.end());
   image_square_ = squared_norm(errors);
-  const auto with = [&](auto count) {
-    constexpr std::size_t kKnown = decltype(count)::value;
-    std::array<const float*, kKnown> of_points, of_errors;
-    for (std::size_t i = 0; i < kKnown; ++i) {
-      of_points[i] = known_[i].point.data();
-      of_errors[i] = known_[i].errors.data();
-    }
-    add<kKnown>(least_errors<kKnown>(of_errors, errors), of_points, point);
-  };
-  static_assert(kWindow == 4, "a case for each number");
-  switch (n_known_) {
-    case 0:
-      return false;
-    case 1:
-      with(std::integral_constant<std::size_t, 1>());
-      return true;
-    case 2:
-      with(std::integral_constant<std::size_t, 2>());
-      return true;
-    case 3:
-      with(std::integral_constant<std::size_t, 3>());
-      return true;
-    default:
-      with(std::integral_constant<std::size_t, 4>());
-      return true;
+  if (n_known_ == 0) return false;
+  // What is not known yet is no different from the last.
+  std::array<const float*, kWindow> of_points, of_errors;
+  for (std::size_t i = 0; i < kWindow; ++i) {
+    const Known& known = i < n_known_ ? known_[i] : image_;
+    of_points[i] = known.point.data();
+    of_errors[i] = known.errors.data();
   }
+  add(least_errors(of_errors, errors), of_points, point);
+  return true;
 }
 
 void CycleAcceleration::settle(Arrays point, std::span<float> errors) {

@@ -44,7 +44,11 @@ Grid sheet_grid(const ClothModel& model) {
   const std::vector<Eigen::Vector2d> at = row_coordinates(model);
   std::vector<int> order(at.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return at[i].x() < at[j].x(); });
+  const auto sort_by = [&](int axis, std::vector<int>& vertices) {
+    std::stable_sort(vertices.begin(), vertices.end(),
+                     [&](int i, int j) { return at[i][axis] < at[j][axis]; });
+  };
+  sort_by(0, order);
   const double tolerance = kRowTolerance * (at[order.back()].x() - at[order.front()].x());
   std::vector<std::vector<int>> rows;
   for (int vertex : order) {
@@ -55,7 +59,7 @@ Grid sheet_grid(const ClothModel& model) {
   Grid grid(at.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::vector<int>& row = rows[r];
-    std::stable_sort(row.begin(), row.end(), [&](int i, int j) { return at[i].y() < at[j].y(); });
+    sort_by(1, row);
     for (std::size_t c = 0; c < row.size(); ++c)
       grid[static_cast<std::size_t>(row[c])] = {static_cast<int>(r), static_cast<int>(c)};
   }

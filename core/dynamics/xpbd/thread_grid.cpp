@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 
 namespace pleat {
 namespace {
@@ -59,15 +58,19 @@ std::vector<int> rows_of(const std::vector<int>& beginnings, const ThreadNeighbo
                          const ThreadNeighbours& along) {
   std::vector<int> rows(across.size(), kNowhere);
   for (const int begin : beginnings) {
-    std::deque<std::pair<int, int>> front{{begin, 0}};
-    while (!front.empty()) {
-      const auto [vertex, row] = front.front();
-      front.pop_front();
-      int& known = rows[static_cast<std::size_t>(vertex)];
-      if (known != kNowhere) continue;
-      known = row;
-      along.visit(vertex, [&, same = row](int next) { front.emplace_front(next, same); });
-      across.visit(vertex, [&, after = row + 1](int next) { front.emplace_back(next, after); });
+    std::vector<int> front{begin};
+    std::vector<int> after;
+    for (int row = 0; !front.empty(); ++row) {
+      while (!front.empty()) {
+        const int vertex = front.back();
+        front.pop_back();
+        int& known = rows[static_cast<std::size_t>(vertex)];
+        if (known != kNowhere) continue;
+        known = row;
+        along.visit(vertex, [&](int next) { front.push_back(next); });
+        across.visit(vertex, [&](int next) { after.push_back(next); });
+      }
+      front.swap(after);
     }
   }
   return rows;
