@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "cli/commands.h"
@@ -9,6 +10,7 @@
 #include "core/base/core_version.h"
 #include "core/files/frame_file.h"
 #include "core/mesh/mesh_fault.h"
+#include "core/multigrid/level_faults.h"
 #include "core/multigrid/mesh_hierarchy.h"
 #include "core/scene/rest_cloth.h"
 #include "core/sweep/platform.h"
@@ -24,6 +26,19 @@ struct HierarchyInput {
   std::vector<bool> is_fixed;
   std::vector<std::filesystem::path> files_read;
 };
+
+CollapseGuards take_guards(Arguments& arguments) {
+  CollapseGuards guards;
+  const std::array<bool*, kCollapseGuardNames.size()> each{&guards.flips, &guards.borders,
+                                                           &guards.links};
+  for (const std::string& name : arguments.list("--without")) {
+    const auto at = std::find(kCollapseGuardNames.begin(), kCollapseGuardNames.end(), name);
+    if (at == kCollapseGuardNames.end())
+      throw InputError("--without", "expected flips, borders or links, got " + cut(name));
+    *each[static_cast<std::size_t>(at - kCollapseGuardNames.begin())] = false;
+  }
+  return guards;
+}
 
 HierarchyOptions take_hierarchy_options(Arguments& arguments) {
   HierarchyOptions options;
@@ -44,6 +59,7 @@ HierarchyOptions take_hierarchy_options(Arguments& arguments) {
                        "expected inverse_distance or moving_least_squares, got " + cut(*weights));
     options.weights = static_cast<TransferWeights>(at - kTransferWeightsNames.begin());
   }
+  options.guards = take_guards(arguments);
   return options;
 }
 
@@ -85,9 +101,11 @@ struct LevelRow {
   double longest_edge;  ///< [m]
   double chord_gap;     ///< the most that a chord is shorter than the surface, over the latter
   double linear_error;  ///< of places from the next coarser level [m]; 0 on the coarsest
+  LevelFaults faults;
 };
 
-std::vector<LevelRow> rows_of(const MeshHierarchy& hierarchy, const Positions& finest) {
+std::vector<LevelRow> rows_of(const MeshHierarchy& hierarchy, const TriangleMesh& mesh) {
+  const Positions& finest = mesh.rest_positions;
   std::vector<LevelRow> rows;
   for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
     const MeshLevel& level = hierarchy.levels[k];
@@ -97,7 +115,8 @@ std::vector<LevelRow> rows_of(const MeshHierarchy& hierarchy, const Positions& f
                  0,
                  0,
                  0,
-                 0};
+                 0,
+                 level_faults(level, mesh)};
     for (const LevelEdge& edge : level.edges) {
       row.mean_edge += edge.geodesic / row.n_edges;
       row.longest_edge = std::max(row.longest_edge, edge.geodesic);
@@ -124,7 +143,11 @@ Json json_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& ro
                       {"mean_edge_m", row.mean_edge},
                       {"longest_edge_m", row.longest_edge},
                       {"chord_gap", row.chord_gap},
-                      {"linear_error_m", row.linear_error}});
+                      {"linear_error_m", row.linear_error},
+                      {"turned_triangles", row.faults.turned_triangles},
+                      {"strayed_borders", row.faults.strayed_borders},
+                      {"crowded_edges", row.faults.crowded_edges},
+                      {"covered_share", row.faults.covered_share}});
   return {{"mesh", text_value(input.name)},
           {"levels", std::move(levels)},
           {"shortage", shortage},
@@ -136,12 +159,14 @@ void print_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& r
                      const std::string& shortage, double seconds) {
   std::printf("%s\n", printable(input.name).c_str());
   std::printf(
-      "level  vertices  triangles  mean edge mm  longest mm  chord shorter by %%  linear error "
-      "mm\n");
+      "level  vertices  triangles  mean edge mm  longest mm  chord shorter by %%  turned  strayed  "
+      "crowded  covered %%  linear error mm\n");
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const LevelRow& row = rows[k];
-    std::printf("%5zu  %8d  %9d  %12.4g  %10.4g  %18.3g", k, row.n_vertices, row.n_triangles,
-                1000 * row.mean_edge, 1000 * row.longest_edge, 100 * row.chord_gap);
+    std::printf("%5zu  %8d  %9d  %12.4g  %10.4g  %18.3g  %6d  %7d  %7d  %9.4g", k, row.n_vertices,
+                row.n_triangles, 1000 * row.mean_edge, 1000 * row.longest_edge, 100 * row.chord_gap,
+                row.faults.turned_triangles, row.faults.strayed_borders, row.faults.crowded_edges,
+                100 * row.faults.covered_share);
     if (k + 1 < rows.size()) std::printf("  %15.3g", 1000 * row.linear_error);
     std::printf("\n");
   }
@@ -174,7 +199,7 @@ Outcome hierarchy_command(Arguments arguments) {
   const double begin = process_processor_time().value_or(0);
   const MeshHierarchy hierarchy = mesh_hierarchy(input.mesh, input.is_fixed, options);
   const double seconds = process_processor_time().value_or(0) - begin;
-  const std::vector<LevelRow> rows = rows_of(hierarchy, input.mesh.rest_positions);
+  const std::vector<LevelRow> rows = rows_of(hierarchy, input.mesh);
   if (for_machines)
     std::printf("%s\n", json_hierarchy(input, rows, hierarchy.shortage, seconds).dump().c_str());
   else

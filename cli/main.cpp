@@ -98,6 +98,7 @@ pleat inbetween A.obj B.obj ...   frames between key shapes with the same vertic
 pleat hierarchy MESH.obj | SCENE.json   ever coarser meshes of vertices of a mesh, by quadrics
   --levels N             beside the finest (default 3);  --ratio R  of vertices kept (default 0.5)
   --weights NAME         of corrections: inverse_distance (default) or moving_least_squares
+  --without A,B          of the guards flips, borders and links, to see what goes wrong
   --out DIR              write each level as an OBJ file
 pleat convergence SCENE.json   one step solved from the same predicted places: error after 1, 2, 3,
                          5, 9, ... rounds of each method, and where it is first below 0.1 to 0.0001

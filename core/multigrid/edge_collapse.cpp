@@ -58,8 +58,12 @@ bool EdgeCollapse::Candidate::operator>(const Candidate& other) const {
          std::tuple(other.cost, other.length, other.from.value, other.to.value);
 }
 
-EdgeCollapse::EdgeCollapse(const TriangleMesh& mesh, const std::vector<bool>& is_fixed)
-    : triangles_(mesh.triangles), is_gone_(mesh.triangles.size(), false), is_kept_(is_fixed) {
+EdgeCollapse::EdgeCollapse(const TriangleMesh& mesh, const std::vector<bool>& is_fixed,
+                           CollapseGuards guards)
+    : guards_(guards),
+      triangles_(mesh.triangles),
+      is_gone_(mesh.triangles.size(), false),
+      is_kept_(is_fixed) {
   const auto n = static_cast<std::size_t>(mesh.n_vertices());
   PLEAT_CHECK(is_fixed.empty() || is_fixed.size() == n, "one flag for each vertex");
   PLEAT_CHECK(!mesh_fault(mesh.rest_positions, mesh.triangles, 0), "the mesh is sound");
@@ -103,7 +107,7 @@ void EdgeCollapse::add_planes(const TriangleMesh& mesh) {
     const Vec3 upright = along.cross(normals[edge.faces[0]]).normalized();
     const Quadric plane = Quadric::of_plane(positions_.col(edge.a), upright, along.squaredNorm());
     for (const VertexId v : {edge.a, edge.b}) {
-      quadrics_[v] += plane;
+      if (guards_.borders) quadrics_[v] += plane;
       is_border_[v] = true;
     }
   }
@@ -126,7 +130,8 @@ void EdgeCollapse::keep_corners(const TriangleMesh& mesh) {
   for (std::size_t v = 0; v < is_kept_.size(); ++v) {
     around.clear();
     for (const std::int32_t f : triangles_of_[v]) around.push_back(triangles_[f]);
-    const bool is_corner = is_border_[v] && into[v].dot(out_of[v]) < kCosineOfCorner;
+    const bool is_corner =
+        guards_.borders && is_border_[v] && into[v].dot(out_of[v]) < kCosineOfCorner;
     if (is_corner || !is_one_fan(around, VertexId(static_cast<std::int64_t>(v))))
       is_kept_[v] = true;
   }
@@ -165,16 +170,28 @@ void EdgeCollapse::offer_around(VertexId vertex) {
   }
 }
 
-bool EdgeCollapse::keeps_links(VertexId from, VertexId to) {
-  std::size_t n_shared = 0;
+std::size_t EdgeCollapse::n_shared_triangles(VertexId from, VertexId to) const {
+  const Numbers& around = triangles_of_[from];
+  return static_cast<std::size_t>(std::count_if(
+      around.begin(), around.end(), [&](std::int32_t f) { return has(triangles_[f], to); }));
+}
+
+bool EdgeCollapse::keeps_triangles(VertexId from, VertexId to) const {
   for (const std::int32_t f : triangles_of_[from]) {
     if (!has(triangles_[f], to)) continue;
-    ++n_shared;
     for (const VertexId v : triangles_[f])  // the third corner keeps a triangle
       if (v != from && v != to && triangles_of_[v].size() == 1) return false;
   }
-  if (is_border_[from] && n_shared != 1) return false;
-  if (triangles_of_[from].size() + triangles_of_[to].size() == 2 * n_shared) return false;
+  return triangles_of_[from].size() + triangles_of_[to].size() != 2 * n_shared_triangles(from, to);
+}
+
+bool EdgeCollapse::keeps_border(VertexId from, VertexId to) const {
+  return !is_border_[from] || is_border_[to];
+}
+
+bool EdgeCollapse::keeps_links(VertexId from, VertexId to) {
+  const std::size_t n_shared = n_shared_triangles(from, to);
+  if (is_border_[from] && is_border_[to] && n_shared != 1) return false;
 
   ++mark_now_;
   for (const VertexId v : neighbours(to)) mark_[v] = mark_now_;
@@ -213,6 +230,11 @@ bool EdgeCollapse::keeps_shapes(VertexId from, VertexId to) const {
   return true;
 }
 
+bool EdgeCollapse::is_allowed(VertexId from, VertexId to) {
+  return keeps_triangles(from, to) && (!guards_.borders || keeps_border(from, to)) &&
+         (!guards_.links || keeps_links(from, to)) && (!guards_.flips || keeps_shapes(from, to));
+}
+
 void EdgeCollapse::collapse(VertexId from, VertexId to) {
   for (const std::int32_t f : triangles_of_[from]) {
     if (!has(triangles_[f], to)) {
@@ -230,6 +252,7 @@ void EdgeCollapse::collapse(VertexId from, VertexId to) {
   triangles_of_[from].clear();
   refused_[from].clear();
   quadrics_[to] += quadrics_[from];
+  if (is_border_[from]) is_border_[to] = true;  // pulled inwards
   versions_[from] = -1;
   ++versions_[to];
   --n_vertices_;
@@ -242,7 +265,7 @@ bool EdgeCollapse::reach(int n_vertices) {
     candidates_.pop();
     if (versions_[best.from] != best.from_version || versions_[best.to] != best.to_version)
       continue;
-    if (keeps_links(best.from, best.to) && keeps_shapes(best.from, best.to))
+    if (is_allowed(best.from, best.to))
       collapse(best.from, best.to);
     else
       refused_[best.from].push_back(best.to);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "core/multigrid/collapse_guards.h"
 #include "core/multigrid/quadric.h"
 
 namespace pleat {
@@ -21,7 +22,8 @@ namespace pleat {
 /// Never collapsed are vertices that are fixed, corners of the border (which turns there by more
 /// than 45 degrees) and vertices where more than one fan of triangles meets. No collapse turns a
 /// triangle over or leaves it without area, joins what was apart (link condition), takes the last
-/// triangle of a vertex or pulls a border inwards.
+/// triangle of a vertex or pulls a border inwards. Of these guards flips, borders and links can be
+/// left out (CollapseGuards); levels may then be no sound meshes.
 ///
 /// Source: Garland & Heckbert, Surface simplification using quadric error metrics, SIGGRAPH 1997;
 /// Dey, Edelsbrunner, Guha & Nekhayev, Topology preserving edge contraction, Publications de
@@ -30,7 +32,8 @@ class EdgeCollapse {
  public:
   /// mesh      sound (mesh_fault); throws ContractError otherwise. Positions decide, not the
   /// pattern. is_fixed  of each vertex; empty: none
-  EdgeCollapse(const TriangleMesh& mesh, const std::vector<bool>& is_fixed);
+  EdgeCollapse(const TriangleMesh& mesh, const std::vector<bool>& is_fixed,
+               CollapseGuards guards = {});
 
   /// Collapses until so many vertices are left. False when no more may be collapsed before.
   bool reach(int n_vertices);
@@ -56,10 +59,15 @@ class EdgeCollapse {
   void offer(VertexId from, VertexId to);
   void offer_around(VertexId vertex);
   std::vector<VertexId> neighbours(VertexId vertex) const;
+  std::size_t n_shared_triangles(VertexId from, VertexId to) const;
+  bool keeps_triangles(VertexId from, VertexId to) const;
+  bool keeps_border(VertexId from, VertexId to) const;
   bool keeps_links(VertexId from, VertexId to);
   bool keeps_shapes(VertexId from, VertexId to) const;
+  bool is_allowed(VertexId from, VertexId to);
   void collapse(VertexId from, VertexId to);
 
+  CollapseGuards guards_;
   Positions positions_;   ///< about their middle [m]
   double mean_area_ = 0;  ///< of a vertex [m^2]
   std::vector<Triangle> triangles_;

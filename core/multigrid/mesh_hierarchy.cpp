@@ -16,9 +16,11 @@ using Pairs = std::vector<std::array<VertexId, 2>>;
 
 Pairs pairs_of(const std::vector<Triangle>& triangles) {
   Pairs pairs;
-  for (const MeshEdge& edge : mesh_edges(triangles))
-    pairs.push_back({std::min(edge.a, edge.b), std::max(edge.a, edge.b)});
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      pairs.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
   std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 
@@ -127,7 +129,7 @@ Positions positions_on(const MeshLevel& level, const Positions& finest) {
 MeshHierarchy mesh_hierarchy(const TriangleMesh& mesh, const std::vector<bool>& is_fixed,
                              const HierarchyOptions& options) {
   options.validate();
-  EdgeCollapse collapse(mesh, is_fixed);
+  EdgeCollapse collapse(mesh, is_fixed, options.guards);
   MeshHierarchy hierarchy;
   const auto add_collapsed = [&] {
     MeshLevel level;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "core/multigrid/collapse_guards.h"
 #include "core/multigrid/transfer.h"
 
 namespace pleat {
@@ -24,6 +25,7 @@ struct HierarchyOptions {
   /// Of a level's vertices that the next coarser one keeps, in (0.1, 0.9); of quadrics alone.
   double ratio = 0.5;
   TransferWeights weights = TransferWeights::inverse_distance;
+  CollapseGuards guards{};  ///< of quadrics alone
 
   /// Throws InputError at the option's name.
   void validate() const;

@@ -72,6 +72,26 @@ TEST_CASE("hierarchy command: deeper than the mesh allows ends at the last level
   CHECK(json.at("shortage").get<std::string>().find("expected 12") != std::string::npos);
 }
 
+TEST_CASE("hierarchy command: without a guard the table tells what goes wrong", "[cli]") {
+  const SheetFolder place;
+  const auto coarsest = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"hierarchy", place.sheet, "--json"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Ending ending = place.run(all);
+    CAPTURE(ending.error);
+    REQUIRE(ending.status == 0);
+    return parse_json(ending.out).at("levels").back();
+  };
+  const Json right = coarsest({});
+  for (const char* const key : {"turned_triangles", "strayed_borders", "crowded_edges"})
+    CHECK(right.at(key) == 0);
+  CHECK(right.at("covered_share") == Approx(1));
+  const Json wrong = coarsest({"--without", "borders,links"});
+  CHECK(wrong.at("n_vertices") == right.at("n_vertices"));
+  CHECK(wrong.at("strayed_borders") > 0);
+  CHECK(wrong.at("covered_share") < 0.97);
+}
+
 TEST_CASE("hierarchy command: bad input is one sentence, and nothing is written", "[cli]") {
   const SheetFolder place;
   const auto fails = [&](std::vector<std::string> words, const std::string& sentence) {
@@ -88,6 +108,8 @@ TEST_CASE("hierarchy command: bad input is one sentence, and nothing is written"
   fails({"hierarchy", place.sheet, "--ratio", "half"}, "--ratio");
   fails({"hierarchy", place.sheet, "--weights", "none"}, "expected inverse_distance");
   fails({"hierarchy", place.sheet, "--levels", "0"}, "--levels");
+  for (const std::string names : {"corners", "flips,", "flips,flip", ""})
+    fails({"hierarchy", place.sheet, "--without", names}, "--without");
   fails({"hierarchy", (place.folder / "none.obj").string()}, "none.obj");
 
   // Three triangles at an edge, and two that are wound against each other.

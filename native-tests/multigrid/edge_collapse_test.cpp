@@ -46,6 +46,20 @@ TriangleMesh octahedron() {
                   corners(2, 0, 5), corners(1, 2, 5), corners(3, 1, 5), corners(0, 3, 5)});
 }
 
+/// A flat star: the middle lies where it sees every side, and its neighbour 1 sees only some.
+TriangleMesh star() {
+  return mesh_of({{0, 0, 0},
+                  {0.9, 0, 0},
+                  {2, 3, 0},
+                  {1, 0.5, 0},
+                  {-2, 3, 0},
+                  {-2, -3, 0},
+                  {1, -0.5, 0},
+                  {2, -3, 0}},
+                 {corners(0, 1, 3), corners(0, 3, 2), corners(0, 2, 4), corners(0, 4, 5),
+                  corners(0, 5, 7), corners(0, 7, 6), corners(0, 6, 1)});
+}
+
 /// What is left, with its vertices numbered anew.
 TriangleMesh left_of(const EdgeCollapse& collapse, const TriangleMesh& mesh) {
   const std::vector<VertexId> vertices = collapse.vertices();
@@ -195,18 +209,7 @@ TEST_CASE("collapse: corners stay and borders keep their lines", "[multigrid]") 
 }
 
 TEST_CASE("collapse: triangles are not turned over", "[multigrid]") {
-  // A star: the middle lies where it sees every side, and its neighbour 1 sees only some.
-  const TriangleMesh mesh =
-      mesh_of({{0, 0, 0},
-               {0.5, 0, 0},
-               {2, 3, 0},
-               {1, 0.5, 0},
-               {-2, 3, 0},
-               {-2, -3, 0},
-               {1, -0.5, 0},
-               {2, -3, 0}},
-              {corners(0, 1, 3), corners(0, 3, 2), corners(0, 2, 4), corners(0, 4, 5),
-               corners(0, 5, 7), corners(0, 7, 6), corners(0, 6, 1)});
+  const TriangleMesh mesh = star();
   REQUIRE_FALSE(mesh_fault(mesh.rest_positions, mesh.triangles, 0));
   EdgeCollapse collapse(mesh, {});
   collapse.reach(3);
@@ -227,6 +230,33 @@ TEST_CASE("collapse: a ring stays a ring", "[multigrid]") {
   CHECK_FALSE(mesh_fault(left.rest_positions, left.triangles, 0));
 }
 
+TEST_CASE("collapse: without the guard of flips a triangle turns over", "[multigrid]") {
+  const TriangleMesh mesh = star();
+  CollapseGuards guards;
+  guards.flips = false;
+  EdgeCollapse collapse(mesh, {}, guards);
+  collapse.reach(7);
+  const TriangleMesh left = left_of(collapse, mesh);
+  CHECK(std::any_of(left.triangles.begin(), left.triangles.end(), [&](const Triangle& t) {
+    const Vec3 x0 = left.rest_positions.col(t[0]);
+    return (Vec3(left.rest_positions.col(t[1])) - x0)
+               .cross(Vec3(left.rest_positions.col(t[2])) - x0)
+               .z() < 0;
+  }));
+}
+
+TEST_CASE("collapse: without the guard of borders corners go and the sheet shrinks",
+          "[multigrid]") {
+  const TriangleMesh mesh = triangulated_sheet(Triangulation::one_way, 6, 6, 1);
+  CollapseGuards guards;
+  guards.borders = false;
+  EdgeCollapse collapse(mesh, {}, guards);
+  REQUIRE(collapse.reach(20));
+  const TriangleMesh left = left_of(collapse, mesh);
+  CHECK(total_area(left) < 0.95 * 36);
+  CHECK_FALSE(mesh_fault(left.rest_positions, left.triangles, 0));
+}
+
 TEST_CASE("collapse: a closed surface ends as a tetrahedron", "[multigrid]") {
   const TriangleMesh mesh = octahedron();
   EdgeCollapse collapse(mesh, {});
@@ -234,6 +264,19 @@ TEST_CASE("collapse: a closed surface ends as a tetrahedron", "[multigrid]") {
   const TriangleMesh left = left_of(collapse, mesh);
   CHECK(left.n_vertices() >= 4);
   CHECK(euler_characteristic(left) == 2);
+}
+
+TEST_CASE(
+    "collapse: without the guard of links a closed surface ends as two triangles, back to back",
+    "[multigrid]") {
+  const TriangleMesh mesh = octahedron();
+  CollapseGuards guards;
+  guards.links = false;
+  EdgeCollapse collapse(mesh, {}, guards);
+  REQUIRE(collapse.reach(3));
+  const TriangleMesh left = left_of(collapse, mesh);
+  CHECK(left.triangles.size() == 2);
+  CHECK(mesh_fault(left.rest_positions, left.triangles, 0));
 }
 
 TEST_CASE("collapse: where two fans touch in a vertex it stays", "[multigrid]") {
