@@ -16,7 +16,8 @@ const kTurnFrames = 4;
 const kCarried = 0.3;
 const kCandidates = {
   xpbd: [
-    5, 7, 8, 9, 10, 11, 12, 14, 17, 20, 23, 26, 30, 40, 50, 60, 70, 85, 100, 140, 200, 220, 250, 300,
+    5, 7, 8, 9, 10, 11, 12, 14, 17, 20, 23, 26, 30, 40, 50, 60, 70, 85, 100, 140, 200, 220, 250,
+    300,
   ].map((substeps) => ({
     stepper: 'xpbd',
     constraints: 'rigid',

@@ -85,6 +85,10 @@ export const kScenes = {
         { part: 'upper_right', motion: comes(-1) },
       ]);
     },
-    loop: { pins: 'corners', placeOf: upright, pinsMove: (time) => kMeet.map((offset) => offset * ease(time)) },
+    loop: {
+      pins: 'corners',
+      placeOf: upright,
+      pinsMove: (time) => kMeet.map((offset) => offset * ease(time)),
+    },
   },
 };
