@@ -61,7 +61,7 @@ std::array<float, kDifferences> least_errors(const KnownArrays& known,
   Eigen::Matrix<double, kDifferences, kDifferences> normal =
       sums.leftCols<kDifferences>().selfadjointView<Eigen::Upper>();
   normal.diagonal().array() += kLost * normal.trace() / kDifferences;
-  const Eigen::Matrix<double, kDifferences, 1> a = normal.ldlt().solve(-sums.col(kDifferences));
+  const Eigen::Matrix<double, kDifferences, 1> a = normal.llt().solve(-sums.col(kDifferences));
   std::array<float, kDifferences> weights{};
   if (a.allFinite())
     for (std::size_t i = 0; i < weights.size(); ++i)
