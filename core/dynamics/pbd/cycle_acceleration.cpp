@@ -31,21 +31,21 @@ using KnownArrays = std::array<const float*, CycleAcceleration::kWindow>;
 using Products = Eigen::Matrix<double, kDifferences, kDifferences + 1>;
 
 Products products(const KnownArrays& known, std::span<const float> last) {
-  constexpr std::size_t n = kDifferences;
+  constexpr std::size_t kCount = kDifferences;
   Products sums = Products::Zero();
   for (std::size_t begin = 0; begin < last.size(); begin += kStrip) {
     const std::size_t end = std::min(begin + kStrip, last.size());
-    std::array<std::array<Float4, n + 1>, n> strip;
+    std::array<std::array<Float4, kCount + 1>, kCount> strip;
     for (auto& row : strip) row.fill(Float4::all(0));
     for (std::size_t k = begin; k < end; k += 4) {
-      std::array<Float4, n + 1> d;
-      d[n] = Float4::load(&last[k]);
-      for (std::size_t i = 0; i < n; ++i) d[i] = Float4::load(known[i] + k) - d[n];
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = i; j <= n; ++j) strip[i][j] = strip[i][j] + d[i] * d[j];
+      std::array<Float4, kCount + 1> d;
+      d[kCount] = Float4::load(&last[k]);
+      for (std::size_t i = 0; i < kCount; ++i) d[i] = Float4::load(known[i] + k) - d[kCount];
+      for (std::size_t i = 0; i < kCount; ++i)
+        for (std::size_t j = i; j <= kCount; ++j) strip[i][j] = strip[i][j] + d[i] * d[j];
     }
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = i; j <= n; ++j)
+    for (std::size_t i = 0; i < kCount; ++i)
+      for (std::size_t j = i; j <= kCount; ++j)
         sums(static_cast<int>(i), static_cast<int>(j)) += sum_of_lanes(strip[i][j]);
   }
   return sums;

@@ -253,7 +253,7 @@ void StepperXpbd::copy_to(State& state, double h) {
 
 SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
   if (model_.air) {
-    const int every = std::max(1, static_cast<int>(kDragPeriod / h + 0.5));
+    const int every = std::max(1, static_cast<int>(std::lround(kDragPeriod / h)));
     if ((substeps() - substeps_left_) % every == 0) find_air_drag(state, h);
     add_air_drag();
   }
