@@ -332,28 +332,39 @@ std::span<const ContactStage::Touch> ContactStage::resolve(
 void ContactStage::outlines(std::vector<Outline>& outlines) const {
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   constexpr double kLargestTurn = 0.25;
-  const bool holds_all_alike = !is_graded_ && options_.response == ContactResponse::resting;
+  const bool rests = options_.response == ContactResponse::resting;
   outlines.clear();
   for (std::size_t k = 0; k < solids_.size(); ++k) {
     const Solid& solid = solids_[k];
     const bool is_plain = k < first_framed_;
+    Outline outline;
+    outline.friction = solid.friction;
     if (const auto* plane = std::get_if<SweptPlane>(&solid.swept); plane && is_plain) {
-      outlines.push_back({*plane, holds_all_alike, solid.friction});
-      continue;
+      outline.shape = *plane;
+      outline.is_exact = rests && !is_graded_;
+      outline.longest_shift = (plane->shift - drift()).norm();
+    } else if (const auto* ball = std::get_if<SweptSphere>(&solid.swept); ball && is_plain) {
+      outline.shape = *ball;
+      outline.is_exact = rests && !is_graded_;
+      outline.longest_shift = (ball->shift - drift()).norm();
+    } else {
+      const double turn = solid.turns ? (solid.carry.rotation - Mat3::Identity()).norm() : 0;
+      const Sphere begin = ball_around(colliders_[k].shape, poses_begin_[k]);
+      const Sphere end = ball_around(colliders_[k].shape, poses_end_[k]);
+      const Clearance held = clearance(solid.radii, largest_face_radius_);
+      const double shift = (end.centre - begin.centre).norm();
+      const double radius = (end.radius + std::max(held.at_a, held.at_b)) / (1 - turn) + shift;
+      outline.shape = SweptSphere{(begin.centre + end.centre) / 2,
+                                  turn > kLargestTurn ? kEverywhere : radius, Vec3::Zero()};
+      outline.cone = std::get_if<SweptCone>(&solid.swept);
+      if (outline.cone) {
+        outline.is_exact = rests && turn <= kLargestTurn;
+        outline.longest_shift = budget_.move(k - first_cone_);
+        outline.radii = solid.radii;
+        outline.carry = solid.turns ? solid.carry : Pose{Mat3::Identity(), outline.cone->shift};
+      }
     }
-    if (const auto* ball = std::get_if<SweptSphere>(&solid.swept); ball && is_plain) {
-      outlines.push_back({*ball, holds_all_alike, solid.friction});
-      continue;
-    }
-    const double turn = solid.turns ? (solid.carry.rotation - Mat3::Identity()).norm() : 0;
-    const Sphere begin = ball_around(colliders_[k].shape, poses_begin_[k]);
-    const Sphere end = ball_around(colliders_[k].shape, poses_end_[k]);
-    const Clearance held = clearance(solid.radii, largest_face_radius_);
-    const double radius = (end.radius + std::max(held.at_a, held.at_b)) / (1 - turn) +
-                          (end.centre - begin.centre).norm();
-    outlines.push_back({SweptSphere{(begin.centre + end.centre) / 2,
-                                    turn > kLargestTurn ? kEverywhere : radius, Vec3::Zero()},
-                        false, solid.friction});
+    outlines.push_back(outline);
   }
 }
 

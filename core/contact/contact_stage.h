@@ -101,15 +101,28 @@ class ContactStage {
 
   /// A solid over the substep that was begun, as vertices are held off it.
   struct Outline {
+    /// The solid itself; of a cone, and of what is not exact, a bound without a shift: no way from
+    /// a to b that stays further from it than |a - b| meets the solid.
     std::variant<SweptPlane, SweptSphere> shape;
-    /// Else the shape is a bound without a shift: no way from a to b that stays further from it
-    /// than |a - b| meets the solid.
+    /// Whether contact brings vertices to rest on it, and it is told: by the shape, which holds all
+    /// alike, or by the cone, grown by the largest clearance.
     bool is_exact = false;
     double friction = 0;
+    double longest_shift = 0;         ///< of its points in the substep, beyond drift() [m]
+    const SweptCone* cone = nullptr;  ///< until the next substep begins; seen from where it ends
+    std::array<double, 2> radii{};    ///< of the cone without clearance [m]
+    Pose carry;                       ///< the cone's motion over the substep
   };
 
   /// Those of all solids. Allocates nothing where `outlines` had as many before.
   void outlines(std::vector<Outline>& outlines) const;
+
+  /// How far rounded cones go in the substep, in the mean [m].
+  Vec3 drift() const { return first_cone_ < solids_.size() ? budget_.drift() : Vec3::Zero(); }
+
+  /// What is further from a cone than this times both of their ways, beyond drift(), does not meet
+  /// it.
+  double stretch() const { return budget_.stretch(); }
 
   /// Those of the last call of resolve, in the order of the vertices.
   std::span<const Touch> touches() const { return touches_; }

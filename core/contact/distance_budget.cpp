@@ -39,6 +39,7 @@ DistanceBudget::DistanceBudget(std::vector<Hull> hulls)
     : hulls_(std::move(hulls)),
       poses_(hulls_.size()),
       moved_(hulls_.size(), 0),
+      moves_(hulls_.size(), 0),
       spent_(hulls_.size(), 0) {}
 
 // All is seen from a frame that drifts along with the solids' mean, so that nothing is spent while
@@ -62,8 +63,8 @@ void DistanceBudget::begin_substep(std::span<const Pose> begin, std::span<const 
     poses_[k] = begin[k];
     // A solid that turns by a radian or more in one substep rules nothing out.
     const double stretch = 1 / std::max(0.0, 1 - turn_between(begin[k], end[k]));
-    const double moves = farthest_move(hulls_[k], begin[k], end[k], drift_end_ - drift_begin_);
-    spent_[k] = moved_[k] + stretch * moves;
+    moves_[k] = farthest_move(hulls_[k], begin[k], end[k], drift());
+    spent_[k] = moved_[k] + stretch * moves_[k];
     stretch_ = std::max(stretch_, stretch);
   }
 }

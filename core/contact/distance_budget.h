@@ -30,6 +30,13 @@ class DistanceBudget {
   /// Poses of all solids at both ends of a substep.
   void begin_substep(std::span<const Pose> begin, std::span<const Pose> end);
 
+  /// How far the solids' mean goes in the substep [m].
+  Vec3 drift() const { return drift_end_ - drift_begin_; }
+  /// The furthest that any point of a solid goes in the substep, seen from that mean [m].
+  double move(std::size_t solid) const { return moves_[solid]; }
+  /// A vertex that is further from a solid than this times both of their ways does not meet it.
+  double stretch() const { return stretch_; }
+
   /// Looks at every solid that a vertex may meet on its way in this substep.
   ///
   /// begin, end  of the way [m]
@@ -63,7 +70,8 @@ class DistanceBudget {
   std::vector<Hull> hulls_;
   std::vector<Pose> poses_;    // at the begin of the substep
   std::vector<double> moved_;  // all that any of a solid's points has moved until then [m]
-  std::vector<double> spent_;  // the same at the end of the substep, stretched [m]
+  std::vector<double> moves_;  // the same in the substep [m]
+  std::vector<double> spent_;  // both, the latter stretched [m]
   double stretch_ = 1;         // of ways within the substep, for the turns of the solids
   Vec3 drift_begin_{0, 0, 0};  // mean place of the solids [m]
   Vec3 drift_end_{0, 0, 0};

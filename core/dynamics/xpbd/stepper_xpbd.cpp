@@ -103,6 +103,7 @@ void StepperXpbd::load(const State& state) {
   extent_ = (most - least).norm();
   for (int i = 0; i < model_.n_vertices(); ++i)
     set_motion(slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
+  if (contact_) contact_->begin_step(*model_.contact, layout_);
   substeps_left_ = substeps();
 }
 

@@ -16,8 +16,8 @@ const kPercent = 100;
 
 const kOurs = {
   stepper: 'multigrid',
-  substeps: 18,
-  carried_acceleration: 0.3,
+  substeps: 15,
+  carried_acceleration: 0.4,
 };
 const kImplicit = { stepper: 'implicit', substeps: 2 };
 const kMethods = { multigrid: kOurs, implicit: kImplicit };
