@@ -23,6 +23,7 @@ constexpr const char* kHelp =
   --out DIR              write frames and metrics.json into this folder, which holds none yet
   --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
                          into this folder, which holds none yet
+  --state FILE           write where the cloth is and how fast at the end, for a scene's "start"
   --check                exit status 1 when there is a warning: the run shows nonsense, or a step
                          did not converge
   --overwrite            remove or replace those of an earlier run

@@ -22,6 +22,7 @@
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
 #include "core/scene/method_section.h"
+#include "core/scene/start_section.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
@@ -324,14 +325,31 @@ struct RunOptions {
   bool wants_drift = false;
   std::optional<Output> out;
   std::optional<Dump> dump;
+  std::optional<std::filesystem::path> state;
 };
 
+/// Slower cloth is written as if it were at rest [m/s].
+constexpr double kRestSpeed = 1e-2;
+
+/// For a scene's "start": to a micrometre, and a micrometre per second.
+std::string state_text(const State& state) {
+  const auto rounded = [](const Positions& columns) {
+    constexpr double kPerUnit = 1e6;
+    return Positions((columns * kPerUnit).array().round() / kPerUnit);
+  };
+  StartState start{rounded(state.positions), {}, 0};
+  if (state.velocities.colwise().norm().maxCoeff() > kRestSpeed)
+    start.velocities = rounded(state.velocities);
+  return json_start(start).dump() + '\n';
+}
+
 Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriting& overwriting) {
-  const auto& [for_machines, checks, wants_drift, out, dump] = options;
+  const auto& [for_machines, checks, wants_drift, out, dump, state] = options;
   if (out) check_frame_count(scene);
-  if (dump) expect_whole(scene);
+  if (dump || state) expect_whole(scene);
   Simulation simulation(scene);
   if (dump) dump->prepare(overwriting);
+  if (state) overwriting.check(*state);
   if (out) out->prepare(overwriting);
   if (!for_machines || chooses_substeps(scene)) print_beginning(simulation);
   if (dump) {
@@ -363,6 +381,7 @@ Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriti
   if (out) write_file(out->metrics, format_json(metrics));
   if (dump) write_stiffness(simulation, dump->stiffness_end);
   if (!summary.report.ends_run()) {
+    if (state) write_file(*state, state_text(simulation.state()));
     tell_warnings(summary.warnings);
     return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
   }
@@ -381,7 +400,8 @@ Outcome run_command(Arguments arguments) {
   Overwriting overwriting(arguments);
   if (const auto folder = arguments.text("--out")) options.out = Output{*folder};
   if (const auto folder = arguments.text("--dump")) options.dump = Dump{*folder};
-  overwriting.need(options.out || options.dump, "--out or --dump");
+  if (const auto file = arguments.text("--state")) options.state = *file;
+  overwriting.need(options.out || options.dump || options.state, "--out, --dump or --state");
   const SceneInput input = take_scene(arguments);
   arguments.finish();
   overwriting.spare(input.files_read);

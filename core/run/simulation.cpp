@@ -1,6 +1,8 @@
 #include "core/run/simulation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/base/check.h"
@@ -17,6 +19,19 @@ Simulation::Simulation(const Scene& scene)
       model_(scene_model(scene, cloth_)),
       gauge_(gauge_edges(cloth_)) {
   start();
+  if (scene.start) expect_outside_of_solids();
+}
+
+/// A start is of cloth that solids have held; sampled on a coarser mesh it may be a little inside.
+void Simulation::expect_outside_of_solids() const {
+  constexpr double kDeepest = 2e-3;  // [m]
+  if (!model_.contact) return;
+  const Penetration found = model_.contact->penetration(state_.positions, 0);
+  if (found.depth <= kDeepest) return;
+  throw InputError("/start", "expected cloth outside of solids, got vertex " +
+                                 std::to_string(found.deepest.value) + " " +
+                                 std::to_string(std::lround(1e3 * found.depth)) +
+                                 " mm inside of one");
 }
 
 /// A new stepper, so that nothing of an earlier run (a solver's first guess, say) is left.

@@ -90,6 +90,7 @@ class Simulation final : public MovingCloth {
   void observe(StageObserver* observer) override;
 
  private:
+  void expect_outside_of_solids() const;
   struct Grab {
     VertexId vertex;
     std::size_t first_pin;  // its pins are the last of model_.pins

@@ -5,6 +5,7 @@
 #include "core/scene/obj_cloth.h"
 #include "core/scene/plan_section.h"
 #include "core/scene/scene_parts.h"
+#include "core/scene/start_section.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
@@ -37,6 +38,7 @@ SceneParts worn_scene_parts() {
   parts.read_figure = read_figure;
   parts.read_plan = read_scene_plan;
   parts.read_bone = read_bone;
+  parts.read_start = read_start;
   return parts;
 }
 
@@ -44,6 +46,7 @@ SceneParts all_scene_parts() {
   SceneParts parts = worn_scene_parts();
   register_kind(parts, {"mesh", mesh});
   parts.read_tearing = read_tearing;
+  parts.read_start = read_start_or_obj;
   return parts;
 }
 

@@ -1,9 +1,18 @@
 #include "core/scene/rest_cloth.h"
 
 #include "core/base/check.h"
+#include "core/scene/start_section.h"
 #include "core/scene/vertex_place.h"
 
 namespace pleat {
+namespace {
+
+RestCloth begun(RestCloth cloth, const Scene& scene) {
+  if (scene.start) begin_at(*scene.start, scene, cloth);
+  return cloth;
+}
+
+}  // namespace
 
 std::optional<QuadMesh> base_quads(const Scene& scene) {
   if (const QuadCloth* cloth = scene.cloth->quads()) return cloth->base_quads();
@@ -14,10 +23,12 @@ RestCloth rest_cloth(const Scene& scene) {
   if (!scene.plan) return rest_cloth(scene, scene.level);
   const QuadCloth* cloth = scene.cloth->quads();
   PLEAT_CHECK(cloth != nullptr, "a plan refines cloth that is made of quads");
-  return cloth->at_rest(planned_mesh(cloth->base_quads(), *scene.plan));
+  return begun(cloth->at_rest(planned_mesh(cloth->base_quads(), *scene.plan)), scene);
 }
 
-RestCloth rest_cloth(const Scene& scene, int level) { return scene.cloth->at_rest(level); }
+RestCloth rest_cloth(const Scene& scene, int level) {
+  return begun(scene.cloth->at_rest(level), scene);
+}
 
 Eigen::VectorXd rest_areas(const RestCloth& cloth) {
   if (cloth.quads) return cloth.quads->vertex_areas();

@@ -69,6 +69,13 @@ struct RecordOptions {
   FrameFormat format = FrameFormat::obj;
 };
 
+/// Where cloth begins, in place of its rest shape: of it refined uniformly.
+struct StartState {
+  Positions positions;   ///< [m]
+  Positions velocities;  ///< as many [m/s]
+  int level = 0;         ///< of refinement
+};
+
 /// A scene as its file describes it. Every default of the format stands here and in the option
 /// structs it holds, and nowhere else.
 struct Scene {
@@ -84,6 +91,7 @@ struct Scene {
   ModelOptions model;
   int level = 0;                         ///< uniform refinements, 0 to kMaxLevel; with a plan 0
   std::optional<RefinementPlan> plan;    ///< where to refine cloth that is made of quads
+  std::optional<StartState> start;
   std::shared_ptr<const Figure> figure;  ///< or null
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]

@@ -9,6 +9,7 @@
 #include "core/scene/fabric_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
+#include "core/scene/start_section.h"
 #include "core/scene/tearing.h"
 #include "core/scene/world_section.h"
 
@@ -60,7 +61,7 @@ Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics, const
 Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files,
                  const SceneParts& parts) {
   root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement",
-                   "pins", "world", "method", "duration_s", "record"});
+                   "pins", "world", "method", "duration_s", "record", "start"});
   Scene scene;
   if (const auto at = root.find("$schema")) at->text();
   if (const auto at = root.find("name")) scene.name = at->text();
@@ -80,6 +81,10 @@ Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const Fil
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);
   check_duration(scene.duration, scene.method.step);
+  if (const auto at = root.find("start")) {
+    if (parts.read_start == nullptr) refuse_part(*at, "start");
+    scene.start = parts.read_start(*at, files, scene);
+  }
   if (scene.model.tearing) scene.model.tearing->check(root.at("model").at("tearing"), scene);
   return scene;
 }
@@ -99,6 +104,7 @@ std::string write_scene(const Scene& scene) {
   json["duration_s"] = scene.duration;
   json["record"] = json_record(scene.record);
   if (scene.figure) json["figure"] = scene.figure->json();
+  if (scene.start) json["start"] = json_start(*scene.start);
   return format_json(json);
 }
 

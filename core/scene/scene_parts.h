@@ -12,6 +12,7 @@ namespace pleat {
 
 class Tearing;
 struct RefinementPlan;
+struct StartState;
 struct Scene;
 
 /// The parts of a scene that are read before its cloth.
@@ -36,6 +37,9 @@ struct SceneParts {
   /// The key "plan" of the section "refinement"; the scene has its cloth and model.
   RefinementPlan (*read_plan)(const JsonReader& reader, const FileSource& files,
                               const Scene& scene) = nullptr;
+  /// The section "start"; the scene has all else.
+  StartState (*read_start)(const JsonReader& reader, const FileSource& files,
+                           const Scene& scene) = nullptr;
   /// The section "tearing" of the model.
   std::shared_ptr<const Tearing> (*read_tearing)(const JsonReader& reader) = nullptr;
   /// The bone that a pin follows.

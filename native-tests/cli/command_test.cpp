@@ -7,6 +7,7 @@
 
 #include "core/files/json_text.h"
 #include "core/files/obj_file.h"
+#include "core/files/whole_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/matrix_market.h"
 #include "native-tests/support/recorded_frames.h"
@@ -144,6 +145,30 @@ TEST_CASE("command: a folder that exists keeps what it holds", "[cli]") {
   write(scene.folder / "out folder" / "notes.txt", "mine");
   REQUIRE(scene.run({"run", "--out", (scene.folder / "out folder").string()}).status == 0);
   CHECK(text_of(scene.folder / "out folder" / "notes.txt") == "mine");
+}
+
+TEST_CASE("command: a scene that begins at the end of a run goes on from there", "[cli]") {
+  const SmallScene scene;
+  const std::string state = (scene.folder / "state.json").string();
+  REQUIRE(scene.run({"run", "--steps", "6", "--state", state}).status == 0);
+  write(scene.folder / "scene.json",
+        scene_with("\"duration_s\"", R"("start": "state.json", "duration_s")"));
+  const Ending ending = scene.run({"run", "--steps", "6", "--state", state, "--overwrite"});
+  CAPTURE(ending.error);
+  CHECK(ending.status == 2);
+  CHECK(ending.error.find("expected another file than those that are read") != std::string::npos);
+  const std::string later = (scene.folder / "later.json").string();
+  REQUIRE(scene.run({"run", "--steps", "6", "--state", later}).status == 0);
+  write(scene.folder / "scene.json", kSmallScene);
+  const std::string whole = (scene.folder / "whole.json").string();
+  REQUIRE(scene.run({"run", "--steps", "12", "--state", whole}).status == 0);
+  const Json in_parts = parse_json(read_file(later));
+  const Json at_once = parse_json(read_file(whole));
+  // A state is written to a micrometre.
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(in_parts["positions_m"][i][k].get<double>() ==
+            Approx(at_once["positions_m"][i][k].get<double>()).margin(1e-5));
 }
 
 TEST_CASE("command: --dump writes mass and stiffness that other programs read", "[cli]") {

@@ -47,7 +47,7 @@ const BadScene kBadScenes[] = {
     {"{}", "", "expected the key \"cloth\", got an empty object"},
     {R"({"cloth": {"sheet": {}}, "gravity": 1})", "/gravity",
      R"(expected one of the keys "$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement", )"
-     R"("pins", "world", "method", "duration_s", "record", got "gravity")"},
+     R"("pins", "world", "method", "duration_s", "record", "start", got "gravity")"},
     {R"({"cloth": {"sheet": {}}, "duration": 1})", "/duration",
      R"(expected the key "duration_s", got "duration")"},
     {R"({"cloth": {"sheet": {}}, "name": 7})", "/name", "expected a text in quotes, got 7"},
@@ -64,7 +64,8 @@ const BadScene kBadScenes[] = {
      "/" + std::string(60, 'k') + "...",
      "expected one of the keys \"$schema\", \"name\", \"caption\", \"cloth\", \"fabric\", "
      "\"model\", \"figure\", "
-     "\"refinement\", \"pins\", \"world\", \"method\", \"duration_s\", \"record\", got \"" +
+     "\"refinement\", \"pins\", \"world\", \"method\", \"duration_s\", \"record\", \"start\", got "
+     "\"" +
          std::string(59, 'k') + "..."},
     // Cloth: sheet.
     {R"({"cloth": {}})", "/cloth",

@@ -47,6 +47,7 @@ const char* const kFurtherScenes[] = {
     R"({"cloth": {"mesh": {"obj": "triangle.obj", "warp_direction": [1, 0, 0],
         "initial_velocity_m_per_s": [0, 1, 0]}}})",
     R"({"cloth": {"mesh": {"obj": "triangle.obj", "rest": "texture", "texture_scale_m": 0.5}}})",
+    R"({"cloth": {"mesh": {"obj": "triangle.obj"}}, "start": "triangle.obj"})",
     R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 1, 2]],
         "texture_coordinates": [[0, 0], [2, 0], [0, 1]], "rest": "texture", "texture_scale_m": 0.5}}})",
     R"({"cloth": {"mesh": {"positions_m": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 1, 2]],
