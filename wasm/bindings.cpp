@@ -23,7 +23,6 @@
 #include "core/scene/mesh_cloth.h"
 #include "core/scene/method_section.h"
 #include "core/scene/scene_file.h"
-#include "core/scene/scene_schema.h"
 #include "core/scene/tearing.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
@@ -78,12 +77,6 @@ class Scene {
       const val library = json_value(fabrics_json_);
       envelope.set("fabrics", library["fabrics"]);
       envelope.set("sources", library["meta"]["sources"]);
-    });
-  }
-
-  std::string schema() const {
-    return guarded([](val& envelope) {
-      envelope.set("schema", json_value(std::string(pleat::scene_schema_file())));
     });
   }
 
@@ -465,7 +458,6 @@ EMSCRIPTEN_BINDINGS(pleat) {
   emscripten::class_<Scene>("Scene")
       .constructor<std::string>()
       .function("fabrics", &Scene::fabrics)
-      .function("schema", &Scene::schema)
       .function("steppers", &Scene::steppers)
       .function("parse", &Scene::parse)
       .function("studyResponse", &Scene::study_response)

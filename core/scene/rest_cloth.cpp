@@ -1,14 +1,14 @@
 #include "core/scene/rest_cloth.h"
 
 #include "core/base/check.h"
-#include "core/scene/start_section.h"
+#include "core/scene/scene_parts.h"
 #include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
 
 RestCloth begun(RestCloth cloth, const Scene& scene) {
-  if (scene.start) begin_at(*scene.start, scene, cloth);
+  if (scene.start) scene.start_part->begin(*scene.start, scene, cloth);
   return cloth;
 }
 
@@ -23,7 +23,7 @@ RestCloth rest_cloth(const Scene& scene) {
   if (!scene.plan) return rest_cloth(scene, scene.level);
   const QuadCloth* cloth = scene.cloth->quads();
   PLEAT_CHECK(cloth != nullptr, "a plan refines cloth that is made of quads");
-  return begun(cloth->at_rest(planned_mesh(cloth->base_quads(), *scene.plan)), scene);
+  return begun(cloth->at_rest(scene.plan_part->mesh(cloth->base_quads(), *scene.plan)), scene);
 }
 
 RestCloth rest_cloth(const Scene& scene, int level) {

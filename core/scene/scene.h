@@ -76,6 +76,9 @@ struct StartState {
   int level = 0;         ///< of refinement
 };
 
+struct PlanPart;
+struct StartPart;
+
 /// A scene as its file describes it. Every default of the format stands here and in the option
 /// structs it holds, and nowhere else.
 struct Scene {
@@ -89,10 +92,12 @@ struct Scene {
   std::vector<std::string>
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   ModelOptions model;
-  int level = 0;                         ///< uniform refinements, 0 to kMaxLevel; with a plan 0
-  std::optional<RefinementPlan> plan;    ///< where to refine cloth that is made of quads
+  int level = 0;                        ///< uniform refinements, 0 to kMaxLevel; with a plan 0
+  std::optional<RefinementPlan> plan;   ///< where to refine cloth that is made of quads
+  const PlanPart* plan_part = nullptr;  ///< with a plan
   std::optional<StartState> start;
-  std::shared_ptr<const Figure> figure;  ///< or null
+  const StartPart* start_part = nullptr;  ///< with a start
+  std::shared_ptr<const Figure> figure;   ///< or null
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/files/plan_file.h"
 #include "core/scene/cloth_section.h"
 #include "core/scene/fabric_section.h"
 #include "core/scene/method_section.h"
 #include "core/scene/model_section.h"
-#include "core/scene/start_section.h"
 #include "core/scene/tearing.h"
 #include "core/scene/world_section.h"
 
@@ -21,8 +19,9 @@ void read_refinement(const JsonReader& reader, const FileSource& files, const Sc
   reader.allow_keys({"level", "plan"});
   if (const auto at = reader.find("plan")) {
     if (reader.find("level")) at->fail("no such key beside a level");
-    if (parts.read_plan == nullptr) refuse_part(*at, "plan");
-    scene.plan = parts.read_plan(*at, files, scene);
+    if (parts.plan == nullptr) refuse_part(*at, "plan");
+    scene.plan_part = parts.plan;
+    scene.plan = parts.plan->read(*at, files, scene);
   } else if (const auto level = reader.find("level")) {
     scene.level = static_cast<int>(level->integer(0, kMaxLevel));
     check_level(scene, scene.level, level->pointer());
@@ -32,7 +31,7 @@ void read_refinement(const JsonReader& reader, const FileSource& files, const Sc
 Json json_refinement(const Scene& scene) {
   Json json;
   if (scene.plan)
-    json["plan"] = json_plan(*scene.plan);
+    json["plan"] = scene.plan_part->write(*scene.plan);
   else
     json["level"] = scene.level;
   return json;
@@ -82,8 +81,9 @@ Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const Fil
   if (const auto at = root.find("record")) read_record(*at, scene.record);
   check_duration(scene.duration, scene.method.step);
   if (const auto at = root.find("start")) {
-    if (parts.read_start == nullptr) refuse_part(*at, "start");
-    scene.start = parts.read_start(*at, files, scene);
+    if (parts.start == nullptr) refuse_part(*at, "start");
+    scene.start_part = parts.start;
+    scene.start = parts.start->read(*at, files, scene);
   }
   if (scene.model.tearing) scene.model.tearing->check(root.at("model").at("tearing"), scene);
   return scene;
@@ -104,7 +104,7 @@ std::string write_scene(const Scene& scene) {
   json["duration_s"] = scene.duration;
   json["record"] = json_record(scene.record);
   if (scene.figure) json["figure"] = scene.figure->json();
-  if (scene.start) json["start"] = json_start(*scene.start);
+  if (scene.start) json["start"] = scene.start_part->write(*scene.start);
   return format_json(json);
 }
 

@@ -21,6 +21,22 @@ struct ClothSurroundings {
   const Figure* figure;  ///< or null
 };
 
+/// What a program that knows plans of refinement does with one.
+struct PlanPart {
+  /// The key "plan" of the section "refinement"; the scene has its cloth and model.
+  RefinementPlan (*read)(const JsonReader& reader, const FileSource& files, const Scene& scene);
+  Json (*write)(const RefinementPlan& plan);
+  QuadMesh (*mesh)(const QuadMesh& base, const RefinementPlan& plan);
+};
+
+/// The same of states that cloth begins at.
+struct StartPart {
+  /// The section "start"; the scene has all else.
+  StartState (*read)(const JsonReader& reader, const FileSource& files, const Scene& scene);
+  Json (*write)(const StartState& start);
+  void (*begin)(const StartState& start, const Scene& scene, RestCloth& cloth);
+};
+
 /// The parts that a program lets a scene have, and their readers. A program contains the code of
 /// the parts that it registers here. A part without a reader is known and refused (refuse_part).
 struct SceneParts {
@@ -34,12 +50,8 @@ struct SceneParts {
   /// The section "figure".
   std::shared_ptr<const Figure> (*read_figure)(const JsonReader& reader,
                                                const FileSource& files) = nullptr;
-  /// The key "plan" of the section "refinement"; the scene has its cloth and model.
-  RefinementPlan (*read_plan)(const JsonReader& reader, const FileSource& files,
-                              const Scene& scene) = nullptr;
-  /// The section "start"; the scene has all else.
-  StartState (*read_start)(const JsonReader& reader, const FileSource& files,
-                           const Scene& scene) = nullptr;
+  const PlanPart* plan = nullptr;
+  const StartPart* start = nullptr;
   /// The section "tearing" of the model.
   std::shared_ptr<const Tearing> (*read_tearing)(const JsonReader& reader) = nullptr;
   /// The bone that a pin follows.
@@ -56,8 +68,8 @@ SceneParts plain_scene_parts();
 /// The same with meshes of OBJ files.
 SceneParts scene_parts_with_files();
 
-/// Plain parts with figures, garments and plans.
-SceneParts worn_scene_parts();
+/// Sheets and garments, figures, plans and starts, moved by these steppers.
+SceneParts worn_scene_parts(StepperTable steppers);
 
 /// Throws the InputError for a part that a program lacks: "garment", say.
 [[noreturn]] void refuse_part(const JsonReader& reader, const char* part);

@@ -408,7 +408,6 @@ export function createFakeModule(build: FakeBuild = { hasCholmod: true }): {
   class Scene implements SceneHandle {
     private readonly onDelete = born();
     fabrics = () => ok({ fabrics: [] });
-    schema = () => ok({ schema: {} });
     steppers = () => ok({ steppers: [] });
     /** Its tolerance, unless the scene has one, is that of imex. */
     parse = (text: string) => {

@@ -138,7 +138,6 @@ export interface ResponseStudy {
 
 export interface SceneHandle {
   fabrics(): string;
-  schema(): string;
   /** The table of steppers, a StepperRow each, and of the details that they read. */
   steppers(): string;
   parse(sceneText: string): string;
@@ -206,7 +205,6 @@ export interface PleatModule {
 export const PLEAT_METHODS: Record<keyof PleatModule, string[]> = {
   Scene: methodsOf<SceneHandle>({
     fabrics: true,
-    schema: true,
     steppers: true,
     parse: true,
     studyResponse: true,
