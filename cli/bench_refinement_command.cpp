@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "cli/commands.h"
+#include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
@@ -27,13 +28,14 @@ std::optional<double> take_number(Arguments& arguments, const char* option) {
 
 std::vector<PlanOptions> take_plan_options(Arguments& arguments) {
   std::vector<PlanOptions> all;
-  const auto cap = arguments.whole_number("--cap", 1, kMaxLevel);
+  PlanOptions options;
+  options.criterion = take_criterion(arguments);
+  options.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   for (const std::string& demand : arguments.list("--demand"))
-    all.push_back({demand == "0" ? 0 : parse_positive_number(demand, "--demand"), {}, cap});
+    set_demand(all.emplace_back(options), demand);
   for (const std::string& count : arguments.list("--vertices"))
-    all.push_back({PlanOptions{}.demand,
-                   parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices)),
-                   cap});
+    all.emplace_back(options).max_vertices =
+        parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices));
   if (all.empty()) throw InputError("--demand", "expected this or --vertices, got neither");
   return all;
 }

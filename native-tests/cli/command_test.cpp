@@ -521,9 +521,10 @@ TEST_CASE("command: what a scene's files have wrong is told with their names", "
   is_refused(planned.dump(), "plan.json: /base_mesh: expected a plan for this mesh, got one for");
   planned["cloth"]["sheet"]["columns"] = 2;
   Json bad = plan;
-  bad["detail_demand"] = 8;
+  bad["criterion"] = "flatness";
   write(plan_file, bad.dump());
-  is_refused(planned.dump(), "plan.json: /detail_demand: expected a number below 8, got 8");
+  is_refused(planned.dump(),
+             "plan.json: /criterion: expected one of \"shape\", \"curvature\", got \"flatness\"");
   bad = plan;
   bad["splits"][0][0] = 999;
   write(plan_file, bad.dump());
