@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/dynamics/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/refinement/mesh_match.h"
 #include "core/run/content_id.h"
 #include "core/scene/tearing.h"
 
@@ -95,6 +96,23 @@ void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
   start_positions_ = positions;
   for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
   start();
+}
+
+void Simulation::go_on_from(const State& state, double time) {
+  reset();
+  const Eigen::Index n_vertices = model_.masses.size();
+  for (const Positions* columns : {&state.positions, &state.velocities})
+    if (columns->cols() != n_vertices || !columns->allFinite())
+      throw InputError("", "expected finite places and velocities of " +
+                               std::to_string(n_vertices) + " vertices, got " +
+                               std::to_string(columns->cols()) +
+                               (columns->allFinite() ? "" : ", not all finite"));
+  state_ = state;
+  straighten(model_.hanging, state_.positions);
+  straighten(model_.hanging, state_.velocities);
+  for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(time);
+  time_begin_ = time;
+  was_led_astray_ = true;
 }
 
 std::optional<double> Simulation::stability_bound() const {

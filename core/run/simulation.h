@@ -31,6 +31,11 @@ class Simulation final : public MovingCloth {
   /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
   void start_from(const Eigen::Ref<const Positions>& positions);
 
+  /// Goes on from this state at a time of the scene's own [s]: pins and solids are where they are
+  /// then, hanging vertices in the middle of their parents. A reset starts the scene. Throws
+  /// InputError unless there are as many places and velocities as vertices and all are finite.
+  void go_on_from(const State& state, double time);
+
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
   /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
@@ -72,7 +77,9 @@ class Simulation final : public MovingCloth {
   std::int64_t topology() const { return topology_; }
   /// The rest area of each vertex [m^2]; particles count by their mass.
   Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
-  std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
+  std::int64_t n_steps() const {
+    return n_steps_;
+  }  ///< since the start or what it last went on from
   double time() const override {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
@@ -113,7 +120,7 @@ class Simulation final : public MovingCloth {
   State state_;
   std::unique_ptr<Stepper> stepper_;
   StageObserver* observer_ = nullptr;
-  double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
+  double time_begin_ = 0;  // when this cloth went on from another's state [s]
   std::int64_t n_steps_ = 0;
   bool was_led_astray_ = false;
   std::optional<Grab> grab_;
