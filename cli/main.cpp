@@ -142,6 +142,10 @@ pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in
   --adaptive K           one more, split anew in every frame where the first's base cloth bends more
                          than K [1/m]
   --from S               of what is timed and compared (default: half);  --every N  frames compared
+pleat bench restarts SCENE.json   what meshes make wrong before chance does: they start anew from the
+                         scene's state, sampled, and are held against it a while later
+  --with A.json,B.json   the meshes;  --every S  from one restart to the next (default 1)
+  --after S              how long each runs (default 0.25)
 pleat bench response SCENE.json   how touched vertices move along the normal after first contact, with
                          cloth that rests on solids and with cloth that bounces
   --window S             after first contact (default: 0.05)
