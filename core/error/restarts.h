@@ -16,7 +16,8 @@ struct RestartOptions {
 };
 
 /// What a mesh makes wrong before chance does: again and again it starts from the state of a fine
-/// run, sampled on it, and is held against the fine run sampled on it a while later.
+/// run, sampled on it, and is held against the fine run, started anew alike, sampled on it a while
+/// later.
 ///
 /// fine    of a garment or sheet
 /// others  of the same cloth, with the same step; the distance counts by rest area

@@ -98,7 +98,15 @@ void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
   start();
 }
 
-void Simulation::go_on_from(const State& state, double time) {
+Positions Simulation::contact_accelerations() const {
+  Positions accelerations = stepper_->contact_forces();
+  for (Eigen::Index v = 0; v < accelerations.cols(); ++v)
+    if (model_.masses[v] > 0) accelerations.col(v) /= model_.masses[v];
+  return accelerations;
+}
+
+void Simulation::go_on_from(const State& state, double time,
+                            const Positions& contact_accelerations) {
   reset();
   const Eigen::Index n_vertices = model_.masses.size();
   for (const Positions* columns : {&state.positions, &state.velocities})
@@ -111,6 +119,8 @@ void Simulation::go_on_from(const State& state, double time) {
   straighten(model_.hanging, state_.positions);
   straighten(model_.hanging, state_.velocities);
   for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(time);
+  if (contact_accelerations.cols() > 0)
+    stepper_->start_from_contact_forces(contact_accelerations * model_.masses.asDiagonal());
   time_begin_ = time;
   was_led_astray_ = true;
 }

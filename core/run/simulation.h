@@ -34,7 +34,11 @@ class Simulation final : public MovingCloth {
   /// Goes on from this state at a time of the scene's own [s]: pins and solids are where they are
   /// then, hanging vertices in the middle of their parents. A reset starts the scene. Throws
   /// InputError unless there are as many places and velocities as vertices and all are finite.
-  void go_on_from(const State& state, double time);
+  ///
+  /// contact_accelerations  by which solids held the vertices in the substep before [m/s^2], as
+  ///                        contact_accelerations has them; no columns for none
+  void go_on_from(const State& state, double time,
+                  const Positions& contact_accelerations = Positions(3, 0));
 
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
@@ -88,6 +92,8 @@ class Simulation final : public MovingCloth {
   std::optional<double> first_contact() const { return stepper_->first_contact(); }
   /// See Stepper::contact_forces.
   bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
+  /// Those forces over the vertices' masses [m/s^2]; zero where vertices hang.
+  Positions contact_accelerations() const;
   /// See Stepper::strain_limit.
   const StrainLimitStage* strain_limit() const { return stepper_->strain_limit(); }
   /// The longest substep that is surely stable [s]; nothing where the method has no bound.
