@@ -268,8 +268,9 @@ Outcome bench_reference(Arguments arguments) {
 
 Outcome bench_command(Arguments arguments) {
   const std::string kind = arguments.first_word(
-      "what to measure: run, reference, deform, inbetween, plans, together, response, rows or "
-      "limit");
+      "what to measure: run, reference, deform, inbetween, plans, together, restarts, response, "
+      "rows "
+      "or limit");
   arguments.flag("--json");  // its only form
   if (kind == "run") return bench_run(std::move(arguments));
   if (kind == "reference") return bench_reference(std::move(arguments));
@@ -277,13 +278,14 @@ Outcome bench_command(Arguments arguments) {
   if (kind == "inbetween") return bench_inbetween(std::move(arguments));
   if (kind == "plans") return bench_plans(std::move(arguments));
   if (kind == "together") return bench_together(std::move(arguments));
+  if (kind == "restarts") return bench_restarts(std::move(arguments));
   if (kind == "response") return bench_response(std::move(arguments));
   if (kind == "rows") return bench_rows(std::move(arguments));
   if (kind == "limit") return bench_limit(std::move(arguments));
   throw InputError(
       "bench",
-      "expected run, reference, deform, inbetween, plans, together, response, rows or limit after "
-      "it, got " +
+      "expected run, reference, deform, inbetween, plans, together, restarts, response, rows "
+      "or limit after it, got " +
           abbreviated(Json(kind)));
 }
 

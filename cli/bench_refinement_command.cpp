@@ -3,11 +3,13 @@
 #include <numeric>
 
 #include "cli/commands.h"
+#include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/error/error_norms.h"
+#include "core/error/restarts.h"
 #include "core/error/side_by_side.h"
 #include "core/files/plan_file.h"
 #include "core/reference/reference.h"
@@ -27,13 +29,14 @@ std::optional<double> take_number(Arguments& arguments, const char* option) {
 
 std::vector<PlanOptions> take_plan_options(Arguments& arguments) {
   std::vector<PlanOptions> all;
-  const auto cap = arguments.whole_number("--cap", 1, kMaxLevel);
+  PlanOptions options;
+  options.criterion = take_criterion(arguments);
+  options.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   for (const std::string& demand : arguments.list("--demand"))
-    all.push_back({demand == "0" ? 0 : parse_positive_number(demand, "--demand"), {}, cap});
+    set_demand(all.emplace_back(options), demand);
   for (const std::string& count : arguments.list("--vertices"))
-    all.push_back({PlanOptions{}.demand,
-                   parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices)),
-                   cap});
+    all.emplace_back(options).max_vertices =
+        parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices));
   if (all.empty()) throw InputError("--demand", "expected this or --vertices, got neither");
   return all;
 }
@@ -79,6 +82,14 @@ Json insides_json(const Insides& inside) {
   return {{"n_frames", inside.n_frames}, {"most", inside.most}, {"deepest_m", inside.deepest}};
 }
 
+/// A list for each ring, from kFewestFolds on.
+Json folds_json(const Eigen::MatrixXd& amplitudes) {
+  Json rings = Json::array();
+  for (const auto& ring : amplitudes.colwise())
+    rings.push_back(std::vector(ring.begin(), ring.end()));
+  return rings;
+}
+
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -106,7 +117,10 @@ Json row_json(const Contestant& contestant, const ContestantResult& result,
                  {"surface_95_m", number_json(result.errors.surface_95)},
                  {"bend_per_m", number_json(result.errors.bend_distribution)},
                  {"bend_over_time_per_m", number_json(result.bend_over_time)},
-                 {"bend_of_regions_per_m", number_json(result.errors.bend_regions)}}},
+                 {"bend_of_regions_per_m", number_json(result.errors.bend_regions)},
+                 {"sampling_m", number_json(result.sampling.distance)},
+                 {"sampling_rad", number_json(result.sampling.normal_angle)}}},
+               {"folds_m", folds_json(result.folds)},
                {"rms_stretch", result.rms_stretch},
                {"largest_stretch", result.largest_stretch},
                {"inside", insides_json(result.all_inside)},
@@ -159,6 +173,40 @@ Outcome print_together(const std::vector<Contestant>& contestants, const FrameOp
   return outcome;
 }
 
+Outcome print_restarts(const std::vector<SceneInput>& inputs, const RestartOptions& options) {
+  std::vector<Scene> others;
+  for (std::size_t k = 1; k < inputs.size(); ++k) others.push_back(inputs[k].scene);
+  const auto errors = restart_errors(inputs.front().scene, others, options);
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    Json of_run = Json::array();
+    for (const double error : errors[k]) of_run.push_back(number_json(error));
+    rows.push_back({{"scene", others[k].name},
+                    {"n_vertices", rest_cloth(others[k]).mesh.n_vertices()},
+                    {"errors_m", of_run}});
+  }
+  const Json json = {{"restarts", rows},
+                     {"every_s", options.begin},
+                     {"after_s", options.after},
+                     {"duration_s", options.duration},
+                     {"core", core_version()}};
+  std::printf("%s\n", json.dump().c_str());
+  return Outcome::ok;
+}
+
+/// A scene and those after --with.
+std::vector<SceneInput> take_scenes(Arguments& arguments) {
+  const std::vector<std::string> others = arguments.list("--with");
+  const FabricLibrary fabrics = take_fabrics(arguments);
+  const SceneChanges changes = take_scene_changes(arguments);
+  const std::string file = arguments.word("a scene, SCENE.json");
+  arguments.finish();
+  std::vector<SceneInput> inputs{read_scene_input(file, changes, fabrics)};
+  for (const std::string& other : others)
+    inputs.push_back(read_scene_input(other, changes, fabrics));
+  return inputs;
+}
+
 }  // namespace
 
 Outcome bench_plans(Arguments arguments) {
@@ -179,14 +227,7 @@ Outcome bench_together(Arguments arguments) {
   const auto begin = take_number(arguments, "--from");
   const auto split_curvature = take_number(arguments, "--adaptive");
   if (const auto n = arguments.whole_number("--every", 1, 1'000'000)) options.error_every = *n;
-  const std::vector<std::string> others = arguments.list("--with");
-  const FabricLibrary fabrics = take_fabrics(arguments);
-  const SceneChanges changes = take_scene_changes(arguments);
-  const std::string file = arguments.word("a scene, SCENE.json");
-  arguments.finish();
-  std::vector<SceneInput> inputs{read_scene_input(file, changes, fabrics)};
-  for (const std::string& other : others)
-    inputs.push_back(read_scene_input(other, changes, fabrics));
+  const std::vector<SceneInput> inputs = take_scenes(arguments);
   const Scene& first = inputs.front().scene;
   options.duration = first.duration;
   options.begin = begin.value_or(first.duration / 2);
@@ -197,6 +238,15 @@ Outcome bench_together(Arguments arguments) {
   if (split_curvature)
     contestants.push_back({first, DynamicOptions{*split_curvature, first.level}});
   return with_source_named(inputs.front(), [&] { return print_together(contestants, options); });
+}
+
+Outcome bench_restarts(Arguments arguments) {
+  RestartOptions options;
+  options.begin = take_number(arguments, "--every").value_or(options.begin);
+  options.after = take_number(arguments, "--after").value_or(options.after);
+  const std::vector<SceneInput> inputs = take_scenes(arguments);
+  options.duration = inputs.front().scene.duration;
+  return with_source_named(inputs.front(), [&] { return print_restarts(inputs, options); });
 }
 
 }  // namespace pleat

@@ -25,6 +25,7 @@ Outcome bench_deform(Arguments arguments);     ///< bench deform
 Outcome bench_inbetween(Arguments arguments);  ///< bench inbetween
 Outcome bench_plans(Arguments arguments);      ///< bench plans
 Outcome bench_together(Arguments arguments);   ///< bench together
+Outcome bench_restarts(Arguments arguments);   ///< bench restarts
 Outcome bench_rows(Arguments arguments);       ///< bench rows
 Outcome bench_limit(Arguments arguments);      ///< bench limit
 Outcome bench_response(Arguments arguments);   ///< bench response

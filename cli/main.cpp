@@ -61,7 +61,10 @@ pleat reference SCENE.json    make one by newton and tell how well it is known
 pleat refine EXAMPLE.json    run it on a fine mesh and plan where its cloth needs one
   --level N              of the fine mesh (default 2);  --cap N  finest level of the plan
   --patterns N           kinds of bending to tell apart (default 3)
-  --demand X             split faces whose corners' patterns sum to more (default 3);
+  --criterion shape      (default) split faces for what they lose of the example's shapes;
+                         curvature: for the patterns at their corners
+  --demand X             until at most so much is lost, RMS [m] (default 0.002); of curvature:
+                         faces whose corners' patterns sum to more (default 3);
   --vertices N           or as many vertices as possible up to this number
   --from S               look from here on (default: when a figure has walked in for 1 s)
   --merge OTHER.json,... further examples of the same cloth
@@ -133,12 +136,17 @@ pleat bench inbetween A.obj B.obj ...   what frames between keys cost, with the 
   --against DIR          the distance to the nearest of a run's frames;  --unreduced  also of frames
                          for which no space was made
 pleat bench plans SCENE.json      plans that one example run leads to, and what they cost
-  --demand X,Y --vertices N,M  a plan each;  --patterns N  --cap N  --from S  as of refine
+  --demand X,Y --vertices N,M  a plan each;  --criterion C  --patterns N  --cap N  --from S  as of
+                         refine
 pleat bench together SCENE.json   runs of one cloth, frame of 1/30 s by frame in turn
   --with A.json,B.json   the others, whose errors are against the first
   --adaptive K           one more, split anew in every frame where the first's base cloth bends more
                          than K [1/m]
   --from S               of what is timed and compared (default: half);  --every N  frames compared
+pleat bench restarts SCENE.json   what meshes make wrong before chance does: they start anew from the
+                         scene's state, sampled, and are held against it a while later
+  --with A.json,B.json   the meshes;  --every S  from one restart to the next (default 1)
+  --after S              how long each runs (default 0.25)
 pleat bench response SCENE.json   how touched vertices move along the normal after first contact, with
                          cloth that rests on solids and with cloth that bounces
   --window S             after first contact (default: 0.05)

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/overwriting.h"
+#include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/run_warnings.h"
 #include "cli/scene_input.h"
@@ -28,8 +29,8 @@ PlanRecipe take_recipe(Arguments& arguments) {
   if (const auto n = arguments.whole_number("--patterns", 1, kMaxPatterns))
     recipe.patterns.n_patterns = *n;
   recipe.patterns.normalised = !arguments.flag("--raw-features");
-  if (const auto text = arguments.text("--demand"))
-    recipe.plan.demand = parse_number_from_zero(*text, "--demand");
+  recipe.plan.criterion = take_criterion(arguments);
+  if (const auto text = arguments.text("--demand")) set_demand(recipe.plan, *text);
   recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
   recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   return recipe;

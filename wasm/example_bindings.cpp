@@ -66,12 +66,18 @@ class ExampleStudy {
     });
   }
 
-  /// `{demand}` or `{max_vertices}`: the plan's file, with limits if there are frames.
+  /// `{largest_loss_m}`, `{demand}` or `{max_vertices}`, with or without `{criterion}`: the plan's
+  /// file, with limits if there are frames.
   std::string plan(const std::string& options_text) {
     return guarded([&](val& envelope) {
       const val wanted = pleat::json_value(options_text);
       pleat::PlanOptions options;
-      if (wanted["demand"].isNumber()) options.demand = wanted["demand"].as<double>();
+      const bool has_demand = wanted["demand"].isNumber();
+      if (has_demand || wanted["criterion"].equals(val("curvature")))
+        options.criterion = pleat::PlanCriterion::curvature;
+      if (has_demand) options.demand = wanted["demand"].as<double>();
+      if (wanted["largest_loss_m"].isNumber())
+        options.largest_loss = wanted["largest_loss_m"].as<double>();
       if (wanted["max_vertices"].isNumber())
         options.max_vertices = wanted["max_vertices"].as<int>();
       envelope.set("plan", pleat::json_value(pleat::plan_text(study().plan(options))));

@@ -26,6 +26,19 @@ double base_edge(const Scene& scene) {
   return sum / count;
 }
 
+/// The longest side of the unrefined cloth's cells [m], beyond which no mesh of it has facets.
+double largest_cell(const Scene& scene) {
+  const RestCloth base = rest_cloth(scene, 0);
+  if (!base.quads) return base_edge(scene);
+  double largest = 0;
+  for (const QuadFace& face : base.quads->faces())
+    for (int k = 0; k < 4; ++k)
+      largest = std::max(largest, (base.mesh.rest_positions.col(face.corners[k]) -
+                                   base.mesh.rest_positions.col(face.corners[(k + 1) % 4]))
+                                      .norm());
+  return largest;
+}
+
 /// Edge middles of all refinements of a mesh from one level to another.
 std::vector<std::array<VertexId, 2>> middles_between(const RestCloth& coarse, int levels) {
   std::vector<std::array<VertexId, 2>> middles;
@@ -72,7 +85,7 @@ RunComparison::RunComparison(const Scene& scene, const Scene& reference)
   PLEAT_CHECK(!own_.mesh.triangles.empty() && !reference_.mesh.triangles.empty(),
               "cloth with triangles");
   map_.emplace(own_.mesh, reference_.mesh.rest_positions);
-  bend_.emplace(reference_.mesh, base_edge(reference));
+  bend_.emplace(reference_.mesh, largest_cell(reference));
 }
 
 Positions RunComparison::on_finer_mesh(const Positions& positions, bool is_finer) const {

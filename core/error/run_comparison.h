@@ -36,8 +36,8 @@ class RunComparison {
   RunComparison(const Scene& scene, int reference_level);
 
   /// Compares runs on any two meshes of one cloth, graded ones too, at the material points that are
-  /// the vertices of the reference, smoothed over an edge of its unrefined mesh. Both are cloth
-  /// with triangles.
+  /// the vertices of the reference, smoothed over the longest side of its unrefined mesh's cells:
+  /// over less, facets look like error where cells are largest. Both are cloth with triangles.
   RunComparison(const Scene& scene, const Scene& reference);
 
   /// Throws ContractError unless both have samples at the same times.

@@ -46,6 +46,17 @@ RunErrors mean_errors(const RunComparison& comparison, std::span<const Sample> r
   return mean;
 }
 
+SamplingError mean_sampling(const MeshSampling& sampling, std::span<const Sample> reference) {
+  SamplingError squares;
+  for (const Sample& sample : reference) {
+    const SamplingError now = sampling.error(sample.positions);
+    squares.distance += now.distance * now.distance;
+    squares.normal_angle += now.normal_angle * now.normal_angle;
+  }
+  const auto n = static_cast<double>(reference.size());
+  return {std::sqrt(squares.distance / n), std::sqrt(squares.normal_angle / n)};
+}
+
 }  // namespace
 
 int FrameOptions::n_frames() const { return static_cast<int>(std::lround(duration / frame_time)); }
@@ -186,6 +197,8 @@ void SideBySide::advance() {
 std::vector<ContestantResult> SideBySide::results() const {
   PLEAT_CHECK(done(), "results are of whole runs");
   const Run& reference = *runs_.front();
+  const QuadMesh& reference_mesh = *reference.cloth->mesh();
+  const std::vector<Positions> rings = garment_rings(reference_mesh.triangle_mesh());
   std::vector<ContestantResult> results;
   for (const auto& run : runs_) {
     results.push_back(run->summary());
@@ -194,6 +207,13 @@ std::vector<ContestantResult> SideBySide::results() const {
     const RunComparison comparison(scene, reference.entry.scene);
     results.back().errors = mean_errors(comparison, run->samples, reference.samples);
     results.back().bend_over_time = comparison.bend_over_time(run->samples, reference.samples);
+    const QuadMesh& mesh = run->adaptive != nullptr ? reference_mesh : *run->cloth->mesh();
+    if (run->adaptive == nullptr)
+      results.back().sampling =
+          mean_sampling(MeshSampling(mesh, reference_mesh), reference.samples);
+    FoldSpectrum folds(mesh.triangle_mesh(), rings);
+    for (const Sample& sample : run->samples) folds.add(sample.positions);
+    results.back().folds = folds.amplitudes();
   }
   return results;
 }

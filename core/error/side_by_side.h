@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error/fold_spectrum.h"
+#include "core/error/mesh_sampling.h"
 #include "core/error/run_comparison.h"
 #include "core/refinement/fit_monitor.h"
 #include "core/run/adaptive_run.h"
@@ -56,11 +58,15 @@ struct ContestantResult {
   std::vector<double> refinement_ms;            ///< of each frame; empty unless adaptive
   RunErrors errors;                             ///< against the first contestant, means over times
   double bend_over_time = RunErrors::kUnknown;  ///< see RunComparison [1/m]
-  double rms_stretch = 0;                       ///< mean over the frames that are compared
-  double largest_stretch = 0;                   ///< of all frames
-  Insides all_inside;                           ///< of all frames
-  Insides unpinned_inside;                      ///< of the vertices that no pin takes along
-  std::optional<FitSummary> fit;                ///< on a mesh of a plan with limits
+  /// Of the first contestant's shapes sampled on this one's mesh, root mean square over the frames
+  /// that are compared: the mesh's own fault. Not of an adaptive mesh.
+  SamplingError sampling{RunErrors::kUnknown, RunErrors::kUnknown};
+  Eigen::MatrixXd folds;       ///< FoldSpectrum::amplitudes over garment_rings, of those frames [m]
+  double rms_stretch = 0;      ///< mean over the frames that are compared
+  double largest_stretch = 0;  ///< of all frames
+  Insides all_inside;          ///< of all frames
+  Insides unpinned_inside;     ///< of the vertices that no pin takes along
+  std::optional<FitSummary> fit;  ///< on a mesh of a plan with limits
 };
 
 /// Runs that take turns frame by frame, so that a change of the machine's speed meets all alike.

@@ -11,6 +11,8 @@ namespace {
 
 constexpr const char* kFormat = "pleat plan 1";
 constexpr const char* kBalance = "balance";
+constexpr const char* kDetailDemand = "detail_demand";
+constexpr const char* kLargestLoss = "largest_loss_m";
 constexpr int kMaxCount = std::numeric_limits<int>::max();
 
 std::string fingerprint_text(std::uint64_t fingerprint) {
@@ -103,12 +105,20 @@ PlannedSplit read_split(const JsonReader& reader) {
 }
 
 void read_options(const JsonReader& root, RefinementPlan& plan) {
+  const auto criterion = root.find("criterion");  // files from before there were two have none
+  plan.options.criterion = criterion ? criterion->word(kPlanCriteria) : PlanCriterion::curvature;
+  const bool is_shape = plan.options.criterion == PlanCriterion::shape;
+  const char* const demand_key = is_shape ? kLargestLoss : kDetailDemand;
   plan.options.level_cap = static_cast<int>(root.at("level_cap").integer(0, kMaxLevel));
-  if (root.only_one_of({"detail_demand", "vertex_budget"}) == 1) {
+  if (root.only_one_of({demand_key, "vertex_budget"}) == 1) {
     plan.options.max_vertices = static_cast<int>(root.at("vertex_budget").integer(0, kMaxCount));
     return;
   }
-  const JsonReader demand = root.at("detail_demand");
+  const JsonReader demand = root.at(demand_key);
+  if (is_shape) {
+    plan.options.largest_loss = demand.number({0, kLargestLossEnd, NumberRange::Ends::included});
+    return;
+  }
   plan.options.demand = demand.number(kNotNegative);
   const int end = 4 * (plan.n_patterns - 1);
   if (plan.options.demand >= end) demand.fail("a number below " + std::to_string(end));
@@ -127,10 +137,13 @@ Json json_plan(const RefinementPlan& plan) {
       {"examples", examples},
       {"patterns", plan.n_patterns},
       {"patterns_of_vertices", json_runs(plan.patterns)}};
+  json["criterion"] = word_for(kPlanCriteria, plan.options.criterion);
   if (plan.options.max_vertices)
     json["vertex_budget"] = *plan.options.max_vertices;
+  else if (plan.options.criterion == PlanCriterion::shape)
+    json[kLargestLoss] = plan.options.largest_loss;
   else
-    json["detail_demand"] = plan.options.demand;
+    json[kDetailDemand] = plan.options.demand;
   json["level_cap"] = *plan.options.level_cap;
   json["vertices"] = plan.n_vertices;
   json["curvature_limits_per_m"] = plan.curvature_limits;
@@ -147,8 +160,8 @@ RefinementPlan read_plan(std::string_view json_text) {
 
 RefinementPlan read_plan(const JsonReader& root) {
   root.allow_keys({"format", "base_mesh", "examples", "patterns", "patterns_of_vertices",
-                   "vertex_budget", "detail_demand", "level_cap", "vertices",
-                   "curvature_limits_per_m", "splits"});
+                   "criterion", "vertex_budget", kLargestLoss, kDetailDemand, "level_cap",
+                   "vertices", "curvature_limits_per_m", "splits"});
   if (root.at("format").text() != kFormat) root.at("format").fail('"' + std::string(kFormat) + '"');
   RefinementPlan plan;
   plan.n_patterns = static_cast<int>(root.at("patterns").integer(1, kMaxPatterns));

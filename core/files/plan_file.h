@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -7,6 +8,9 @@
 #include "core/refinement/refinement_plan.h"
 
 namespace pleat {
+
+inline constexpr std::array<Word<PlanCriterion>, 2> kPlanCriteria{
+    {{"shape", PlanCriterion::shape}, {"curvature", PlanCriterion::curvature}}};
 
 /// A refinement plan as JSON (docs/methods/multiresolution.md), from which the same plan is read to
 /// the bit.

@@ -7,6 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/refinement/mesh_match.h"
+#include "core/refinement/shape_splits.h"
 
 namespace pleat {
 namespace {
@@ -35,6 +36,16 @@ Eigen::VectorXd largest_means(std::span<const BendExample> examples) {
   Eigen::VectorXd largest = examples[0].features.row(0);
   for (const BendExample& example : examples.subspan(1))
     largest = largest.cwiseMax(example.features.row(0).transpose());
+  return largest;
+}
+
+/// What each face loses in the example where it loses most [m^4].
+FaceLosses largest_losses(std::span<const BendExample> examples, std::size_t n_faces) {
+  FaceLosses largest = FaceLosses::Zero(4, static_cast<Eigen::Index>(n_faces));
+  for (const BendExample& example : examples) {
+    PLEAT_CHECK(example.losses.cols() == largest.cols(), "an example has losses of each fine face");
+    largest = largest.cwiseMax(example.losses);
+  }
   return largest;
 }
 
@@ -200,6 +211,12 @@ void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMe
       throw InputError("vertex budget", "expected at least the base mesh's " +
                                             std::to_string(base.n_vertices()) + ", got " +
                                             std::to_string(*options.max_vertices));
+  } else if (options.criterion == PlanCriterion::shape) {
+    if (!(options.largest_loss >= 0 && options.largest_loss < kLargestLossEnd))
+      throw InputError("detail demand",
+                       "expected what the criterion shape may lose, from 0 to below " +
+                           number_text(kLargestLossEnd) + " m, got " +
+                           number_text(options.largest_loss));
   } else if (!(options.demand >= 0 && options.demand < end)) {
     throw InputError("detail demand", "expected a number from 0 to below " + number_text(end) +
                                           ", got " + number_text(options.demand));
@@ -234,6 +251,13 @@ RefinementPlan refinement_plan(const QuadMesh& base, const QuadMesh& fine,
   plan.base_mesh = base_fingerprint(base);
   const Eigen::VectorXd demands =
       Eigen::Map<const Eigen::VectorXi>(plan.patterns.data(), base.n_vertices()).cast<double>();
+  if (options.criterion == PlanCriterion::shape) {
+    plan.splits = shape_splits(fine, largest_losses(examples, fine.faces().size()), plan.options);
+    QuadMesh mesh = base;
+    for (const PlannedSplit& split : plan.splits) mesh.refine(std::array{split.face});
+    plan.n_vertices = mesh.n_vertices();
+    return plan;
+  }
   QuadMesh mesh = base;
   plan.splits =
       options.max_vertices

@@ -8,6 +8,7 @@
 
 #include "core/mesh/quad_mesh.h"
 #include "core/refinement/bend_patterns.h"
+#include "core/refinement/face_losses.h"
 
 namespace pleat {
 
@@ -16,13 +17,27 @@ struct BendExample {
   std::string name;
   BendFeatures features;  ///< of the fine mesh's vertices [1/m]
   BendPatterns patterns;
+  FaceLosses losses;  ///< of the fine mesh's faces; only PlanCriterion::shape reads them
 };
 
+/// What faces are split for.
+enum class PlanCriterion {
+  shape,      ///< what they lose of the example's shapes
+  curvature,  ///< the patterns of their corners
+};
+
+/// Lengths that are demanded are shorter: cloth in folds has lost its shape long before [m].
+constexpr double kLargestLossEnd = 0.1;
+
 struct PlanOptions {
-  /// A face is split where the demands of its corners sum to more: lower, more vertices. From 0 to
-  /// below 4 (number of patterns - 1).
+  PlanCriterion criterion = PlanCriterion::shape;
+  /// Of `shape`: so much may be lost, root mean square over the cloth and the frames of any example
+  /// [m]. From 0, which splits all, to below kLargestLossEnd.
+  double largest_loss = 0.002;
+  /// Of `curvature`: a face is split where the demands of its corners sum to more: lower, more
+  /// vertices. From 0 to below 4 (number of patterns - 1).
   double demand = 3;
-  /// Instead of the demand: as many vertices as possible up to this number.
+  /// Instead of either: as many vertices as possible up to this number.
   std::optional<int> max_vertices;
   std::optional<int> level_cap;  ///< finest level; else that of the fine mesh, which is the most
 };
@@ -44,7 +59,9 @@ struct PlanExample {
 /// One line of a plan's story.
 struct PlannedSplit {
   FaceId face;
-  double demand = 0;         ///< of its corners, summed, when it was split
+  /// When it was split: of its corners, summed; of PlanCriterion::shape what it lost, root mean
+  /// square [m].
+  double demand = 0;
   bool for_balance = false;  ///< only because a neighbour needed it
 };
 
@@ -64,18 +81,20 @@ struct RefinementPlan {
 
 /// Plans where to split. A base vertex has the highest pattern that an example gives it.
 ///
-/// By demand: demands begin as patterns. In each pass every face is split whose corners sum to
-/// more than options.demand; a vertex that was there then demands one less, at least 0, and a new
-/// one the mean of its parents. By number: one face after another with what balance needs, first
-/// the one with the largest sum of max(demand - level, 0), demands staying as they begin, then with
-/// the largest mean curvature of the example, then the first; faces that would exceed the number
-/// are left out.
+/// By shape: shape_splits, a face's loss the largest that an example has.
+///
+/// By curvature and demand: demands begin as patterns. In each pass every face is split whose
+/// corners sum to more than options.demand; a vertex that was there then demands one less, at least
+/// 0, and a new one the mean of its parents. By curvature and number: one face after another with
+/// what balance needs, first the one with the largest sum of max(demand - level, 0), demands
+/// staying as they begin, then with the largest mean curvature of the example, then the first;
+/// faces that would exceed the number are left out.
 ///
 /// base      not refined
 /// fine      base refined uniformly
 /// examples  at least one, all with as many patterns
 /// Throws InputError as check_plan_options does.
-/// Source: the multi-resolution quad cloth listed as M in docs/reproduction.md;
+/// Source: the multi-resolution quad cloth listed as M in docs/reproduction.md, for curvature;
 /// docs/methods/multiresolution.md.
 RefinementPlan refinement_plan(const QuadMesh& base, const QuadMesh& fine,
                                std::span<const BendExample> examples,

@@ -5,6 +5,14 @@
 #include "core/scene/rest_cloth.h"
 
 namespace pleat {
+namespace {
+
+QuadMesh refined_uniformly(QuadMesh mesh, int levels) {
+  mesh.refine_uniformly(levels);
+  return mesh;
+}
+
+}  // namespace
 
 QuadMesh example_base(const Scene& scene) {
   std::optional<QuadMesh> base = base_quads(scene);
@@ -17,14 +25,17 @@ QuadMesh example_base(const Scene& scene) {
   return *std::move(base);
 }
 
-ExampleStudy::ExampleStudy(const Scene& scene) : base_(example_base(scene)), fine_(base_) {
-  fine_.refine_uniformly(scene.level);
-}
+ExampleStudy::ExampleStudy(const Scene& scene)
+    : base_(example_base(scene)), fine_(refined_uniformly(base_, scene.level)), losses_(fine_) {}
 
 void ExampleStudy::add_frame(Positions places) {
   if (places.cols() != fine_.n_vertices())
     throw InputError("", "expected a place for each of " + std::to_string(fine_.n_vertices()) +
                              " fine vertices, got " + std::to_string(places.cols()));
+  if (!places.allFinite())
+    throw InputError(
+        "", "expected finite places, got others in frame " + std::to_string(frames_.size()));
+  losses_.add(places);
   frames_.push_back(std::move(places));
 }
 
@@ -39,11 +50,16 @@ void ExampleStudy::add_example(std::string name, const BendFeatures& features,
   if (features.cols() != fine_.n_vertices() || !features.allFinite())
     throw InputError("features", "expected two finite numbers for each of " +
                                      std::to_string(fine_.n_vertices()) + " vertices");
-  examples_.push_back({std::move(name), features, bend_patterns(features, options)});
+  examples_.push_back({std::move(name), features, bend_patterns(features, options), {}});
+  if (losses_.n_frames() > 0) examples_.back().losses = losses_.losses();
+  losses_ = FaceLossSum(fine_);
 }
 
 RefinementPlan ExampleStudy::plan(const PlanOptions& options) const {
   if (examples_.empty()) throw InputError("", "expected sorted features, got none");
+  for (const BendExample& example : examples_)
+    if (options.criterion == PlanCriterion::shape && example.losses.size() == 0)
+      throw InputError("", "expected frames of each example for the criterion \"shape\", got none");
   RefinementPlan plan = refinement_plan(base_, fine_, examples_, options);
   if (frames_.empty()) return plan;
   ExampleEnvelope envelope(planned_mesh(base_, plan), fine_, plan);

@@ -22,20 +22,22 @@ class ExampleStudy {
   const QuadMesh& base() const { return base_; }
   const QuadMesh& fine() const { return fine_; }
 
-  /// A frame of an example: the fine mesh's positions [m]. Throws InputError for another number of
-  /// places.
+  /// A frame of the next example: the fine mesh's positions [m]. Throws InputError for another
+  /// number of places and for one that is not finite.
   void add_frame(Positions places);
   const std::vector<Positions>& frames() const { return frames_; }
   /// Features of the motion from this frame on. Throws InputError as BendFeatureSum does.
   BendFeatures features(std::size_t first_frame = 0) const;
 
-  /// Sorts the fine mesh's vertices by these features: one example more that plans are made of.
-  /// Throws InputError unless there are finite features for each, and as bend_patterns does.
+  /// Sorts the fine mesh's vertices by these features: one example more that plans are made of,
+  /// with what its frames, added since the last one, lose. Throws InputError unless there are
+  /// finite features for each, and as bend_patterns does.
   void add_example(std::string name, const BendFeatures& features, const PatternOptions& options);
   std::size_t n_examples() const { return examples_.size(); }
 
   /// The plan has limits when there are frames, taken from all of them. Throws InputError without
-  /// an example and as refinement_plan does.
+  /// an example, for PlanCriterion::shape and an example without frames, and as refinement_plan
+  /// does.
   RefinementPlan plan(const PlanOptions& options) const;
 
  private:
@@ -43,6 +45,7 @@ class ExampleStudy {
   QuadMesh fine_;
   std::vector<BendExample> examples_;
   std::vector<Positions> frames_;
+  FaceLossSum losses_;  // of the next example's frames
 };
 
 }  // namespace pleat

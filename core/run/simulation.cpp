@@ -8,6 +8,7 @@
 #include "core/base/check.h"
 #include "core/dynamics/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/refinement/mesh_match.h"
 #include "core/run/content_id.h"
 #include "core/scene/tearing.h"
 
@@ -110,6 +111,33 @@ void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
   start_positions_ = positions;
   for (Pin& pin : model_.pins) pin.place = positions.col(pin.vertex);
   start();
+}
+
+Positions Simulation::contact_accelerations() const {
+  Positions accelerations = stepper_->contact_forces();
+  for (Eigen::Index v = 0; v < accelerations.cols(); ++v)
+    if (model_.masses[v] > 0) accelerations.col(v) /= model_.masses[v];
+  return accelerations;
+}
+
+void Simulation::go_on_from(const State& state, double time,
+                            const Positions& contact_accelerations) {
+  reset();
+  const Eigen::Index n_vertices = model_.masses.size();
+  for (const Positions* columns : {&state.positions, &state.velocities})
+    if (columns->cols() != n_vertices || !columns->allFinite())
+      throw InputError("", "expected finite places and velocities of " +
+                               std::to_string(n_vertices) + " vertices, got " +
+                               std::to_string(columns->cols()) +
+                               (columns->allFinite() ? "" : ", not all finite"));
+  state_ = state;
+  straighten(model_.hanging, state_.positions);
+  straighten(model_.hanging, state_.velocities);
+  for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(time);
+  if (contact_accelerations.cols() > 0)
+    stepper_->start_from_contact_forces(contact_accelerations * model_.masses.asDiagonal());
+  time_begin_ = time;
+  was_led_astray_ = true;
 }
 
 std::optional<double> Simulation::stability_bound() const {

@@ -31,6 +31,15 @@ class Simulation final : public MovingCloth {
   /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
   void start_from(const Eigen::Ref<const Positions>& positions);
 
+  /// Goes on from this state at a time of the scene's own [s]: pins and solids are where they are
+  /// then, hanging vertices in the middle of their parents. A reset starts the scene. Throws
+  /// InputError unless there are as many places and velocities as vertices and all are finite.
+  ///
+  /// contact_accelerations  by which solids held the vertices in the substep before [m/s^2], as
+  ///                        contact_accelerations has them; no columns for none
+  void go_on_from(const State& state, double time,
+                  const Positions& contact_accelerations = Positions(3, 0));
+
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
   /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
@@ -72,7 +81,9 @@ class Simulation final : public MovingCloth {
   std::int64_t topology() const { return topology_; }
   /// The rest area of each vertex [m^2]; particles count by their mass.
   Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
-  std::int64_t n_steps() const { return n_steps_; }  ///< since the start or the last carry_over
+  std::int64_t n_steps() const {
+    return n_steps_;
+  }  ///< since the start or what it last went on from
   double time() const override {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
@@ -81,6 +92,8 @@ class Simulation final : public MovingCloth {
   std::optional<double> first_contact() const { return stepper_->first_contact(); }
   /// See Stepper::contact_forces.
   bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
+  /// Those forces over the vertices' masses [m/s^2]; zero where vertices hang.
+  Positions contact_accelerations() const;
   /// See Stepper::strain_limit.
   const StrainLimitStage* strain_limit() const { return stepper_->strain_limit(); }
   /// The longest substep that is surely stable [s]; nothing where the method has no bound.
@@ -114,7 +127,7 @@ class Simulation final : public MovingCloth {
   State state_;
   std::unique_ptr<Stepper> stepper_;
   StageObserver* observer_ = nullptr;
-  double time_begin_ = 0;  // when a carried-over cloth was taken over [s]
+  double time_begin_ = 0;  // when this cloth went on from another's state [s]
   std::int64_t n_steps_ = 0;
   bool was_led_astray_ = false;
   std::optional<Grab> grab_;

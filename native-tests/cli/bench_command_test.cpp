@@ -168,6 +168,40 @@ TEST_CASE("command: a spring hangs as far down as its closed form says", "[cli]"
   CHECK(x.at(4).get<double>() == Approx(-1.2).epsilon(1e-12));  // 1 m and 0.5 kg x 8 m/s^2 / 20 N/m
 }
 
+TEST_CASE("command: meshes are told by their own fault, by restarts and by folds", "[cli]") {
+  const SmallScene scene;
+  const auto at_level = [&](int level) {
+    Json json = parse_json(kSmallScene);
+    json["refinement"] = {{"level", level}};
+    json["duration_s"] = 0.4;
+    json["method"]["step_s"] = 1.0 / 60;
+    const auto file = scene.folder / ("level" + std::to_string(level) + ".json");
+    write(file, json.dump());
+    return file.string();
+  };
+  const auto bench = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "bench");
+    words.insert(words.end(), {at_level(2), "--with", at_level(2) + "," + at_level(0)});
+    return pleat_command(scene.folder, words);
+  };
+  const Ending together = bench({"together"});
+  CAPTURE(together.error);
+  REQUIRE(together.status == 0);
+  const Json runs = parse_json(together.out).at("runs");
+  CHECK(runs.at(1).at("errors").at("sampling_m") == 0);
+  CHECK(runs.at(2).at("errors").at("sampling_m").get<double>() > 1e-6);
+  CHECK(runs.at(2).at("errors").at("sampling_rad").get<double>() > 1e-4);
+  CHECK(runs.at(2).at("folds_m").empty());  // a sheet has no rings
+  const Ending restarts = bench({"restarts", "--every", "0.2", "--after", "0.1"});
+  CAPTURE(restarts.error);
+  REQUIRE(restarts.status == 0);
+  const Json rows = parse_json(restarts.out).at("restarts");
+  REQUIRE(rows.at(1).at("errors_m").size() == 2);
+  CHECK(rows.at(0).at("errors_m").at(0).get<double>() < 1e-6);
+  CHECK(rows.at(1).at("errors_m").at(0).get<double>() > 1e-5);
+  CHECK(bench({"restarts", "--every", "0.1", "--after", "0.2"}).status == 2);
+}
+
 TEST_CASE("command: a bench refuses what it would not use", "[cli]") {
   const SmallScene scene;
   struct Bad {

@@ -248,8 +248,8 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"sweep", "--levels", "0", "--set", "/refinement/level=1"}, "pleat: --set: expected each "},
       {{"sweep", "--reference", "rigid_chain", "--set", "/pins=[]"}, "scene.json: /pins: expected"},
       {{"bench"},
-       "pleat: bench: expected run, reference, deform, inbetween, plans, together, response, rows "
-       "or limit after it, got "},
+       "pleat: bench: expected run, reference, deform, inbetween, plans, together, restarts, "
+       "response, rows or limit after it, got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
       {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},
       {{"run", "-x"}, "pleat: -x: unknown option"},
@@ -546,9 +546,10 @@ TEST_CASE("command: what a scene's files have wrong is told with their names", "
   is_refused(planned.dump(), "plan.json: /base_mesh: expected a plan for this mesh, got one for");
   planned["cloth"]["sheet"]["columns"] = 2;
   Json bad = plan;
-  bad["detail_demand"] = 8;
+  bad["criterion"] = "flatness";
   write(plan_file, bad.dump());
-  is_refused(planned.dump(), "plan.json: /detail_demand: expected a number below 8, got 8");
+  is_refused(planned.dump(),
+             "plan.json: /criterion: expected one of \"shape\", \"curvature\", got \"flatness\"");
   bad = plan;
   bad["splits"][0][0] = 999;
   write(plan_file, bad.dump());

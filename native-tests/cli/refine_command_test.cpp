@@ -24,7 +24,11 @@ TEST_CASE("command: refine refuses an example, a plan or an option that it canno
     std::vector<std::string> words;
     std::string sentence;
   } cases[] = {
-      {{scene.file, "--demand", "8"}, "--demand: expected a number from 0 to below 8, got 8"},
+      {{scene.file, "--demand", "3"},
+       "--demand: expected what the criterion shape may lose, from 0 to below 0.1 m, got 3"},
+      {{scene.file, "--criterion", "curvature", "--demand", "8"},
+       "--demand: expected a number from 0 to below 8, got 8"},
+      {{scene.file, "--criterion", "bend"}, "--criterion: expected shape or curvature, got "},
       {{scene.file, "--demand", "-1"}, "--demand: expected a number >= 0, got \"-1\""},
       {{scene.file, "--vertices", "8"}, "--vertices: expected at least the base mesh's 9, got 8"},
       {{scene.file, "--cap", "3"},

@@ -22,6 +22,11 @@ RefinementPlan plan_of_two_examples(const PlanOptions& options) {
     });
   };
   std::array examples{example(0.2), example(0.9)};
+  for (std::size_t e = 0; e < 2; ++e) {
+    FaceLossSum losses(fine);
+    losses.add(folded(fine, 0.2 + 0.7 * static_cast<double>(e), 1.2));
+    examples[e].losses = losses.losses();
+  }
   examples[0].name = "walk \"1\"";
   examples[1].name = "squat";
   RefinementPlan plan = refinement_plan(base, fine, examples, options);
@@ -30,15 +35,15 @@ RefinementPlan plan_of_two_examples(const PlanOptions& options) {
   return plan;
 }
 
-PlanOptions budget(int max_vertices) {
-  PlanOptions options;
+PlanOptions budget(PlanOptions options, int max_vertices) {
   options.max_vertices = max_vertices;
   return options;
 }
 
 /// The pointer at which a text is refused that has one value replaced.
-std::string refused_at(const std::string& pointer, const Json& value) {
-  Json document = parse_json(plan_text(plan_of_two_examples({})));
+std::string refused_at(const std::string& pointer, const Json& value,
+                       const PlanOptions& options = by_curvature()) {
+  Json document = parse_json(plan_text(plan_of_two_examples(options)));
   document[Json::json_pointer(pointer)] = value;
   try {
     read_plan(document.dump());
@@ -51,7 +56,8 @@ std::string refused_at(const std::string& pointer, const Json& value) {
 }  // namespace
 
 TEST_CASE("plan file: a plan is read back to the bit", "[files]") {
-  const PlanOptions options = GENERATE(PlanOptions{}, budget(120));
+  const PlanOptions options =
+      GENERATE(PlanOptions{}, budget({}, 120), by_curvature(), budget(by_curvature(), 120));
   const RefinementPlan plan = plan_of_two_examples(options);
   const RefinementPlan again = read_plan(plan_text(plan));
   REQUIRE(again.examples.size() == 2);
@@ -63,6 +69,8 @@ TEST_CASE("plan file: a plan is read back to the bit", "[files]") {
   }
   CHECK(again.n_patterns == plan.n_patterns);
   CHECK(again.patterns == plan.patterns);
+  CHECK(again.options.criterion == plan.options.criterion);
+  CHECK(again.options.largest_loss == plan.options.largest_loss);
   CHECK(again.options.demand == plan.options.demand);
   CHECK(again.options.max_vertices == plan.options.max_vertices);
   CHECK(again.options.level_cap == plan.options.level_cap);
@@ -80,6 +88,14 @@ TEST_CASE("plan file: a plan is read back to the bit", "[files]") {
   CHECK(planned_mesh(lying_sheet(6), again).n_vertices() == plan.n_vertices);
 }
 
+TEST_CASE("plan file: one that names no criterion is of curvature", "[files]") {
+  Json document = parse_json(plan_text(plan_of_two_examples(by_curvature())));
+  document.erase("criterion");
+  const RefinementPlan plan = read_plan(document.dump());
+  CHECK(plan.options.criterion == PlanCriterion::curvature);
+  CHECK(plan.options.demand == 3);
+}
+
 TEST_CASE("plan file: what is no plan is refused with its place", "[files]") {
   CHECK(refused_at("/format", "pleat plan 1") == "nowhere");
   CHECK(refused_at("/format", "pleat frames 1") == "/format");
@@ -92,6 +108,11 @@ TEST_CASE("plan file: what is no plan is refused with its place", "[files]") {
   CHECK(refused_at("/patterns_of_vertices/0/1", 50) == "/patterns_of_vertices/0/1");
   CHECK(refused_at("/detail_demand", 8) == "/detail_demand");
   CHECK(refused_at("/vertex_budget", 80).empty());  // the plan as a whole: it has a demand
+  CHECK(refused_at("/criterion", "curve") == "/criterion");
+  CHECK(refused_at("/criterion", "shape").empty());  // the plan as a whole: its demand is no length
+  CHECK(refused_at("/largest_loss_m", 0.1, {}) == "nowhere");
+  CHECK(refused_at("/largest_loss_m", 3, {}) == "/largest_loss_m");
+  CHECK(refused_at("/largest_loss_m", -0.001, {}) == "/largest_loss_m");
   CHECK(refused_at("/level_cap", 9) == "/level_cap");
   CHECK(refused_at("/examples/1/low_per_m/0", "x") == "/examples/1/low_per_m/0");
   CHECK(refused_at("/curvature_limits_per_m", Json::array({1, 2})) == "/curvature_limits_per_m");

@@ -28,8 +28,8 @@ FoldPlan fold_plan() {
   fine.refine_uniformly(2);
   BendFeatureSum sum(fine);
   for (int frame = 0; frame < kFrames; ++frame) sum.add(folded(fine, place_at(frame, 0), 1));
-  const BendExample example{"fold", sum.features(), bend_patterns(sum.features())};
-  RefinementPlan plan = refinement_plan(base, fine, {&example, 1});
+  const BendExample example{"fold", sum.features(), bend_patterns(sum.features()), {}};
+  RefinementPlan plan = refinement_plan(base, fine, {&example, 1}, by_curvature());
   const QuadMesh mesh = planned_mesh(base, plan);
   ExampleEnvelope envelope(mesh, fine, plan);
   for (int frame = 0; frame < kFrames; ++frame) envelope.add(folded(fine, place_at(frame, 0), 1));
@@ -108,7 +108,7 @@ TEST_CASE("fit monitor: a face has the largest pattern between its corners", "[r
   std::vector<int> patterns(9, 0);
   patterns[0] = 2;
   const BendExample example = example_of_patterns(fine, patterns);
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.demand = 1.5;
   const RefinementPlan plan = refinement_plan(base, fine, {&example, 1}, options);
   const QuadMesh mesh = planned_mesh(base, plan);

@@ -91,7 +91,7 @@ TEST_CASE("plan: demands are corrected before new vertices take their mean", "[r
   // it 1/2 and the centre 1/4: 2.25 for the child at the corner, 0.75 for those beside it.
   std::vector<int> patterns(25, 0);
   patterns[0] = 2;
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.demand = 1;
   const RefinementPlan plan = plan_of_patterns(4, patterns, options);
   REQUIRE(plan.splits.size() == 2);
@@ -112,7 +112,7 @@ TEST_CASE("plan: demands are corrected before new vertices take their mean", "[r
 
 TEST_CASE("plan: a cloth bent most everywhere becomes the fine mesh", "[refinement]") {
   const std::vector<int> patterns(16, 2);
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.demand = 0;
   CHECK(plan_of_patterns(3, patterns, options).n_vertices == 13 * 13);
   options.demand = 4;  // 4 corners of 2 exceed it, of 1 do not
@@ -128,7 +128,7 @@ TEST_CASE("plan: less demand, more vertices", "[refinement]") {
   const std::vector<int> patterns = random_patterns(8, 3, random);
   int last = 33 * 33 + 1;
   for (const double demand : {0.0, 1.0, 2.0, 3.0, 5.0, 7.5}) {
-    PlanOptions options;
+    PlanOptions options = by_curvature();
     options.demand = demand;
     const int n = plan_of_patterns(8, patterns, options).n_vertices;
     CHECK(n <= last);
@@ -142,7 +142,7 @@ TEST_CASE("plan: its splits make its mesh, and each says why", "[refinement]") {
   CAPTURE(seed);
   Random random(static_cast<std::uint64_t>(seed));
   const std::vector<int> patterns = random_patterns(7, 4, random);
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.demand = 2.2;
   const RefinementPlan plan = plan_of_patterns(7, patterns, options, 3, 4);
   const QuadMesh mesh = planned_mesh(lying_sheet(7), plan);
@@ -168,7 +168,7 @@ TEST_CASE("plan: a vertex budget is never exceeded and nearly used up", "[refine
   const QuadMesh base = lying_sheet(8);
   const QuadMesh fine = fine_sheet(8, 2);
   const BendExample example = random_example(fine, random);
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.max_vertices = budget;
   const RefinementPlan plan = refinement_plan(base, fine, {&example, 1}, options);
   CHECK(plan.n_vertices <= budget);
@@ -186,7 +186,7 @@ TEST_CASE("plan: a vertex budget goes to the most urgent face that fits", "[refi
   // The second time all curvature is the same, so that the order of the faces decides.
   const BendExample example = seed == 4 ? random_example(fine, random)
                                         : example_of_patterns(fine, random_patterns(3, 3, random));
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.max_vertices = budget;
   std::vector<int> splits;
   for (const PlannedSplit& split : refinement_plan(base, fine, {&example, 1}, options).splits)
@@ -195,7 +195,7 @@ TEST_CASE("plan: a vertex budget goes to the most urgent face that fits", "[refi
 }
 
 TEST_CASE("plan: a budget beyond the fine mesh gives the fine mesh", "[refinement]") {
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.max_vertices = 100000;
   CHECK(plan_of_patterns(3, std::vector<int>(16, 0), options).n_vertices == 13 * 13);
   options.max_vertices = 16;
@@ -210,7 +210,7 @@ TEST_CASE("plan: of several examples the most bent counts", "[refinement]") {
   left[0] = left[5] = 2;
   right[5] = 0;
   const std::array examples{example_of_patterns(fine, left), example_of_patterns(fine, right)};
-  const RefinementPlan plan = refinement_plan(base, fine, examples);
+  const RefinementPlan plan = refinement_plan(base, fine, examples, by_curvature());
   std::vector<int> both(16, 1);
   both[0] = both[5] = 2;
   CHECK(plan.patterns == both);
@@ -228,24 +228,24 @@ TEST_CASE("plan: values out of range are named", "[refinement]") {
       return error.where() + ": " + error.what();
     }
   };
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.demand = 8;
   CHECK(refusal(options) == "detail demand: expected a number from 0 to below 8, got 8");
   options.demand = -0.5;
   CHECK(refusal(options) == "detail demand: expected a number from 0 to below 8, got -0.5");
   options.demand = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal(options) == "detail demand: expected a number from 0 to below 8, got nan");
-  options = {};
+  options = by_curvature();
   options.max_vertices = 15;
   CHECK(refusal(options) == "vertex budget: expected at least the base mesh's 16, got 15");
-  options = {};
+  options = by_curvature();
   options.level_cap = 3;
   CHECK(refusal(options) ==
         "level cap: expected a whole number from 0 to the fine mesh's level, 2, got 3");
 }
 
 TEST_CASE("plan: another mesh or spoilt splits are refused", "[refinement]") {
-  PlanOptions options;
+  PlanOptions options = by_curvature();
   options.demand = 1;
   RefinementPlan plan = plan_of_patterns(4, std::vector<int>(25, 2), options);
   CHECK_NOTHROW(planned_mesh(lying_sheet(4), plan));

@@ -41,11 +41,32 @@ TEST_CASE("example study: limits are those of all frames, and need one", "[run]"
   BendFeatures features = BendFeatures::Zero(2, study.fine().n_vertices());
   for (Eigen::Index i = 0; i < features.cols(); ++i) features(0, i) = static_cast<double>(i);
   study.add_example("by hand", features, {});
-  CHECK(study.plan({}).curvature_limits.empty());
+  PlanOptions options;
+  options.criterion = PlanCriterion::curvature;
+  CHECK(study.plan(options).curvature_limits.empty());
   study.add_frame(rolled(study.fine(), 0));
-  const double first = study.plan({}).curvature_limits.front();
+  const double first = study.plan(options).curvature_limits.front();
   study.add_frame(rolled(study.fine(), 1));
-  CHECK(study.plan({}).curvature_limits.front() > first);
+  CHECK(study.plan(options).curvature_limits.front() > first);
+}
+
+TEST_CASE("example study: what is lost is of the frames since the last example", "[run]") {
+  // A slight bend alone loses less than both examples, of which the stronger one counts.
+  const auto n_vertices = [](std::initializer_list<int> frames) {
+    ExampleStudy study(sheet_scene(2));
+    BendFeatures features = BendFeatures::Random(2, study.fine().n_vertices());
+    for (const int frame : frames) {
+      study.add_frame(rolled(study.fine(), frame));
+      study.add_example("rolled", features, {});
+    }
+    PlanOptions options;
+    options.largest_loss = 0.003;
+    return study.plan(options).n_vertices;
+  };
+  CHECK(n_vertices({0}) == 25);
+  CHECK(n_vertices({1}) > 25);
+  CHECK(n_vertices({0, 1}) == n_vertices({1}));
+  CHECK(n_vertices({1, 0}) == n_vertices({1}));
 }
 
 TEST_CASE("example study: features are those of the frames from one on", "[run]") {
@@ -64,6 +85,10 @@ TEST_CASE("example study: what is no example, frame or feature is refused", "[ru
   ExampleStudy study(sheet_scene(1));
   CHECK_THROWS_AS(study.plan({}), InputError);
   CHECK_THROWS_AS(study.add_frame(Positions::Zero(3, 3)), InputError);
+  CHECK_THROWS_WITH(study.add_frame(Positions::Constant(3, study.fine().n_vertices(), NAN)),
+                    "expected finite places, got others in frame 0");
+  study.add_example("no frames", BendFeatures::Random(2, study.fine().n_vertices()), {});
+  CHECK_THROWS_WITH(study.plan({}), Catch::Contains("expected frames of each example"));
   CHECK_THROWS_AS(study.add_example("short", BendFeatures::Zero(2, 3), {}), InputError);
 }
 

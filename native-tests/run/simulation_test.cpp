@@ -230,4 +230,35 @@ TEST_CASE("simulation: a change of level or fabric keeps common vertices to the 
   CHECK(changed.state().velocities.leftCols(n_common) == old.state().velocities.leftCols(n_common));
 }
 
+TEST_CASE("simulation: from a state on the way it goes on as the run that was there", "[run]") {
+  Scene scene = coarse_scene("swinging_sheet");
+  for (PinRule& pin : scene.pins) pin.motion = {Motion::Kind::move, Vec3(0.1, 0, 0), 0, 0.5, 0};
+  Simulation whole(scene);
+  run(whole, 12);
+  const State state = whole.state();
+  const double time = whole.time();
+  run(whole, 12);
+  Simulation later(scene);
+  run(later, 3);  // of which nothing is left
+  later.go_on_from(state, time);
+  CHECK(later.time() == time);
+  CHECK(later.is_disturbed());
+  run(later, 12);
+  CHECK(later.time() == Approx(whole.time()));
+  CHECK((later.state().positions - whole.state().positions).cwiseAbs().maxCoeff() < 1e-9);
+  later.reset();
+  CHECK(later.time() == 0);
+  CHECK(later.state().positions == Simulation(scene).state().positions);
+}
+
+TEST_CASE("simulation: a state of another cloth, or of none, is refused", "[run]") {
+  Simulation simulation(coarse_scene("swinging_sheet"));
+  State state = simulation.state();
+  state.velocities(1, 3) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(simulation.go_on_from(state, 0), Catch::Contains("not all finite"));
+  state = simulation.state();
+  state.velocities.conservativeResize(3, 5);
+  CHECK_THROWS_WITH(simulation.go_on_from(state, 0), Catch::Contains("vertices, got 5"));
+}
+
 }  // namespace pleat

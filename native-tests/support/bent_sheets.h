@@ -5,6 +5,13 @@
 
 namespace pleat {
 
+/// Plans by the patterns at the corners of faces.
+inline PlanOptions by_curvature() {
+  PlanOptions options;
+  options.criterion = PlanCriterion::curvature;
+  return options;
+}
+
 /// A lying sheet with one fold across warp that keeps its lengths: its slope is amplitude * u
 /// exp(-u^2/2), u the way along warp from `place` [m] in units of `width` [m], so that it bends by
 /// amplitude / width at most [1/m].

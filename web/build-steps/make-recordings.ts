@@ -17,7 +17,7 @@ import {
   KEPT_OF,
   PATTERNS,
   SETTLED_S,
-  USUAL_DEMAND,
+  USUAL_DEMAND_MM,
 } from '../src/refinement/state/garment-frames.ts';
 import {
   encodeFrames,
@@ -177,7 +177,9 @@ async function makeExample(garment: string): Promise<object> {
     Float32Array.from(values, (value) => Math.round(value / quantum) * quantum);
   for (const frame of kept) answered(study.addFrame(rounded(frame, QUANTUM.place)));
   answered(study.sort(folder, rounded(features, QUANTUM.curvature), PATTERNS));
-  const planned = answered<{ plan: object }>(study.plan(JSON.stringify({ demand: USUAL_DEMAND })));
+  const planned = answered<{ plan: object }>(
+    study.plan(JSON.stringify({ largest_loss_m: USUAL_DEMAND_MM / 1000 })),
+  );
   study.delete();
   write({ folder, file: 'plan.json' }, JSON.stringify(planned.plan));
   return planned.plan;

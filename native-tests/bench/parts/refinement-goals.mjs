@@ -40,6 +40,22 @@ export function buildRow(runs, { garment, scene, errors, reference, commit }) {
 
 const milli = (value) => short(1e3 * (value ?? Number.NaN));
 
+/**
+ * How differently two runs are folded [m], as docs/methods/error_measures.md has it; lists of
+ * amplitudes for each ring.
+ */
+export function foldDistance(rings, others) {
+  const squares = rings.flatMap((ring, r) => ring.map((value, n) => (value - others[r][n]) ** 2));
+  return Math.sqrt(squares.reduce((sum, square) => sum + square, 0) / rings.length);
+}
+
+const kDegrees = 180 / Math.PI;
+
+const folds = (row, fine) =>
+  row.folds_m.length > 0 && row.folds_m.length === fine.folds_m.length
+    ? foldDistance(row.folds_m, fine.folds_m)
+    : Number.NaN;
+
 export function runTable(rows) {
   const [fine] = rows;
   const head = [
@@ -51,6 +67,9 @@ export function runTable(rows) {
     'contact',
     'refinement',
     'of fine',
+    'sampled mm',
+    'sampled °',
+    'folds mm',
     'bend 1/m',
     'over time',
     'surface mm',
@@ -68,6 +87,9 @@ export function runTable(rows) {
     short(row.contact_ms),
     short(row.refinement_ms),
     short(row.ms_per_frame / fine.ms_per_frame),
+    milli(row.errors.sampling_m),
+    short(kDegrees * (row.errors.sampling_rad ?? Number.NaN)),
+    milli(folds(row, fine)),
     short(row.errors.bend_per_m ?? Number.NaN),
     short(row.errors.bend_over_time_per_m ?? Number.NaN),
     milli(row.errors.surface_m),
@@ -136,6 +158,7 @@ export function comparisonGoals(garment, { fine, multi, same }) {
     ),
     at('bend_error_to_uniform', ratio('bend_per_m'), 0.6),
     at('surface_error_to_uniform', ratio('surface_m'), 0.8),
+    at('sampling_to_uniform', ratio('sampling_m'), 0.9, [multi, same]),
     at('refinement_ms_per_frame', multi.refinement_ms, 0, [multi]),
   ];
 }

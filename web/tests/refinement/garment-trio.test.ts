@@ -105,10 +105,10 @@ describe('planner', () => {
     const shipped: PlanFile = JSON.parse(
       new TextDecoder().decode(await recordBytes(urls?.plan ?? '')),
     );
-    const wish: Wish = { ...DEFAULT_LINK, rule: 'demand', demand: 3, budget: null };
+    const wish: Wish = { ...DEFAULT_LINK, rule: 'demand', demand: 2, budget: null };
     const planner = plannerParts();
     // A hair more demand is another wish, and the same mesh.
-    const near = await planner.plan({ ...wish, demand: 3.01 });
+    const near = await planner.plan({ ...wish, demand: 2.0001 });
     expect(near.splits).toEqual(shipped.splits);
     near.curvature_limits_per_m.forEach((limit, pattern) => {
       expect(limit).toBeCloseTo(shipped.curvature_limits_per_m[pattern] ?? 0, 6);
@@ -137,7 +137,7 @@ describe('further examples', () => {
     'are run, told of, merged with the one that comes with the page, and kept',
     async () => {
       const planner = plannerParts();
-      const wish: Wish = { ...DEFAULT_LINK, demand: 4 };
+      const wish: Wish = { ...DEFAULT_LINK, demand: 2.5 };
       const alone = await planner.plan(wish);
       const heard: [string, number][] = [];
       const hear = (motion: string, share: number) => heard.push([motion, share]);
@@ -151,7 +151,7 @@ describe('further examples', () => {
       expect(after).not.toEqual(before);
       // Another demand runs nothing.
       heard.length = 0;
-      const again = await planner.plan({ ...wish, demand: 5, further: ['squat'] }, hear);
+      const again = await planner.plan({ ...wish, demand: 3, further: ['squat'] }, hear);
       expect([heard.length, again.examples.length]).toEqual([0, 2]);
       // Another fabric is another cloth.
       const other = await planner.plan({ ...wish, fabric: 'silk' });
@@ -327,9 +327,9 @@ describe('trio', () => {
       const { store, trio, settled, shown, questions } = stand();
       await settled(isReady);
       const before = questions.length;
-      store.set({ rule: 'demand', demand: 5 });
+      store.set({ rule: 'demand', demand: 2 });
       const state = await settled(
-        ({ phase, plan }) => phase === 'ready' && plan?.detail_demand === 5,
+        ({ phase, plan }) => phase === 'ready' && plan?.largest_loss_m === 0.003,
       );
       expect(state.panes.planned.source).toBe('sampled');
       expect(state.panes.planned.errorM).toBeNull();
@@ -433,7 +433,7 @@ describe('trio', () => {
       store.set({ rule: 'budget', budget: 4000 });
       expect(store.get()).toMatchObject({ phase: 'loading', doing: { canCancel: true } });
       trio.cancel();
-      expect(store.get()).toMatchObject({ phase: 'ready', doing: null, rule: 'demand', demand: 3 });
+      expect(store.get()).toMatchObject({ phase: 'ready', doing: null, rule: 'demand', demand: 2 });
     },
     PATIENCE_MS,
   );

@@ -40,6 +40,7 @@ const STORY: PlanStory = {
   nVertices: 900,
   nSplits: 30,
   nForBalance: 4,
+  isByShape: true,
   rule: { kind: 'demand', value: 3 },
 };
 

@@ -103,6 +103,20 @@ describe('plan-file', () => {
     expect(split).toContain('still ask for is not more than 3');
   });
 
+  it('tells what faces lost, when a plan is by shape', () => {
+    const byShape: PlanFile = {
+      ...PLAN,
+      criterion: 'shape',
+      detail_demand: undefined,
+      largest_loss_m: 0.002,
+      splits: [[1, 0.0041]],
+    };
+    expect(planStory(byShape).rule).toEqual({ kind: 'demand', value: 2 });
+    const story = faceStory(faceAt(FACES, 1), byShape);
+    expect(story).toContain('because it lost 4.1 mm');
+    expect(story).toContain('no more than 2 mm are lost');
+  });
+
   it('tells balance, budget and the finest level apart', () => {
     const face = faceAt(FACES, 1);
     const balanced = faceStory(face, { ...PLAN, splits: [[1, 2, 'balance']] });

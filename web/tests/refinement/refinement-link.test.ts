@@ -29,7 +29,7 @@ describe('refinement-link', () => {
       startS: 1.233,
     };
     expect(decodeRefinementLink(`#${encodeRefinementLink(link)}`)).toEqual({ link, problems: [] });
-    const demand = { ...link, rule: 'demand' as const, budget: null, demand: 4.5 };
+    const demand = { ...link, rule: 'demand' as const, budget: null, demand: 2.75 };
     expect(decodeRefinementLink(encodeRefinementLink(demand))).toEqual({
       link: demand,
       problems: [],
@@ -38,13 +38,13 @@ describe('refinement-link', () => {
 
   it('says what it cannot read and goes on with the rest', () => {
     const { link, problems } = decodeRefinementLink(
-      '#view=refinement&garment=hat&motion=turn&examples=squat,hat&demand=8&vertices=-3&start=late&hat=1',
+      '#view=refinement&garment=hat&motion=turn&examples=squat,hat&lost-mm=8&vertices=-3&start=late&hat=1',
     );
     expect(link).toEqual({ ...DEFAULT_LINK, motion: 'turn' });
     expect(problems).toEqual([
       'garment: expected skirt, trousers, found "hat"',
       'examples: expected some of walk, fast_walk, turn, squat, found "squat,hat"',
-      'demand: expected 0 to 7.5 in halves, found "8"',
+      'lost-mm: expected 0.5 to 4 in quarters, found "8"',
       'vertices: expected a number of vertices, found "-3"',
       'start: expected a time in seconds, found "late"',
       'hat: not a known part',

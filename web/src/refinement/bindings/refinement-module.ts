@@ -122,7 +122,7 @@ export interface ExampleStudyHandle {
   features(): Float64Array;
   /** One example more that plans are made of. */
   sort(name: string, features: ArrayLike<number>, nPatterns: number): string;
-  /** `{demand}` or `{max_vertices}`. */
+  /** `{largest_loss_m}`, `{demand}` (by curvature) or `{max_vertices}`. */
   plan(optionsText: string): string;
   delete(): void;
 }

@@ -48,7 +48,7 @@ export function createDetailPanel(
     (value) => store.set({ rule: 'budget', budget: value }),
   );
   const [demandValue, budgetValue] = [element('output'), element('output')];
-  const demandField = field('Detail demand τ: less makes more vertices', demand, demandValue);
+  const demandField = field('At most so much of the example’s shapes is lost', demand, demandValue);
   const budgetField = field('Or: at most so many vertices', budget, budgetValue);
   for (const made of [demandField, budgetField]) made.classList.add('slider-field');
   const records = element('input', {
@@ -65,7 +65,7 @@ export function createDetailPanel(
     isOwn: ({ share, canCancel }) => share === null && canCancel,
     cancel: actions.cancel,
   });
-  const sayDemand = () => setText(demandValue, `τ = ${demand.valueAsNumber}`);
+  const sayDemand = () => setText(demandValue, `${demand.valueAsNumber} mm`);
   const sayBudget = () => {
     const text = vertices(budget.valueAsNumber);
     setText(budgetValue, text);

@@ -132,9 +132,14 @@ export function distanceSentence({ panes }: Pick<RefinementState, 'panes'>): str
   return `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the ${PLANNED} one. Not all of that is the mesh’s: folds fall as they may, and the surfaces of two fine runs, one in air heavier by a millionth, are at least two thirds as far apart.`;
 }
 
-export function ruleWords({ rule }: PlanStory): string {
+export function ruleWords({ rule, isByShape }: PlanStory): string {
+  const value = Number(rule.value.toFixed(2));
+  if (isByShape)
+    return rule.kind === 'demand'
+      ? `where a vertex saves most, until no more than ${value} mm of the example’s shapes were lost`
+      : `where a vertex saves most of the example’s shapes, up to ${vertices(rule.value)}`;
   return rule.kind === 'demand'
-    ? `where the patterns at a face’s corners sum to more than ${Number(rule.value.toFixed(2))}`
+    ? `where the patterns at a face’s corners sum to more than ${value}`
     : `one after another, the most urgent first, up to ${vertices(rule.value)}`;
 }
 

@@ -111,7 +111,9 @@ class ExamplePlanner implements Planner {
     }
     const client = await this.withExamples(wish);
     const asked: PlanWish =
-      rule === 'budget' && budget !== null ? { max_vertices: budget } : { demand };
+      rule === 'budget' && budget !== null
+        ? { max_vertices: budget }
+        : { largest_loss_m: demand / 1000 };
     const request = this.nextRequest();
     return (await client.ask({ type: 'plan', request, wish: asked })).plan;
   }

@@ -111,7 +111,8 @@ export class Trio {
     this.parts.planner.cancel();
     if (!plan || !this.isBuilt) return this.store.set({ further: [] }); // the rest is still wanted
     const budget = plan.vertex_budget ?? null;
-    const demand = plan.detail_demand ?? this.store.get().demand;
+    const lostM = plan.largest_loss_m;
+    const demand = lostM === undefined ? this.store.get().demand : 1000 * lostM;
     const rule = budget === null ? 'demand' : 'budget';
     const { planned: further } = this;
     this.takeBack({ further, rule, demand, budget, phase: 'ready', doing: null });

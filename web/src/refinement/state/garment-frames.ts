@@ -21,5 +21,5 @@ export const KEPT_OF = 3;
 /** Patterns of a plan. */
 export const PATTERNS = 3;
 
-/** The detail demand of the plan that comes with the page. */
-export const USUAL_DEMAND = 3;
+/** What the plan that comes with the page may lose of its example's shapes, root mean square [mm]. */
+export const USUAL_DEMAND_MM = 2;

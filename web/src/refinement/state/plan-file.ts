@@ -1,7 +1,10 @@
 // The file of a refinement plan, as docs/methods/multiresolution.md describes it, and what can be read
 // from it in words.
 
-/** A face that was split: itself, what its corners demanded together, and why else. */
+/**
+ * A face that was split: itself, what its corners demanded together or, by shape, what it lost [m],
+ * and why else.
+ */
 export type PlanSplit = [face: number, demand: number] | [number, number, 'balance'];
 
 export interface PlanFile {
@@ -16,6 +19,9 @@ export interface PlanFile {
   }[];
   patterns: number;
   patterns_of_vertices: [pattern: number, count: number][];
+  /** By curvature where there is none. */
+  criterion?: 'shape' | 'curvature';
+  largest_loss_m?: number;
   detail_demand?: number;
   vertex_budget?: number;
   level_cap: number;
@@ -86,6 +92,8 @@ export interface PlanStory {
   nVertices: number;
   nSplits: number;
   nForBalance: number;
+  isByShape: boolean;
+  /** What is demanded by shape is a length [mm]. */
   rule: { kind: 'demand' | 'budget'; value: number };
 }
 
@@ -94,6 +102,8 @@ export function planStory(plan: PlanFile): PlanStory {
   for (const [pattern, count] of plan.patterns_of_vertices)
     counts[pattern] = (counts[pattern] ?? 0) + count;
   const { examples } = plan;
+  const isByShape = plan.criterion === 'shape';
+  const demand = isByShape ? 1000 * (plan.largest_loss_m ?? 0) : (plan.detail_demand ?? 0);
   return {
     examples: examples.map(({ name }) => name),
     patterns: counts.map((nVertices, pattern) => {
@@ -106,9 +116,10 @@ export function planStory(plan: PlanFile): PlanStory {
     nVertices: plan.vertices,
     nSplits: plan.splits.length,
     nForBalance: plan.splits.filter((split) => split[2] === 'balance').length,
+    isByShape,
     rule:
       plan.vertex_budget === undefined
-        ? { kind: 'demand', value: plan.detail_demand ?? 0 }
+        ? { kind: 'demand', value: demand }
         : { kind: 'budget', value: plan.vertex_budget },
   };
 }
@@ -117,17 +128,24 @@ function rounded(value: number): string {
   return String(Number(value.toFixed(2)));
 }
 
-function whySplit([, demand, reason]: PlanSplit, { rule }: PlanStory): string {
+function whySplit([, demand, reason]: PlanSplit, { rule, isByShape }: PlanStory): string {
   if (reason === 'balance')
     return 'only because a neighbour became two levels finer: faces side by side differ by one level at most';
+  if (isByShape)
+    return `because it lost ${rounded(1000 * demand)} mm of the example's shapes, and splitting it saved most for the vertices it adds`;
   const sum = rounded(demand);
   if (rule.kind === 'budget')
     return `because its corners ask for ${sum} together, among the most that still fit into ${rule.value} vertices`;
   return `because its corners ask for ${sum} together, more than ${rounded(rule.value)}`;
 }
 
-function whyNotSplit({ level, corners }: Face, plan: PlanFile, { rule }: PlanStory): string {
+function whyNotSplit({ level, corners }: Face, plan: PlanFile, story: PlanStory): string {
+  const { rule, isByShape } = story;
   if (level >= plan.level_cap) return 'It is as fine as the fine mesh.';
+  if (isByShape)
+    return rule.kind === 'budget'
+      ? 'It was not split further: vertices save more elsewhere, or there is no room left.'
+      : `It was not split further: vertices save more elsewhere, and no more than ${rounded(rule.value)} mm are lost on the whole.`;
   if (rule.kind === 'budget')
     return 'It was not split further: others ask for more, or there is no room left.';
   if (level > 0)

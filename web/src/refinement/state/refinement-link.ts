@@ -17,8 +17,8 @@ const LARGEST_BUDGET = 100000;
 const LATEST_START_S = 60;
 
 function demandIn(text: string): number | undefined {
-  const value = /^\d(\.5)?$/.test(text) ? Number(text) : Number.NaN;
-  return value <= DEMANDS.most ? value : undefined;
+  const value = /^\d(\.(25|5|75))?$/.test(text) ? Number(text) : Number.NaN;
+  return value >= DEMANDS.least && value <= DEMANDS.most ? value : undefined;
 }
 
 function budgetIn(text: string): number | undefined {
@@ -52,7 +52,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
     ['fabric', slug(link.fabric)],
     link.rule === 'budget' && link.budget !== null
       ? ['vertices', String(link.budget)]
-      : ['demand', String(link.demand)],
+      : ['lost-mm', String(link.demand)],
     ['records', flag(link.useRecords)],
     ['fine', flag(link.computeFine)],
     ['colour', link.colour],
@@ -83,7 +83,12 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     return fabrics.find(({ name_en: name }) => slug(name) === text)?.name_en;
   });
   const further = take('examples', usual.further, `some of ${motions.join(', ')}`, motionsIn);
-  const demand = take('demand', usual.demand, `0 to ${DEMANDS.most} in halves`, demandIn);
+  const demand = take(
+    'lost-mm',
+    usual.demand,
+    `${DEMANDS.least} to ${DEMANDS.most} in quarters`,
+    demandIn,
+  );
   const budget = take<number | null>('vertices', null, 'a number of vertices', budgetIn);
   const link: RefinementLink = {
     garment,

@@ -2,7 +2,7 @@
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
-import { START_S, USUAL_DEMAND } from './garment-frames';
+import { START_S, USUAL_DEMAND_MM } from './garment-frames';
 import { type GarmentId, MOTIONS, type MotionId, usualFabric } from './garments';
 import type { PlanFile } from './plan-file';
 
@@ -21,8 +21,8 @@ export const MOST_SUBSTEPS = 64;
 
 export type ColourId = (typeof COLOURS)[number];
 
-/** A sum of four corners' patterns: with three patterns it ends below 8. */
-export const DEMANDS = { least: 0, most: 7.5, step: 0.5, usual: USUAL_DEMAND };
+/** How much of the examples' shapes a plan may lose [mm]. */
+export const DEMANDS = { least: 0.5, most: 4, step: 0.25, usual: USUAL_DEMAND_MM };
 
 /**
  * Where a pane's frames come from: a record that comes with the page, this device, or, until it
@@ -64,6 +64,7 @@ export interface RefinementLink {
   further: readonly MotionId[];
   /** Which of both sliders rules. */
   rule: 'demand' | 'budget';
+  /** Of the examples' shapes, that may be lost [mm]. */
   demand: number;
   /** Vertices; null until it was first moved. */
   budget: number | null;

@@ -115,7 +115,7 @@ export interface GarmentAnswers {
 }
 
 /** The one number by which a plan is asked for. */
-export type PlanWish = { demand: number } | { max_vertices: number };
+export type PlanWish = { largest_loss_m: number } | { max_vertices: number };
 
 export type ToExample =
   | {

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "core/error/material_map.h"
+#include "core/mesh/quad_mesh.h"
+#include "core/refinement/mesh_match.h"
+
+namespace pleat {
+
+/// What a shape loses by being shown on another mesh.
+struct SamplingError {
+  double distance = 0;      ///< root mean square over the cloth, between the same points [m]
+  double normal_angle = 0;  ///< root mean square over the cloth, between normals [rad]
+};
+
+/// Shows shapes of a fine mesh on another mesh of the same cloth, whose vertices are where the same
+/// points of the fine one are, hanging ones in the middle of their parents, and whose faces are
+/// bilinear patches. Nothing moves: what is lost is the mesh's fault alone.
+///
+/// Where the fine mesh refines the other one, the same points are the same vertices; else they are
+/// the nearest places at rest (MaterialMap), on triangles and cells that are split until they are
+/// no larger than the fine mesh's.
+class MeshSampling {
+ public:
+  /// Both are of one cloth at rest.
+  MeshSampling(const QuadMesh& mesh, const QuadMesh& fine);
+
+  /// Places [m], or velocities, of the mesh's vertices, from the fine ones.
+  Positions sampled(const Eigen::Ref<const Positions>& fine_columns) const;
+
+  /// Where the fine mesh's vertices are when the mesh's are at these places [m].
+  Positions shown(const Eigen::Ref<const Positions>& columns) const;
+
+  /// Between a fine shape and what the mesh shows at the same points [m]. By rest area; normals are
+  /// those of the fine mesh's triangles.
+  SamplingError error(const Eigen::Ref<const Positions>& fine_positions,
+                      const Eigen::Ref<const Positions>& shown_positions) const;
+
+  /// Between a fine shape and its own sample.
+  SamplingError error(const Eigen::Ref<const Positions>& fine_positions) const {
+    return error(fine_positions, shown(sampled(fine_positions)));
+  }
+
+ private:
+  QuadMesh mesh_;
+  QuadMesh fine_;
+  Eigen::VectorXd areas_;             // of the fine vertices at rest [m^2]
+  std::vector<Triangle> triangles_;   // of the fine mesh
+  std::optional<MeshSample> sample_;  // where the fine mesh refines the other
+  std::optional<MaterialMap> to_mesh_;
+  std::vector<HangingVertex> hanging_;
+  QuadMesh cut_;  // the mesh in cells no larger than the fine one's
+  std::optional<MaterialMap> to_fine_;
+};
+
+}  // namespace pleat

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mesh/quad_mesh.h"
+
+namespace pleat {
+
+/// What faces lose of shapes: the rest area of each times the mean squared distance between the
+/// shape's points on it and what the face's corners show there, by area and over frames [m^4]. A
+/// column for each face of a uniform mesh, split or not.
+///
+/// A face shows the bilinear patch of its corners. Child k of a face may stand with its corners
+/// k + 1 and k + 3 on edges of coarser faces; they hang then, and are drawn in the middle of the
+/// edge. Rows: none hangs, k + 1 hangs, k + 3 hangs, both hang.
+using FaceLosses = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+
+/// Gathers the losses of a motion frame by frame, without keeping the frames.
+class FaceLossSum {
+ public:
+  /// fine  refined uniformly; shapes are known at its vertices, so that its own faces lose nothing
+  ///       while no corner hangs
+  explicit FaceLossSum(const QuadMesh& fine);
+
+  /// positions  one column per vertex [m]; ContractError for another number
+  void add(const Eigen::Ref<const Positions>& positions);
+
+  int n_frames() const { return n_frames_; }
+
+  /// Means over the frames so far; zero without any.
+  FaceLosses losses() const;
+
+ private:
+  QuadMesh fine_;
+  std::vector<std::vector<VertexId>> grids_;  // of each face, row by row from corner 0 to corner 1
+  FaceLosses sums_;
+  int n_frames_ = 0;
+};
+
+}  // namespace pleat
