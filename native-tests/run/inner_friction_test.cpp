@@ -9,12 +9,11 @@
 namespace pleat {
 namespace {
 
-/// A sheet that swings down with the friction of canvas, one of the fabrics with most.
-Scene rubbing_scene(int cells = 6) {
-  Scene scene = released_sheet_scene(cells, "canvas");
+/// A curtain that is drawn, of canvas, one of the fabrics with most friction.
+Scene rubbing_scene() {
+  Scene scene = read_scene(scene_text("curtain"), fabric_library());
+  scene.level = 1;
   scene.fabric = constants(fabric_library().find("canvas"), BendSource::friction);
-  scene.method = steppers::kImplicitEuler.usual_method();
-  scene.method.step = 1.0 / 100;
   return scene;
 }
 
@@ -45,8 +44,8 @@ TEST_CASE("inner_friction: without a loop it is the slope alone, to the bit", "[
   scene.fabric = library_fabric("canvas");
   Simulation moving(scene);
   CHECK_FALSE(none.model().bend_friction);
-  run(none, 30);
-  run(moving, 30);
+  run(none, 60);
+  run(moving, 60);
   CHECK(none.state().positions == moving.state().positions);
 }
 
@@ -56,20 +55,20 @@ TEST_CASE("inner_friction: it changes the motion, the same way each time", "[run
   Scene scene = rubbing_scene();
   scene.fabric = library_fabric("canvas");
   Simulation moving(scene);
-  for (Simulation* simulation : {&first, &second, &moving}) run(*simulation, 30);
+  for (Simulation* simulation : {&first, &second, &moving}) run(*simulation, 60);
   CHECK(first.state().positions == second.state().positions);
   CHECK((first.state().positions - moving.state().positions).norm() > 1e-3);
   const Positions reached = first.state().positions;
   first.reset();
   CHECK(stored(first) == 0);
-  run(first, 30);
+  run(first, 60);
   CHECK(first.state().positions == reached);
 }
 
 TEST_CASE("inner_friction: the account of a run has its loss", "[run]") {
   Simulation simulation(rubbing_scene());
   RunLedger ledger(simulation);
-  for (int s = 0; s < 50; ++s) {
+  for (int s = 0; s < 60; ++s) {
     run(simulation, 1);
     ledger.look();
   }
@@ -86,7 +85,7 @@ TEST_CASE("inner_friction: moments go on over a change of fabric, not of mesh", 
   same.carry_over(old);
   CHECK(stored(same) == stored(old));
   Scene scene = rubbing_scene();
-  scene.level = 1;
+  scene.level = 2;
   Simulation fine(scene);
   fine.carry_over(old);
   CHECK(stored(fine) == 0);
@@ -101,6 +100,7 @@ TEST_CASE("inner_friction: other models and the rule equilibrium refuse it", "[r
   check_refused(scene, "/model/elasticity",
                 "expected springs for friction inside the fabric, got a membrane");
   scene = rubbing_scene();
+  scene.colliders.clear();
   scene.method = steppers::kNewton.usual_method();
   scene.method.rule = NewtonRule::equilibrium;
   check_refused(scene, "/method/rule",
