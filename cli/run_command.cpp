@@ -172,6 +172,7 @@ Json drift_json(const EnergyLedger& ledger) {
           {"elastic_j", parts.elastic},
           {"gravity_j", parts.gravity},
           {"work_of_damping_j", works.damping},
+          {"work_of_inner_friction_j", works.bend_friction},
           {"work_of_air_j", works.air},
           {"work_of_pins_j", works.pins},
           {"work_of_contact_j", works.contact},

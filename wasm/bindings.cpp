@@ -279,8 +279,8 @@ class Simulation {
     return view_of(reference_->distances());
   }
   /// Time [s]; energy of motion, elastic, and by height above that at the start of the account;
-  /// works of damping, air, contact, pins and tears; drift; energy of motion and elastic at the
-  /// start [J]. Empty without an account.
+  /// works of damping (with inner friction), air, contact, pins and tears; drift; energy of motion
+  /// and elastic at the start [J]. Empty without an account.
   val energies() {
     if (!ledger_) return view_of(kNoDoubles);
     const pleat::EnergyLedger& account = ledger_->account();
@@ -291,7 +291,7 @@ class Simulation {
                  now.kinetic,
                  now.elastic,
                  now.gravity - first.gravity,
-                 works.damping,
+                 works.damping + works.bend_friction,
                  works.air,
                  works.contact,
                  works.pins,

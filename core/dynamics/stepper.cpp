@@ -102,6 +102,7 @@ SolveReport Stepper::advance(State& state, double time) {
   if (const VertexId bad = first_lost(state); bad.valid()) return lost_report(bad, time);
   place_between_parents(model_.hanging, state);
   last_finite_ = state;
+  if (model_.bend_friction) model_.bend_friction->keep(last_friction_);
   const double h = options_.step / substeps_;
   SolveReport report;
   load(state);
@@ -117,7 +118,9 @@ SolveReport Stepper::advance(State& state, double time) {
   store(state, report);
   const VertexId bad = first_lost(state);
   if (bad.valid()) report = lost_report(bad, time);
-  if (report.ends_run()) state = last_finite_;
+  if (!report.ends_run()) return report;
+  state = last_finite_;
+  if (model_.bend_friction) model_.bend_friction->restore(last_friction_, state.positions);
   return report;
 }
 
@@ -127,6 +130,7 @@ SolveReport Stepper::substep_in_world(State& state, double time_end, double h) {
   is_touched_ = false;
   SolveReport report = substep(state, time_end, h);
   place_between_parents(model_.hanging, state);
+  if (model_.bend_friction) model_.bend_friction->end_substep(state.positions);
   return report;
 }
 
@@ -136,6 +140,8 @@ bool Stepper::awaits_contact() const {
 
 void Stepper::begin_again(State& state) {
   state = before_contact_;
+  if (model_.bend_friction)
+    model_.bend_friction->restore(friction_before_contact_, state.positions);
   touches_.clear();
   contact_forces_ = forces_before_contact_;
 }
@@ -147,6 +153,7 @@ void Stepper::begin_again(State& state) {
 SolveReport Stepper::substep_to_contact(State& state, double time_end, double h) {
   const double time_begin = time_end - h;
   before_contact_ = state;
+  if (model_.bend_friction) model_.bend_friction->keep(friction_before_contact_);
   forces_before_contact_ = contact_forces_;
   SolveReport report = substep_in_world(state, time_end, h);
   if (!is_touched_ || report.ends_run()) return report;

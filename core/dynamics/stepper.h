@@ -152,6 +152,8 @@ class Stepper {
   Positions forces_before_contact_;
   Positions solved_velocities_;  // before contact [m/s]; of steppers that remember
   State last_finite_;
+  BendFriction::Kept last_friction_;  // of that state, with friction inside the fabric
+  BendFriction::Kept friction_before_contact_;
 };
 
 }  // namespace pleat

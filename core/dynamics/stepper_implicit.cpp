@@ -33,6 +33,8 @@ void StepperImplicit::assemble(const State& state, double h) {
 
 SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
+  if (model_.bend_friction)
+    model_.bend_friction->begin_substep(state, h, BendFriction::Knee::foreseen);
   set_external_forces(state, forces_);
   assemble(state, h);
   add_air_resistance(h, matrix_);

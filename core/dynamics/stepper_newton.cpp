@@ -49,6 +49,10 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
   if (is_at_rest() && model.air && model.air->has_wind())
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint in wind, got equilibrium");
+  if (is_at_rest() && model.bend_friction)
+    throw InputError("/method/rule",
+                     "expected backward_euler or midpoint with friction inside the fabric, whose "
+                     "rest depends on the way to it, got equilibrium");
   if (options.solver == SolverKind::sor)
     throw InputError("/method/solver", "expected cg or a direct solver for newton, got sor");
   if (is_at_rest() && options.solver == SolverKind::cg)
@@ -333,6 +337,11 @@ SolveReport StepperNewton::minimise() {
 
 SolveReport StepperNewton::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;
+  if (model_.bend_friction)
+    model_.bend_friction->begin_substep(state, h,
+                                        options().rule == NewtonRule::midpoint
+                                            ? BendFriction::Knee::in_middle
+                                            : BendFriction::Knee::exact);
   if (model_.air && options().rule == NewtonRule::midpoint) model_.air->set_time(time_end - h / 2);
   set_up(state, h);
   place_first_guess(state, time_end);

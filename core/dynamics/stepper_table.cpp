@@ -76,6 +76,7 @@ constinit const StepperType steppers::kImplicitEuler = {
         "damps the motion.",
     .settings = kImplicitSettings,
     .substeps_meaning = kDampedSubsteps,
+    .takes_bend_friction = true,
     .solves_equations = true,
     .solves_whole_substeps = true,
     .usual_counts = kOneOrFour,
@@ -271,6 +272,7 @@ constinit const StepperType steppers::kNewton = {
     .tolerance = kNewtonTolerance,
     // A looser newton is no newton: its equations would be as wrong as those of one linearisation.
     .largest_tolerance = 1e-6,
+    .takes_bend_friction = true,
     .prefers_factor = true,
     .solves_equations = true,
     .solves_whole_substeps = true,
@@ -383,6 +385,11 @@ std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& op
   if (type.needs_factor && !is_direct(options.solver))
     throw InputError("/method/solver", std::string("expected cholmod or eigen for ") + type.name +
                                            ", which needs a factor, got " + name(options.solver));
+  if (model.bend_friction && !type.takes_bend_friction)
+    throw InputError(
+        "/method/stepper",
+        std::string("expected implicit or newton for friction inside the fabric, got ") +
+            type.name);
   if (type.needs_springs && !model.is_plain_spring_lattice())
     throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +
                                    type.name + ", which works on nothing else");

@@ -98,6 +98,7 @@ struct StepperType {
   bool has_stability_bound = false;    ///< takes 0 substeps, refuses too few
   bool needs_surface = false;          ///< makes coarser levels of the cloth's triangles
   bool needs_springs = false;          ///< works on springs with quadratic bending alone
+  bool takes_bend_friction = false;    ///< asks it for each substep
   bool needs_factor = false;           ///< its solver is a direct one
   bool is_single_precision = false;    ///< inside a step
   bool prefers_factor = false;         ///< the same where a scene says nothing
@@ -143,7 +144,7 @@ std::string stepper_help(StepperTable table);
 /// The stepper that the options name. Throws InputError when the method cannot run on this model
 /// (explicit or rk4 beyond the stability bound or kMaxSubsteps; a solver that this build or the
 /// method does not have; projective or xpbd on anything but a plain lattice of springs; newton's
-/// equilibrium with solids).
+/// equilibrium with solids; friction inside the fabric with steppers that do not take it).
 std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& options);
 
 }  // namespace pleat

@@ -57,8 +57,9 @@ struct Fabric {
 
 /// Which bending rigidity an elastic model gets.
 enum class BendSource {
-  at_rest,  ///< B + (2HB/2)/kappa0: friction inside the fabric holds a draped shape
-  moving,   ///< the measured slope B alone
+  at_rest,   ///< B + (2HB/2)/kappa0: friction inside the fabric holds a draped shape
+  moving,    ///< the measured slope B alone
+  friction,  ///< the same slope, and the friction itself beside it
 };
 
 /// The plain numbers that a simulation needs.
@@ -73,6 +74,7 @@ struct FabricConstants {
   double bend_weft = 0;         ///< B along weft [N m], not negative
   double damping_ratio = 0;     ///< zeta, not negative
   double friction_solid = 0.3;  ///< not negative
+  double bend_hysteresis = 0;   ///< 2HB of friction beside the rigidities [N], not negative
 };
 
 /// kappa0 at which half the hysteresis is turned into rigidity [1/m] (assets/SOURCES.md, static

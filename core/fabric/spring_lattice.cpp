@@ -100,4 +100,12 @@ SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric
   return lattice;
 }
 
+std::vector<BendElement> line_bends(const QuadMesh& mesh, double rigidity) {
+  FabricConstants fabric;
+  fabric.bend_warp = fabric.bend_weft = rigidity;
+  SpringLattice lattice;
+  append_bends(mesh, thread_edges(mesh), fabric, BendingLaw::quadratic, lattice);
+  return std::move(lattice.bends);
+}
+
 }  // namespace pleat

@@ -70,4 +70,7 @@ constexpr double kReferenceFrequency = 31.41592653589793;
 SpringLattice spring_lattice(const QuadMesh& mesh, const FabricConstants& fabric,
                              BendingLaw law = BendingLaw::quadratic, double stiffness_exponent = 0);
 
+/// The bending elements of the quadratic law for the same rigidity along both threads [N m].
+std::vector<BendElement> line_bends(const QuadMesh& mesh, double rigidity);
+
 }  // namespace pleat

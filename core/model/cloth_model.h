@@ -12,6 +12,7 @@
 #include "core/linalg/sparse.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/model/air_drag.h"
+#include "core/model/bend_friction.h"
 #include "core/model/strain_limit.h"
 
 namespace pleat {
@@ -41,6 +42,7 @@ struct ClothModel {
   std::vector<Spring> taut_springs;  ///< pull beyond their rest length and never push; no damping
   std::vector<BendElement> bends;
   std::vector<ChordBend> chord_bends;
+  std::optional<BendFriction> bend_friction;  ///< with state; for steppers that take it
   Membrane membrane;
   double membrane_relaxation = 0;  ///< tau of the membrane's Kelvin-Voigt damping [s]
   SparseMatrix fitted_bending;     ///< n x n, lower triangle [N/m]; 0 x 0 without it

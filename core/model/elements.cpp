@@ -58,6 +58,13 @@ Vec3 curvature(const BendElement& bend, const Eigen::Ref<const Positions>& posit
          bend.weights[2] * positions.col(bend.vertices[2]);
 }
 
+void add_bend_sums(const BendElement& bend, RowSums& sums) {
+  const auto& w = bend.weights;
+  const double sum = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]);
+  for (int k = 0; k < 3; ++k)
+    sums.stiffness[bend.vertices[k]] += bend.stiffness * std::abs(w[k]) * sum / 2;
+}
+
 /// The largest that either law reaches, at any chord [N/m].
 double largest_stiffness(const ChordBend& bend) {
   return bend.law == ChordLaw::linear ? bend.stiffness : bend.stiffness / std::pow(bend.length, 3);
@@ -160,12 +167,7 @@ void BendElements::add_forces(const Eigen::Ref<const Positions>& positions,
 }
 
 void BendElements::add_row_sums(RowSums& sums) const {
-  for (const BendElement& bend : model_.bends) {
-    const auto& w = bend.weights;
-    const double sum = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]);
-    for (int k = 0; k < 3; ++k)
-      sums.stiffness[bend.vertices[k]] += bend.stiffness * std::abs(w[k]) * sum / 2;
-  }
+  for (const BendElement& bend : model_.bends) add_bend_sums(bend, sums);
 }
 
 void ChordElements::add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
@@ -180,6 +182,22 @@ void ChordElements::add_forces(const Eigen::Ref<const Positions>& positions,
 void ChordElements::add_row_sums(RowSums& sums) const {
   for (const ChordBend& bend : model_.chord_bends)
     for (const VertexId v : {bend.a, bend.b}) sums.stiffness[v] += largest_stiffness(bend);
+}
+
+void BendFrictionElements::add_energy(const Eigen::Ref<const Positions>& positions,
+                                      double& energy) const {
+  if (!empty()) energy += model_.bend_friction->energy(positions);
+}
+
+void BendFrictionElements::add_forces(const Eigen::Ref<const Positions>& positions,
+                                      Eigen::Ref<Positions> forces) const {
+  if (!empty()) model_.bend_friction->add_forces(positions, forces);
+}
+
+void BendFrictionElements::add_row_sums(RowSums& sums) const {
+  if (empty()) return;
+  for (const BendFriction::Element& element : model_.bend_friction->elements())
+    add_bend_sums(element.bend, sums);
 }
 
 void MembraneElements::check() const {

@@ -225,6 +225,39 @@ struct ChordElements : ElementKind {
   void add_row_sums(RowSums& sums) const;
 };
 
+/// Friction inside bent cloth.
+struct BendFrictionElements : ElementKind {
+  using ElementKind::ElementKind;
+
+  bool empty() const { return !model_.bend_friction; }
+  template <class Note>
+  void for_each_part(Note&& note) const {
+    note(!empty(), "inner friction", empty() ? 0 : model_.bend_friction->bytes());
+  }
+  template <class Join>
+  void for_each_pair(Join&& join) const {
+    if (empty()) return;
+    for (const BendFriction::Element& element : model_.bend_friction->elements())
+      join_all(element.bend.vertices, join);
+  }
+  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
+  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  template <class Blocks>
+  void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
+                     Blocks& blocks) const {
+    if (empty()) return;
+    for (const BendFriction::Element& element : model_.bend_friction->elements()) {
+      const double s = shares.stiffness * model_.bend_friction->tangent(element, positions);
+      Eigen::Matrix<double, 9, 1> slope;  // of the curvature
+      for (int k = 0; k < 3; ++k)
+        slope.segment<3>(3 * k) = element.bend.weights[k] * element.normal;
+      const Eigen::Matrix<double, 9, 9> block = s * slope * slope.transpose();
+      blocks.add_element(element.bend.vertices, block);
+    }
+  }
+  void add_row_sums(RowSums& sums) const;
+};
+
 /// Triangles of the membrane and their viscosity.
 struct MembraneElements : ElementKind {
   using ElementKind::ElementKind;
@@ -335,6 +368,7 @@ void for_each_element_kind(const ClothModel& model, Visit&& visit) {
   visit(TautSpringElements(model));
   visit(BendElements(model));
   visit(ChordElements(model));
+  visit(BendFrictionElements(model));
   visit(MembraneElements(model));
   visit(HingeElements(model));
   visit(FittedBendingElements(model));

@@ -23,6 +23,7 @@ Vec3 coulomb_part(const Vec3& impulse, const Vec3& normal, double friction) {
 
 EnergyLedger::EnergyLedger(const ClothModel& model, const State& state)
     : model_(model),
+      first_friction_loss_(friction_loss()),
       first_parts_(energy_parts(model, state)),
       parts_(first_parts_),
       largest_kinetic_energy_(first_parts_.kinetic) {
@@ -31,14 +32,36 @@ EnergyLedger::EnergyLedger(const ClothModel& model, const State& state)
 
 void EnergyLedger::take_vertices() {
   air_ = model_.air;
+  friction_begin_ = model_.bend_friction;
   is_pinned_.resize(static_cast<std::size_t>(model_.n_vertices()));
   for (Loads* loads : {&begin_, &end_}) loads->forces.resize(3, model_.n_vertices());
   part_.resize(3, model_.n_vertices());
 }
 
+double EnergyLedger::friction_loss() const {
+  return model_.bend_friction ? model_.bend_friction->dissipated() : 0;
+}
+
+/// The model has the moments of the end: puts those of the begin in their place.
+void EnergyLedger::exchange_friction(const State& begin) {
+  part_.setZero();
+  model_.bend_friction->add_forces(begin.positions, part_);
+  part_ = -part_;
+  friction_begin_->add_forces(begin.positions, part_);
+  pull_to_parents(model_.hanging, part_);
+  begin_.forces += part_;
+  friction_begin_ = model_.bend_friction;
+}
+
 void EnergyLedger::record_tear(const State& state) {
+  const std::optional<BendFriction> friction = std::move(friction_begin_);
   take_vertices();
-  const EnergyParts torn = energy_parts(model_, state);
+  EnergyParts torn = energy_parts(model_, state);
+  if (friction) {  // the model may have moved on
+    torn.elastic -= model_.bend_friction->energy(state.positions);
+    friction_begin_->take_moments(*friction, state.positions);
+    torn.elastic += friction_begin_->energy(state.positions);
+  }
   works_.tears += torn.sum() - parts_.sum();
   parts_ = torn;
 }
@@ -89,6 +112,10 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
       "a ledger keeps its number of vertices");
   evaluate(begin, time_end - step, begin_);
   evaluate(end, time_end, end_);
+  if (friction_begin_) {
+    exchange_friction(begin);
+    works_.bend_friction = first_friction_loss_ - friction_loss();
+  }
   works_.damping += step / 2 * (begin_.damping_power + end_.damping_power);
   works_.air += step / 2 * (begin_.air_power + end_.air_power);
   std::fill(is_pinned_.begin(), is_pinned_.end(), char{0});

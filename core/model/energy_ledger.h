@@ -20,12 +20,13 @@ class EnergyLedger {
   /// Works done on the cloth since the beginning [J].
   struct Works {
     double damping = 0;
+    double bend_friction = 0;  ///< minus what its law loses along the way, by its own account
     double air = 0;
     double pins = 0;
     double contact = 0;
     double tears = 0;
 
-    double sum() const { return damping + air + pins + contact + tears; }
+    double sum() const { return damping + bend_friction + air + pins + contact + tears; }
   };
 
   /// model  outlives the ledger; its pins and colliders may move as their motions say, and tears
@@ -57,6 +58,8 @@ class EnergyLedger {
   };
 
   void take_vertices();
+  double friction_loss() const;
+  void exchange_friction(const State& begin);
   void evaluate(const State& state, double time, Loads& loads);
   Vec3 missing_impulse(VertexId vertex, const State& begin, const State& end, double step) const;
   void record_contact(const State& begin, const State& end, double time_end, double step);
@@ -67,6 +70,8 @@ class EnergyLedger {
   Loads end_;
   Positions part_;  // force of one kind [N]
   std::vector<char> is_pinned_;
+  std::optional<BendFriction> friction_begin_;  // with the moments after the last record
+  double first_friction_loss_;                  // [J]
   Works works_;
   EnergyParts first_parts_;
   EnergyParts parts_;

@@ -22,6 +22,7 @@ AdaptiveRun::AdaptiveRun(const Scene& scene, const DynamicOptions& options)
   build(quad_cloth(scene_).at_rest(base_));
   state_ = scene_state(cloth_);
   for (const Pin& pin : model_->pins) state_.positions.col(pin.vertex) = pin.position(0);
+  if (model_->bend_friction) model_->bend_friction->restart(state_.positions);
 }
 
 void AdaptiveRun::build(RestCloth cloth) {
@@ -38,7 +39,9 @@ bool AdaptiveRun::adapt() {
       refinement_.adapted({*mesh(), std::move(state_.positions), std::move(state_.velocities)});
   state_ = {std::move(adapted.state.positions), std::move(adapted.state.velocities)};
   if (adapted.n_split == 0 && adapted.n_merged == 0) return false;
+  const std::optional<BendFriction> friction = model_->bend_friction;
   build(quad_cloth(scene_).at_rest(std::move(adapted.state.mesh)));
+  if (friction) model_->bend_friction->take_moments(*friction, state_.positions);
   return true;
 }
 

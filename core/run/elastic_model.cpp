@@ -62,9 +62,26 @@ void add_membrane(ClothModel& model, const Scene& scene, const TriangleMesh& mes
   if (scene.model.bending == BendingModel::hinge) model.hinges = hinges(mesh, mean_rigidity);
 }
 
+/// A triangle mesh that comes without quads has a membrane.
+void add_friction(ClothModel& model, const Scene& scene, const RestCloth& cloth) {
+  if (cloth.given_springs)
+    throw InputError(
+        "/fabric",
+        "expected no friction inside cloth of given springs, whose bending has no width");
+  if (scene.model.elasticity != Elasticity::springs)
+    throw InputError("/model/elasticity",
+                     "expected springs for friction inside the fabric, got a membrane");
+  if (scene.model.bending != BendingModel::quadratic)
+    throw InputError("/model/bending",
+                     "expected quadratic for friction inside the fabric, got another law");
+  model.bend_friction.emplace(line_bends(*cloth.quads, 1), scene.fabric.bend_hysteresis,
+                              cloth.quads->crossed_triangles(), cloth.mesh.rest_positions);
+}
+
 }  // namespace
 
 void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth) {
+  if (scene.fabric.bend_hysteresis > 0) add_friction(model, scene, cloth);
   if (cloth.given_springs) return add_given(model, scene, *cloth.given_springs);
   // A quarter of each quad or a third of each triangle at every corner.
   model.masses = scene.fabric.areal_density * rest_areas(cloth);

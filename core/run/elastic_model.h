@@ -8,7 +8,8 @@ namespace pleat {
 /// else.
 ///
 /// cloth  of this scene
-/// Throws InputError for a fabric whose shear the cells or the membrane cannot carry.
+/// Throws InputError for a fabric whose shear the cells or the membrane cannot carry, and for one
+/// with friction inside on anything but springs of quads with quadratic bending.
 void add_elasticity(ClothModel& model, const Scene& scene, const RestCloth& cloth);
 
 }  // namespace pleat

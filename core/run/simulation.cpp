@@ -44,6 +44,7 @@ void Simulation::start() {
   was_led_astray_ = false;
   ended_ = {};
   for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(0);
+  if (model_.bend_friction) model_.bend_friction->restart(state_.positions);
   stepper_ = make_stepper(model_, scene_.method);
   stepper_->observe(observer_);
 }
@@ -88,9 +89,11 @@ void Simulation::tear() {
   if (!torn) return;
   const Positions forces = stepper_->contact_forces();
   const Eigen::VectorXd masses = model_.masses;
+  const std::optional<BendFriction> friction = model_.bend_friction;
   take_cloth(std::move(torn->cloth));
   state_.positions = tearing.split(state_.positions, torn->origins);
   state_.velocities = tearing.split(state_.velocities, torn->origins);
+  if (friction) model_.bend_friction->take_moments(*friction, state_.positions);
   stepper_ = make_stepper(model_, scene_.method);
   stepper_->observe(observer_);
   if (forces.cols() > 0)
@@ -171,6 +174,11 @@ void Simulation::carry_over(const Simulation& old) {
   end_transition();
   const MovingSheet from{*old.cloth_.quads, old.model_, old.state_};
   state_ = carried_state(from, *cloth_.quads);
+  if (model_.bend_friction) {
+    model_.bend_friction->restart(state_.positions);
+    if (old.model_.bend_friction)
+      model_.bend_friction->take_moments(*old.model_.bend_friction, state_.positions);
+  }
   const MovingSheet to{*cloth_.quads, model_, state_};
   transition_.emplace(from, to);
   stepper_->start_from_contact_forces(carried_forces(old.stepper_->contact_forces(), from, to));

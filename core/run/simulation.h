@@ -43,8 +43,9 @@ class Simulation final : public MovingCloth {
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
   /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
-  /// shake the cloth; until then it does not tear. Throws ContractError unless both are sheets with
-  /// the same base mesh, and `old` is whole.
+  /// shake the cloth; until then it does not tear. Moments of inner friction go on where the same
+  /// three vertices follow each other, and begin at zero elsewhere. Throws ContractError unless
+  /// both are sheets with the same base mesh, and `old` is whole.
   void carry_over(const Simulation& old);
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of

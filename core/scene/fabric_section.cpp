@@ -8,15 +8,18 @@
 namespace pleat {
 namespace {
 
-constexpr std::array<Word<BendSource>, 2> kBendSources{
-    {{"at_rest", BendSource::at_rest}, {"moving", BendSource::moving}}};
+constexpr std::array<Word<BendSource>, 3> kBendSources{{{"at_rest", BendSource::at_rest},
+                                                        {"moving", BendSource::moving},
+                                                        {"friction", BendSource::friction}}};
+
+constexpr const char* kHysteresisKey = "bend_hysteresis_2hb_n";
 
 struct NumberField {
   const char* key;
   double FabricConstants::*field;
   NumberRange range;
 };
-constexpr std::array<NumberField, 9> kNumberFields{
+constexpr std::array<NumberField, 10> kNumberFields{
     {{"areal_density_kg_per_m2", &FabricConstants::areal_density, kPositive},
      {"thickness_m", &FabricConstants::thickness, kNotNegative},
      {"stretch_warp_n_per_m", &FabricConstants::stretch_warp, kPositive},
@@ -25,7 +28,8 @@ constexpr std::array<NumberField, 9> kNumberFields{
      {"bend_warp_n_m", &FabricConstants::bend_warp, kNotNegative},
      {"bend_weft_n_m", &FabricConstants::bend_weft, kNotNegative},
      {"damping_ratio", &FabricConstants::damping_ratio, kNotNegative},
-     {"friction_solid", &FabricConstants::friction_solid, kNotNegative}}};
+     {"friction_solid", &FabricConstants::friction_solid, kNotNegative},
+     {kHysteresisKey, &FabricConstants::bend_hysteresis, kNotNegative}}};
 
 /// Reads the numbers that are there; the others stay as they are. Returns the keys read.
 std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants& fabric) {
@@ -61,15 +65,23 @@ void read_fabric(const JsonReader& reader, const FabricLibrary& fabrics, Scene& 
   reader.allow_keys({"name", "bending", "overrides"});
   if (const auto at = reader.find("bending")) scene.bend_source = at->word(kBendSources);
   scene.fabric = constants(fabrics.find(reader.at("name").text()), scene.bend_source);
-  if (const auto at = reader.find("overrides"))
-    scene.fabric_overrides = read_numbers(*at, scene.fabric);
+  const auto overrides = reader.find("overrides");
+  if (!overrides) return;
+  scene.fabric_overrides = read_numbers(*overrides, scene.fabric);
+  if (const auto at = overrides->find(kHysteresisKey);
+      at && scene.bend_source != BendSource::friction)
+    at->fail(
+        "only beside \"bending\": \"friction\", as other rigidities stand for friction or leave "
+        "it out");
 }
 
 Json json_fabric(const Scene& scene) {
   Json numbers = Json::object();
   for (const NumberField& number : kNumberFields) {
     const auto& keys = scene.fabric_overrides;
-    if (!scene.fabric_is_named || std::find(keys.begin(), keys.end(), number.key) != keys.end())
+    const bool is_own = !scene.fabric_is_named &&
+                        (number.key != kHysteresisKey || scene.fabric.bend_hysteresis > 0);
+    if (is_own || std::find(keys.begin(), keys.end(), number.key) != keys.end())
       numbers[number.key] = scene.fabric.*number.field;
   }
   if (!scene.fabric_is_named) return numbers;

@@ -119,7 +119,7 @@ TEST_CASE("elements: each kind alone has its own derivatives", "[model]") {
     const Eigen::MatrixXd damping = matrix_of(kind, x, {0, 1, ElementHessian::exact});
     CHECK(relative_error(damping, -drag_jacobian) < 1e-8);
   });
-  CHECK(kind_number == 7);
+  CHECK(kind_number == 8);
 }
 
 TEST_CASE("elements: each kind's projected stiffness is positive", "[model]") {

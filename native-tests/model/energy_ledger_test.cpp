@@ -95,6 +95,30 @@ State flat_state(const ClothModel& model) {
   return state;
 }
 
+/// Lies level, held in its first two lines, and hangs over as far as friction lets it.
+QuadMesh shelf_sheet() {
+  SheetShape shape;
+  shape.height = shape.width = 0.2;
+  shape.columns = 2;
+  shape.rows = 4;
+  shape.warp_direction = Vec3::UnitX();
+  shape.weft_direction = Vec3::UnitZ();
+  return QuadMesh::sheet(shape);
+}
+
+ClothModel rubbing_sheet_model() {
+  const QuadMesh mesh = shelf_sheet();
+  ClothModel model = sheet_model(mesh, soft_fabric());
+  model.gravity = Vec3(0, -9.81, 0);
+  for (int i = 0; i < 6; ++i) model.pins.push_back({VertexId(i), mesh.rest_positions().col(i), {}});
+  model.pins[4].motion = {Motion::Kind::oscillate, Vec3(0, 0.01, 0), 0, 0, 3};
+  model.bend_friction.emplace(line_bends(mesh, 1), 0.02, mesh.crossed_triangles(),
+                              mesh.rest_positions());
+  return model;
+}
+
+State shelf_state(const ClothModel&) { return rest_state(shelf_sheet()); }
+
 std::vector<Case> cases() {
   return {{"pendulum", pendulum_model, released_state, 0.5},
           {"chain", soft_chain_model, released_state, 0.5},
@@ -183,6 +207,25 @@ TEST_CASE("energy_ledger: a pin that does not move does no work", "[model]") {
 TEST_CASE("energy_ledger: dampers and air only take energy", "[model]") {
   CHECK(account(cases()[2], &steppers::kImplicitEuler, 1.0 / 1000).works.damping < 0);
   CHECK(account(cases()[5], &steppers::kImplicitEuler, 1.0 / 1000).works.air < 0);
+}
+
+TEST_CASE("energy_ledger: inner friction takes what its law says", "[model]") {
+  const auto stepper = GENERATE(&steppers::kNewton, &steppers::kImplicitEuler);
+  const Case rubbing{"inner friction", rubbing_sheet_model, shelf_state, 0.5};
+  CAPTURE(stepper->name);
+  const Account coarse = account(rubbing, stepper, 1.0 / 1000);
+  const Account fine = account(rubbing, stepper, 1.0 / 8000);
+  CHECK(fine.works.bend_friction < -0.1 * fine.parts.elastic);
+  CHECK(fine.works.bend_friction == Approx(coarse.works.bend_friction).epsilon(0.05));
+  CHECK(fine.largest_drift < 0.25 * coarse.largest_drift);
+  Case smooth = rubbing;
+  smooth.model = [] {
+    ClothModel model = rubbing_sheet_model();
+    model.bend_friction.reset();
+    return model;
+  };
+  const Account without = account(smooth, stepper, 1.0 / 8000);
+  CHECK(fine.largest_drift < 1.2 * without.largest_drift);
 }
 
 // x = x0 (1 - cos omega t) below the rest length, with x0 = m g / k and omega^2 = k / m.

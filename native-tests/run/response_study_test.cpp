@@ -12,7 +12,7 @@ namespace pleat {
 namespace {
 
 /// A small sheet that falls on a ball, askew and beside its middle, or has no time to.
-Scene falling_scene(double duration = 0.4) {
+Scene dropped_scene(double duration = 0.4) {
   Scene scene = released_sheet_scene(6, "fine cotton");
   scene.pins.clear();
   SheetCloth sheet = *scene.cloth.as<SheetCloth>();
@@ -30,7 +30,7 @@ Scene falling_scene(double duration = 0.4) {
 
 TEST_CASE("response_study: cloth that rests is slower along the normal than cloth that bounces",
           "[run]") {
-  const ResponseStudy study = study_response(falling_scene(), 0.02);
+  const ResponseStudy study = study_response(dropped_scene(), 0.02);
   CHECK(study.resting.rms_normal_velocity < 0.5 * study.uniform.rms_normal_velocity);
   CHECK(study.resting.n_touched > 0);
   CHECK(study.resting.normal_velocities.size() ==
@@ -43,7 +43,7 @@ TEST_CASE("response_study: cloth that rests is slower along the normal than clot
 }
 
 TEST_CASE("response_study: what solids do is what the law of friction says", "[run]") {
-  const ResponseStudy study = study_response(falling_scene(), 0.02);
+  const ResponseStudy study = study_response(dropped_scene(), 0.02);
   for (const ResponseRun* run : {&study.resting, &study.uniform}) {
     REQUIRE(run->friction.has_value());
     CHECK(run->friction->tangential_velocity < 1e-9);
@@ -52,7 +52,7 @@ TEST_CASE("response_study: what solids do is what the law of friction says", "[r
 }
 
 TEST_CASE("response_study: of implicit the law is left out where forces are remembered", "[run]") {
-  Scene scene = falling_scene();
+  Scene scene = dropped_scene();
   scene.method = steppers::kImplicitEuler.usual_method();
   scene.method.substeps = 20;
   const ResponseStudy study = study_response(scene, 0.02);
@@ -70,21 +70,21 @@ TEST_CASE("response_study: it refuses scenes that tell nothing of responses", "[
     }
     return std::string("none");
   };
-  Scene bare = falling_scene();
+  Scene bare = dropped_scene();
   bare.colliders.clear();
   CHECK(refusal(bare) == "/world/colliders");
-  Scene moving = falling_scene();
+  Scene moving = dropped_scene();
   moving.colliders[0].motion = steady_motion(Vec3(0, 1, 0));
   CHECK(refusal(moving) == "/world/colliders/0/motion");
-  Scene unfit = falling_scene();
+  Scene unfit = dropped_scene();
   unfit.method = steppers::kXpbd.usual_method();
   CHECK(refusal(unfit) == "/method/stepper");
-  CHECK(refusal(falling_scene(0.02)) == "/duration_s");
-  CHECK(refusal(falling_scene(0.11), 0.05) == "/duration_s");
+  CHECK(refusal(dropped_scene(0.02)) == "/duration_s");
+  CHECK(refusal(dropped_scene(0.11), 0.05) == "/duration_s");
 }
 
 TEST_CASE("response_study: a window shorter than a substep is one", "[run]") {
-  CHECK(study_response(falling_scene(), 1e-9).resting.normal_velocities.size() == 1);
+  CHECK(study_response(dropped_scene(), 1e-9).resting.normal_velocities.size() == 1);
 }
 
 }  // namespace pleat

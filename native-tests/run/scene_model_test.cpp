@@ -10,8 +10,8 @@
 namespace pleat {
 namespace {
 
-const std::vector<std::string> kOnRequest = {"gravity", "pins",         "air drag", "wind",
-                                             "contact", "strain limit", "tearing"};
+const std::vector<std::string> kOnRequest = {
+    "gravity", "pins", "air drag", "wind", "contact", "strain limit", "tearing", "inner friction"};
 
 BuildReport report_of(const Scene& scene) {
   const Simulation simulation(scene);
@@ -42,6 +42,7 @@ TEST_CASE("scene_model: what a scene asks for is built", "[run]") {
   scene.air->wind.velocity = {1, 0, 0};
   scene.colliders.push_back({Plane{}, {}, 0.3});
   scene.model.strain_limit = StrainLimitOptions{};
+  scene.fabric.bend_hysteresis = 1e-3;
   auto tearing = std::make_shared<Tearing>();
   tearing->breaking_elongation = 1;
   scene.model.tearing = tearing;

@@ -54,6 +54,7 @@ const char* const kFurtherScenes[] = {
         "pattern_m": [[[0, 0], [1, 0], [0, 1]]]}}})",
     R"({"$schema": "scene_schema.json", "cloth": {"sheet": {}},
         "fabric": {"name": "silk", "overrides": {"shear_n_per_m": 3}}})",
+    R"({"cloth": {"sheet": {}}, "fabric": {"bend_hysteresis_2hb_n": 0.001}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "explicit", "substeps": "stable"}})",
     R"({"cloth": {"sheet": {}}, "method": {"stepper": "multigrid", "smoother_before": "sor",
         "omega": 1.2, "level_lengths": "chord", "attachments": "none", "ratio": 0.5, "levels": 2,

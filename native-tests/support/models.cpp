@@ -78,6 +78,8 @@ ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabr
   model.membrane.law.stiffening_strain = 0.02;
   model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::arc).chord_bends;
   model.hinges = hinges(mesh.triangle_mesh(), fabric.bend_warp);
+  model.bend_friction.emplace(line_bends(mesh, 1), 1e-3, mesh.crossed_triangles(),
+                              mesh.rest_positions());
   return model;
 }
 
