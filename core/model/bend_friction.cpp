@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "core/base/check.h"
@@ -85,16 +86,13 @@ void BendFriction::restart(const Positions& positions) {
 }
 
 void BendFriction::take_moments(const BendFriction& other, const Positions& positions) {
-  std::vector<std::pair<std::uint64_t, double>> strains;
-  strains.reserve(other.elements_.size());
-  for (const Element& element : other.elements_)
-    strains.emplace_back(element.place, element.strain);
-  std::sort(strains.begin(), strains.end());
+  std::unordered_map<std::uint64_t, std::size_t> known;  // only looked up, never walked
+  for (std::size_t i = 0; i < other.elements_.size(); ++i) known[other.elements_[i].place] = i;
+  const double share = other.rigidity_ / rigidity_;
   for (Element& element : elements_) {
-    const auto found =
-        std::lower_bound(strains.begin(), strains.end(), std::pair(element.place, -kYield));
-    const bool is_known = found != strains.end() && found->first == element.place;
-    element.strain = is_known ? limited(found->second * other.rigidity_ / rigidity_, kYield) : 0;
+    const auto found = known.find(element.place);
+    element.strain =
+        found == known.end() ? 0 : limited(other.elements_[found->second].strain * share, kYield);
   }
   dissipated_ = other.dissipated_;
   look(positions, positions);
