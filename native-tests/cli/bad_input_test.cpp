@@ -120,7 +120,9 @@ TEST_CASE("bad input: words that are no options, options or values too many", "[
        "--ship-references: makes no rows for --out and --json",
        {}},
       {{"reference", "scene.json", "--overwrite"}, "--overwrite: expected --out beside it", {}},
-      {{"run", "scene.json", "--overwrite"}, "--overwrite: expected --out or --dump beside it", {}},
+      {{"run", "scene.json", "--overwrite"},
+       "--overwrite: expected --out, --dump or --state beside it",
+       {}},
   };
   for (const Bad& bad : cases) check_refused(bad);
 }

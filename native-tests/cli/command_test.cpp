@@ -251,7 +251,7 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
        "pleat: bench: expected run, reference, deform, inbetween, plans, together, restarts, "
        "response, rows or limit after it, got "},
       {{"run", "--out", std::string(300, 'x')}, "xxx: expected a folder that can be read, got "},
-      {{"run", "--overwrite"}, "pleat: --overwrite: expected --out "},
+      {{"run", "--overwrite"}, "pleat: --overwrite: expected --out, "},
       {{"run", "-x"}, "pleat: -x: unknown option"},
       {{"run", "--out", "-x"}, "pleat: --out: expected a value after it, got "},
       {{"run", "--step", "1e-12"}, "pleat: --step: expected at most 1e9 steps "},

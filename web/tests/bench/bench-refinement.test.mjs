@@ -22,7 +22,14 @@ const run = {
   refinement_ms: 0,
   n_timed_frames: 3,
   reference: { id: 'fine', description: 'the fine mesh' },
-  errors: { bend_per_m: 1, surface_m: 0.01, position_m: 0.02 },
+  errors: {
+    bend_per_m: 1,
+    surface_m: 0.01,
+    position_m: 0.02,
+    sampling_m: 0.0018,
+    sampling_rad: 0.1,
+  },
+  folds_m: [[0.01, 0.02]],
   rms_stretch: 0.01,
   largest_stretch: 0.1,
   inside: { n_frames: 0, most: 0, deepest_m: 0 },
@@ -46,7 +53,7 @@ describe('rows of refinement', () => {
 describe('goals of refinement', () => {
   const fine = row({ n_vertices: 3000, ms_per_frame: 100 });
   const multi = row({ n_vertices: 900, ms_per_frame: 29 });
-  const same = row({ errors: { bend_per_m: 2, surface_m: 0.0125 } });
+  const same = row({ errors: { bend_per_m: 2, surface_m: 0.0125, sampling_m: 0.002 } });
 
   it('hold time to the smaller of 0.3 and 1.15 times the share of vertices', () => {
     expect(lines(comparisonGoals('skirt', { fine, multi, same }))).toEqual([
@@ -54,6 +61,7 @@ describe('goals of refinement', () => {
       'goal skirt_time_share 0.29 at-most 0.3 ok',
       'goal skirt_bend_error_to_uniform 0.5 at-most 0.6 ok',
       'goal skirt_surface_error_to_uniform 0.8 at-most 0.8 ok',
+      'goal skirt_sampling_to_uniform 0.9 at-most 0.9 ok',
       'goal skirt_refinement_ms_per_frame 0 at-most 0 ok',
     ]);
     const small = { ...multi, n_vertices: 600 };

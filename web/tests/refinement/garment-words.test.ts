@@ -83,7 +83,7 @@ describe('garment-words', () => {
   it('tells splits that were asked for from those for balance', () => {
     const text = storySentences(STORY);
     expect(text).toContain('2 patterns');
-    expect(text).toContain('30 faces were split: 26 where the patterns');
+    expect(text).toContain('30 faces were split: 26 where a vertex saves most');
     expect(text).toContain('the other 4 only to keep neighbours');
     expect(storySentences({ ...STORY, nForBalance: 0 })).toContain('none only to keep');
   });

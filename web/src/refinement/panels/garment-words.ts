@@ -156,7 +156,10 @@ export function storySentences(story: PlanStory): string {
     story.examples.length > 1
       ? `The ${examplesWords(story)} each ${sorted}; where they differ, the higher pattern counts.`
       : `The ${examplesWords(story)} ${sorted}.`;
-  return `${origin} ${splits} A split face asks for one less at each corner before it may be split again.`;
+  const again = story.isByShape
+    ? ''
+    : ' A split face asks for one less at each corner before it may be split again.';
+  return `${origin} ${splits}${again}`;
 }
 
 export interface FitReading {
