@@ -158,35 +158,6 @@ export async function checkRefinement(harness) {
     }),
   );
 
-  await check('refinement: a squat fires the light, and becomes an example by a press', () =>
-    visit('#view=refinement&motion=squat&fine=off&edges=off&colour=material', async (page) => {
-      await button(page, 'Play').click();
-      await until(page, (state) => state.fit?.fires, LOAD_MS);
-      await eventually(
-        async () => /Does not fit/.test(await page.locator('.fit-title').textContent()),
-        'the light says so',
-      );
-      const anew = button(page, 'Plan anew with this motion too');
-      await anew.focus();
-      await page.keyboard.press('Enter');
-      await until(page, (state) => state.doing?.share > 0, LOAD_MS);
-      await button(page, 'Cancel').click();
-      const { further, plan } = await until(page, (state) => state.phase === 'ready');
-      expectThat(further.length === 0 && plan.examples.length === 1, 'it was not given up');
-      await anew.click();
-      await until(page, (state) => state.plan?.examples.length === 2, EXAMPLE_MS);
-      await isReady(page);
-      const story = await page.getByRole('region', { name: 'The plan' }).textContent();
-      expectThat(/The examples walk and squat each sorted/.test(story), `it says: ${story}`);
-      const { panes, timeS } = await stateOf(page);
-      const before = plan.vertices;
-      expectThat(panes.planned.nVertices > before, `${panes.planned.nVertices} after ${before}`);
-      expectThat(timeS === 0, `it goes on at ${timeS} s`);
-      const said = page.getByRole('status').filter({ hasText: 'planned from the examples' });
-      expectThat((await said.count()) === 1, 'nothing was announced');
-    }),
-  );
-
   await check('refinement: a link brings back what is shown', () =>
     visit(
       '#view=refinement&vertices=1500&colour=pattern&hanging=on&edges=off&speed=0.5&start=2',
