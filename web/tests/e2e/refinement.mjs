@@ -16,9 +16,6 @@ import {
 /** Three meshes, with software rendering on a busy machine [ms]. */
 const LOAD_MS = 120000;
 
-/** An example on the fine mesh [ms]. */
-const EXAMPLE_MS = 600000;
-
 const isReady = (page) => until(page, (state) => state.phase === 'ready', LOAD_MS);
 
 /** Moves a slider by its keys. */
