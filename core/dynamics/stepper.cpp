@@ -16,25 +16,12 @@ namespace {
 /// Of a substep: contact that is sooner than this after its begin has been there before.
 constexpr double kLeastShare = 1e-12;
 
-/// False for NaN too.
-bool is_within_bounds(std::span<const double> numbers) {
-  bool is_within = true;
-  for (const double number : numbers) is_within &= std::abs(number) <= kLargestCoordinate;
-  return is_within;
-}
-
-std::span<const double> numbers_of(const Eigen::Ref<const Positions>& columns) {
-  return {columns.data(), static_cast<std::size_t>(columns.size())};
-}
-
-/// The first vertex that has left all bounds; invalid when none has.
+/// The first vertex that has left all bounds, or is not finite; invalid when none has.
 VertexId first_lost(const State& state) {
-  if (is_within_bounds(numbers_of(state.positions)) &&
-      is_within_bounds(numbers_of(state.velocities)))
-    return VertexId();
+  constexpr double kFarthest = kLargestCoordinate * kLargestCoordinate;
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
-    if (!is_within_bounds(numbers_of(state.positions.col(i))) ||
-        !is_within_bounds(numbers_of(state.velocities.col(i))))
+    if (!(state.positions.col(i).squaredNorm() <= kFarthest) ||
+        !(state.velocities.col(i).squaredNorm() <= kFarthest))
       return VertexId(i);
   return VertexId();
 }

@@ -69,40 +69,51 @@ int StepperXpbd::slot_of(VertexId vertex) const {
   return layout_.places[static_cast<std::size_t>(vertex)].slot;
 }
 
-Vec3 StepperXpbd::position_of(int slot) {
-  Vec3 position = origin_;
-  for (int k = 0; k < 3; ++k)
-    position[k] += static_cast<double>(array(begin + k)[slot]) + array(move + k)[slot];
-  return position;
+// Addresses are taken once, for a step's conversions go through all vertices.
+StepperXpbd::MotionLanes StepperXpbd::motion() { return {lanes(begin), lanes(move), lanes(rounded_off)}; }
+
+Vec3 StepperXpbd::position_of(const MotionLanes& motion, int slot) const {
+  const auto along = [&](std::size_t k) {
+    return origin_[static_cast<int>(k)] +
+           (static_cast<double>(motion.begins[k][slot]) + motion.moves[k][slot]);
+  };
+  return {along(0), along(1), along(2)};
 }
 
-Vec3 StepperXpbd::velocity_of(int slot, double h) {
-  Vec3 velocity;
-  for (int k = 0; k < 3; ++k)
-    velocity[k] = (static_cast<double>(array(move + k)[slot]) - array(rounded_off + k)[slot]) / h;
-  return velocity;
+Vec3 StepperXpbd::velocity_of(const MotionLanes& motion, int slot, double h) {
+  const auto along = [&](std::size_t k) {
+    return (static_cast<double>(motion.moves[k][slot]) - motion.rounded_off[k][slot]) / h;
+  };
+  return {along(0), along(1), along(2)};
 }
 
-void StepperXpbd::set_motion(int slot, const Vec3& position, const Vec3& velocity, double h) {
-  for (int k = 0; k < 3; ++k) {
-    const double local = position[k] - origin_[k];
+void StepperXpbd::set_motion(const MotionLanes& motion, int slot, const Vec3& position,
+                             const Vec3& velocity, double h) const {
+  const auto set_along = [&](std::size_t k) {
+    const double local = position[static_cast<int>(k)] - origin_[static_cast<int>(k)];
     const auto rounded = static_cast<float>(local);
     const auto remainder = static_cast<float>(local - rounded);
-    array(begin + k)[slot] = rounded;
-    array(move + k)[slot] = remainder;
-    array(rounded_off + k)[slot] = static_cast<float>(remainder - h * velocity[k]);
-  }
+    motion.begins[k][slot] = rounded;
+    motion.moves[k][slot] = remainder;
+    motion.rounded_off[k][slot] = static_cast<float>(remainder - h * velocity[static_cast<int>(k)]);
+  };
+  set_along(0);
+  set_along(1);
+  set_along(2);
 }
 
 void StepperXpbd::load(const State& state) {
   const StageScope scope(observer_, Stage::convert);
   const double h = step_of(options());
-  const Vec3 least = state.positions.rowwise().minCoeff();
-  const Vec3 most = state.positions.rowwise().maxCoeff();
+  Vec3 least = state.positions.col(0);
+  Vec3 most = least;
+  for (Eigen::Index i = 1; i < state.positions.cols(); ++i) {
+    least = least.cwiseMin(state.positions.col(i));
+    most = most.cwiseMax(state.positions.col(i));
+  }
   origin_ = 0.5 * (least + most);
   extent_ = (most - least).norm();
-  for (int i = 0; i < model_.n_vertices(); ++i)
-    set_motion(slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
+  take_from(state, h);
   if (contact_) contact_->begin_step(*model_.contact, layout_);
   substeps_left_ = substeps();
 }
@@ -220,15 +231,15 @@ void StepperXpbd::add_air_drag() {
 void StepperXpbd::resolve_contacts(double h) {
   const StageScope scope(observer_, Stage::contact);
   contact_->place_solids(*model_.contact, origin_, extent_);
-  for (const int slot : contact_->resolve(view(), lanes(rounded_off))) {
-    Vec3 place_begin = origin_;
-    for (int k = 0; k < 3; ++k)
-      place_begin[k] += static_cast<double>(array(begin + k)[slot]) + array(rounded_off + k)[slot];
-    Vec3 place = position_of(slot);
-    Vec3 velocity = velocity_of(slot, h);
+  const MotionLanes now = motion();
+  const MotionLanes at_begin = {now.begins, now.rounded_off, now.rounded_off};
+  for (const int slot : contact_->resolve(view(), now.rounded_off)) {
+    const Vec3 place_begin = position_of(at_begin, slot);
+    Vec3 place = position_of(now, slot);
+    Vec3 velocity = velocity_of(now, slot, h);
     const VertexId vertex = vertices_[static_cast<std::size_t>(slot)];
     if (model_.contact->resolve(vertex, place_begin, place, velocity))
-      set_motion(slot, place, velocity, h);
+      set_motion(now, slot, place, velocity, h);
   }
 }
 
@@ -236,18 +247,21 @@ void StepperXpbd::limit_in_double(State& state, double time_end, double h) {
   positions_begin_.swap(state.positions);
   copy_to(state, h);
   correct(positions_begin_, state, time_end, h);
-  for (int i = 0; i < model_.n_vertices(); ++i) {
-    const int slot = slot_of(VertexId(i));
-    if (array(inverse_mass)[slot] > 0)
-      set_motion(slot, state.positions.col(i), state.velocities.col(i), h);
-  }
+  take_from(state, h);
+}
+
+void StepperXpbd::take_from(const State& state, double h) {
+  const MotionLanes lanes = motion();
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    set_motion(lanes, slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
 }
 
 void StepperXpbd::copy_to(State& state, double h) {
+  const MotionLanes lanes = motion();
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const int slot = slot_of(VertexId(i));
-    state.positions.col(i) = position_of(slot);
-    state.velocities.col(i) = velocity_of(slot, h);
+    state.positions.col(i) = position_of(lanes, slot);
+    state.velocities.col(i) = velocity_of(lanes, slot, h);
   }
   place_between_parents(model_.hanging, state);
 }

@@ -44,6 +44,11 @@ class StepperXpbd final : public Stepper {
   /// during a substep, the velocity that it began with. It exists where accelerations are carried.
   enum Array { begin, move = 3, rounded_off = 6, inverse_mass = 9, gained = 10, kArrays = 13 };
 
+  /// The first three of them, each by x, y and z.
+  struct MotionLanes {
+    std::array<float*, 3> begins, moves, rounded_off;
+  };
+
   bool carries() const { return options().carried_acceleration > 0; }
   static constexpr std::size_t kAirArrays = 9;
 
@@ -54,10 +59,13 @@ class StepperXpbd final : public Stepper {
   }
   LaneView view();
   int slot_of(VertexId vertex) const;
+  void take_from(const State& state, double h);
   void copy_to(State& state, double h);
-  Vec3 position_of(int slot);
-  Vec3 velocity_of(int slot, double h);
-  void set_motion(int slot, const Vec3& position, const Vec3& velocity, double h);
+  MotionLanes motion();
+  Vec3 position_of(const MotionLanes& motion, int slot) const;
+  static Vec3 velocity_of(const MotionLanes& motion, int slot, double h);
+  void set_motion(const MotionLanes& motion, int slot, const Vec3& position, const Vec3& velocity,
+                  double h) const;
   /// Makes the end of a substep the begin of the next, which goes on at the same velocity, and
   /// lets gravity act.
   template <bool carries>

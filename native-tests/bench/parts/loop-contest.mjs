@@ -23,12 +23,13 @@ const kCandidates = {
     constraints: 'rigid',
     substeps,
   })),
-  multigrid: [3, 5, 7, 10, 15, 20, 30, 45, 60, 90].flatMap((substeps) =>
+  multigrid: [4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 45, 60, 90].flatMap((substeps) =>
     [
       {},
       { smoother_before: 'none' },
       { smoother_before: 'none', levels: 0 },
       { carried_acceleration: kCarried },
+      { carried_acceleration: kCarried, levels: 0 },
       { carried_acceleration: kCarried, smoother_before: 'none', levels: 0 },
       { smoother_before: 'gauss_seidel', smoother: 'gauss_seidel' },
       { smoother_before: 'none', smoother: 'gauss_seidel', levels: 0 },
