@@ -52,11 +52,14 @@ struct RefineInput {
 void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& scene) {
   std::vector<int> n_base(static_cast<std::size_t>(plan.n_patterns), 0);
   for (const int pattern : plan.patterns) ++n_base[static_cast<std::size_t>(pattern)];
-  std::printf("pattern  base vertices  mean 1/m  deviation 1/m  limit 1/m\n");
+  std::printf("pattern  base vertices  mean 1/m  deviation 1/m\n");
   const BendFeatures& centres = plan.examples.front().centres;
   for (int p = 0; p < plan.n_patterns; ++p)
-    std::printf("%7d  %13d  %8.3g  %13.3g  %9.3g\n", p, n_base[static_cast<std::size_t>(p)],
-                centres(0, p), centres(1, p), plan.curvature_limits[static_cast<std::size_t>(p)]);
+    std::printf("%7d  %13d  %8.3g  %13.3g\n", p, n_base[static_cast<std::size_t>(p)], centres(0, p),
+                centres(1, p));
+  const auto [least, most] =
+      std::minmax_element(plan.curvature_limits.begin(), plan.curvature_limits.end());
+  std::printf("faces may bend by %.3g to %.3g 1/m\n", *least, *most);
   Scene fine = scene;
   fine.plan.reset();
   const auto n_fine = rest_cloth(fine).mesh.n_vertices();

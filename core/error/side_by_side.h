@@ -35,7 +35,7 @@ struct FrameOptions {
 
 /// How a run on a plan's mesh fitted the plan's examples.
 struct FitSummary {
-  double outside = 0;  ///< mean share of the faces that bend beyond their pattern's limit
+  double outside = 0;  ///< mean share of the faces that bend beyond their limit
   FitReport last;
 };
 

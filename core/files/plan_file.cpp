@@ -177,9 +177,6 @@ RefinementPlan read_plan(const JsonReader& root) {
   const JsonReader limits = root.at("curvature_limits_per_m");
   for (const JsonReader& limit : limits.elements())
     plan.curvature_limits.push_back(limit.number(kNotNegative));
-  if (!plan.curvature_limits.empty() &&
-      plan.curvature_limits.size() != static_cast<std::size_t>(plan.n_patterns))
-    limits.fail("none or one for each of " + std::to_string(plan.n_patterns) + " patterns");
   for (const JsonReader& split : root.at("splits").elements())
     plan.splits.push_back(read_split(split));
   return plan;

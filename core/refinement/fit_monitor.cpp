@@ -18,7 +18,8 @@ double quantile(std::vector<double> values, double part) {
 
 }  // namespace
 
-FaceCurvature::FaceCurvature(const QuadMesh& mesh) : vertices_(mesh) {
+FaceCurvature::FaceCurvature(const QuadMesh& mesh)
+    : vertices_(mesh), n_vertices_(mesh.n_vertices()) {
   for (const QuadFace& face : mesh.faces())
     if (face.active()) corners_.push_back(face.corners);
 }
@@ -34,59 +35,49 @@ Eigen::VectorXd FaceCurvature::of(const Eigen::Ref<const Positions>& positions) 
   return curvature;
 }
 
-std::vector<int> face_patterns(const QuadMesh& mesh, const RefinementPlan& plan) {
-  PLEAT_CHECK(base_fingerprint(mesh) == plan.base_mesh && mesh.n_vertices() == plan.n_vertices,
-              "the mesh is the plan's");
-  Eigen::RowVectorXd base(static_cast<Eigen::Index>(plan.patterns.size()));
-  for (Eigen::Index v = 0; v < base.size(); ++v)
-    base[v] = plan.patterns[static_cast<std::size_t>(v)];
-  const Eigen::RowVectorXd all = continued(base, mesh);
-  std::vector<int> patterns;
-  for (const QuadFace& face : mesh.faces()) {
-    if (!face.active()) continue;
-    double largest = 0;
-    for (const VertexId v : face.corners) largest = std::max(largest, all[v]);
-    patterns.push_back(static_cast<int>(std::lround(largest)));
-  }
-  return patterns;
+Eigen::VectorXd FaceCurvature::largest_around(
+    const Eigen::Ref<const Eigen::VectorXd>& values) const {
+  Eigen::VectorXd at_vertices = Eigen::VectorXd::Zero(n_vertices_);
+  for (Eigen::Index f = 0; f < values.size(); ++f)
+    for (const VertexId v : corners_[static_cast<std::size_t>(f)])
+      at_vertices[v] = std::max(at_vertices[v], values[f]);
+  Eigen::VectorXd largest = values;
+  for (Eigen::Index f = 0; f < values.size(); ++f)
+    for (const VertexId v : corners_[static_cast<std::size_t>(f)])
+      largest[f] = std::max(largest[f], at_vertices[v]);
+  return largest;
 }
 
-ExampleEnvelope::ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine,
-                                 const RefinementPlan& plan)
-    : sample_(mesh, fine),
-      curvature_(mesh),
-      patterns_(face_patterns(mesh, plan)),
-      seen_(static_cast<std::size_t>(plan.n_patterns)) {}
+ExampleEnvelope::ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine)
+    : sample_(mesh, fine), curvature_(mesh) {}
 
 void ExampleEnvelope::add(const Eigen::Ref<const Positions>& fine_positions) {
-  const Eigen::VectorXd curvature = curvature_.of(sample_.of(fine_positions));
-  for (std::size_t f = 0; f < patterns_.size(); ++f)
-    seen_[static_cast<std::size_t>(patterns_[f])].push_back(
-        curvature[static_cast<Eigen::Index>(f)]);
+  seen_.push_back(curvature_.of(sample_.of(fine_positions)));
 }
 
 std::vector<double> ExampleEnvelope::limits() const {
-  constexpr double kPart = 0.999;
-  std::vector<double> limits;
-  bool has_frames = false;
-  for (const std::vector<double>& seen : seen_) {
-    limits.push_back(seen.empty() ? 0 : quantile(seen, kPart));
-    has_frames = has_frames || !seen.empty();
+  constexpr double kPart = 0.995;
+  constexpr double kPerUnit = 100;
+  PLEAT_CHECK(!seen_.empty(), "an envelope is of at least one frame");
+  Eigen::VectorXd own(curvature_.n_faces());
+  std::vector<double> of_face(seen_.size());
+  for (Eigen::Index f = 0; f < own.size(); ++f) {
+    for (std::size_t frame = 0; frame < seen_.size(); ++frame) of_face[frame] = seen_[frame][f];
+    own[f] = std::ceil(kPerUnit * quantile(of_face, kPart)) / kPerUnit;
   }
-  PLEAT_CHECK(has_frames, "an envelope is of at least one frame");
-  return limits;
+  const Eigen::VectorXd around = curvature_.largest_around(curvature_.largest_around(own));
+  return {around.begin(), around.end()};
 }
 
 FitMonitor::FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan) : curvature_(mesh) {
-  if (plan.curvature_limits.size() != static_cast<std::size_t>(plan.n_patterns))
-    throw InputError("/curvature_limits_per_m",
-                     "expected one limit for each of " + std::to_string(plan.n_patterns) +
-                         " patterns, got " + std::to_string(plan.curvature_limits.size()));
-  const std::vector<int> patterns = face_patterns(mesh, plan);
-  limits_.resize(curvature_.n_faces());
-  for (Eigen::Index f = 0; f < limits_.size(); ++f)
-    limits_[f] =
-        plan.curvature_limits[static_cast<std::size_t>(patterns[static_cast<std::size_t>(f)])];
+  PLEAT_CHECK(base_fingerprint(mesh) == plan.base_mesh && mesh.n_vertices() == plan.n_vertices,
+              "the mesh is the plan's");
+  const auto n_limits = static_cast<Eigen::Index>(plan.curvature_limits.size());
+  if (n_limits != curvature_.n_faces())
+    throw InputError("/curvature_limits_per_m", "expected one limit for each of " +
+                                                    std::to_string(curvature_.n_faces()) +
+                                                    " faces, got " + std::to_string(n_limits));
+  limits_ = Eigen::Map<const Eigen::VectorXd>(plan.curvature_limits.data(), n_limits);
 }
 
 FitReport FitMonitor::look(const Eigen::Ref<const Positions>& positions) {

@@ -18,39 +18,39 @@ class FaceCurvature {
   Eigen::VectorXd of(const Eigen::Ref<const Positions>& positions) const;
   Eigen::Index n_faces() const { return static_cast<Eigen::Index>(corners_.size()); }
 
+  /// Of one value per face the largest of those that touch it, and its own.
+  Eigen::VectorXd largest_around(const Eigen::Ref<const Eigen::VectorXd>& values) const;
+
  private:
   VertexCurvature vertices_;
   std::vector<std::array<VertexId, 4>> corners_;
+  Eigen::Index n_vertices_;
 };
-
-/// The pattern of each active face of a plan's mesh, in their order: the base vertices' patterns
-/// are continued to all vertices as means, and the largest of a face's corners, rounded, counts.
-std::vector<int> face_patterns(const QuadMesh& mesh, const RefinementPlan& plan);
 
 /// The curvatures that examples reach at a plan's own spacing.
 class ExampleEnvelope {
  public:
   /// mesh  of the plan
   /// fine  the mesh of the examples
-  ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine, const RefinementPlan& plan);
+  ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine);
 
   /// A frame of an example: the fine mesh's positions [m].
   void add(const Eigen::Ref<const Positions>& fine_positions);
 
-  /// One value per pattern: the curvature that 99.9 % of its faces and frames do not exceed [1/m],
-  /// 0 for a pattern without faces. Throws ContractError when there was no frame.
+  /// One value per active face, up to the next hundredth: the largest curvature of a face that is
+  /// no more than two away from it, of which it exceeds that in one frame of 200 [1/m]. Folds come
+  /// again a little beside where they were. Throws ContractError when there was no frame.
   std::vector<double> limits() const;
 
  private:
   MeshSample sample_;
   FaceCurvature curvature_;
-  std::vector<int> patterns_;
-  std::vector<std::vector<double>> seen_;  // by pattern [1/m]
+  std::vector<Eigen::VectorXd> seen_;  // of each frame, by face [1/m]
 };
 
 /// How a running motion fits a plan's examples.
 struct FitReport {
-  double share = 0;        ///< of the active faces that bend beyond their pattern's limit
+  double share = 0;        ///< of the active faces that bend beyond their limit
   double worst_share = 0;  ///< the largest so far
   int n_in_a_row = 0;      ///< frames, up to this one, with too large a share
   bool fires = false;      ///< that is too many frames
@@ -65,7 +65,7 @@ class FitMonitor {
   static constexpr int kFrames = 10;             ///< in a row beyond that fire
 
   /// Throws ContractError for a mesh that is not the plan's, InputError at /curvature_limits_per_m
-  /// for a plan without limits.
+  /// for a plan without a limit for each face.
   FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan);
 
   /// The next frame: positions on the plan's mesh [m].

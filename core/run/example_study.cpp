@@ -62,7 +62,7 @@ RefinementPlan ExampleStudy::plan(const PlanOptions& options) const {
       throw InputError("", "expected frames of each example for the criterion \"shape\", got none");
   RefinementPlan plan = refinement_plan(base_, fine_, examples_, options);
   if (frames_.empty()) return plan;
-  ExampleEnvelope envelope(planned_mesh(base_, plan), fine_, plan);
+  ExampleEnvelope envelope(planned_mesh(base_, plan), fine_);
   for (const Positions& frame : frames_) envelope.add(frame);
   plan.curvature_limits = envelope.limits();
   return plan;

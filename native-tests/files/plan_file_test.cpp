@@ -115,7 +115,7 @@ TEST_CASE("plan file: what is no plan is refused with its place", "[files]") {
   CHECK(refused_at("/largest_loss_m", -0.001, {}) == "/largest_loss_m");
   CHECK(refused_at("/level_cap", 9) == "/level_cap");
   CHECK(refused_at("/examples/1/low_per_m/0", "x") == "/examples/1/low_per_m/0");
-  CHECK(refused_at("/curvature_limits_per_m", Json::array({1, 2})) == "/curvature_limits_per_m");
+  CHECK(refused_at("/curvature_limits_per_m/1", -1) == "/curvature_limits_per_m/1");
   CHECK(refused_at("/splits/0", Json::array({1})) == "/splits/0");
   CHECK(refused_at("/splits/0", Json::array({1, 2, "because"})) == "/splits/0/2");
   CHECK(refused_at("/splits/0/0", -1) == "/splits/0/0");

@@ -70,7 +70,9 @@ int StepperXpbd::slot_of(VertexId vertex) const {
 }
 
 // Addresses are taken once, for a step's conversions go through all vertices.
-StepperXpbd::MotionLanes StepperXpbd::motion() { return {lanes(begin), lanes(move), lanes(rounded_off)}; }
+StepperXpbd::MotionLanes StepperXpbd::motion() {
+  return {lanes(begin), lanes(move), lanes(rounded_off)};
+}
 
 Vec3 StepperXpbd::position_of(const MotionLanes& motion, int slot) const {
   const auto along = [&](std::size_t k) {

@@ -16,6 +16,9 @@ import {
 /** Three meshes, with software rendering on a busy machine [ms]. */
 const LOAD_MS = 120000;
 
+/** An example on the fine mesh [ms]. */
+const EXAMPLE_MS = 600000;
+
 const isReady = (page) => until(page, (state) => state.phase === 'ready', LOAD_MS);
 
 /** Moves a slider by its keys. */
@@ -152,6 +155,35 @@ export async function checkRefinement(harness) {
       expectThat(new Set(pictures).size === pictures.length, 'two colours look the same');
       await choice(page, 'Colour shows').selectOption('Fabric');
       await eventually(async () => !(await legend.isVisible()), 'fabric has no legend');
+    }),
+  );
+
+  await check('refinement: a squat fires the light, and becomes an example by a press', () =>
+    visit('#view=refinement&motion=squat&fine=off&edges=off&colour=material', async (page) => {
+      await button(page, 'Play').click();
+      await until(page, (state) => state.fit?.fires, LOAD_MS);
+      await eventually(
+        async () => /Does not fit/.test(await page.locator('.fit-title').textContent()),
+        'the light says so',
+      );
+      const anew = button(page, 'Plan anew with this motion too');
+      await anew.focus();
+      await page.keyboard.press('Enter');
+      await until(page, (state) => state.doing?.share > 0, LOAD_MS);
+      await button(page, 'Cancel').click();
+      const { further, plan } = await until(page, (state) => state.phase === 'ready');
+      expectThat(further.length === 0 && plan.examples.length === 1, 'it was not given up');
+      await anew.click();
+      await until(page, (state) => state.plan?.examples.length === 2, EXAMPLE_MS);
+      await isReady(page);
+      const story = await page.getByRole('region', { name: 'The plan' }).textContent();
+      expectThat(/The examples walk and squat each sorted/.test(story), `it says: ${story}`);
+      const { panes, timeS } = await stateOf(page);
+      const before = plan.vertices;
+      expectThat(panes.planned.nVertices > before, `${panes.planned.nVertices} after ${before}`);
+      expectThat(timeS === 0, `it goes on at ${timeS} s`);
+      const said = page.getByRole('status').filter({ hasText: 'planned from the examples' });
+      expectThat((await said.count()) === 1, 'nothing was announced');
     }),
   );
 

@@ -34,10 +34,11 @@ import { linearColour } from '../../src/shared/stage/colormap';
 const STORY: PlanStory = {
   examples: ['skirt_walk'],
   patterns: [
-    { meansPerM: [5], deviationsPerM: [2], nVertices: 10, limitPerM: 15 },
-    { meansPerM: [15], deviationsPerM: [6], nVertices: 5, limitPerM: 40 },
+    { meansPerM: [5], deviationsPerM: [2], nVertices: 10 },
+    { meansPerM: [15], deviationsPerM: [6], nVertices: 5 },
   ],
   nVertices: 900,
+  hasLimits: true,
   nSplits: 30,
   nForBalance: 4,
   isByShape: true,

@@ -78,9 +78,13 @@ describe('plan-file', () => {
       meansPerM: [10],
       deviationsPerM: [4],
       nVertices: 1,
-      limitPerM: 20,
     });
-    expect(story).toMatchObject({ nSplits: 1, nForBalance: 0, rule: { kind: 'demand', value: 3 } });
+    expect(story).toMatchObject({
+      hasLimits: true,
+      nSplits: 1,
+      nForBalance: 0,
+      rule: { kind: 'demand', value: 3 },
+    });
     const [walk] = PLAN.examples;
     const two = planStory({
       ...PLAN,

@@ -83,8 +83,6 @@ function whatToDo({ garment, motion, fabric }: RefinementState, plan: PlanFile):
   const own = exampleName(garment, motion, fabric);
   if (plan.examples.some(({ name }) => name === own))
     return 'Play, and watch the light below: now the plan knows where the knees bend the cloth.';
-  if (garment === 'trousers')
-    return 'Play: the knees bend the cloth where no walk did. Of trousers the light below does not tell it, as a walk folds them at the fork as sharply.';
   return 'Play, and watch the light below: the knees bend the cloth where no walk did, and the plan does not know it.';
 }
 
@@ -170,14 +168,14 @@ export interface FitReading {
 
 /** The monitor's light. */
 export function fitReading(fit: FitAnswer | null, story: PlanStory | null): FitReading {
-  if (!fit || !story?.patterns.every(({ limitPerM }) => limitPerM !== null))
+  if (!fit || !story?.hasLimits)
     return {
       light: 'unknown',
       title: 'Not watched yet',
       detail: 'The light compares each frame with the example once the cloth moves.',
     };
   const examples = story.examples.length > 1 ? 'examples' : 'example';
-  const share = `${percent(fit.share)} of the faces bend more than their pattern did in the ${examples}; at most ${percent(fit.worst_share)} so far.`;
+  const share = `${percent(fit.share)} of the faces bend more than any near them did in the ${examples}; at most ${percent(fit.worst_share)} so far.`;
   if (fit.fires || fit.first_fired !== null)
     return {
       light: 'fires',

@@ -1,6 +1,5 @@
 // The plan in words and in a small table, and why the face that was asked about is as fine as it is.
 import { element, setText } from '../../shared/panels/element';
-import { digits } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { faceAt, faceStory, planStory } from '../state/plan-file';
 import { PANE_TITLES, type RefinementState } from '../state/refinement-state';
@@ -20,7 +19,6 @@ function patternTable({ plan }: RefinementState): HTMLElement {
       element('th', { scope: 'row' }, key, String(index)),
       numberCell(fromTo(pattern.meansPerM)),
       numberCell(fromTo(pattern.deviationsPerM)),
-      numberCell(pattern.limitPerM === null ? '–' : digits(pattern.limitPerM, 2)),
       numberCell(String(pattern.nVertices)),
     );
   });
@@ -28,7 +26,7 @@ function patternTable({ plan }: RefinementState): HTMLElement {
     'table',
     { class: 'quantities pattern-table' },
     element('caption', { class: 'unseen' }, 'Patterns, curvature in 1/m'),
-    heading('Pattern', 'mean 1/m', 'deviation', 'limit', 'vertices'),
+    heading('Pattern', 'mean 1/m', 'deviation', 'vertices'),
     element('tbody', {}, ...rows),
   );
 }

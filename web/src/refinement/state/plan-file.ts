@@ -26,6 +26,7 @@ export interface PlanFile {
   vertex_budget?: number;
   level_cap: number;
   vertices: number;
+  /** Of each face that is not split; none where they were not measured. */
   curvature_limits_per_m: number[];
   splits: PlanSplit[];
 }
@@ -82,14 +83,14 @@ export interface PatternStory {
   deviationsPerM: number[];
   /** Base vertices. */
   nVertices: number;
-  /** The curvature that the examples hardly exceeded [1/m]; null when that was not measured. */
-  limitPerM: number | null;
 }
 
 export interface PlanStory {
   examples: string[];
   patterns: PatternStory[];
   nVertices: number;
+  /** Whether it knows how much the examples bent each face. */
+  hasLimits: boolean;
   nSplits: number;
   nForBalance: number;
   isByShape: boolean;
@@ -110,10 +111,10 @@ export function planStory(plan: PlanFile): PlanStory {
       const centres = examples.flatMap(({ centres_per_m: own }) => own.slice(pattern, pattern + 1));
       const meansPerM = centres.map(([mean]) => mean);
       const deviationsPerM = centres.map(([, deviation]) => deviation);
-      const limitPerM = plan.curvature_limits_per_m[pattern] ?? null;
-      return { meansPerM, deviationsPerM, nVertices, limitPerM };
+      return { meansPerM, deviationsPerM, nVertices };
     }),
     nVertices: plan.vertices,
+    hasLimits: plan.curvature_limits_per_m.length > 0,
     nSplits: plan.splits.length,
     nForBalance: plan.splits.filter((split) => split[2] === 'balance').length,
     isByShape,
