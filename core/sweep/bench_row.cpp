@@ -242,17 +242,18 @@ Json json_parts(const std::array<double, kStageCount>& parts_ms) {
 
 Json json_bench_row(const BenchRow& row) {
   Json json;
-  for (const TextField& field : kTextFields) json[field.key] = row.*field.value;
-  for (const ObjectField& field : kObjectFields) json[field.key] = row.*field.value;
-  for (const CountField& field : kCountFields) json[field.key] = row.*field.value;
-  json["method"] = json_method(row.method);
-  for (const NumberField& field : kNumberFields) json[field.key] = number_json(row.*field.value);
-  json["ms_per_simulated_second"] = number_json(row.ms_per_simulated_second());
-  json["parts_ms"] = json_parts(row.parts_ms);
-  json["reference"] = json_label(row.reference);
-  json["process_peak_memory_bytes"] =
-      row.process_peak_memory ? Json(*row.process_peak_memory) : Json(nullptr);
-  json["warnings"] = json_warnings(row.warnings);
+  const auto put = [&json](const char* key, Json value) { json[key] = std::move(value); };
+  for (const TextField& field : kTextFields) put(field.key, row.*field.value);
+  for (const ObjectField& field : kObjectFields) put(field.key, row.*field.value);
+  for (const CountField& field : kCountFields) put(field.key, row.*field.value);
+  put("method", json_method(row.method));
+  for (const NumberField& field : kNumberFields) put(field.key, number_json(row.*field.value));
+  put("ms_per_simulated_second", number_json(row.ms_per_simulated_second()));
+  put("parts_ms", json_parts(row.parts_ms));
+  put("reference", json_label(row.reference));
+  put("process_peak_memory_bytes",
+      row.process_peak_memory ? Json(*row.process_peak_memory) : Json());
+  put("warnings", json_warnings(row.warnings));
   return json;
 }
 

@@ -106,6 +106,25 @@ export async function checkRefinement(harness) {
     }),
   );
 
+  await check('refinement: the fine skirt walks as it is computed, by position-based steps', () =>
+    visit('#view=refinement&edges=off&colour=material', async (page) => {
+      await choice(page, 'Steps').selectOption({ label: 'multigrid: computed as it walks' });
+      await until(page, (state) => state.panes.fine.source === 'computed', LOAD_MS);
+      await isReady(page);
+      const before = await picture(page);
+      await button(page, 'Play').click();
+      const { panes } = await until(page, (state) => state.timeS > 0.4, LOAD_MS);
+      expectThat(panes.fine.nVertices > 10000, `${panes.fine.nVertices} vertices`);
+      expectThat(panes.fine.warnings.length === 0, 'it moves as no cloth does');
+      expectThat(!before.equals(await picture(page)), 'nothing moves');
+      await choice(page, 'Garment').selectOption('trousers');
+      await eventually(
+        async () => !(await page.getByLabel('Steps', { exact: true }).isVisible()),
+        'trousers have one method',
+      );
+    }),
+  );
+
   await check('refinement: a press on a face tells why it is as fine as it is', () =>
     visit('#view=refinement', async (page) => {
       const box = await canvasOf(page).boundingBox();

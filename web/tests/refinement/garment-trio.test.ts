@@ -371,6 +371,22 @@ describe('trio', () => {
   );
 
   it(
+    'computes a recorded motion anew with another method, all panes alike',
+    async () => {
+      const { store, trio, settled } = stand({ computeFine: false });
+      await settled(isReady);
+      store.set({ method: 'multigrid' });
+      const state = await settled((now) => isReady(now) && now.panes.coarse.source === 'computed');
+      expect(state.panes.planned.source).toBe('computed');
+      trio.step();
+      const moved = await settled(({ timeS }) => timeS > 0);
+      expect(moved.panes.coarse.msPerFrame).toBeGreaterThan(0);
+      expect(moved.problem).toBeNull();
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     'says in a pane what its steps show that no cloth does, until it starts anew',
     async () => {
       const questions: ToGarment[] = [];

@@ -140,6 +140,7 @@ describe('garment-words', () => {
     expect(sourceSentence(slow)).toContain('wait for the fine mesh');
     const rest = { ...slow, panes: { ...slow.panes, fine: EMPTY_PANE } };
     expect(sourceSentence(rest)).toContain('rests');
+    expect(sourceSentence({ ...slow, method: 'multigrid' })).toContain('position-based');
   });
 
   it('says what the levels cost, and compares no times of two machines', () => {

@@ -19,6 +19,7 @@ describe('refinement-link', () => {
       rule: 'budget',
       demand: DEFAULT_LINK.demand,
       budget: 2500,
+      method: 'implicit',
       substeps: 8,
       useRecords: false,
       computeFine: false,
@@ -34,6 +35,15 @@ describe('refinement-link', () => {
       link: demand,
       problems: [],
     });
+  });
+
+  it('takes position-based steps for a skirt, and for trousers says why not', () => {
+    const link: RefinementLink = { ...DEFAULT_LINK, method: 'multigrid' };
+    expect(encodeRefinementLink(link)).toContain('method=multigrid');
+    expect(decodeRefinementLink(encodeRefinementLink(link))).toEqual({ link, problems: [] });
+    const trousers = decodeRefinementLink('#view=refinement&garment=trousers&method=multigrid');
+    expect(trousers.link.method).toBe('implicit');
+    expect(trousers.problems).toEqual(['method: expected implicit, found "multigrid"']);
   });
 
   it('says what it cannot read and goes on with the rest', () => {

@@ -2,7 +2,7 @@
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import { GARMENTS, MOTIONS, usualFabric } from '../state/garments';
+import { GARMENTS, METHODS, MOTIONS, methodsOf, usualFabric } from '../state/garments';
 import type { ColourId, RefinementState } from '../state/refinement-state';
 import { noticeSentence } from './garment-words';
 
@@ -22,13 +22,21 @@ function check(title: string, change: (isOn: boolean) => void) {
 export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
   const notice = element('p', { class: 'caption' });
   const garment = choice(GARMENTS, (value) =>
-    store.set({ garment: value, fabric: usualFabric(value), further: [], substeps: null }),
+    store.set({
+      garment: value,
+      fabric: usualFabric(value),
+      further: [],
+      method: 'implicit',
+      substeps: null,
+    }),
   );
   const motion = choice(MOTIONS, (value) => store.set({ motion: value, substeps: null }));
   const fabric = choice(
     fabrics.map(({ name_en: name }) => ({ value: name, title: name })),
     (value) => store.set({ fabric: value, further: [], substeps: null }),
   );
+  const method = choice(METHODS, (value) => store.set({ method: value, substeps: null }));
+  const methodField = field('Steps', method.control);
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
   const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
   const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
@@ -49,6 +57,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
         field('Fabric', fabric.control),
       ),
       field('Motion', motion.control),
+      methodField,
       field('Colour shows', colour.control),
       edges.label,
       hanging.label,
@@ -57,12 +66,25 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
   );
   return watch(
     store,
-    ['garment', 'motion', 'fabric', 'further', 'colour', 'edges', 'hanging', 'panes', 'plan'],
+    [
+      'garment',
+      'motion',
+      'fabric',
+      'method',
+      'further',
+      'colour',
+      'edges',
+      'hanging',
+      'panes',
+      'plan',
+    ],
     (state) => {
       setText(notice, noticeSentence(state));
       garment.select(state.garment);
       motion.select(state.motion);
       fabric.select(state.fabric);
+      method.select(state.method);
+      methodField.hidden = methodsOf(state.garment).length < 2;
       colour.select(state.colour);
       edges.input.checked = state.edges;
       hanging.input.checked = state.hanging;

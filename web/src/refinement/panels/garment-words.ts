@@ -205,7 +205,7 @@ export function anewSentence(state: RefinementState): string {
 }
 
 /** Says where the frames come from, and which panes wait. */
-export function sourceSentence({ panes, substeps }: RefinementState): string {
+export function sourceSentence({ panes, method, substeps }: RefinementState): string {
   const named = (...sources: FrameSource[]) =>
     PANES.filter((id) => sources.includes(panes[id].source)).map((id) =>
       PANE_TITLES[id].toLowerCase(),
@@ -218,6 +218,10 @@ export function sourceSentence({ panes, substeps }: RefinementState): string {
       `Frames that come with the page: ${recorded.join(', ')}. They were computed beforehand by the native build of the same program; their milliseconds are that machine’s, not this one’s.`,
     );
   if (here.length > 0) sentences.push(`Computed on this device: ${here.join(', ')}.`);
+  if (method === 'multigrid')
+    sentences.push(
+      'Steps are position-based, on coarser and coarser levels of each mesh: the fine skirt takes a third of the time of implicit steps, and other ways from the first second on.',
+    );
   if (substeps !== null && here.length > 0)
     sentences.push(`Each of their steps is made in ${substeps} substeps, until another motion.`);
   if (panes.fine.source === 'computed') sentences.push('The others wait for the fine mesh.');

@@ -14,8 +14,8 @@ function refinementOf(id: PaneId, plan: PlanFile): { level: number } | { plan: P
 
 /** Address of the record that a pane shows; null when it computes. */
 function recordOf(id: PaneId, state: RefinementState): string | null {
-  const { garment, motion, fabric, useRecords, substeps } = state;
-  if (fabric !== usualFabric(garment)) return null;
+  const { garment, motion, fabric, useRecords, substeps, method } = state;
+  if (fabric !== usualFabric(garment) || method !== 'implicit') return null;
   // The fine mesh takes longest and is the same whatever is asked of the others.
   if (id !== 'fine' && (!useRecords || substeps !== null)) return null;
   if (id === 'planned' && !isUsual(state)) return null;
@@ -23,9 +23,9 @@ function recordOf(id: PaneId, state: RefinementState): string | null {
 }
 
 export function contentOf(id: PaneId, state: RefinementState, plan: PlanFile): GarmentContent {
-  const { garment, motion, fabric, substeps } = state;
+  const { garment, motion, fabric, substeps, method } = state;
   return {
-    sceneText: sceneText(garment, motion, fabric, refinementOf(id, plan), substeps),
+    sceneText: sceneText(garment, motion, fabric, refinementOf(id, plan), substeps, method),
     recordUrl: recordOf(id, state),
   };
 }

@@ -122,8 +122,8 @@ export class Trio {
     const differs = (...keys: (keyof RefinementState)[]) =>
       keys.some((key) => !Object.is(state[key], previous[key]));
     if (state.phase === 'broken' || this.isTakingBack) return;
-    if (differs('garment', 'motion', 'fabric', 'substeps', 'useRecords', 'computeFine', 'startS'))
-      void this.load('all');
+    const ofPanes = ['garment', 'motion', 'fabric', 'method', 'substeps'] as const;
+    if (differs(...ofPanes, 'useRecords', 'computeFine', 'startS')) void this.load('all');
     else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
     else if (differs('colour')) this.recolour();
     if (!state.playing || previous.playing) return;

@@ -29,6 +29,16 @@ export const MOTIONS = [
 ] as const;
 export type MotionId = (typeof MOTIONS)[number]['value'];
 
+/** What takes the steps of all panes: the scenes' own method, or one that shows a fine skirt while it walks. */
+export const METHODS = [
+  { value: 'implicit', title: 'implicit: the scenes’ own' },
+  { value: 'multigrid', title: 'multigrid: computed as it walks' },
+] as const;
+export type MethodId = (typeof METHODS)[number]['value'];
+
+/** 0.5 % RMS stretch on the fast walk, a third of the time of `implicit`: docs/methods/multigrid.md. */
+const MULTIGRID = { stepper: 'multigrid', substeps: 15, carried_acceleration: 0.4 };
+
 const SCENES: Record<GarmentId, Record<MotionId, string>> = {
   skirt: { walk: skirtWalk, fast_walk: skirtFastWalk, turn: skirtTurn, squat: skirtSquat },
   trousers: {
@@ -51,7 +61,7 @@ interface GarmentScene {
   caption: string;
   fabric: { name: string };
   refinement: { level: number } | { plan: PlanFile };
-  method: object;
+  method: { step_s: number };
   duration_s: number;
 }
 
@@ -74,6 +84,11 @@ export function exampleName(garment: GarmentId, motion: MotionId, fabric: string
   return fabric === usualFabric(garment) ? name : `${name} in ${fabric}`;
 }
 
+/** The methods that keep a garment's edges: without a hold on touched cloth, trousers stretch. */
+export function methodsOf(garment: GarmentId): readonly MethodId[] {
+  return garment === 'skirt' ? ['implicit', 'multigrid'] : ['implicit'];
+}
+
 /** The text of a scene, refined uniformly or by a plan, with its own substeps or so many. */
 export function sceneText(
   garment: GarmentId,
@@ -81,8 +96,11 @@ export function sceneText(
   fabric: string,
   refinement: { level: number } | { plan: PlanFile },
   substeps: number | null = null,
+  methodId: MethodId = 'implicit',
 ): string {
   const scene = sceneOf(garment, motion);
-  const method = substeps === null ? scene.method : { ...scene.method, substeps };
+  const { step_s } = scene.method;
+  const usual = methodId === 'multigrid' ? { step_s, ...MULTIGRID } : scene.method;
+  const method = substeps === null ? usual : { ...usual, substeps };
   return JSON.stringify({ ...scene, fabric: { name: fabric }, refinement, method });
 }

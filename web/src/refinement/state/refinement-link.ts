@@ -3,7 +3,14 @@
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { SPEEDS } from '../../shared/state/speeds';
-import { GARMENTS, MOTIONS, type MotionId, usualFabric } from './garments';
+import {
+  GARMENTS,
+  type MethodId,
+  MOTIONS,
+  type MotionId,
+  methodsOf,
+  usualFabric,
+} from './garments';
 import {
   COLOURS,
   DEFAULT_LINK,
@@ -61,6 +68,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
     ['speed', String(link.speed)],
     ['start', String(Number(link.startS.toFixed(3)))],
   ];
+  if (link.method !== 'implicit') parts.push(['method', link.method]);
   if (link.substeps !== null) parts.push(['substeps', String(link.substeps)]);
   if (link.further.length > 0) parts.push(['examples', link.further.join(',')]);
   return parts.map(([key, value]) => `${key}=${value}`).join('&');
@@ -90,6 +98,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     demandIn,
   );
   const budget = take<number | null>('vertices', null, 'a number of vertices', budgetIn);
+  const methods = methodsOf(garment);
   const link: RefinementLink = {
     garment,
     motion,
@@ -98,6 +107,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     rule: budget === null ? 'demand' : 'budget',
     demand,
     budget,
+    method: take<MethodId>('method', usual.method, methods.join(', '), oneOf(methods)),
     substeps: take<number | null>('substeps', null, `1 to ${MOST_SUBSTEPS}`, substepsIn),
     useRecords: isOn('records', usual.useRecords),
     computeFine: isOn('fine', usual.computeFine),

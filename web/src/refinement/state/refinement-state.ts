@@ -3,7 +3,7 @@ import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
 import { START_S, USUAL_DEMAND_MM } from './garment-frames';
-import { type GarmentId, MOTIONS, type MotionId, usualFabric } from './garments';
+import { type GarmentId, type MethodId, MOTIONS, type MotionId, usualFabric } from './garments';
 import type { PlanFile } from './plan-file';
 
 export const PANES = ['coarse', 'planned', 'fine'] as const;
@@ -68,6 +68,8 @@ export interface RefinementLink {
   demand: number;
   /** Vertices; null until it was first moved. */
   budget: number | null;
+  /** Of all panes; nothing but `implicit` comes recorded. */
+  method: MethodId;
   /** Of a step, where a warning asked for more than the scene's own; else null. */
   substeps: number | null;
   /** Frames that come with the page are shown where there are some. */
@@ -119,6 +121,7 @@ export const DEFAULT_LINK: RefinementLink = {
   rule: 'demand',
   demand: DEMANDS.usual,
   budget: null,
+  method: 'implicit',
   substeps: null,
   useRecords: true,
   computeFine: true,
