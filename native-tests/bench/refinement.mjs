@@ -15,24 +15,32 @@ import {
   buildRow,
   buildTable,
   comparisonGoals,
+  faultTable,
+  foldFault,
+  foldFloor,
   framesToPay,
+  frictionGoals,
   insideGoals,
   monitorGoals,
   monitorTable,
+  restartFaults,
   runRow,
   runTable,
   shownLines,
   wasmGoals,
 } from './parts/refinement-goals.mjs';
-import { answer, garmentScene, uniformOfAbout } from './parts/refinement-runs.mjs';
+import { answer, garmentScene, keptAnswers, uniformOfAbout } from './parts/refinement-runs.mjs';
 import { bothBuilds, differences, kEarly, kTight } from './parts/refinement-wasm.mjs';
 
 const kFineLevel = 2;
 const kDuration = 10; // [s], of which the second half is timed and compared
 const kQuickDuration = 4; // [s]
 const kErrorEvery = 5; // frames
-const kAirChange = 1e-6; // of its density, for the twin of the fine run
+const kAirChange = 1e-6; // of its density, for each further run of a mesh
+const kFurtherRuns = 3;
 const kTwin = 'fine, air + 1e-6';
+const kRestarts = { every: 0.5, after: 0.25, duration: 5, tolerance: 1e-8 }; // [s]
+const kChanceAfter = 5; // [s] of two fine runs
 const kDemands = [0.0005, 0.001, 0.0015, 0.002, 0.003]; // that may be lost, of the figure [m]
 const kFigureFile = join('docs', 'refinement.svg');
 
@@ -43,6 +51,7 @@ const kFigureFile = join('docs', 'refinement.svg');
 const kRecipes = {
   skirt: { plan: ['--vertices', 2088], splitCurvature: 20 },
   trousers: { plan: ['--vertices', 1966], splitCurvature: 30 },
+  slim_trousers: { plan: ['--vertices', 3234], splitCurvature: 30 },
 };
 
 const kMore = [
@@ -57,10 +66,16 @@ const kMore = [
     type: 'boolean',
     usage: `--quick           ${kQuickDuration} s of motion: for trying, no figure`,
   },
+  {
+    name: 'resume',
+    type: 'boolean',
+    usage: '--resume          take what a bench that was stopped has measured already',
+  },
 ];
 
 /** What holds for all runs of a bench. */
 function settings(options) {
+  keptAnswers.areTaken = options.resume === true;
   const method = {};
   if (options.method) method.stepper = options.method;
   if (options.substeps) method.substeps = wholeNumber('--substeps', options.substeps, 1);
@@ -71,10 +86,10 @@ const at = (scene, duration, more = {}) => ({ ...scene, duration_s: duration, ..
 const uniform = (level) => ({ refinement: { level } });
 const planned = ({ plan }) => ({ refinement: { plan } });
 
-/** How far this run comes apart from its twin is the least that any error can mean. */
-const inHeavierAir = (scene) => {
+/** A further run, with another chance: how far it comes apart is the least that any error can mean. */
+const inHeavierAir = (scene, times = 1) => {
   const { air } = scene.world;
-  const density = air.density_kg_per_m3 * (1 + kAirChange);
+  const density = air.density_kg_per_m3 * (1 + times * kAirChange);
   return { ...scene, world: { ...scene.world, air: { ...air, density_kg_per_m3: density } } };
 };
 
@@ -97,14 +112,25 @@ function plansOf(garment, { method, duration }) {
 /** All meshes of a garment on the test motion, frame by frame in turn. */
 function compared(garment, plans, { method, duration }) {
   const test = garmentScene(garment, 'fast_walk', method);
-  const same = uniformOfAbout(test, garment, plans.chosen.plan.vertices);
+  const same = uniformOfAbout(test, plans.chosen.plan.vertices);
+  const scenes = {
+    fine: at(test, duration, uniform(kFineLevel)),
+    multi: at(test, duration, planned(plans.chosen)),
+    same: at(same.scene, duration),
+  };
+  const further = Object.entries(scenes).flatMap(([mesh, scene]) =>
+    Array.from({ length: kFurtherRuns }, (_, k) => [
+      `${mesh}, air + ${k + 1}e-6`,
+      inHeavierAir(scene, k + 1),
+    ]),
+  );
   const entries = [
-    ['fine', at(test, duration, uniform(kFineLevel))],
-    ['multi', at(test, duration, planned(plans.chosen))],
-    [`uniform, ${same.columns} columns, level ${same.level}`, at(same.scene, duration)],
+    ['fine', scenes.fine],
+    ['multi', scenes.multi],
+    [`uniform, ${same.columns} columns, level ${same.level}`, scenes.same],
     ['uniform, level 1', at(test, duration, uniform(1))],
     ['coarse', at(test, duration, uniform(0))],
-    [kTwin, inHeavierAir(at(test, duration, uniform(kFineLevel)))],
+    ...further,
     ...plans.demands.map((plan, k) => [
       `${short(1e3 * kDemands[k])} mm lost`,
       at(test, duration, planned(plan)),
@@ -123,7 +149,47 @@ function compared(garment, plans, { method, duration }) {
     kErrorEvery,
   );
   const labels = [...entries.map(([label]) => label), 'split in every frame'];
-  return runs.map((run, k) => runRow(labels[k], run, { garment, commit }));
+  const rows = runs.map((run, k) => runRow(labels[k], run, { garment, commit }));
+  return { rows, faults: { ...foldFaults(rows, further.length), restarts: restarts(scenes) } };
+}
+
+/** Of rows in the order of `compared`: each mesh's run and its further ones, pooled. */
+function foldFaults(rows, nFurther) {
+  const begin = 5;
+  const pools = [0, 1, 2].map((mesh) => [
+    rows[mesh].folds_m,
+    ...rows
+      .slice(begin, begin + nFurther)
+      .slice(mesh * kFurtherRuns, (mesh + 1) * kFurtherRuns)
+      .map(({ folds_m }) => folds_m),
+  ]);
+  const [fine, multi, same] = pools;
+  return {
+    folds: { multi: foldFault(multi, fine), same: foldFault(same, fine) },
+    floor: foldFloor(fine),
+  };
+}
+
+/** How far meshes go wrong before chance does [m]; of the fine mesh in heavier air, the floor. */
+function restarts(scenes) {
+  const { every, after, duration, tolerance } = kRestarts;
+  const tight = (scene) =>
+    at(scene, Math.min(duration, scene.duration_s), { method: { ...scene.method, tolerance } });
+  const [fine, multi, same] = Object.values(scenes).map(tight);
+  tell(`${fine.name}: restarts`);
+  const found = answer(
+    'bench',
+    'restarts',
+    fine,
+    '--with',
+    [multi, same, inHeavierAir(fine)],
+    '--every',
+    every,
+    '--after',
+    after,
+  );
+  const [ofMulti, ofSame, ofTwin] = restartFaults(found.restarts);
+  return { multi: ofMulti, same: ofSame, twin: ofTwin };
 }
 
 /** The planned mesh in other motions. */
@@ -138,6 +204,7 @@ function otherMotions(garment, plans, { method, duration }) {
   return {
     example: run('walk', 'walk'),
     squat: run('squat', 'squat'),
+    turn: run('turn', 'turn'),
     double: run('walk_at_double_speed', 'walk', 2),
   };
 }
@@ -162,14 +229,17 @@ function study(garment, options) {
   measured[garment] ??= (() => {
     const set = settings(options);
     const plans = plansOf(garment, set);
-    const rows = compared(garment, plans, set);
-    return { plans, rows, others: otherMotions(garment, plans, set) };
+    return {
+      plans,
+      ...compared(garment, plans, set),
+      others: otherMotions(garment, plans, set),
+    };
   })();
   return measured[garment];
 }
 
 async function garmentPart(garment, { options }) {
-  const { plans, rows, others } = study(garment, options);
+  const { plans, rows, faults, others } = study(garment, options);
   const [fine, multi, same] = rows;
   const twin = rows.find(({ label }) => label === kTwin);
   const test = { ...multi, label: 'test walk' };
@@ -177,7 +247,7 @@ async function garmentPart(garment, { options }) {
   return {
     rows: [...rows, ...Object.values(others)],
     goals: [
-      ...comparisonGoals(garment, { fine, multi, same }),
+      ...comparisonGoals(garment, { fine, multi, same, faults }),
       ...monitorGoals(garment, { ...others, test }),
       ...insideGoals(garment, walks),
     ],
@@ -187,16 +257,21 @@ errors against ${fine.reference.description}, frames of 1/30 s
 
 ${runTable(rows)}
 
+${1 + kFurtherRuns} runs of each mesh, in air heavier by a millionth each; restarts every ${kRestarts.every} s, held ${kRestarts.after} s later
+
+${faultTable(faults)}
+
 ${planText(plans, fine, multi)}
 
-${monitorTable([others.example, test, others.squat])}
+${monitorTable([others.example, test, others.turn, others.squat])}
 
 ${runTable([fine, ...Object.values(others)])}`,
   };
 }
 
 function figurePoints(garment, { rows }) {
-  const [fine, multi, same, level1, coarse, , ...rest] = rows;
+  const [fine, multi, same, level1, coarse, ...further] = rows;
+  const rest = further.slice(3 * kFurtherRuns);
   const point = (kind) => (row) => ({
     garment,
     kind,
@@ -209,6 +284,23 @@ function figurePoints(garment, { rows }) {
     ...rest.slice(0, kDemands.length).map(point('plan')),
     point('chosen')(multi),
   ];
+}
+
+/** Fine runs of the test motion with and without friction inside of bent cloth, each with further ones. */
+async function friction({ options }) {
+  const { method } = settings(options);
+  const test = at(garmentScene('skirt', 'fast_walk', method), kChanceAfter, uniform(kFineLevel));
+  const twins = (scene) => {
+    const further = Array.from({ length: kFurtherRuns }, (_, k) => inHeavierAir(scene, k + 1));
+    tell(`skirt: ${further.length + 1} fine runs`);
+    const frames = ['--from', kChanceAfter - 0.1, '--every', kErrorEvery];
+    const { runs } = answer('bench', 'together', scene, '--with', further, ...frames);
+    return runs.slice(1).map((run) => runRow('twin', run, { garment: 'skirt', commit }));
+  };
+  const without = twins(test);
+  const withFriction = twins({ ...test, fabric: { ...test.fabric, bending: 'friction' } });
+  const { goals, text } = frictionGoals({ without, withFriction });
+  return { rows: [...without, ...withFriction], goals, text };
 }
 
 /** Savings against error, for five detail demands. */
@@ -262,6 +354,8 @@ await runParts(
   {
     skirt: (wanted) => garmentPart('skirt', wanted),
     trousers: (wanted) => garmentPart('trousers', wanted),
+    slim_trousers: (wanted) => garmentPart('slim_trousers', wanted),
+    friction,
     figure,
     wasm,
   },

@@ -1,5 +1,5 @@
 // Scenes of garments, and the command's runs of them. An answer is kept in build/refinement, so
-// that a bench that was stopped goes on where it was; another core or another scene asks anew.
+// that a bench that was stopped can go on where it was; another core or another scene asks anew.
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
@@ -23,6 +23,10 @@ export function garmentScene(garment, motion, method = {}) {
   };
 }
 
+/** Whether answers of a bench that was stopped are taken; else all are asked anew. */
+export const keptAnswers = { areTaken: false };
+const asked = new Set();
+
 /** The command's answer in JSON; words are texts, numbers, scenes or lists of scenes. */
 export function answer(...words) {
   const version = printed('--version');
@@ -31,11 +35,12 @@ export function answer(...words) {
     .digest('hex')
     .slice(0, 24);
   const file = join(kFolder, `${name}.json`);
-  if (existsSync(file)) return readJson(file);
+  if ((keptAnswers.areTaken || asked.has(name)) && existsSync(file)) return readJson(file);
   const text = printed(...words);
   mkdirSync(kFolder, { recursive: true });
   writeFileSync(`${file}.part`, text);
   renameSync(`${file}.part`, file);
+  asked.add(name);
   return JSON.parse(text);
 }
 
@@ -56,11 +61,13 @@ function vertexCount(scene) {
 }
 
 /** The scene on a uniform mesh of about so many vertices: other columns, and rows to match. */
-export function uniformOfAbout(scene, garment, n) {
-  const measured = (level, columns) => {
-    const cloth = { garment: { [garment]: { ...scene.cloth.garment[garment], columns } } };
-    return { ...scene, cloth, refinement: { level } };
-  };
+export function uniformOfAbout(scene, n) {
+  const [[kind, measures]] = Object.entries(scene.cloth.garment);
+  const measured = (level, columns) => ({
+    ...scene,
+    cloth: { garment: { [kind]: { ...measures, columns } } },
+    refinement: { level },
+  });
   let best = null;
   for (const level of [1, 0]) {
     tell(`${scene.name}: a uniform mesh of about ${n} vertices`);

@@ -4,9 +4,14 @@ import {
   buildRow,
   buildTable,
   comparisonGoals,
+  faultTable,
+  foldFault,
+  foldFloor,
   framesToPay,
+  frictionGoals,
   insideGoals,
   monitorGoals,
+  restartFaults,
   runRow,
   runTable,
   wasmGoals,
@@ -53,37 +58,54 @@ describe('rows of refinement', () => {
 describe('goals of refinement', () => {
   const fine = row({ n_vertices: 3000, ms_per_frame: 100 });
   const multi = row({ n_vertices: 900, ms_per_frame: 29 });
-  const same = row({ errors: { bend_per_m: 2, surface_m: 0.0125, sampling_m: 0.002 } });
+  const same = row({ errors: { sampling_m: 0.002, sampling_rad: 0.2 } });
+  const fold = (pooled) => ({ pooled, least: pooled / 2, most: 2 * pooled });
+  const faults = {
+    folds: { multi: fold(0.003), same: fold(0.004) },
+    floor: 0.001,
+    restarts: { multi: 0.0019, same: 0.002, twin: 0.0001 },
+  };
 
   it('hold time to the smaller of 0.3 and 1.15 times the share of vertices', () => {
-    expect(lines(comparisonGoals('skirt', { fine, multi, same }))).toEqual([
+    expect(lines(comparisonGoals('skirt', { fine, multi, same, faults }))).toEqual([
       'goal skirt_vertices_share 0.3 at-most 0.333 ok',
       'goal skirt_time_share 0.29 at-most 0.3 ok',
-      'goal skirt_bend_error_to_uniform 0.5 at-most 0.6 ok',
-      'goal skirt_surface_error_to_uniform 0.8 at-most 0.8 ok',
       'goal skirt_sampling_to_uniform 0.9 at-most 0.9 ok',
+      'goal skirt_sampled_normals_to_uniform 0.5 at-most 0.9 ok',
+      'goal skirt_restarts_to_uniform 0.95 at-most 0.9 short',
+      'goal skirt_folds_to_uniform 0.75 at-most 0.9 ok',
       'goal skirt_refinement_ms_per_frame 0 at-most 0 ok',
     ]);
     const small = { ...multi, n_vertices: 600 };
-    expect(lines(comparisonGoals('trousers', { fine, multi: small, same }))[1]).toBe(
+    expect(lines(comparisonGoals('trousers', { fine, multi: small, same, faults }))[1]).toBe(
       'goal trousers_time_share 0.29 at-most 0.23 short',
     );
   });
 
   it('are short when the uniform mesh did not reach its end', () => {
     const ended = { ...same, status: 'not_finite' };
-    for (const { ok, name } of comparisonGoals('skirt', { fine, multi, same: ended }))
+    for (const { ok, name } of comparisonGoals('skirt', { fine, multi, same: ended, faults }))
       expect(ok).toBe(name === 'skirt_refinement_ms_per_frame');
   });
 
   it('want a monitor that fires on the squat alone', () => {
     const fired = row({ fit: { ...run.fit, first_fired: 70 } });
-    const verdicts = (example, test, squat) =>
-      monitorGoals('skirt', { example, test, squat }).map(({ ok }) => ok);
-    expect(verdicts(row(), row(), fired)).toEqual([true, true, true]);
-    expect(verdicts(row(), fired, row())).toEqual([true, false, false]);
+    const verdicts = (example, test, squat, turn = row()) =>
+      monitorGoals('skirt', { example, test, squat, turn }).map(({ ok }) => ok);
+    expect(verdicts(row(), row(), fired)).toEqual([true, true, true, true]);
+    expect(verdicts(row(), fired, row())).toEqual([true, false, true, false]);
     const first = row({ fit: { ...run.fit, first_fired: 0 } });
-    expect(verdicts(row(), first, first)).toEqual([true, false, true]);
+    expect(verdicts(row(), first, first, fired)).toEqual([true, false, false, true]);
+  });
+
+  it('hold friction to half of the distance without it, for the first pair', () => {
+    const apart = (position_m) => row({ errors: { position_m } });
+    const { goals, text } = frictionGoals({
+      without: [apart(0.04), apart(0.03)],
+      withFriction: [apart(0.018), apart(0.018)],
+    });
+    expect(lines(goals)).toEqual(['goal skirt_twin_with_friction_to_without 0.45 at-most 0.5 ok']);
+    expect(text).toBe('shown skirt_further_twins_with_friction_to_without 0.6');
   });
 
   it('count frames with any vertex inside', () => {
@@ -98,6 +120,39 @@ describe('goals of refinement', () => {
     const plans = { example_s: 7, planning_s: 0.1 };
     expect(framesToPay(plans, fine, multi)).toBe(100);
     expect(framesToPay(plans, multi, fine)).toBeNaN();
+  });
+});
+
+describe('faults of several runs', () => {
+  const runs = [[[0.003, 0.004]], [[0.003, 0.004]]];
+
+  it('pool amplitudes by their squares and tell how far single runs are', () => {
+    const fault = foldFault([[[0, 0.004]], [[0.003 * Math.SQRT2, 0.004]]], runs);
+    expect(fault.pooled).toBeCloseTo(0, 12);
+    expect(fault.least).toBeCloseTo(0.003 * (Math.SQRT2 - 1), 12);
+    expect(fault.most).toBeCloseTo(0.003, 12);
+  });
+
+  it('take the halves of the fine runs for what chance makes', () => {
+    expect(foldFloor(runs)).toBe(0);
+    expect(foldFloor([...runs, [[0.003, 0.006]], [[0.003, 0.006]]])).toBeCloseTo(0.002, 12);
+  });
+
+  it('have no number where a restart did not reach its end', () => {
+    const [whole, ended] = restartFaults([
+      { errors_m: [0.003, 0.004] },
+      { errors_m: [0.003, null] },
+    ]);
+    expect(whole).toBeCloseTo(Math.sqrt(12.5e-6), 12);
+    expect(ended).toBeNaN();
+  });
+
+  it('stand in one table with their floors', () => {
+    const fold = { pooled: 0.003, least: 0.002, most: 0.005 };
+    const restarts = { multi: 0.001, same: 0.002, twin: 1e-5 };
+    const table = faultTable({ folds: { multi: fold, same: fold }, floor: 1e-4, restarts });
+    expect(table).toMatch(/\| multi .* 3 .* 2 .* 5 .* 1 /);
+    expect(table).toMatch(/the floor .* 0.1 .* - .* - .* 0.01 /);
   });
 });
 
