@@ -74,8 +74,9 @@ struct RefinementPlan {
   std::vector<PlannedSplit> splits;  ///< in the order in which they make the mesh
   int n_vertices = 0;                ///< of the mesh
   std::uint64_t base_mesh = 0;       ///< its fingerprint
-  /// Mean curvature of a face's corners that the examples hardly exceeded thereabouts, one value per
-  /// face that is not split, ExampleEnvelope::limits [1/m]; empty while these were not measured.
+  /// Mean curvature of a face's corners that the examples hardly exceeded thereabouts, one value
+  /// per face that is not split, ExampleEnvelope::limits [1/m]; empty while these were not
+  /// measured.
   std::vector<double> curvature_limits;
 };
 
