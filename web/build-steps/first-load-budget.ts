@@ -10,11 +10,11 @@ const MOST_PAGE_KB = 200;
 const MOST_MODULE_KB = 450;
 
 /**
- * Assets that are fetched only when they are asked for: meshes, references, records, and the workers of
+ * Assets that are fetched only when they are asked for: meshes, references, records, starts, and the workers of
  * a sweep and of the later views. Of chunks and styles the first load has what the entry imports.
  */
 const LATER =
-  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|obj|measuring|convergence|deform|garment|example|modal|failures)-worker-|(^|\/)plan-/;
+  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|obj|measuring|convergence|deform|garment|example|modal|failures)-worker-|(^|\/)(plan|skirt|trousers)-/;
 
 type Bundle = Rolldown.OutputBundle;
 

@@ -44,13 +44,14 @@ const module = await createRefinement({
   wasmBinary: readFileSync(join(root, 'web/src/wasm/refinement.wasm')),
 });
 
-/** The scene with its motion written out. */
+/** The scene with the files that it names written out. */
 function sceneOf(name: string, refinement: object, durationS: number) {
   const scene = JSON.parse(readText(`assets/scenes/garments/${name}.json`));
-  const motion = JSON.parse(readText(join('assets/scenes/garments', scene.figure.motion)));
+  const named = (file: string) => JSON.parse(readText(join('assets/scenes/garments', file)));
   return {
     ...scene,
-    figure: { ...scene.figure, motion },
+    figure: { ...scene.figure, motion: named(scene.figure.motion) },
+    start: named(scene.start),
     refinement,
     duration_s: durationS,
     record: { every_s: FRAME_S, format: 'binary' },

@@ -2,23 +2,38 @@
 // that a bench that was stopped can go on where it was; another core or another scene asks anew.
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  renameSync,
+  rmSync,
+  writeFileSync,
+} from 'node:fs';
+import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 
 import { tell } from './bench-parts.mjs';
 import { command, printed, root, withFiles } from './command.mjs';
 
 const kFolder = join(root, 'build', 'refinement');
+const kSettling = { durationS: 12, airKgPerM3: 20, standingS: 1000 };
 
 const readJson = (file) => JSON.parse(readFileSync(file, 'utf8'));
 
-/** A garment's scene, its motion written out; `method` has values that take the place of its own. */
+/**
+ * A garment's scene, the files that it names written out; `method` has values that take the place
+ * of its own.
+ */
 export function garmentScene(garment, motion, method = {}) {
   const file = join(root, 'assets', 'scenes', 'garments', `${garment}_${motion}.json`);
   const { $schema, ...scene } = readJson(file);
+  const named = (name) => readJson(join(dirname(file), name));
   return {
     ...scene,
-    figure: { ...scene.figure, motion: readJson(join(dirname(file), scene.figure.motion)) },
+    figure: { ...scene.figure, motion: named(scene.figure.motion) },
+    start: named(scene.start),
     method: { ...scene.method, ...method },
   };
 }
@@ -62,9 +77,10 @@ function vertexCount(scene) {
 
 /** The scene on a uniform mesh of about so many vertices: other columns, and rows to match. */
 export function uniformOfAbout(scene, n) {
+  const { start: _, ...unsettled } = scene; // of another mesh
   const [[kind, measures]] = Object.entries(scene.cloth.garment);
   const measured = (level, columns) => ({
-    ...scene,
+    ...unsettled,
     cloth: { garment: { [kind]: { ...measures, columns } } },
     refinement: { level },
   });
@@ -80,6 +96,24 @@ export function uniformOfAbout(scene, n) {
         best = { count, scene: candidate, columns, level };
     }
   }
-  if (!best) throw new Error(`no uniform ${garment} of about ${n} vertices`);
-  return best;
+  if (!best) throw new Error(`no uniform mesh of about ${n} vertices for ${scene.name}`);
+  return { ...best, scene: { ...best.scene, start: settled(best.scene) } };
+}
+
+/** Where a garment settles on the standing figure: as assets/starts/README.md has it. */
+function settled(scene) {
+  const air = { ...scene.world.air, density_kg_per_m3: kSettling.airKgPerM3 };
+  const standing = {
+    ...scene,
+    figure: { ...scene.figure, blend_time_s: kSettling.standingS },
+    world: { ...scene.world, air },
+    duration_s: kSettling.durationS,
+  };
+  const folder = mkdtempSync(join(tmpdir(), 'pleat-settled-'));
+  const file = join(folder, 'state.json');
+  tell(`${scene.name}: it settles`);
+  printed('run', standing, '--state', file);
+  const { positions_m } = readJson(file);
+  rmSync(folder, { recursive: true });
+  return { positions_m };
 }

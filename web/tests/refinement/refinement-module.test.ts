@@ -4,11 +4,13 @@ import {
   REFINEMENT_METHODS,
   type RefinementModule,
 } from '../../src/refinement/bindings/refinement-module';
-import { SCENE_FILES, sceneText } from '../../src/refinement/state/garments';
+import { sceneFiles } from '../../src/refinement/run/scene-files';
+import { sceneText } from '../../src/refinement/state/garments';
 import { basePatterns, type PlanFile } from '../../src/refinement/state/plan-file';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { boundMethods } from '../support/bound-methods';
 import { loadModule } from '../support/built-module';
+import { recordBytes } from '../support/garment-workers';
 import { nativePositions } from '../support/native-command';
 
 let module: RefinementModule;
@@ -106,10 +108,11 @@ describe('the module of garments', () => {
     }
   });
 
-  it('dresses a walking figure, whose pelvis and solids it tells', () => {
+  it('dresses a walking figure, whose pelvis and solids it tells', async () => {
     const run = new module.GarmentRun(fabricsText);
     const text = sceneText('skirt', 'walk', 'fine cotton', { level: 0 });
-    expect(JSON.parse(run.load(text, SCENE_FILES))).toMatchObject({ ok: true, n_vertices: 714 });
+    const files = await sceneFiles('skirt', recordBytes);
+    expect(JSON.parse(run.load(text, files))).toMatchObject({ ok: true, n_vertices: 714 });
     const before = JSON.parse(run.solids());
     expect(before.cones.length).toBeGreaterThan(8);
     expect(run.step(12)).toBe(0);
@@ -120,12 +123,13 @@ describe('the module of garments', () => {
     run.delete();
   });
 
-  it('refuses a file that was not handed over, and frames of another mesh', () => {
+  it('refuses a file that was not handed over, and frames of another mesh', async () => {
+    const files = await sceneFiles('skirt', recordBytes);
     const run = new module.GarmentRun(fabricsText);
     const text = sceneText('skirt', 'walk', 'fine cotton', { level: 0 });
     expect(JSON.parse(run.load(text, {}))).toMatchObject({ ok: false, kind: 'input' });
     expect(JSON.parse(run.put(new Float32Array(3), 0))).toMatchObject({ ok: false });
-    expect(JSON.parse(run.load(text, SCENE_FILES))).toMatchObject({ ok: true });
+    expect(JSON.parse(run.load(text, files))).toMatchObject({ ok: true });
     const refused = JSON.parse(run.put(new Float32Array(3), 0));
     expect(refused.what).toContain('714 vertices, got 1');
     run.delete();

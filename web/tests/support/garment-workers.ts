@@ -16,9 +16,9 @@ import { workerPort } from './worker-port';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 
-/** A record by its address, wherever the page is served. */
+/** A record or a start by its address, wherever the page is served. */
 export async function recordBytes(url: string): Promise<ArrayBuffer> {
-  const path = /assets\/recordings\/.*$/.exec(url)?.[0];
+  const path = /assets\/(recordings|starts)\/.*$/.exec(url)?.[0];
   const bytes = readFileSync(`${root}/${path}`);
   return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
 }

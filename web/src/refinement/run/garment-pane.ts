@@ -3,15 +3,17 @@ import { describe } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
 import { FRAME_S } from '../state/garment-frames';
-import { SCENE_FILES } from '../state/garments';
+import type { GarmentId } from '../state/garments';
 import type { FrameSource, GarmentPane, PaneId } from '../state/refinement-state';
 import type { Advance, Described, Loaded, ToGarment } from '../worker/garment-protocol';
 import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
+import { type FetchBytes, sceneFiles } from './scene-files';
 
 type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 'buffer'>;
 
 export interface GarmentContent {
+  garment: GarmentId;
   sceneText: string;
   /** Address of a record of that scene; null for none. */
   recordUrl: string | null;
@@ -36,11 +38,7 @@ export interface PaneRun {
   costs(costs: GarmentCosts): Pick<GarmentPane, 'msPerFrame' | 'parts'>;
 }
 
-export function createPaneRun(
-  id: PaneId,
-  client: GarmentClient,
-  fetchBytes: (url: string) => Promise<ArrayBuffer>,
-): PaneRun {
+export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: FetchBytes): PaneRun {
   let request = 0;
   let loadedContent = '';
   let recording: RecordingHead | null = null;
@@ -55,7 +53,7 @@ export function createPaneRun(
     recording: () => recording,
     missed: () => missed,
     isLoaded: () => loadedContent !== '',
-    async load({ sceneText, recordUrl }) {
+    async load({ garment, sceneText, recordUrl }) {
       const content = `${recordUrl} ${sceneText}`;
       request += 1;
       const own = request;
@@ -68,7 +66,7 @@ export function createPaneRun(
             return null;
           })
         : null;
-      const files = SCENE_FILES;
+      const files = await sceneFiles(garment, fetchBytes);
       const answer = await client.ask(
         {
           type: 'load',

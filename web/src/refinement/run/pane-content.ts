@@ -25,6 +25,7 @@ function recordOf(id: PaneId, state: RefinementState): string | null {
 export function contentOf(id: PaneId, state: RefinementState, plan: PlanFile): GarmentContent {
   const { garment, motion, fabric, substeps, method } = state;
   return {
+    garment,
     sceneText: sceneText(garment, motion, fabric, refinementOf(id, plan), substeps, method),
     recordUrl: recordOf(id, state),
   };

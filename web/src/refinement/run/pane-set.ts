@@ -17,7 +17,7 @@ import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 import { createPaneRun, type PaneRun } from './garment-pane';
 import { contentOf } from './pane-content';
-import type { FetchBytes } from './planner';
+import type { FetchBytes } from './scene-files';
 
 /** A run without records ends here [s]. */
 const LONGEST_S = 10;

@@ -8,7 +8,6 @@ import {
   type GarmentId,
   MOTIONS,
   type MotionId,
-  SCENE_FILES,
   sceneText,
   usualFabric,
 } from '../state/garments';
@@ -17,8 +16,7 @@ import { DEMANDS, type RefinementState } from '../state/refinement-state';
 import type { PlanWish } from '../worker/garment-protocol';
 import { type ExampleClient, startExampleWorker } from './garment-client';
 import { exampleUrls } from './records';
-
-export type FetchBytes = (url: string) => Promise<ArrayBuffer>;
+import { type FetchBytes, sceneFiles } from './scene-files';
 
 export async function fetchedBytes(url: string): Promise<ArrayBuffer> {
   return (await fetched(url)).arrayBuffer();
@@ -68,9 +66,10 @@ interface Seen {
 async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: FetchBytes) {
   const urls = exampleUrls(garment);
   if (!urls) throw new Error('no example of this garment comes with the page');
-  const [features, frames] = await Promise.all([
+  const [features, frames, files] = await Promise.all([
     fetchBytes(urls.features),
     fetchBytes(urls.frames),
+    sceneFiles(garment, fetchBytes),
   ]);
   const { value: motion } = MOTIONS[0];
   const fabric = usualFabric(garment);
@@ -79,7 +78,7 @@ async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: Fe
       type: 'open',
       fabricsText,
       sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-      files: SCENE_FILES,
+      files,
       name: exampleName(garment, motion, fabric),
       nPatterns: PATTERNS,
       features,
@@ -169,7 +168,7 @@ class ExamplePlanner implements Planner {
       request: this.nextRequest(),
       fabricsText,
       sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
-      files: SCENE_FILES,
+      files: await sceneFiles(garment, this.fetchBytes),
       name: exampleName(garment, motion, fabric),
       nPatterns: PATTERNS,
       frameS: FRAME_S,

@@ -49,8 +49,8 @@ const SCENES: Record<GarmentId, Record<MotionId, string>> = {
   },
 };
 
-/** The files that the scenes name. */
-export const SCENE_FILES: HandedFiles = {
+/** The motions that the scenes name. */
+export const MOTION_FILES: HandedFiles = {
   '../../motions/walk_normal.json': walkNormal,
   '../../motions/walk_fast.json': walkFast,
   '../../motions/turn.json': turn,
