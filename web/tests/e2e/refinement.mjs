@@ -116,8 +116,9 @@ export async function checkRefinement(harness) {
       const { panes } = await until(page, (state) => state.timeS > 0.4, LOAD_MS);
       expectThat(panes.fine.nVertices > 10000, `${panes.fine.nVertices} vertices`);
       expectThat(panes.fine.warnings.length === 0, 'it moves as no cloth does');
+      await button(page, 'Pause').click();
       expectThat(!before.equals(await picture(page)), 'nothing moves');
-      await choice(page, 'Garment').selectOption('trousers');
+      await choice(page, 'Garment').selectOption('Trousers');
       await eventually(
         async () => !(await page.getByLabel('Steps', { exact: true }).isVisible()),
         'trousers have one method',
