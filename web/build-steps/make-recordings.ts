@@ -64,7 +64,7 @@ interface Run {
   msPerFrame: number;
 }
 
-/** Runs a scene natively and reads its frames, the first one at rest. */
+/** Runs a scene natively and reads its frames, the first one as it begins. */
 async function run(scene: { name: string }, pane: string): Promise<Run> {
   const name = `${scene.name}-${pane}`;
   const file = join(temporary, `${name}.json`);
