@@ -16,7 +16,7 @@ const kPercent = 100;
 
 const kOurs = {
   stepper: 'multigrid',
-  substeps: 15,
+  substeps: 16,
   carried_acceleration: 0.4,
 };
 const kImplicit = { stepper: 'implicit', substeps: 2 };

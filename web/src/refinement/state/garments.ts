@@ -37,7 +37,7 @@ export const METHODS = [
 export type MethodId = (typeof METHODS)[number]['value'];
 
 /** 0.5 % RMS stretch on the fast walk, a third of the time of `implicit`: docs/methods/multigrid.md. */
-const MULTIGRID = { stepper: 'multigrid', substeps: 15, carried_acceleration: 0.4 };
+const MULTIGRID = { stepper: 'multigrid', substeps: 16, carried_acceleration: 0.4 };
 
 const SCENES: Record<GarmentId, Record<MotionId, string>> = {
   skirt: { walk: skirtWalk, fast_walk: skirtFastWalk, turn: skirtTurn, squat: skirtSquat },
