@@ -33,7 +33,7 @@ export interface WarningsAnswer {
 
 /** How a motion fits a plan's example. */
 export interface FitAnswer {
-  /** Share of the faces that bend beyond what their pattern showed. */
+  /** Share of the faces that bend beyond what those near them did in the examples. */
   share: number;
   worst_share: number;
   /** Frames up to this one with too large a share. */
