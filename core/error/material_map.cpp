@@ -31,4 +31,15 @@ Positions MaterialMap::of(const Eigen::Ref<const Positions>& positions) const {
   return result;
 }
 
+Positions MaterialMap::normals_of(const Eigen::Ref<const Positions>& positions) const {
+  Positions normals(3, static_cast<Eigen::Index>(places_.size()));
+  Eigen::Index column = 0;
+  for (const Place& place : places_) {
+    const Triangle& t = place.triangle;
+    const Vec3 along = positions.col(t[1]) - positions.col(t[0]);
+    normals.col(column++) = along.cross(Vec3(positions.col(t[2]) - positions.col(t[0])));
+  }
+  return normals;
+}
+
 }  // namespace pleat

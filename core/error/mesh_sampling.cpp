@@ -31,6 +31,26 @@ QuadMesh cut_like(QuadMesh mesh, const QuadMesh& fine) {
   return mesh;
 }
 
+Positions middles(const std::vector<Triangle>& triangles, const Positions& x) {
+  Positions middle(3, static_cast<Eigen::Index>(triangles.size()));
+  Eigen::Index column = 0;
+  for (const Triangle& t : triangles)
+    middle.col(column++) = (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
+  return middle;
+}
+
+/// Not of unit length [m^2].
+Vec3 normal(const Triangle& t, const Eigen::Ref<const Positions>& x) {
+  return Vec3(x.col(t[1]) - x.col(t[0])).cross(Vec3(x.col(t[2]) - x.col(t[0])));
+}
+
+Positions normals(const std::vector<Triangle>& triangles, const Eigen::Ref<const Positions>& x) {
+  Positions all(3, static_cast<Eigen::Index>(triangles.size()));
+  Eigen::Index column = 0;
+  for (const Triangle& t : triangles) all.col(column++) = normal(t, x);
+  return all;
+}
+
 }  // namespace
 
 MeshSampling::MeshSampling(const QuadMesh& mesh, const QuadMesh& fine)
@@ -47,6 +67,7 @@ MeshSampling::MeshSampling(const QuadMesh& mesh, const QuadMesh& fine)
   to_mesh_.emplace(fine.triangle_mesh(), mesh.rest_positions());
   cut_ = cut_like(mesh, fine);
   to_fine_.emplace(cut_.triangle_mesh(), fine.rest_positions());
+  to_facets_.emplace(cut_.triangle_mesh(), middles(triangles_, fine.rest_positions()));
 }
 
 Positions MeshSampling::sampled(const Eigen::Ref<const Positions>& fine_columns) const {
@@ -63,16 +84,17 @@ Positions MeshSampling::shown(const Eigen::Ref<const Positions>& columns) const 
 }
 
 SamplingError MeshSampling::error(const Eigen::Ref<const Positions>& fine_positions,
-                                  const Eigen::Ref<const Positions>& shown_positions) const {
-  const auto normal = [](const Eigen::Ref<const Positions>& x, const Triangle& t) {
-    return Vec3(Vec3(x.col(t[1]) - x.col(t[0])).cross(Vec3(x.col(t[2]) - x.col(t[0]))));
-  };
+                                  const Eigen::Ref<const Positions>& columns) const {
+  const Positions shown_positions = shown(columns);
+  const Positions facets = to_facets_ ? to_facets_->normals_of(on_finer_mesh(columns, mesh_, cut_))
+                                      : normals(triangles_, shown_positions);
   double squares = 0;
   double area = 0;
+  Eigen::Index column = 0;
   for (const Triangle& t : triangles_) {
-    const double weight = normal(fine_.rest_positions(), t).norm();
-    const Vec3 own = normal(fine_positions, t);
-    const Vec3 theirs = normal(shown_positions, t);
+    const double weight = normal(t, fine_.rest_positions()).norm();
+    const Vec3 own = normal(t, fine_positions);
+    const Vec3 theirs = facets.col(column++);
     const double angle = std::atan2(own.cross(theirs).norm(), own.dot(theirs));
     squares += weight * angle * angle;
     area += weight;

@@ -32,14 +32,15 @@ class MeshSampling {
   /// Where the fine mesh's vertices are when the mesh's are at these places [m].
   Positions shown(const Eigen::Ref<const Positions>& columns) const;
 
-  /// Between a fine shape and what the mesh shows at the same points [m]. By rest area; normals are
-  /// those of the fine mesh's triangles.
+  /// Between a fine shape and what the mesh shows at the same points when its vertices are at
+  /// `columns` [m]. By rest area; a normal is the fine triangle's, against the mesh's own facet
+  /// there: one through points on several facets would be smoother than what is seen.
   SamplingError error(const Eigen::Ref<const Positions>& fine_positions,
-                      const Eigen::Ref<const Positions>& shown_positions) const;
+                      const Eigen::Ref<const Positions>& columns) const;
 
   /// Between a fine shape and its own sample.
   SamplingError error(const Eigen::Ref<const Positions>& fine_positions) const {
-    return error(fine_positions, shown(sampled(fine_positions)));
+    return error(fine_positions, sampled(fine_positions));
   }
 
  private:
@@ -52,6 +53,7 @@ class MeshSampling {
   std::vector<HangingVertex> hanging_;
   QuadMesh cut_;  // the mesh in cells no larger than the fine one's
   std::optional<MaterialMap> to_fine_;
+  std::optional<MaterialMap> to_facets_;  // in the middles of the fine triangles
 };
 
 }  // namespace pleat

@@ -74,6 +74,14 @@ TEST_CASE("mesh sampling: meshes of another base are measured alike", "[error]")
         Approx(chord_error(1.0 / 7, 100).distance).epsilon(0.03));
 }
 
+TEST_CASE("mesh sampling: facets that lie across fine triangles are not smoothed", "[error]") {
+  const QuadMesh fine = refined_sheet(4, 2);
+  const SamplingError uneven = MeshSampling(lying_sheet(7), fine).error(rolled(fine));
+  const SamplingError nested = MeshSampling(refined_sheet(4, 1), fine).error(rolled(fine));
+  CHECK(uneven.normal_angle > nested.normal_angle);  // seven facets against eight
+  CHECK(uneven.normal_angle == Approx(chord_error(1.0 / 7, 100).normal_angle).epsilon(0.05));
+}
+
 TEST_CASE("mesh sampling: hanging vertices are drawn in the middle", "[error]") {
   const int cells = GENERATE(4, 5);  // of the fine mesh's base, and of another one
   QuadMesh graded = lying_sheet(cells);
