@@ -11,6 +11,8 @@
 
 #include "core/base/check.h"
 #include "core/error/error_norms.h"
+#include "core/error/fold_spectrum.h"
+#include "core/error/mesh_sampling.h"
 #include "core/error/self_crossings.h"
 #include "core/error/surface_distance.h"
 #include "core/figure/mannequin.h"
@@ -94,13 +96,22 @@ class GarmentRun {
     });
   }
 
-  /// Shows what this mesh could show of a shape of a uniform mesh that is as fine or finer.
-  std::string put_sample(const val& fine_places, int fine_level, double time) {
+  /// What frames are held against from now on: a scene of the same cloth on its fine mesh.
+  std::string hold_against(const std::string& scene_text, const val& files) {
     return guarded([&](val&) {
-      const pleat::Positions fine = positions_in(fine_places);
-      check_places(fine, fine_mesh(fine_level));
-      show(sample_->of(fine), time);
+      const pleat::Scene scene = pleat::read_scene_with(scene_text, files, fabrics_json_);
+      std::optional<pleat::QuadMesh> fine = pleat::base_quads(scene);
+      if (!fine)
+        throw pleat::InputError("/cloth", "expected a sheet or a garment, got other cloth");
+      fine->refine_uniformly(scene.level);
+      reference_.emplace(mesh(), *fine);
     });
+  }
+
+  /// Shows what this mesh could show of a shape of the fine one.
+  std::string put_sample(const val& fine_places, double time) {
+    return guarded(
+        [&](val&) { show(reference().sampling.sampled(fine_positions(fine_places)), time); });
   }
 
   std::string status() const {
@@ -132,29 +143,57 @@ class GarmentRun {
     });
   }
 
-  /// How far the shown frame is from one of the same cloth on a uniform mesh that is as fine or
-  /// finer: its vertices' places. Each of its material points is sought on this mesh.
-  std::string compare(const val& fine_places, int fine_level) {
+  /// How far the shown frame is from the fine mesh's vertices at these places, at the same points
+  /// of the cloth; and what this mesh loses of that shape by its faces alone.
+  std::string compare(const val& fine_places) {
     return guarded([&](val& envelope) {
-      const pleat::Positions fine = positions_in(fine_places);
-      const pleat::QuadMesh& reference = fine_mesh(fine_level);
-      check_places(fine, reference);
-      const pleat::Positions own = pleat::on_finer_mesh(shown_, mesh(), reference);
-      envelope.set("rms_m", pleat::position_error(own, fine, fine_areas_));
+      const pleat::Positions fine = fine_positions(fine_places);
+      const pleat::MeshSampling& sampling = reference().sampling;
+      envelope.set("rms_m", sampling.error(fine, shown_).distance);
+      const pleat::Positions sampled = sampling.sampled(fine);
+      const pleat::SamplingError lost = sampling.error(fine, sampled);
+      envelope.set("lost_m", lost.distance);
+      envelope.set("lost_normals_rad", lost.normal_angle);
       const Eigen::VectorXf distances =
-          (shown_ - sample_->of(fine)).colwise().norm().cast<float>().transpose();
+          (shown_ - sampled).colwise().norm().cast<float>().transpose();
       distances_.assign(distances.data(), distances.data() + distances.size());
     });
   }
 
   /// How far the shown surface is from that one, whatever slid along it.
-  std::string compare_surface(const val& fine_places, int fine_level) {
+  std::string compare_surface(const val& fine_places) {
     return guarded([&](val& envelope) {
+      const pleat::Positions fine = fine_positions(fine_places);
       const auto error =
-          pleat::surface_error(running().triangles(), shown_, fine_mesh(fine_level).triangles(),
-                               positions_in(fine_places));
+          pleat::surface_error(running().triangles(), shown_, reference().mesh.triangles(), fine);
       envelope.set("rms_m", error.rms);
       envelope.set("percentile_95_m", error.percentile_95);
+    });
+  }
+
+  /// The folds of the shown frame count from now on, until the next reset.
+  std::string add_folds() {
+    return guarded([&](val&) {
+      if (!folds_)
+        folds_.emplace(mesh().triangle_mesh(),
+                       pleat::garment_rings(reference().mesh.triangle_mesh()));
+      folds_->add(shown_);
+      const Eigen::MatrixXd amplitudes = folds_->amplitudes();
+      fold_amplitudes_.assign(amplitudes.data(), amplitudes.data() + amplitudes.size());
+    });
+  }
+
+  /// How far folds stand out, by their number around each ring, over what was added [m].
+  val folds() const { return view_of(fold_amplitudes_); }
+
+  /// How differently two runs are folded, of which these are `folds`.
+  std::string compare_folds(const val& folds_a, const val& folds_b) {
+    return guarded([&](val& envelope) {
+      const Eigen::MatrixXd a = by_ring(folds_a);
+      const Eigen::MatrixXd b = by_ring(folds_b);
+      if (a.size() == 0 || a.cols() != b.cols())
+        throw pleat::InputError("folds", "expected those of two runs of one garment");
+      envelope.set("distance_m", pleat::fold_distance(a, b));
     });
   }
 
@@ -212,6 +251,15 @@ class GarmentRun {
   val distances() const { return view_of(distances_); }
 
  private:
+  /// A fine mesh, and how shapes of it are shown on this one.
+  struct Reference {
+    Reference(const pleat::QuadMesh& own, const pleat::QuadMesh& fine)
+        : mesh(fine), sampling(own, fine) {}
+
+    pleat::QuadMesh mesh;
+    pleat::MeshSampling sampling;
+  };
+
   template <class Number>
   val array(const std::vector<Number> pleat::QuadArrays::*part) const {
     return arrays_ ? view_of((*arrays_).*part) : view_of(std::vector<Number>{});
@@ -224,6 +272,13 @@ class GarmentRun {
                                       std::to_string(places.cols()) + " places");
   }
 
+  static Eigen::MatrixXd by_ring(const val& folds) {
+    const auto amplitudes = emscripten::convertJSArrayToNumberVector<double>(folds);
+    constexpr Eigen::Index n = pleat::FoldAmplitudes::RowsAtCompileTime;
+    return Eigen::Map<const Eigen::MatrixXd>(amplitudes.data(), n,
+                                             static_cast<Eigen::Index>(amplitudes.size()) / n);
+  }
+
   pleat::Simulation& running() const { return run_.running(); }
   const pleat::QuadMesh& mesh() const { return *running().mesh(); }
 
@@ -232,7 +287,7 @@ class GarmentRun {
     const pleat::Scene& scene = running().scene();
     arrays_ = pleat::quad_arrays(mesh());
     curvature_.emplace(mesh());
-    fine_.reset();
+    reference_.reset();
     crossings_.reset();
     body_ = scene.figure ? std::make_shared<const pleat::MovingBody>(scene.figure->motion,
                                                                      scene.figure->playback)
@@ -249,6 +304,8 @@ class GarmentRun {
     monitor_.reset();
     if (scene.plan && !scene.plan->curvature_limits.empty()) monitor_.emplace(mesh(), *scene.plan);
     distances_.clear();
+    folds_.reset();
+    fold_amplitudes_.clear();
     show(running().state().positions, running().time());
   }
 
@@ -258,18 +315,16 @@ class GarmentRun {
     positions_.assign(x.data(), x.data() + x.size());
   }
 
-  const pleat::QuadMesh& fine_mesh(int level) {
-    if (fine_ && fine_level_ == level) return *fine_;
-    if (level < 0 || level > pleat::kMaxLevel)
-      throw pleat::InputError("level", "expected one from 0 to " +
-                                           std::to_string(pleat::kMaxLevel) + ", got " +
-                                           std::to_string(level));
-    fine_ = pleat::base_quads(running().scene());
-    fine_->refine_uniformly(level);
-    fine_level_ = level;
-    fine_areas_ = fine_->vertex_areas();
-    sample_.emplace(mesh(), *fine_);
-    return *fine_;
+  const Reference& reference() const {
+    if (!reference_)
+      throw pleat::InputError("", "expected a fine mesh to hold frames against, got none");
+    return *reference_;
+  }
+
+  pleat::Positions fine_positions(const val& places) const {
+    pleat::Positions fine = positions_in(places);
+    check_places(fine, reference().mesh);
+    return fine;
   }
 
   std::string fabrics_json_;
@@ -280,15 +335,14 @@ class GarmentRun {
   std::optional<pleat::VertexCurvature> curvature_;
   std::optional<pleat::FitMonitor> monitor_;
   std::optional<pleat::SelfCrossings> crossings_;
-  std::optional<pleat::QuadMesh> fine_;
-  int fine_level_ = 0;
-  Eigen::VectorXd fine_areas_;
-  std::optional<pleat::MeshSample> sample_;  // of the fine mesh
-  pleat::Positions shown_;                   // [m]
-  double time_ = 0;                          // of what is shown [s]
+  std::optional<Reference> reference_;
+  std::optional<pleat::FoldSpectrum> folds_;
+  pleat::Positions shown_;  // [m]
+  double time_ = 0;         // of what is shown [s]
   std::vector<float> positions_;
   std::vector<float> curvatures_;
   std::vector<float> distances_;
+  std::vector<double> fold_amplitudes_;
 };
 
 }  // namespace
@@ -300,6 +354,7 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("reset", &GarmentRun::reset)
       .function("step", &GarmentRun::step)
       .function("put", &GarmentRun::put)
+      .function("holdAgainst", &GarmentRun::hold_against)
       .function("putSample", &GarmentRun::put_sample)
       .function("status", &GarmentRun::status)
       .function("costs", &GarmentRun::costs)
@@ -307,6 +362,9 @@ EMSCRIPTEN_BINDINGS(refinement) {
       .function("look", &GarmentRun::look)
       .function("compare", &GarmentRun::compare)
       .function("compareSurface", &GarmentRun::compare_surface)
+      .function("addFolds", &GarmentRun::add_folds)
+      .function("folds", &GarmentRun::folds)
+      .function("compareFolds", &GarmentRun::compare_folds)
       .function("faults", &GarmentRun::faults)
       .function("solids", &GarmentRun::solids)
       .function("time", &GarmentRun::time)

@@ -29,7 +29,7 @@ import {
   shownLines,
   wasmGoals,
 } from './parts/refinement-goals.mjs';
-import { answer, garmentScene, keptAnswers, uniformOfAbout } from './parts/refinement-runs.mjs';
+import { answer, garmentScene, keptAnswers, shownPlan } from './parts/refinement-runs.mjs';
 import { bothBuilds, differences, kEarly, kTight } from './parts/refinement-wasm.mjs';
 
 const kFineLevel = 2;
@@ -44,15 +44,8 @@ const kChanceAfter = 5; // [s] of two fine runs
 const kDemands = [0.0005, 0.001, 0.0015, 0.002, 0.003]; // that may be lost, of the figure [m]
 const kFigureFile = join('docs', 'refinement.svg');
 
-/**
- * How each garment's plan in the table is made, of as many vertices as a uniform mesh can have, and
- * where its mesh of every frame is split.
- */
-const kRecipes = {
-  skirt: { plan: ['--vertices', 2088], splitCurvature: 20 },
-  trousers: { plan: ['--vertices', 1966], splitCurvature: 30 },
-  slim_trousers: { plan: ['--vertices', 3234], splitCurvature: 30 },
-};
+/** Where a garment's mesh of every frame is split [1/m]. */
+const kSplitCurvatures = { skirt: 20, trousers: 30, slim_trousers: 30 };
 
 const kMore = [
   {
@@ -93,30 +86,22 @@ const inHeavierAir = (scene, times = 1) => {
   return { ...scene, world: { ...scene.world, air: { ...air, density_kg_per_m3: density } } };
 };
 
-/** Plans of one example run: of the garment's own recipe, then of each length that may be lost. */
+/** The plan that the page shows, and plans of one example run for each length that may be lost. */
 function plansOf(garment, { method, duration }) {
   const example = at(garmentScene(garment, 'walk', method), duration, uniform(kFineLevel));
   tell(`${garment}: example run and plans`);
-  const found = answer(
-    'bench',
-    'plans',
-    example,
-    ...kRecipes[garment].plan,
-    '--demand',
-    kDemands.join(),
-  );
-  const chosen = found.plans.find(({ plan }) => 'vertex_budget' in plan);
-  return { ...found, chosen, demands: found.plans.filter((plan) => plan !== chosen) };
+  const found = answer('bench', 'plans', example, '--demand', kDemands.join());
+  return { ...found, chosen: { plan: shownPlan(garment) }, demands: found.plans };
 }
 
 /** All meshes of a garment on the test motion, frame by frame in turn. */
 function compared(garment, plans, { method, duration }) {
   const test = garmentScene(garment, 'fast_walk', method);
-  const same = uniformOfAbout(test, plans.chosen.plan.vertices);
+  const even = garmentScene(`${garment}_even`, 'fast_walk', method);
   const scenes = {
     fine: at(test, duration, uniform(kFineLevel)),
     multi: at(test, duration, planned(plans.chosen)),
-    same: at(same.scene, duration),
+    same: at(even, duration),
   };
   const further = Object.entries(scenes).flatMap(([mesh, scene]) =>
     Array.from({ length: kFurtherRuns }, (_, k) => [
@@ -127,7 +112,7 @@ function compared(garment, plans, { method, duration }) {
   const entries = [
     ['fine', scenes.fine],
     ['multi', scenes.multi],
-    [`uniform, ${same.columns} columns, level ${same.level}`, scenes.same],
+    ['uniform of as many', scenes.same],
     ['uniform, level 1', at(test, duration, uniform(1))],
     ['coarse', at(test, duration, uniform(0))],
     ...further,
@@ -144,7 +129,7 @@ function compared(garment, plans, { method, duration }) {
     '--with',
     entries.slice(1).map(([, scene]) => scene),
     '--adaptive',
-    kRecipes[garment].splitCurvature,
+    kSplitCurvatures[garment],
     '--every',
     kErrorEvery,
   );

@@ -14,7 +14,7 @@ const MOST_MODULE_KB = 450;
  * a sweep and of the later views. Of chunks and styles the first load has what the entry imports.
  */
 const LATER =
-  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|obj|measuring|convergence|deform|garment|example|modal|failures)-worker-|(^|\/)(plan|skirt|trousers)-/;
+  /\.(map|obj|reference|recording|wasm|css)$|(^|\/)(sweep|obj|measuring|convergence|deform|garment|example|modal|failures)-worker-|(^|\/)(plan|floor|(skirt|(slim_)?trousers)(_even)?)-/;
 
 type Bundle = Rolldown.OutputBundle;
 

@@ -17,7 +17,7 @@ import {
   KEPT_OF,
   PATTERNS,
   SETTLED_S,
-  USUAL_DEMAND_MM,
+  USUAL_DEMANDS_MM,
 } from '../src/refinement/state/garment-frames.ts';
 import {
   encodeFrames,
@@ -25,6 +25,9 @@ import {
   type RecordingHead,
 } from '../src/refinement/worker/recording.ts';
 import createRefinement from '../src/wasm/refinement.mjs';
+
+/** Of the density of air, by which a second run on the fine mesh has another chance. */
+const AIR_CHANGE = 1e-6;
 
 /** Duration of the frames of the test motion [s]. */
 const TEST_S = 5;
@@ -44,19 +47,22 @@ const module = await createRefinement({
   wasmBinary: readFileSync(join(root, 'web/src/wasm/refinement.wasm')),
 });
 
-/** The scene with the files that it names written out. */
-function sceneOf(name: string, refinement: object, durationS: number) {
+/** The scene, on its own mesh or so refined, with the files that it names written out. */
+function sceneOf(name: string, refinement: object | null, durationS: number) {
   const scene = JSON.parse(readText(`assets/scenes/garments/${name}.json`));
   const named = (file: string) => JSON.parse(readText(join('assets/scenes/garments', file)));
   return {
     ...scene,
     figure: { ...scene.figure, motion: named(scene.figure.motion) },
     start: named(scene.start),
-    refinement,
+    refinement: refinement ?? scene.refinement,
     duration_s: durationS,
     record: { every_s: FRAME_S, format: 'binary' },
   };
 }
+
+type Garment = keyof typeof USUAL_DEMANDS_MM;
+type Scene = ReturnType<typeof sceneOf>;
 
 interface Run {
   frames: Float64Array[];
@@ -65,7 +71,7 @@ interface Run {
 }
 
 /** Runs a scene natively and reads its frames, the first one as it begins. */
-async function run(scene: { name: string }, pane: string): Promise<Run> {
+async function run(scene: Scene, pane: string): Promise<Run> {
   const name = `${scene.name}-${pane}`;
   const file = join(temporary, `${name}.json`);
   const out = join(temporary, name);
@@ -143,7 +149,7 @@ function parentsOf(scene: object): Parents {
 }
 
 /** Features, frames for limits, and the usual plan, which is made of what is written, not of more. */
-async function makeExample(garment: string): Promise<object> {
+async function makeExample(garment: Garment): Promise<object> {
   const folder = `${garment}_walk`;
   const scene = sceneOf(folder, { level: FINE_LEVEL }, EXAMPLE_S);
   const { frames, msPerFrame } = await run(scene, 'example');
@@ -179,20 +185,19 @@ async function makeExample(garment: string): Promise<object> {
   for (const frame of kept) answered(study.addFrame(rounded(frame, QUANTUM.place)));
   answered(study.sort(folder, rounded(features, QUANTUM.curvature), PATTERNS));
   const planned = answered<{ plan: object }>(
-    study.plan(JSON.stringify({ largest_loss_m: USUAL_DEMAND_MM / 1000 })),
+    study.plan(JSON.stringify({ largest_loss_m: USUAL_DEMANDS_MM[garment] / 1000 })),
   );
   study.delete();
   write({ folder, file: 'plan.json' }, JSON.stringify(planned.plan));
   return planned.plan;
 }
 
-async function makePane(name: string, pane: string, refinement: object): Promise<void> {
-  const scene = sceneOf(name, refinement, TEST_S);
+async function makePane(folder: string, pane: string, scene: Scene): Promise<void> {
   const { frames, msPerFrame } = await run(scene, pane);
   writeRecording(
-    { folder: name, file: `${pane}.recording` },
+    { folder, file: `${pane}.recording` },
     {
-      name,
+      name: scene.name,
       first_s: 0,
       every_s: FRAME_S,
       ms_per_frame: msPerFrame,
@@ -204,17 +209,46 @@ async function makePane(name: string, pane: string, refinement: object): Promise
   );
 }
 
-async function makeGarment(garment: string): Promise<void> {
-  const plan = await makeExample(garment);
-  const test = `${garment}_fast_walk`;
-  await makePane(test, 'coarse', { level: 0 });
-  await makePane(test, 'planned', { plan });
-  await makePane(test, 'fine', { level: FINE_LEVEL });
+/** How differently folded two runs on the fine mesh are, and how far their surfaces are at the same times. */
+async function makeFloor(folder: string, scene: Scene): Promise<void> {
+  const { air } = scene.world;
+  const density = air.density_kg_per_m3 * (1 + AIR_CHANGE);
+  const twin = { ...scene, world: { ...scene.world, air: { ...air, density_kg_per_m3: density } } };
+  const files = [scene, twin].map((one, k) => {
+    const file = join(temporary, `${scene.name}-floor-${k}.json`);
+    writeFileSync(file, JSON.stringify(one));
+    return file;
+  });
+  const [own, other] = files as [string, string];
+  const words = ['bench', 'together', own, '--with', other, '--from', SETTLED_S, '--every', 1];
+  const { stdout } = await promisify(execFile)(command, words.map(String));
+  const { runs } = JSON.parse(stdout);
+  const of = (run: { folds_m: number[][] }) => Float64Array.from(run.folds_m.flat());
+  const made: GarmentRunHandle = new module.GarmentRun(fabrics);
+  const { distance_m: folds } = answered<{ distance_m: number }>(
+    made.compareFolds(of(runs[0]), of(runs[1])),
+  );
+  made.delete();
+  const floor = { folds_m: folds, surface_m: runs[1].errors.surface_m };
+  write({ folder, file: 'floor.json' }, `${JSON.stringify(floor)}\n`);
 }
 
-const wanted = process.argv.slice(2);
+async function makeGarment(garment: Garment): Promise<void> {
+  const plan = await makeExample(garment);
+  const test = `${garment}_fast_walk`;
+  const fine = sceneOf(test, { level: FINE_LEVEL }, TEST_S);
+  await makePane(test, 'coarse', sceneOf(test, { level: 0 }, TEST_S));
+  await makePane(test, 'even', sceneOf(`${garment}_even_fast_walk`, null, TEST_S));
+  await makePane(test, 'planned', sceneOf(test, { plan }, TEST_S));
+  await makePane(test, 'fine', fine);
+  await makeFloor(test, fine);
+}
+
+const all = Object.keys(USUAL_DEMANDS_MM) as Garment[];
+const named = process.argv.slice(2);
+const wanted = all.filter((garment) => named.length === 0 || named.includes(garment));
 try {
-  await Promise.all((wanted.length > 0 ? wanted : ['skirt', 'trousers']).map(makeGarment));
+  for (const garment of wanted) await makeGarment(garment);
 } finally {
   rmSync(temporary, { recursive: true });
 }

@@ -5,8 +5,8 @@ import type { Plugin } from 'vite';
 
 const SOURCE = new URL('./offline-worker.js', import.meta.url);
 
-/** References and records are large: each is kept once a visitor has fetched it. */
-const ON_DEMAND = /\.(reference|recording)$/;
+/** References, records and starts are large: each is kept once a visitor has fetched it. */
+const ON_DEMAND = /\.(reference|recording)$|(skirt|trousers)(_even)?-[^/]*\.json$/;
 
 export function offlineCopy(): Plugin {
   return {

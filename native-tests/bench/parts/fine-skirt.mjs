@@ -1,4 +1,5 @@
 // The fine skirt in a fast walk: position-based steps against implicit ones.
+import { LIVE_SKIRT } from '../../../web/src/refinement/state/garment-frames.ts';
 import { commit, described, tell } from './bench-parts.mjs';
 import { goal, measure, median } from './bench-rows.mjs';
 import { nativeRun, reference } from './command.mjs';
@@ -14,13 +15,8 @@ const kTimes = [0.25];
 const kMostMsPerPicture = 33; // a picture is shown for 1/30 s
 const kPercent = 100;
 
-const kOurs = {
-  stepper: 'multigrid',
-  substeps: 16,
-  carried_acceleration: 0.4,
-};
 const kImplicit = { stepper: 'implicit', substeps: 2 };
-const kMethods = { multigrid: kOurs, implicit: kImplicit };
+const kMethods = { multigrid: LIVE_SKIRT, implicit: kImplicit };
 
 /** The scene on its fine mesh with just this method. */
 function fineSkirt(method) {
@@ -29,7 +25,7 @@ function fineSkirt(method) {
 }
 
 export async function skirt({ repeat, scale }) {
-  const { n_vertices } = nativeRun(fineSkirt(kOurs), 2);
+  const { n_vertices } = nativeRun(fineSkirt(LIVE_SKIRT), 2);
   const contestants = Object.entries(kMethods).map(([label, method]) =>
     contestant('native', label, fineSkirt(method), n_vertices, kFrames),
   );
@@ -43,7 +39,10 @@ export async function skirt({ repeat, scale }) {
     turnFrames: kTurnFrames,
   });
   const [ours, implicit] = rows;
-  const { wasm } = await bothBuilds({ ...fineSkirt(kOurs), duration_s: kFrames * kStep }, repeat);
+  const { wasm } = await bothBuilds(
+    { ...fineSkirt(LIVE_SKIRT), duration_s: kFrames * kStep },
+    repeat,
+  );
   const wasmMs = median(wasm.map(({ ms_per_frame }) => ms_per_frame)); // of a picture
   const goals = [
     goal('skirt_of_implicit', ours.ms_per_frame / implicit.ms_per_frame, 'at-most', 1 / 3, rows),

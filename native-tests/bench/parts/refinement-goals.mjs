@@ -6,6 +6,8 @@ const kMostVertices = { skirt: 1 / 3, trousers: 1 / 4, slim_trousers: 1 / 3 };
 const kMostFaults = { skirt: 0.9, trousers: 0.9, slim_trousers: 0.75 };
 /** Of the distance of two fine runs without friction. */
 const kMostChance = 0.5;
+/** By which a uniform mesh may have other than as many vertices. */
+const kMostVerticesApart = 0.03;
 const kMostTime = 0.3;
 const kTimePerVertex = 1.15;
 const kFrameMs = 1e3 / 30; // [ms] that a frame shows
@@ -190,8 +192,10 @@ export function comparisonGoals(garment, { fine, multi, same, faults }) {
   const most = kMostFaults[garment];
   const at = (name, value, bound, of = rows) =>
     goal(`${garment}_${name}`, value, 'at-most', bound, of);
+  const apart = Math.abs(multi.n_vertices / same.n_vertices - 1);
   return [
     at('vertices_share', share, kMostVertices[garment]),
+    at('vertices_from_uniform', apart, kMostVerticesApart, [multi, same]),
     at(
       'time_share',
       multi.ms_per_frame / fine.ms_per_frame,

@@ -31,6 +31,7 @@ import { Trio } from './run/trio';
 import { createGarmentStage, type GarmentStage } from './stage/garment-stage';
 import { decodeRefinementLink, encodeRefinementLink } from './state/refinement-link';
 import {
+  comparedPanes,
   initialRefinementState,
   PANES,
   type PaneId,
@@ -46,6 +47,7 @@ const KEYS: readonly [string, string][] = [
   ['E and H', 'edges of the faces, hanging vertices'],
   ['Arrows', 'turn the view'],
   ['+ and -', 'closer, farther'],
+  ['M', 'the hem, closely'],
   ['Home', 'first view'],
 ];
 
@@ -99,7 +101,7 @@ class Picture {
       for (const id of PANES) this.repaint(state, id);
     });
     let shown = '';
-    watch(store, ['panes', 'computeFine', 'isNarrow', 'beside'], (state) => {
+    watch(store, ['panes', 'computeFine', 'isNarrow', 'beside', 'rival'], (state) => {
       const ids = shownPanes(state);
       if (ids.join() === shown) return;
       shown = ids.join();
@@ -110,6 +112,10 @@ class Picture {
     watch(store, ['fabric'], ({ fabric }) => this.stage?.setFabric(fabricNamed(fabric).id));
     const planned = PANES.indexOf('planned');
     watch(store, ['face', 'phase'], ({ face }) => this.stage?.setChosen(planned, face));
+  }
+
+  hemView(): void {
+    this.stage?.hemView(PANES.indexOf('planned'));
   }
 
   async savePicture(): Promise<void> {
@@ -185,7 +191,8 @@ function createPanels(
   createWork(stageWork, store, { ...run, isOwn: ({ canCancel }) => !canCancel });
   new ResizeObserver(() => {
     const { clientWidth: width } = pictureBox;
-    if (width > 0) store.set({ isNarrow: width < PANES.length * LEAST_PANE_WIDTH });
+    const nPanes = comparedPanes(store.get()).length;
+    if (width > 0) store.set({ isNarrow: width < nPanes * LEAST_PANE_WIDTH });
   }).observe(pictureBox);
   createGarmentLegend(legendBox, store);
   picture.follow();
@@ -195,6 +202,7 @@ function createPanels(
   createGarmentToolbar(toolBox, store, {
     ...run,
     homeView: () => picture.stage?.homeView(),
+    hemView: () => picture.hemView(),
     savePicture: () => picture.savePicture(),
     saveObj: () => picture.saveObj(),
   });
@@ -225,6 +233,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
       r: run.reset,
       e: () => store.set({ edges: !edges }),
       h: () => store.set({ hanging: !hanging }),
+      m: () => picture.hemView(),
     };
     actions[name]?.();
     return name in actions;
@@ -236,6 +245,11 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     const state = store.get();
     const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
     return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
+  };
+  /** Of a mesh that is in step, from left to right. */
+  const paneAt = (place: number) => {
+    const id = comparedPanes(store.get())[place];
+    return id ? PANES.indexOf(id) : -1;
   };
   const writeLink = createLinkWriter(store, link, () => isShown && store.get().plan !== null);
 
@@ -253,8 +267,8 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
     probe: {
       state: () => store.get(),
-      positions: (pane = 0) => Array.from(picture.stage?.positions(pane) ?? []),
-      project: (vertex: number, pane = 0) => picture.stage?.project(vertex, pane),
+      positions: (place = 0) => Array.from(picture.stage?.positions(paneAt(place)) ?? []),
+      project: (vertex: number, place = 0) => picture.stage?.project(vertex, paneAt(place)),
     },
   };
 }

@@ -69,6 +69,7 @@ describe('goals of refinement', () => {
   it('hold time to the smaller of 0.3 and 1.15 times the share of vertices', () => {
     expect(lines(comparisonGoals('skirt', { fine, multi, same, faults }))).toEqual([
       'goal skirt_vertices_share 0.3 at-most 0.333 ok',
+      'goal skirt_vertices_from_uniform 0.1 at-most 0.03 short',
       'goal skirt_time_share 0.29 at-most 0.3 ok',
       'goal skirt_sampling_to_uniform 0.9 at-most 0.9 ok',
       'goal skirt_sampled_normals_to_uniform 0.5 at-most 0.9 ok',
@@ -77,7 +78,7 @@ describe('goals of refinement', () => {
       'goal skirt_refinement_ms_per_frame 0 at-most 0 ok',
     ]);
     const small = { ...multi, n_vertices: 600 };
-    expect(lines(comparisonGoals('trousers', { fine, multi: small, same, faults }))[1]).toBe(
+    expect(lines(comparisonGoals('trousers', { fine, multi: small, same, faults }))[2]).toBe(
       'goal trousers_time_share 0.29 at-most 0.23 short',
     );
   });

@@ -16,9 +16,6 @@ import {
 /** Three meshes, with software rendering on a busy machine [ms]. */
 const LOAD_MS = 120000;
 
-/** An example on the fine mesh [ms]. */
-const EXAMPLE_MS = 600000;
-
 const isReady = (page) => until(page, (state) => state.phase === 'ready', LOAD_MS);
 
 /** Moves a slider by its keys. */
@@ -52,7 +49,7 @@ export async function checkRefinement(harness) {
       expectThat(text.includes(`${counts[2]}`) && /faces were split/.test(text), 'no story');
       const badges = page.locator('.garment-panes');
       await eventually(
-        async () => /\d mm off fine/.test(await badges.textContent()),
+        async () => /\d mm of shape lost/.test(await badges.textContent()),
         'an error in a badge',
       );
       const before = await positionsOf(page);
@@ -94,7 +91,7 @@ export async function checkRefinement(harness) {
   await check('refinement: sliders make other plans, by demand and by a budget', () =>
     visit('#view=refinement&fine=on', async (page) => {
       const first = (await stateOf(page)).panes.planned.nVertices;
-      await press(page, /^At most so much/, 'ArrowRight', 4);
+      await press(page, /^At most so much/, 'ArrowRight', 7);
       await until(page, (state) => state.plan?.largest_loss_m === 0.003 && state.phase === 'ready');
       const fewer = (await stateOf(page)).panes.planned;
       expectThat(fewer.nVertices < first, `${fewer.nVertices} of ${first} vertices`);
@@ -178,7 +175,7 @@ export async function checkRefinement(harness) {
     }),
   );
 
-  await check('refinement: a squat fires the light, and becomes an example by a press', () =>
+  await check('refinement: a squat fires the light, and can become an example by a press', () =>
     visit('#view=refinement&motion=squat&fine=off&edges=off&colour=material', async (page) => {
       await button(page, 'Play').click();
       await until(page, (state) => state.fit?.fires, LOAD_MS);
@@ -193,18 +190,32 @@ export async function checkRefinement(harness) {
       await button(page, 'Cancel').click();
       const { further, plan } = await until(page, (state) => state.phase === 'ready');
       expectThat(further.length === 0 && plan.examples.length === 1, 'it was not given up');
-      await anew.click();
-      await until(page, (state) => state.plan?.examples.length === 2, EXAMPLE_MS);
-      await isReady(page);
-      const story = await page.getByRole('region', { name: 'The plan' }).textContent();
-      expectThat(/The examples walk and squat each sorted/.test(story), `it says: ${story}`);
-      const { panes, timeS } = await stateOf(page);
-      const before = plan.vertices;
-      expectThat(panes.planned.nVertices > before, `${panes.planned.nVertices} after ${before}`);
-      expectThat(timeS === 0, `it goes on at ${timeS} s`);
-      const said = page.getByRole('status').filter({ hasText: 'planned from the examples' });
-      expectThat((await said.count()) === 1, 'nothing was announced');
     }),
+  );
+
+  await check(
+    'refinement: an even mesh of as many vertices loses more; the hem is seen closely',
+    () =>
+      visit('#view=refinement&edges=off&colour=material', async (page) => {
+        const { timeS } = await stateOf(page);
+        await choice(page, 'Uniform mesh beside').selectOption({ index: 1 });
+        const { panes } = await until(page, (state) => state.panes.even.lostM > 0, LOAD_MS);
+        expectThat((await stateOf(page)).timeS === timeS, 'the time is another one');
+        const { even, planned } = panes;
+        const apart = Math.abs(even.nVertices / planned.nVertices - 1);
+        expectThat(apart < 0.03, `${even.nVertices} against ${planned.nVertices} vertices`);
+        expectThat(even.lostM > planned.lostM, `${even.lostM} against ${planned.lostM} m`);
+        const badges = await page.locator('.garment-panes').textContent();
+        expectThat(/Even/.test(badges), `the panes say: ${badges}`);
+        const text = await page.getByRole('region', { name: 'Numbers' }).textContent();
+        expectThat(/two fine runs/.test(text), 'nothing is said of chance');
+        const before = await picture(page);
+        await button(page, 'Hem').click();
+        await page.waitForTimeout(300);
+        const close = await picture(page);
+        expectThat(!before.equals(close), 'the picture is the same');
+        await page.keyboard.press('Home');
+      }),
   );
 
   await check('refinement: a link brings back what is shown', () =>
@@ -254,21 +265,22 @@ export async function checkRefinement(harness) {
               return (await cache.keys()).length;
             });
             return kept === n;
-          }, `${n} records are kept`);
-        // A slow worker: the records of the first visit came before it was there.
+          }, `${n} records and starts are kept`);
+        // A slow worker: the files of the first visit came before it was there.
         await page.evaluate(() => window.letRegister());
-        await areKept(3);
+        await areKept(4);
         await page.context().setOffline(true);
         await page.reload();
         const { panes, problem } = await isReady(page);
-        const sources = Object.values(panes).map(({ source }) => source);
+        const { coarse, planned, fine } = panes;
+        const sources = [coarse, planned, fine].map(({ source }) => source);
         const areRecorded = sources.every((source) => source === 'recorded');
         expectThat(areRecorded, `the frames are ${sources}`);
         expectThat(problem === null, `it says: ${problem?.what}`);
         // From the second visit on the worker sees what is fetched.
         await page.context().setOffline(false);
         await choice(page, 'Garment').selectOption('Trousers');
-        await areKept(6);
+        await areKept(8);
       },
       {
         prepare: (fresh) =>
@@ -328,7 +340,7 @@ export async function checkRefinement(harness) {
           expectThat(widths.length === 2 && widths.every((width) => width >= 180), `${widths} px`);
           const still = await picture(page);
           await page.getByRole('radio', { name: 'Coarse' }).check({ force: true });
-          await until(page, (state) => state.beside === 'coarse');
+          await until(page, (state) => state.beside === 'rival');
           await page.waitForTimeout(300);
           expectThat(!still.equals(await picture(page)), 'the picture is the same');
         },

@@ -119,6 +119,7 @@ describe.runIf(isBuilt('deform'))('deformer', () => {
     const { store, deformer, found, atNextFrame } = await open(SCENE);
     atNextFrame(() => store.set({ terms: NO_RECOVERY }));
     for (const { name } of store.get().holds) deformer.release(name);
+    await vi.waitUntil(() => store.get().problem !== null, 20000);
     await found();
     expect(store.get().terms.recovery).toBe(true);
     expect(store.get().problem?.what).toMatch(/singular/);

@@ -6,11 +6,11 @@ import { garmentSentence } from '../../src/refinement/panels/garment-sentence';
 import {
   anewSentence,
   costWords,
-  distanceSentence,
   errorWords,
   fitReading,
   fromTo,
   levelsSentence,
+  lossSentence,
   noticeSentence,
   ONE_MORE_LEVEL,
   sourceSentence,
@@ -22,9 +22,9 @@ import {
   canPlanAnew,
   DEFAULT_LINK,
   EMPTY_PANE,
+  type GarmentPane,
   initialRefinementState,
   isExample,
-  PANES,
   shownPanes,
 } from '../../src/refinement/state/refinement-state';
 import type { GarmentMesh } from '../../src/refinement/worker/garment-protocol';
@@ -71,13 +71,21 @@ const FIT: FitAnswer = {
 
 const STATE = initialRefinementState(DEFAULT_LINK, []);
 
+/** All but the fine one alike. */
+const panesOf = (other: GarmentPane, fine: GarmentPane) => ({
+  coarse: other,
+  even: other,
+  planned: other,
+  fine,
+});
+
 describe('garment-words', () => {
   it('says where a cost was found out', () => {
     const pane = { ...EMPTY_PANE, nVertices: 5, msPerFrame: 12.34 };
     expect(costWords({ ...pane, source: 'recorded' })).toBe('12 ms a frame, recorded');
     expect(costWords({ ...pane, source: 'computed' })).toBe('12 ms a frame here');
     expect(costWords({ ...pane, source: 'computed', msPerFrame: null })).toBe('computed here');
-    expect(errorWords('coarse', { ...pane, errorM: 0.0123 })).toBe('12 mm off fine');
+    expect(errorWords('coarse', { ...pane, lostM: 0.0123 })).toBe('12 mm of shape lost');
     expect(errorWords('fine', { ...pane, source: 'resting' })).toBe('');
   });
 
@@ -133,10 +141,10 @@ describe('garment-words', () => {
   it('says who is computed where, and who waits', () => {
     const computed = { ...EMPTY_PANE, source: 'computed' as const };
     const recorded = { ...EMPTY_PANE, source: 'recorded' as const };
-    const mixed = { ...STATE, panes: { coarse: computed, planned: computed, fine: recorded } };
+    const mixed = { ...STATE, panes: panesOf(computed, recorded) };
     expect(sourceSentence(mixed)).toContain('come with the page: fine.');
     expect(sourceSentence(mixed)).toContain('on this device: coarse, multi-resolution.');
-    const slow = { ...STATE, panes: { coarse: computed, planned: computed, fine: computed } };
+    const slow = { ...STATE, panes: panesOf(computed, computed) };
     expect(sourceSentence(slow)).toContain('wait for the fine mesh');
     const rest = { ...slow, panes: { ...slow.panes, fine: EMPTY_PANE } };
     expect(sourceSentence(rest)).toContain('rests');
@@ -146,16 +154,27 @@ describe('garment-words', () => {
   it('says what the levels cost, and compares no times of two machines', () => {
     const coarse = { ...EMPTY_PANE, nVertices: 700, msPerFrame: 5, source: 'recorded' as const };
     const fine = { ...coarse, nVertices: 10500, msPerFrame: 100 };
-    const panes = { coarse, planned: coarse, fine };
+    const panes = panesOf(coarse, fine);
     expect(levelsSentence({ panes })).toContain('15 times the vertices and 20 times the time');
     const here = { ...coarse, source: 'computed' as const };
     expect(levelsSentence({ panes: { ...panes, coarse: here } })).not.toContain('the time');
-    const off = { ...coarse, errorM: 0.06 };
-    expect(
-      distanceSentence({ panes: { coarse: off, planned: { ...off, errorM: 0.045 }, fine } }),
-    ).toMatch(/60 mm off fine on the coarse mesh and 45 mm on the multi-resolution one/);
     expect(levelsSentence({ panes: STATE.panes })).toBe('');
-    expect(distanceSentence({ panes: STATE.panes })).toBe('');
+  });
+
+  it('says what faces lose, and how far chance puts the folds of two fine runs', () => {
+    const off = { ...EMPTY_PANE, lostM: 0.006 };
+    const panes = { ...panesOf(off, EMPTY_PANE), planned: { ...off, lostM: 0.003 } };
+    const state = { ...STATE, panes };
+    expect(lossSentence(state)).toMatch(
+      /faces of the coarse mesh are still 6\.0 mm off it and those of the multi-resolution one 3\.0 mm\.$/,
+    );
+    expect(lossSentence({ ...state, rival: 'even' })).toContain('of the even mesh');
+    const folded = { ...off, foldsM: 0.0021 };
+    const all = { ...state, panes: panesOf(folded, EMPTY_PANE) };
+    expect(lossSentence(all)).toContain('some of which is chance');
+    const floor = { foldsM: 0.0014, surfaceM: 0.01 };
+    expect(lossSentence({ ...all, floor })).toContain('by 1.4 mm two fine runs do');
+    expect(lossSentence(STATE)).toBe('');
   });
 
   it('leads to the sheet whose errors are known level by level', () => {
@@ -166,7 +185,7 @@ describe('garment-words', () => {
 
   it('names a mesh as its pane does, and not by its place', () => {
     const pane = { ...EMPTY_PANE, nVertices: 1000 };
-    const panes = { coarse: pane, planned: pane, fine: { ...pane, nVertices: 5000 } };
+    const panes = panesOf(pane, { ...pane, nVertices: 5000 });
     const notice = noticeSentence({ ...STATE, panes, plan: PLAN });
     expect(notice).toContain('The multi-resolution mesh has 20 % of the fine');
     expect(notice).not.toContain('middle');
@@ -176,11 +195,17 @@ describe('garment-words', () => {
   it('gives the stage to what moves, and to two panes where it is narrow', () => {
     const computed = { ...EMPTY_PANE, nVertices: 700, source: 'computed' as const };
     const resting = { ...EMPTY_PANE, nVertices: 10500 };
-    const panes = { coarse: computed, planned: computed, fine: resting };
+    const panes = panesOf(computed, resting);
     expect(shownPanes({ ...STATE, panes, computeFine: false })).toEqual(['coarse', 'planned']);
-    expect(shownPanes({ ...STATE, panes: { ...panes, fine: computed } })).toEqual(PANES);
-    expect(shownPanes({ ...STATE, isNarrow: true })).toEqual(['planned', 'fine']);
-    expect(shownPanes({ ...STATE, isNarrow: true, beside: 'coarse' })).toEqual(['coarse', 'fine']);
+    expect(shownPanes({ ...STATE, panes: { ...panes, fine: computed } })).toEqual([
+      'coarse',
+      'planned',
+      'fine',
+    ]);
+    const even = { ...STATE, rival: 'even' as const };
+    expect(shownPanes(even)).toEqual(['even', 'planned', 'fine']);
+    expect(shownPanes({ ...even, isNarrow: true })).toEqual(['planned', 'fine']);
+    expect(shownPanes({ ...even, isNarrow: true, beside: 'rival' })).toEqual(['even', 'fine']);
   });
 
   it('paints fine grey where the others show their distance to it', () => {

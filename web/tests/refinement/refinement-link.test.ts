@@ -17,8 +17,9 @@ describe('refinement-link', () => {
       fabric: 'silk',
       further: ['squat', 'walk'],
       rule: 'budget',
-      demand: DEFAULT_LINK.demand,
+      demand: 1.75,
       budget: 2500,
+      rival: 'even',
       method: 'implicit',
       substeps: 8,
       useRecords: false,
@@ -52,7 +53,7 @@ describe('refinement-link', () => {
     );
     expect(link).toEqual({ ...DEFAULT_LINK, motion: 'turn' });
     expect(problems).toEqual([
-      'garment: expected skirt, trousers, found "hat"',
+      'garment: expected skirt, trousers, slim_trousers, found "hat"',
       'examples: expected some of walk, fast_walk, turn, squat, found "squat,hat"',
       'lost-mm: expected 0.5 to 4 in quarters, found "8"',
       'vertices: expected a number of vertices, found "-3"',

@@ -142,13 +142,43 @@ describe('the module of garments', () => {
     fine.load(JSON.stringify(sheet({ level: 1 })), {});
     fine.step(20);
     const places = fine.positions().slice();
-    expect(JSON.parse(run.putSample(places, 1, 0.3))).toEqual({ ok: true });
+    expect(JSON.parse(run.compare(places)).what).toContain('fine mesh to hold frames against');
+    run.holdAgainst(JSON.stringify(sheet({ level: 1 })), {});
+    expect(JSON.parse(run.putSample(places, 0.3))).toEqual({ ok: true });
     expect(run.time()).toBe(0.3);
     expect(run.positions().subarray(0, 147)).toEqual(places.subarray(0, 147));
-    const { rms_m: rms } = JSON.parse(run.compare(places, 1));
+    const { rms_m: rms, lost_m: lost, lost_normals_rad: turned } = JSON.parse(run.compare(places));
     expect(rms).toBeLessThan(0.02);
+    expect(lost).toBeCloseTo(rms, 12); // what is shown is the sample
+    expect(turned).toBeGreaterThan(0);
     expect(Math.max(...run.distances())).toBe(0);
+    run.reset();
+    expect(JSON.parse(run.compare(places)).rms_m).toBeGreaterThan(lost);
+    expect(JSON.parse(run.compare(places)).lost_m).toBe(lost);
     run.delete();
     fine.delete();
+  });
+
+  it('gathers folds of frames, and tells runs apart by them', async () => {
+    const run = new module.GarmentRun(fabricsText);
+    const text = sceneText('skirt', 'walk', 'fine cotton', { level: 0 });
+    const files = await sceneFiles('skirt', recordBytes);
+    run.load(text, files);
+    run.holdAgainst(sceneText('skirt', 'walk', 'fine cotton', { level: 1 }), files);
+    expect(JSON.parse(run.compareFolds(run.folds(), run.folds()))).toMatchObject({ ok: false });
+    run.addFolds();
+    const begin = run.folds().slice();
+    expect(begin.length).toBe(3 * 18); // rings, of 3 to 20 folds each
+    run.step(30);
+    run.addFolds();
+    const later = run.folds().slice();
+    const apart = (a: Float64Array, b: Float64Array) =>
+      JSON.parse(run.compareFolds(a, b)).distance_m;
+    expect(apart(begin, begin)).toBe(0);
+    expect(apart(begin, later)).toBeGreaterThan(1e-5);
+    expect(apart(begin, later)).toBe(apart(later, begin));
+    run.reset();
+    expect(run.folds().length).toBe(0);
+    run.delete();
   });
 });

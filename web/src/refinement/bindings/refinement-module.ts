@@ -44,6 +44,15 @@ export interface FitAnswer {
   first_fired: number | null;
 }
 
+/** Against a shape of the fine mesh. */
+export interface ComparedAnswer {
+  /** Between the same points of the cloth. */
+  rms_m: number;
+  /** What this mesh loses of the shape by its faces alone, and of the normals. */
+  lost_m: number;
+  lost_normals_rad: number;
+}
+
 export interface FaultsAnswer {
   /** Vertices inside of the figure's solids, and the deepest of them [m]. */
   n_inside: number;
@@ -79,18 +88,26 @@ export interface GarmentRunHandle {
   step(count: number): number;
   /** Shows a frame from elsewhere. */
   put(places: Float32Array, timeS: number): string;
-  /** Shows what this mesh could show of a shape of a uniform, finer one. */
-  putSample(finePlaces: Float32Array, fineLevel: number, timeS: number): string;
+  /** What frames are held against from now on: a scene of the same cloth on its fine mesh. */
+  holdAgainst(sceneText: string, files: HandedFiles): string;
+  /** Shows what this mesh could show of a shape of the fine one. */
+  putSample(finePlaces: Float32Array, timeS: number): string;
   status(): string;
   costs(): string;
   /** A WarningsAnswer. */
   warnings(): string;
   /** The monitor sees the shown frame. */
   look(): string;
-  /** `rms_m` over the material points of a uniform, finer mesh; fills `distances`. */
-  compare(finePlaces: Float32Array, fineLevel: number): string;
+  /** A ComparedAnswer; fills `distances`. */
+  compare(finePlaces: Float32Array): string;
   /** `rms_m` between both surfaces, whatever slid along them. */
-  compareSurface(finePlaces: Float32Array, fineLevel: number): string;
+  compareSurface(finePlaces: Float32Array): string;
+  /** The folds of the shown frame count from now on, until the next reset. */
+  addFolds(): string;
+  /** How far folds stand out, by their number around each ring, over what was added [m]. */
+  folds(): Float64Array;
+  /** `distance_m` between `folds` of two runs: how differently they are folded. */
+  compareFolds(own: Float64Array, others: Float64Array): string;
   /** A FaultsAnswer of the shown frame. */
   faults(): string;
   solids(): string;
@@ -138,6 +155,7 @@ export const REFINEMENT_METHODS: Record<keyof RefinementModule, string[]> = {
     reset: true,
     step: true,
     put: true,
+    holdAgainst: true,
     putSample: true,
     status: true,
     costs: true,
@@ -145,6 +163,9 @@ export const REFINEMENT_METHODS: Record<keyof RefinementModule, string[]> = {
     look: true,
     compare: true,
     compareSurface: true,
+    addFolds: true,
+    folds: true,
+    compareFolds: true,
     faults: true,
     solids: true,
     time: true,

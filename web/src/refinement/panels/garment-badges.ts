@@ -12,26 +12,27 @@ import {
 import { costWords, errorWords, hintedSubsteps, vertices, warningWords } from './garment-words';
 
 function createChoiceBeside(store: Store<RefinementState>) {
-  const options = (['coarse', 'planned'] as const).map((id) => {
+  const options = (['rival', 'planned'] as const).map((id) => {
     const input = element('input', {
       type: 'radio',
       name: 'beside-fine',
       change: () => store.set({ beside: id }),
     });
-    return { id, input };
+    return { id, input, title: element('span') };
   });
   const control = element(
     'div',
     { class: 'segments beside', role: 'radiogroup', 'aria-label': 'Beside the fine mesh' },
-    ...options.map(({ id, input }) =>
-      element('label', {}, input, element('span', {}, PANE_TITLES[id])),
-    ),
+    ...options.map(({ input, title }) => element('label', {}, input, title)),
   );
   return {
     control,
-    show({ isNarrow, beside }: RefinementState, nShown: number) {
+    show({ isNarrow, beside, rival }: RefinementState, nShown: number) {
       control.hidden = !isNarrow || nShown < 2;
-      for (const { id, input } of options) input.checked = id === beside;
+      for (const { id, input, title } of options) {
+        input.checked = id === beside;
+        setText(title, PANE_TITLES[id === 'rival' ? rival : id]);
+      }
     },
   };
 }
@@ -78,7 +79,7 @@ export function createGarmentBadges(
     grid.append(cell);
     return { id, cell, count, cost, error, showWarning };
   });
-  return watch(store, ['panes', 'phase', 'isNarrow', 'beside', 'computeFine'], (state) => {
+  return watch(store, ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine'], (state) => {
     const shown = shownPanes(state);
     grid.style.setProperty('--columns', String(shown.length));
     showChoice(state, shown.includes('fine') ? shown.length : 0);

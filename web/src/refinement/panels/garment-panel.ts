@@ -2,8 +2,9 @@
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
+import { USUAL_DEMANDS_MM } from '../state/garment-frames';
 import { GARMENTS, METHODS, MOTIONS, methodsOf, usualFabric } from '../state/garments';
-import type { ColourId, RefinementState } from '../state/refinement-state';
+import type { ColourId, RefinementState, RivalId } from '../state/refinement-state';
 import { noticeSentence } from './garment-words';
 
 const COLOUR_TITLES: readonly { value: ColourId; title: string }[] = [
@@ -12,6 +13,11 @@ const COLOUR_TITLES: readonly { value: ColourId; title: string }[] = [
   { value: 'pattern', title: 'Pattern' },
   { value: 'curvature', title: 'Curvature' },
   { value: 'distance', title: 'Distance to fine' },
+];
+
+const RIVAL_TITLES: readonly { value: RivalId; title: string }[] = [
+  { value: 'coarse', title: 'Coarse: where plans begin' },
+  { value: 'even', title: 'Even: as many vertices' },
 ];
 
 function check(title: string, change: (isOn: boolean) => void) {
@@ -26,6 +32,8 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       garment: value,
       fabric: usualFabric(value),
       further: [],
+      rule: 'demand',
+      demand: USUAL_DEMANDS_MM[value],
       method: 'implicit',
       substeps: null,
     }),
@@ -37,6 +45,9 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
   );
   const method = choice(METHODS, (value) => store.set({ method: value, substeps: null }));
   const methodField = field('Steps', method.control);
+  const rival = choice(RIVAL_TITLES, (value) =>
+    store.set({ rival: value, startS: store.get().timeS }),
+  );
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
   const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
   const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
@@ -58,6 +69,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       ),
       field('Motion', motion.control),
       methodField,
+      field('Uniform mesh beside', rival.control),
       field('Colour shows', colour.control),
       edges.label,
       hanging.label,
@@ -71,6 +83,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       'motion',
       'fabric',
       'method',
+      'rival',
       'further',
       'colour',
       'edges',
@@ -84,6 +97,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       motion.select(state.motion);
       fabric.select(state.fabric);
       method.select(state.method);
+      rival.select(state.rival);
       methodField.hidden = methodsOf(state.garment).length < 2;
       colour.select(state.colour);
       edges.input.checked = state.edges;

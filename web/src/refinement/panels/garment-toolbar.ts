@@ -5,6 +5,7 @@ import { type Store, watch } from '../../shared/state/store';
 import type { RefinementState } from '../state/refinement-state';
 
 export interface GarmentToolActions extends RunActions {
+  hemView(): void;
   savePicture(): void;
   saveObj(): void;
 }
@@ -26,15 +27,16 @@ export function createGarmentToolbar(
   actions: GarmentToolActions,
 ): () => void {
   const stopTools = createRunTools(parent, store, actions, WORDS, isAtRest);
-  const save = (title: string, meaning: string, click: () => void) =>
+  const button = (title: string, meaning: string, click: () => void) =>
     element('button', { type: 'button', title: meaning, click }, title);
-  const picture = save('Picture', 'Saves what is seen as a PNG file', actions.savePicture);
-  const obj = save('OBJ', 'Saves the multi-resolution cloth as it is now', actions.saveObj);
+  const hem = button('Hem', 'Look closely at the hem, where folds are (M)', actions.hemView);
+  const picture = button('Picture', 'Saves what is seen as a PNG file', actions.savePicture);
+  const obj = button('OBJ', 'Saves the multi-resolution cloth as it is now', actions.saveObj);
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
-  parent.append(picture, obj, time);
+  parent.append(hem, picture, obj, time);
 
   const stop = watch(store, ['phase', 'timeS', 'endS'], ({ phase, timeS, endS }) => {
-    for (const button of [picture, obj]) button.disabled = !isAtRest(phase);
+    for (const made of [hem, picture, obj]) made.disabled = !isAtRest(phase);
     setText(time, endS > 0 ? `${timeS.toFixed(2)} s of ${endS.toFixed(0)} s` : '');
   });
   return () => {

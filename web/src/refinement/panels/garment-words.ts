@@ -7,12 +7,12 @@ import { exampleName, GARMENTS } from '../state/garments';
 import { type PlanFile, type PlanStory, planStory } from '../state/plan-file';
 import {
   canPlanAnew,
+  comparedPanes,
   type FrameSource,
   type GarmentPane,
   isExample,
   MOST_SUBSTEPS,
   PANE_TITLES,
-  PANES,
   type PaneId,
   type RefinementState,
 } from '../state/refinement-state';
@@ -43,9 +43,9 @@ export function costWords({ source, msPerFrame }: GarmentPane): string {
   }
 }
 
-export function errorWords(pane: PaneId, { errorM, source }: GarmentPane): string {
+export function errorWords(pane: PaneId, { lostM, source }: GarmentPane): string {
   if (pane === 'fine') return source === 'resting' ? '' : 'what the others are held against';
-  return errorM === null ? '' : `${smallLength(errorM)} off fine`;
+  return lostM === null ? '' : `${smallLength(lostM)} of shape lost`;
 }
 
 /** What the steps of a pane show that is no cloth: the first that was seen. */
@@ -93,7 +93,7 @@ export function noticeSentence(state: RefinementState): string {
   const { panes, plan } = state;
   const { planned, fine } = panes;
   if (planned.nVertices === 0 || fine.nVertices === 0 || !plan)
-    return `One garment on one walking figure, on a coarse, a ${PLANNED} and a fine mesh.`;
+    return `One garment on one walking figure, on a uniform, a ${PLANNED} and a fine mesh.`;
   const share = planned.nVertices / fine.nVertices;
   return `The ${PLANNED} mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
 }
@@ -123,11 +123,21 @@ export const ONE_MORE_LEVEL = {
     ' and press “Measure speed and error”. It says what the mesh does wrong at each level of that sheet.',
 };
 
-/** How far the shown meshes are from fine, and why that is no measure of a level. */
-export function distanceSentence({ panes }: Pick<RefinementState, 'panes'>): string {
-  const { coarse, planned } = panes;
-  if (coarse.errorM === null || planned.errorM === null) return '';
-  return `Now the same points are ${smallLength(coarse.errorM)} off fine on the coarse mesh and ${smallLength(planned.errorM)} on the ${PLANNED} one. Not all of that is the mesh’s: folds fall as they may, and the surfaces of two fine runs, one in air heavier by a millionth, are at least two thirds as far apart.`;
+/** What the shown meshes lose of the fine one, and what chance does to two fine runs. */
+export function lossSentence({
+  panes,
+  rival,
+  floor,
+}: Pick<RefinementState, 'panes' | 'rival' | 'floor'>): string {
+  const { planned } = panes;
+  const other = panes[rival];
+  if (other.lostM === null || planned.lostM === null) return '';
+  const named = PANE_TITLES[rival].toLowerCase();
+  const lost = `With every vertex on the fine cloth, the faces of the ${named} mesh are still ${smallLength(other.lostM)} off it and those of the ${PLANNED} one ${smallLength(planned.lostM)}.`;
+  if (other.foldsM === null || planned.foldsM === null) return lost;
+  const folds = ` Their folds stand out otherwise than fine’s by ${smallLength(other.foldsM)} and ${smallLength(planned.foldsM)}`;
+  if (!floor) return `${lost}${folds}, some of which is chance.`;
+  return `${lost}${folds}; by ${smallLength(floor.foldsM)} two fine runs do, one in air heavier by a millionth.`;
 }
 
 export function ruleWords({ rule, isByShape }: PlanStory): string {
@@ -205,11 +215,12 @@ export function anewSentence(state: RefinementState): string {
 }
 
 /** Says where the frames come from, and which panes wait. */
-export function sourceSentence({ panes, method, substeps }: RefinementState): string {
+export function sourceSentence(state: RefinementState): string {
+  const { panes, method, substeps } = state;
   const named = (...sources: FrameSource[]) =>
-    PANES.filter((id) => sources.includes(panes[id].source)).map((id) =>
-      PANE_TITLES[id].toLowerCase(),
-    );
+    comparedPanes(state)
+      .filter((id) => sources.includes(panes[id].source))
+      .map((id) => PANE_TITLES[id].toLowerCase());
   const here = named('computed', 'sampled');
   const recorded = named('recorded');
   const sentences: string[] = [];

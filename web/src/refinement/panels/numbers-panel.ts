@@ -2,18 +2,22 @@
 import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
-import { PANES, type PaneId, type RefinementState } from '../state/refinement-state';
-import { distanceSentence, levelsSentence, ONE_MORE_LEVEL } from './garment-words';
+import { comparedPanes, type PaneId, type RefinementState } from '../state/refinement-state';
+import { levelsSentence, lossSentence, ONE_MORE_LEVEL } from './garment-words';
 import { heading, numberCell } from './table-parts';
+
+function degrees(angle: number | null): string {
+  return angle === null ? '–' : `${((180 / Math.PI) * angle).toFixed(1)}°`;
+}
 
 function count(number: number | undefined): string {
   return number === undefined ? '–' : String(number);
 }
 
 /** Milliseconds of a frame: the equations of motion, and contact. */
-function costCells({ panes }: RefinementState, part: 'contact' | 'dynamics'): HTMLElement[] {
-  return PANES.map((id) => {
-    const { parts, msPerFrame } = panes[id];
+function costCells(state: RefinementState, part: 'contact' | 'dynamics'): HTMLElement[] {
+  return comparedPanes(state).map((id) => {
+    const { parts, msPerFrame } = state.panes[id];
     const contact = parts.find(({ name }) => name === 'contact')?.ms ?? 0;
     if (parts.length === 0 || msPerFrame === null) return numberCell('–');
     return numberCell(milliseconds(part === 'contact' ? contact : msPerFrame - contact));
@@ -21,16 +25,20 @@ function costCells({ panes }: RefinementState, part: 'contact' | 'dynamics'): HT
 }
 
 function numberTable(state: RefinementState): HTMLElement {
-  const { panes } = state;
+  const { panes, rival, floor } = state;
   const nFine = panes.fine.nVertices;
   const row = (title: string, cells: HTMLElement[]) =>
     element('tr', {}, element('th', { scope: 'row' }, title), ...cells);
-  const cells = (text: (id: PaneId) => string) => PANES.map((id) => numberCell(text(id)));
+  const cells = (text: (id: PaneId) => string) =>
+    comparedPanes(state).map((id) => numberCell(text(id)));
+  /** Against fine; in its own column how far a second fine run is. */
+  const held = (key: 'foldsM' | 'surfaceM') =>
+    cells((id) => smallLength(id === 'fine' ? (floor?.[key] ?? null) : panes[id][key]));
   return element(
     'table',
     { class: 'quantities number-table' },
     element('caption', { class: 'unseen' }, 'Three meshes in numbers'),
-    heading('', 'coarse', 'multi', 'fine'),
+    heading('', rival, 'multi', 'fine'),
     element(
       'tbody',
       {},
@@ -49,9 +57,15 @@ function numberTable(state: RefinementState): HTMLElement {
       row('– motion', costCells(state, 'dynamics')),
       row('– contact', costCells(state, 'contact')),
       row(
-        'points off',
-        cells((id) => (id === 'fine' ? '' : smallLength(panes[id].errorM))),
+        'shape lost',
+        cells((id) => (id === 'fine' ? '' : smallLength(panes[id].lostM))),
       ),
+      row(
+        'normals off',
+        cells((id) => (id === 'fine' ? '' : degrees(panes[id].lostNormalsRad))),
+      ),
+      row('folds differ', held('foldsM')),
+      row('surface off', held('surfaceM')),
       row(
         'in the body',
         cells((id) => count(panes[id].faults?.n_inside)),
@@ -60,20 +74,16 @@ function numberTable(state: RefinementState): HTMLElement {
         'in itself',
         cells((id) => count(panes[id].faults?.n_crossings)),
       ),
-      row(
-        'surface off',
-        cells((id) => (id === 'fine' ? '' : smallLength(panes[id].surfaceM))),
-      ),
     ),
   );
 }
 
 const MEANING =
-  'Both distances are RMS to the fine cloth at the same time: of the same points, and of the surfaces, whatever slid along them. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s. An even mesh of as many vertices as the plan is not shown here; the skirt’s is nearer to fine than the plan, whose small faces lie where the cloth bends most sharply and not where coarse ones miss most.';
+  'Shape lost: with every vertex where the same point of the fine cloth is, how far the faces between them are from it, root mean square, and by what angle they are turned. It is the mesh’s own fault, without chance. Folds: how far they stand out around the garment, by their number, over all frames from 2 s on; and the surfaces now. In the column of fine: the same of a second fine run, in air heavier by a millionth. Then: vertices inside the body, and edges that go through the cloth itself, which nothing prevents. A frame is 1/30 s.';
 
 export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
   const levels = element('p');
-  const distance = element('p');
+  const loss = element('p');
   const { before, link, hash, after } = ONE_MORE_LEVEL;
   const table = element('div');
   parent.append(
@@ -83,7 +93,7 @@ export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementS
       element('h2', {}, 'What it buys'),
       levels,
       element('p', { class: 'one-more-level' }, before, element('a', { href: hash }, link), after),
-      distance,
+      loss,
       element(
         'details',
         {},
@@ -93,9 +103,9 @@ export function createNumbersPanel(parent: HTMLElement, store: Store<RefinementS
       ),
     ),
   );
-  return watch(store, ['panes'], (state) => {
+  return watch(store, ['panes', 'rival', 'floor'], (state) => {
     setText(levels, levelsSentence(state));
-    setText(distance, distanceSentence(state));
+    setText(loss, lossSentence(state));
     table.replaceChildren(numberTable(state));
   });
 }

@@ -2,7 +2,7 @@
 import { describe } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
-import { FRAME_S } from '../state/garment-frames';
+import { FRAME_S, SETTLED_S } from '../state/garment-frames';
 import type { GarmentId } from '../state/garments';
 import type { FrameSource, GarmentPane, PaneId } from '../state/refinement-state';
 import type { Advance, Described, Loaded, ToGarment } from '../worker/garment-protocol';
@@ -15,6 +15,10 @@ type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 
 export interface GarmentContent {
   garment: GarmentId;
   sceneText: string;
+  /** The scene on the fine mesh. */
+  fineText: string;
+  /** It has a start of its own. */
+  isEven: boolean;
   /** Address of a record of that scene; null for none. */
   recordUrl: string | null;
 }
@@ -53,7 +57,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
     recording: () => recording,
     missed: () => missed,
     isLoaded: () => loadedContent !== '',
-    async load({ garment, sceneText, recordUrl }) {
+    async load({ garment, sceneText, fineText, isEven, recordUrl }) {
       const content = `${recordUrl} ${sceneText}`;
       request += 1;
       const own = request;
@@ -66,16 +70,18 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
             return null;
           })
         : null;
-      const files = await sceneFiles(garment, fetchBytes);
+      const files = await sceneFiles(garment, fetchBytes, isEven);
       const answer = await client.ask(
         {
           type: 'load',
           request: own,
           fabricsText,
           sceneText,
+          fineText,
           files,
           recording: bytes,
           frameS: FRAME_S,
+          settledS: SETTLED_S,
         },
         bytes ? [bytes] : [],
       );

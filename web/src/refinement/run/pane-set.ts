@@ -2,13 +2,14 @@
 import { frameViews } from '../../shared/bindings/frame';
 import type { Store } from '../../shared/state/store';
 import type { SolidsAnswer } from '../bindings/refinement-module';
-import { FINE_LEVEL, FRAME_S } from '../state/garment-frames';
+import { FRAME_S } from '../state/garment-frames';
 import type { PlanFile } from '../state/plan-file';
 import {
+  comparedPanes,
   EMPTY_PANE,
+  type FineFloor,
   type FrameSource,
   type GarmentPane,
-  PANES,
   type PaneId,
   type RefinementState,
 } from '../state/refinement-state';
@@ -16,7 +17,7 @@ import type { Advance, Described, GarmentMesh, GarmentScalar } from '../worker/g
 import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 import { createPaneRun, type PaneRun } from './garment-pane';
-import { contentOf } from './pane-content';
+import { contentOf, floorOf } from './pane-content';
 import type { FetchBytes } from './scene-files';
 
 /** A run without records ends here [s]. */
@@ -47,9 +48,7 @@ function scalarOf({ colour }: RefinementState): GarmentScalar | null {
 }
 
 export class PaneSet {
-  private readonly fine: PaneRun;
-  private readonly others: PaneRun[];
-  private readonly panes: PaneRun[];
+  private readonly runs = new Map<PaneId, PaneRun>();
   /** The frame that is shown. */
   private at = 0;
   /** The computed panes show samples of the fine one, and start anew when they play. */
@@ -58,12 +57,28 @@ export class PaneSet {
   constructor(
     private readonly store: Store<RefinementState>,
     private readonly view: TrioView,
-    { start, fetchBytes }: PaneParts,
-  ) {
-    const make = (id: PaneId) => createPaneRun(id, start(), fetchBytes);
-    this.others = PANES.filter((id) => id !== 'fine').map(make);
-    this.fine = make('fine');
-    this.panes = [...this.others, this.fine];
+    private readonly parts: PaneParts,
+  ) {}
+
+  private run(id: PaneId): PaneRun {
+    const known = this.runs.get(id);
+    if (known) return known;
+    const run = createPaneRun(id, this.parts.start(), this.parts.fetchBytes);
+    this.runs.set(id, run);
+    return run;
+  }
+
+  private get fine(): PaneRun {
+    return this.run('fine');
+  }
+
+  /** Those that are in step, fine last; the other rival rests as it was. */
+  private get panes(): PaneRun[] {
+    return comparedPanes(this.store.get()).map((id) => this.run(id));
+  }
+
+  private get others(): PaneRun[] {
+    return this.panes.filter((pane) => pane !== this.fine);
   }
 
   isLoaded(): boolean {
@@ -98,8 +113,12 @@ export class PaneSet {
   }
 
   async load(plan: PlanFile, isCurrent: IsCurrent): Promise<void> {
-    await Promise.all(this.panes.map((pane) => this.loadPane(pane, plan, isCurrent)));
+    const [floor] = await Promise.all([
+      this.fetchFloor(),
+      ...this.panes.map((pane) => this.loadPane(pane, plan, isCurrent)),
+    ]);
     if (!isCurrent()) return;
+    this.store.set({ floor });
     const { computeFine } = this.store.get();
     for (const pane of this.panes) {
       const isResting = pane === this.fine && !computeFine;
@@ -143,14 +162,17 @@ export class PaneSet {
 
   /** The shown time in all panes, with numbers where they are due. */
   async describe(wantsNumbers: boolean, isCurrent: IsCurrent): Promise<void> {
+    const { panes } = this;
     const last = await this.describePane(this.fine, null, wantsNumbers);
     const isInStep = this.fine.source !== 'resting';
-    const reference = isInStep ? frameViews(last.buffer).positions.slice() : null;
+    const fine = isInStep
+      ? { places: frameViews(last.buffer).positions.slice(), folds: last.folds }
+      : null;
     const answers = await Promise.all(
-      this.others.map((pane) => this.describePane(pane, reference, wantsNumbers)),
+      this.others.map((pane) => this.describePane(pane, fine, wantsNumbers)),
     );
     if (!isCurrent()) return;
-    const shown = this.panes.map((pane, index) => ({ pane, described: answers[index] ?? last }));
+    const shown = panes.map((pane, index) => ({ pane, described: answers[index] ?? last }));
     if (wantsNumbers) for (const { pane, described } of shown) this.tell(pane, described);
     this.view.showFrames(
       shown.map(({ pane, described }) => ({ pane: pane.id, buffer: described.buffer })),
@@ -205,7 +227,7 @@ export class PaneSet {
     const described = await pane.describe({
       scalar: null,
       reference: null,
-      fineLevel: FINE_LEVEL,
+      fineFolds: null,
       takesSample: false,
       timeS: frame * FRAME_S,
       wantsAll: false,
@@ -213,6 +235,15 @@ export class PaneSet {
     if (!isCurrent()) return;
     this.view.showFrames([{ pane: pane.id, buffer: described.buffer }], described.solids);
     pane.keep(described);
+  }
+
+  /** How far apart two fine runs are; null where nobody measured it, or it cannot be fetched. */
+  private async fetchFloor(): Promise<FineFloor | null> {
+    const url = floorOf(this.store.get());
+    const bytes = url && (await this.parts.fetchBytes(url).catch(() => null));
+    if (!bytes) return null;
+    const floor = JSON.parse(new TextDecoder().decode(bytes));
+    return { foldsM: floor.folds_m, surfaceM: floor.surface_m };
   }
 
   private startFrame(): number {
@@ -235,17 +266,16 @@ export class PaneSet {
 
   private describePane(
     pane: PaneRun,
-    reference: Float32Array | null,
+    fine: { places: Float32Array; folds: Float64Array | null } | null,
     wantsNumbers: boolean,
   ): Promise<Described> {
     const state = this.store.get();
-    const isOther = pane !== this.fine;
-    const isSampled = isOther && this.isSampled(pane);
+    const isSampled = pane !== this.fine && this.isSampled(pane);
     const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
     return pane.describe({
       scalar: scalarOf(state),
-      reference: isOther && isCompared ? reference : null,
-      fineLevel: FINE_LEVEL,
+      reference: isCompared && fine ? fine.places : null,
+      fineFolds: fine?.folds ?? null,
       takesSample: isSampled,
       timeS: this.timeS(),
       wantsAll: wantsNumbers && !state.playing,
@@ -253,10 +283,13 @@ export class PaneSet {
   }
 
   /** Puts the numbers of one pane into the state. */
-  private tell(pane: PaneRun, { errorM, surfaceM, faults, costs, warnings }: Described): void {
+  private tell(pane: PaneRun, described: Described): void {
+    const { compared, foldsM, surfaceM, faults, costs, warnings } = described;
     const isSampled = this.isSampled(pane);
     const patch: Partial<GarmentPane> = {
-      errorM: isSampled ? null : errorM,
+      lostM: compared?.lost_m ?? null,
+      lostNormalsRad: compared?.lost_normals_rad ?? null,
+      foldsM: isSampled ? null : foldsM,
       surfaceM: isSampled ? null : surfaceM,
       faults: isSampled ? null : faults,
       source: this.shownSource(pane),

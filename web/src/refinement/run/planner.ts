@@ -2,7 +2,15 @@
 // motions that are run here.
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
-import { FINE_LEVEL, FRAME_S, KEPT_OF, PATTERNS, SEEN_S, SETTLED_S } from '../state/garment-frames';
+import {
+  FINE_LEVEL,
+  FRAME_S,
+  KEPT_OF,
+  PATTERNS,
+  SEEN_S,
+  SETTLED_S,
+  USUAL_DEMANDS_MM,
+} from '../state/garment-frames';
 import {
   exampleName,
   type GarmentId,
@@ -12,7 +20,7 @@ import {
   usualFabric,
 } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
-import { DEMANDS, type RefinementState } from '../state/refinement-state';
+import type { RefinementState } from '../state/refinement-state';
 import type { PlanWish } from '../worker/garment-protocol';
 import { type ExampleClient, startExampleWorker } from './garment-client';
 import { exampleUrls } from './records';
@@ -27,9 +35,9 @@ export type Wish = Pick<
   'garment' | 'fabric' | 'further' | 'rule' | 'demand' | 'budget'
 >;
 
-export function isUsual({ further, rule, demand, budget }: Wish): boolean {
+export function isUsual({ garment, further, rule, demand, budget }: Wish): boolean {
   if (further.length > 0) return false;
-  return rule === 'budget' ? budget === null : demand === DEMANDS.usual;
+  return rule === 'budget' ? budget === null : demand === USUAL_DEMANDS_MM[garment];
 }
 
 /** Hears how much of an example has run. */

@@ -17,6 +17,11 @@ export function recordUrl(garment: GarmentId, motion: MotionId, pane: PaneId): s
   return urlOf(`${garment}_${motion}`, `${pane}.recording`);
 }
 
+/** Address of how far apart two runs on the fine mesh are. */
+export function floorUrl(garment: GarmentId, motion: MotionId): string | null {
+  return urlOf(`${garment}_${motion}`, 'floor.json');
+}
+
 export interface ExampleUrls {
   plan: string;
   features: string;

@@ -122,7 +122,7 @@ export class Trio {
     const differs = (...keys: (keyof RefinementState)[]) =>
       keys.some((key) => !Object.is(state[key], previous[key]));
     if (state.phase === 'broken' || this.isTakingBack) return;
-    const ofPanes = ['garment', 'motion', 'fabric', 'method', 'substeps'] as const;
+    const ofPanes = ['garment', 'motion', 'fabric', 'rival', 'method', 'substeps'] as const;
     if (differs(...ofPanes, 'useRecords', 'computeFine', 'startS')) void this.load('all');
     else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
     else if (differs('colour')) this.recolour();

@@ -1,4 +1,4 @@
-// One garment in three panes, each on a mesh of its own, on the same figure: one renderer, one camera
+// One garment in up to three panes, each on a mesh of its own, on the same figure: one renderer, one camera
 // that goes along. It gets frames and settings, never the workers, and draws only when something changed.
 import { type PerspectiveCamera, Vector3 } from 'three';
 import { lookOf } from '../../shared/fabric/fabric-look';
@@ -30,6 +30,8 @@ export interface GarmentStage {
   setFabric(fabricId: number): void;
   setChosen(pane: number, face: number | null): void;
   homeView(): void;
+  /** Close to the lower edge of a pane's cloth, as it is now. */
+  hemView(pane: number): void;
   redraw(): void;
   positions(pane: number): Float32Array;
   triangles(pane: number): Uint32Array;
@@ -40,7 +42,7 @@ export interface GarmentStage {
   picture(): Promise<Blob | null>;
 }
 
-const N_PANES = 3;
+const N_PANES = 4; // three are seen at a time
 
 /** Direction of the first view: the front, and a little of the nearer side [rad]. */
 const AZIMUTH = 1.02;
@@ -50,6 +52,11 @@ const POLAR = 1.36;
 const MIDDLE_M = 0.78;
 const SEEN_ACROSS_M = 0.5;
 const SEEN_UP_M = 0.86;
+
+/** What is seen around a hem, of what is seen of a person, and its middle above the edge [m]. */
+const HEM_ZOOM = 0.42;
+const ABOVE_HEM_M = 0.09;
+const HEM_POLAR = 1.45;
 
 /** Radius of the light and the shadows around the person [m]. */
 const LIT_RADIUS_M = 0.8;
@@ -95,7 +102,7 @@ function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
   control.frame({ ...view, upright: SEEN_UP_M / SEEN_ACROSS_M });
 }
 
-/** The three clothes on their figure, and what is drawn of them. */
+/** The clothes on their figure, and what is drawn of them. */
 class Stage {
   readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
   readonly mannequin = createMannequin();
@@ -160,6 +167,21 @@ class Stage {
     this.isFramed = true;
     this.stage.control.follow(centre);
     this.stage.surroundings.follow(centre.x, centre.z);
+  }
+
+  lookAtHem(pane: number): void {
+    const places = this.positions(pane);
+    let low = Number.POSITIVE_INFINITY;
+    for (let k = 1; k < places.length; k += 3) low = Math.min(low, places[k] as number);
+    if (!Number.isFinite(low)) return;
+    const shift = (low + ABOVE_HEM_M - MIDDLE_M) / SEEN_ACROSS_M;
+    this.stage.control.setPose({
+      azimuth: AZIMUTH,
+      polar: HEM_POLAR,
+      zoom: HEM_ZOOM,
+      shift: [0, shift, 0],
+    });
+    this.stage.redraw();
   }
 
   positions(pane: number): Float32Array {
@@ -234,6 +256,7 @@ export function createGarmentStage(
       redraw();
     },
     homeView: stage.control.home,
+    hemView: (pane) => own.lookAtHem(pane),
     redraw,
     positions: (pane) => own.positions(pane),
     triangles: (pane) => clothes[pane]?.triangles() ?? new Uint32Array(0),

@@ -3,6 +3,7 @@
 import { fabrics } from '../../shared/fabric/fabric-data';
 import { createLinkReader, oneOf, slug } from '../../shared/state/link-reader';
 import { SPEEDS } from '../../shared/state/speeds';
+import { USUAL_DEMANDS_MM } from './garment-frames';
 import {
   GARMENTS,
   type MethodId,
@@ -17,6 +18,7 @@ import {
   DEMANDS,
   MOST_SUBSTEPS,
   type RefinementLink,
+  RIVALS,
 } from './refinement-state';
 
 const ON_OFF = ['on', 'off'] as const;
@@ -60,6 +62,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
     link.rule === 'budget' && link.budget !== null
       ? ['vertices', String(link.budget)]
       : ['lost-mm', String(link.demand)],
+    ['beside', link.rival],
     ['records', flag(link.useRecords)],
     ['fine', flag(link.computeFine)],
     ['colour', link.colour],
@@ -93,7 +96,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
   const further = take('examples', usual.further, `some of ${motions.join(', ')}`, motionsIn);
   const demand = take(
     'lost-mm',
-    usual.demand,
+    USUAL_DEMANDS_MM[garment],
     `${DEMANDS.least} to ${DEMANDS.most} in quarters`,
     demandIn,
   );
@@ -107,6 +110,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     rule: budget === null ? 'demand' : 'budget',
     demand,
     budget,
+    rival: take('beside', usual.rival, RIVALS.join(', '), oneOf(RIVALS)),
     method: take<MethodId>('method', usual.method, methods.join(', '), oneOf(methods)),
     substeps: take<number | null>('substeps', null, `1 to ${MOST_SUBSTEPS}`, substepsIn),
     useRecords: isOn('records', usual.useRecords),

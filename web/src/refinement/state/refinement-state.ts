@@ -2,15 +2,20 @@
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import type { FaultsAnswer, FitAnswer } from '../bindings/refinement-module';
-import { START_S, USUAL_DEMAND_MM } from './garment-frames';
+import { START_S, USUAL_DEMANDS_MM } from './garment-frames';
 import { type GarmentId, type MethodId, MOTIONS, type MotionId, usualFabric } from './garments';
 import type { PlanFile } from './plan-file';
 
-export const PANES = ['coarse', 'planned', 'fine'] as const;
+export const PANES = ['coarse', 'even', 'planned', 'fine'] as const;
 export type PaneId = (typeof PANES)[number];
+
+/** The uniform meshes that a plan can be held against. */
+export const RIVALS = ['coarse', 'even'] as const;
+export type RivalId = (typeof RIVALS)[number];
 
 export const PANE_TITLES: Record<PaneId, string> = {
   coarse: 'Coarse',
+  even: 'Even',
   planned: 'Multi-resolution',
   fine: 'Fine',
 };
@@ -22,7 +27,7 @@ export const MOST_SUBSTEPS = 64;
 export type ColourId = (typeof COLOURS)[number];
 
 /** How much of the examples' shapes a plan may lose [mm]. */
-export const DEMANDS = { least: 0.5, most: 4, step: 0.25, usual: USUAL_DEMAND_MM };
+export const DEMANDS = { least: 0.5, most: 4, step: 0.25 };
 
 /**
  * Where a pane's frames come from: a record that comes with the page, this device, or, until it
@@ -36,8 +41,11 @@ export interface GarmentPane {
   /** Time of the work for one frame [ms], in parts. */
   msPerFrame: number | null;
   parts: { name: string; ms: number }[];
-  /** Distance to the fine pane, RMS of the same points and of the surfaces [m]. */
-  errorM: number | null;
+  /** What the mesh loses of the fine pane's shape by its faces alone [m], and of its normals [rad]. */
+  lostM: number | null;
+  lostNormalsRad: number | null;
+  /** How differently it is folded from the fine pane, and how far the surfaces are [m]. */
+  foldsM: number | null;
   surfaceM: number | null;
   faults: FaultsAnswer | null;
   /** What the steps computed here show that the scene cannot explain. */
@@ -49,7 +57,9 @@ export const EMPTY_PANE: GarmentPane = {
   source: 'resting',
   msPerFrame: null,
   parts: [],
-  errorM: null,
+  lostM: null,
+  lostNormalsRad: null,
+  foldsM: null,
   surfaceM: null,
   faults: null,
   warnings: [],
@@ -68,6 +78,8 @@ export interface RefinementLink {
   demand: number;
   /** Vertices; null until it was first moved. */
   budget: number | null;
+  /** The uniform mesh beside the planned one. */
+  rival: RivalId;
   /** Of all panes; nothing but `implicit` comes recorded. */
   method: MethodId;
   /** Of a step, where a warning asked for more than the scene's own; else null. */
@@ -84,6 +96,12 @@ export interface RefinementLink {
   startS: number;
 }
 
+/** How far apart chance alone puts two runs: the fine one, and one in air heavier by a millionth [m]. */
+export interface FineFloor {
+  foldsM: number;
+  surfaceM: number;
+}
+
 export interface Doing {
   what: string;
   canCancel: boolean;
@@ -98,6 +116,8 @@ export interface RefinementState extends RefinementLink {
   /** The time at which the frames end [s]. */
   endS: number;
   panes: Record<PaneId, GarmentPane>;
+  /** Between two runs on the fine mesh, where that is known. */
+  floor: FineFloor | null;
   plan: PlanFile | null;
   /** Vertices that a budget can ask for. */
   budgetRange: [number, number] | null;
@@ -108,7 +128,7 @@ export interface RefinementState extends RefinementLink {
   ranges: { curvature: number; distance: number };
   /** The stage has room for two panes only: fine and the one beside it. */
   isNarrow: boolean;
-  beside: Exclude<PaneId, 'fine'>;
+  beside: 'rival' | 'planned';
   doing: Doing | null;
   problem: Failure | null;
 }
@@ -119,8 +139,9 @@ export const DEFAULT_LINK: RefinementLink = {
   fabric: usualFabric('skirt'),
   further: [],
   rule: 'demand',
-  demand: DEMANDS.usual,
+  demand: USUAL_DEMANDS_MM.skirt,
   budget: null,
+  rival: 'coarse',
   method: 'implicit',
   substeps: null,
   useRecords: true,
@@ -134,11 +155,18 @@ export const DEFAULT_LINK: RefinementLink = {
 
 /** The panes on the stage, from left to right. A fine mesh that rests while the others move has none. */
 export function shownPanes(
-  state: Pick<RefinementState, 'panes' | 'computeFine' | 'isNarrow' | 'beside'>,
+  state: Pick<RefinementState, 'panes' | 'computeFine' | 'isNarrow' | 'beside' | 'rival'>,
 ): readonly PaneId[] {
   const { source, nVertices } = state.panes.fine;
-  if (!state.computeFine && source === 'resting' && nVertices > 0) return ['coarse', 'planned'];
-  return state.isNarrow ? [state.beside, 'fine'] : PANES;
+  const { rival } = state;
+  if (!state.computeFine && source === 'resting' && nVertices > 0) return [rival, 'planned'];
+  if (state.isNarrow) return [state.beside === 'rival' ? rival : 'planned', 'fine'];
+  return comparedPanes(state);
+}
+
+/** The panes that are in step, whether there is room for all or not. */
+export function comparedPanes({ rival }: Pick<RefinementState, 'rival'>): readonly PaneId[] {
+  return [rival, 'planned', 'fine'];
 }
 
 /** The shown motion is one of those that the plan is made of. */
@@ -163,7 +191,8 @@ export function initialRefinementState(
     playing: false,
     timeS: 0,
     endS: 0,
-    panes: { coarse: EMPTY_PANE, planned: EMPTY_PANE, fine: EMPTY_PANE },
+    panes: { coarse: EMPTY_PANE, even: EMPTY_PANE, planned: EMPTY_PANE, fine: EMPTY_PANE },
+    floor: null,
     plan: null,
     budgetRange: null,
     fit: null,

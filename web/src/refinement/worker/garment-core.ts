@@ -11,6 +11,7 @@ import {
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
 import type { Post } from '../../shared/workers/serve';
 import type {
+  ComparedAnswer,
   FaultsAnswer,
   FitAnswer,
   GarmentCosts,
@@ -31,11 +32,17 @@ function payloadOf<Payload>(text: string): Payload | null {
   return answer.ok ? answer : null;
 }
 
+/** Folds come and go: fewer frames tell of chance alone. */
+const FEWEST_FOLDED_FRAMES = 30;
+
 /** Serves one pane. Call `receive` with each message, `close` at the end. */
 export class GarmentCore {
   private run: GarmentRunHandle | null = null;
   private summary: GarmentSummary | null = null;
   private recording: Recording | null = null;
+  private recordedFolds: Float64Array | null = null;
+  private nFolded = 0; // computed frames whose folds count
+  private settledS = 0;
   private stepsPerFrame = 1;
 
   private refuse(request: number, failure: Failure): void {
@@ -43,11 +50,15 @@ export class GarmentCore {
   }
 
   private async load(message: Message<'load'>): Promise<void> {
-    const { request, fabricsText, sceneText, files, frameS } = message;
+    const { request, fabricsText, sceneText, fineText, files, frameS, settledS } = message;
     this.run ??= new this.module.GarmentRun(fabricsText);
     const answer = read<GarmentSummary>(this.run.load(sceneText, files));
     if (!answer.ok) return this.refuse(request, answer);
+    const held = read<object>(this.run.holdAgainst(fineText, files));
+    if (!held.ok) return this.refuse(request, held);
     this.summary = answer;
+    this.settledS = settledS;
+    this.nFolded = 0;
     this.stepsPerFrame = Math.max(1, Math.round(frameS / answer.step_s));
     const mesh = {
       triangles: this.run.triangles().slice(),
@@ -61,6 +72,7 @@ export class GarmentCore {
       ? await readRecording(new Uint8Array(message.recording), mesh.parents)
       : null;
     const head = this.recording?.head ?? null;
+    this.recordedFolds = this.recording && this.foldsOf(this.run, this.recording);
     this.post({ type: 'loaded', request, summary: answer, mesh, recording: head }, [
       mesh.triangles.buffer,
       mesh.triangleFaces.buffer,
@@ -71,6 +83,17 @@ export class GarmentCore {
     ]);
   }
 
+  /** The folds of all settled frames of a record. */
+  private foldsOf(owner: GarmentRunHandle, { head, frames }: Recording): Float64Array | null {
+    frames.forEach((places, frame) => {
+      const timeS = head.first_s + frame * head.every_s;
+      if (timeS >= this.settledS && read<object>(owner.put(places, timeS)).ok) owner.addFolds();
+    });
+    const folds = owner.folds().slice();
+    owner.reset();
+    return folds.length > 0 ? folds : null;
+  }
+
   private ended(owner: GarmentRunHandle): string {
     const status = payloadOf<RunStatus>(owner.status());
     return status ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : 'no report';
@@ -78,7 +101,11 @@ export class GarmentCore {
 
   private advance(owner: GarmentRunHandle, { request, frame, how }: Message<'advance'>): void {
     let reason: string | null = null;
-    if (how === 'stepped' && owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
+    if (how === 'stepped') {
+      if (owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
+      else if (owner.time() >= this.settledS && read<object>(owner.addFolds()).ok)
+        this.nFolded += 1;
+    }
     if (how === 'recorded') {
       const places = this.recording?.frames[frame];
       if (!places || !this.recording)
@@ -95,6 +122,7 @@ export class GarmentCore {
   private reset(owner: GarmentRunHandle, { request }: Message<'reset'>): void {
     const answer = read<object>(owner.reset());
     if (!answer.ok) return this.refuse(request, answer);
+    this.nFolded = 0;
     this.post({ type: 'wasReset', request }, []);
   }
 
@@ -113,21 +141,32 @@ export class GarmentCore {
     return false;
   }
 
+  private folds(owner: GarmentRunHandle): Float64Array | null {
+    if (this.recording) return this.recordedFolds;
+    return this.nFolded < FEWEST_FOLDED_FRAMES ? null : owner.folds().slice();
+  }
+
+  private foldsFrom(owner: GarmentRunHandle, message: Message<'describe'>): number | null {
+    const { fineFolds } = message;
+    const folds = this.folds(owner);
+    if (!folds || !fineFolds) return null;
+    const answer = owner.compareFolds(folds, fineFolds);
+    return payloadOf<{ distance_m: number }>(answer)?.distance_m ?? null;
+  }
+
   private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
-    const { request, reference, fineLevel, timeS } = message;
+    const { request, reference, timeS } = message;
     if (message.takesSample && reference) {
-      const answer = read<object>(owner.putSample(reference, fineLevel, timeS));
+      const answer = read<object>(owner.putSample(reference, timeS));
       if (!answer.ok) return this.refuse(request, answer);
     }
-    const isCompared = reference !== null && !message.takesSample;
-    const of = (text: string) => payloadOf<{ rms_m: number }>(text)?.rms_m ?? null;
-    const errorM = isCompared ? of(owner.compare(reference, fineLevel)) : null;
+    const compared = reference && payloadOf<ComparedAnswer>(owner.compare(reference));
     const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
     const given = message.buffer;
     const buffer = given?.byteLength === nBytes ? given : new ArrayBuffer(nBytes);
     const isKnown = this.fill(owner, message, buffer);
-    const isSought = isCompared && message.wantsAll;
-    const surfaceM = isSought ? of(owner.compareSurface(reference, fineLevel)) : null;
+    const isSought = reference !== null && message.wantsAll && !message.takesSample;
+    const surface = isSought ? payloadOf<{ rms_m: number }>(owner.compareSurface(reference)) : null;
     const faults = message.wantsAll ? payloadOf<FaultsAnswer>(owner.faults()) : null;
     const costs = payloadOf<GarmentCosts>(owner.costs());
     const warnings = payloadOf<WarningsAnswer>(owner.warnings())?.warnings ?? [];
@@ -137,8 +176,10 @@ export class GarmentCore {
       request,
       buffer,
       isKnown,
-      errorM,
-      surfaceM,
+      compared,
+      surfaceM: surface?.rms_m ?? null,
+      folds: this.folds(owner),
+      foldsM: this.foldsFrom(owner, message),
       faults,
       costs,
       warnings,

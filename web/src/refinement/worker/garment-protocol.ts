@@ -3,6 +3,7 @@
 import type { Failure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import type {
+  ComparedAnswer,
   FaultsAnswer,
   FitAnswer,
   GarmentCosts,
@@ -25,11 +26,15 @@ export type ToGarment =
       request: number;
       fabricsText: string;
       sceneText: string;
+      /** A scene of the fine mesh that frames are held against. */
+      fineText: string;
       files: HandedFiles;
       /** The file of a record of this scene. */
       recording: ArrayBuffer | null;
       /** Time of a frame. */
       frameS: number;
+      /** From when on folds count. */
+      settledS: number;
     }
   | { type: 'advance'; request: number; frame: number; how: Advance }
   | { type: 'reset'; request: number }
@@ -39,7 +44,8 @@ export type ToGarment =
       scalar: GarmentScalar | null;
       /** The fine pane's places at the same time, if they are there. */
       reference: Float32Array | null;
-      fineLevel: number;
+      /** The fine pane's folds, if they are to be compared. */
+      fineFolds: Float64Array | null;
       /** Shows the reference as this mesh could show it, in place of a frame of its own. */
       takesSample: boolean;
       timeS: number;
@@ -66,9 +72,13 @@ export interface Described {
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
   isKnown: boolean;
-  /** RMS against the reference: of the same points, and of the surfaces. */
-  errorM: number | null;
+  /** Against the reference, and RMS between the surfaces. */
+  compared: ComparedAnswer | null;
   surfaceM: number | null;
+  /** How far folds stand out, over all that were seen; null until that is enough to tell. */
+  folds: Float64Array | null;
+  /** How differently they are folded from the fine pane. */
+  foldsM: number | null;
   faults: FaultsAnswer | null;
   costs: GarmentCosts | null;
   /** What the steps of this pane show that its scene cannot explain. */
