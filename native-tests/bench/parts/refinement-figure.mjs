@@ -60,15 +60,15 @@ function panel(index, { title, xName, points, lines, xTicks, yTicks, xUnit }) {
 }
 
 /**
- * SVG of vertices and time saved against the error in bending.
+ * SVG of vertices and time saved against what a mesh loses of the fine shapes.
  *
- * points  {garment, kind: "plan" | "chosen" | "uniform", removed: %, faster, bend: 1/m}
+ * points  {garment, kind: "plan" | "chosen" | "uniform", removed: %, faster, lostMm}
  * notes   lines below: what it cost beforehand
  */
 export function savingsFigure(points, notes) {
   const { width, height, gap, left, top } = kPanel;
-  const shown = points.filter((point) => Number.isFinite(point.bend));
-  const yTicks = ticks(Math.max(...shown.map(({ bend }) => bend)));
+  const shown = points.filter((point) => Number.isFinite(point.lostMm));
+  const yTicks = ticks(Math.max(...shown.map(({ lostMm }) => lostMm)));
   const fastest = Math.max(...shown.map(({ faster }) => faster), 9);
   const panels = [
     {
@@ -76,7 +76,7 @@ export function savingsFigure(points, notes) {
       xName: 'vertices removed from the fine mesh',
       xTicks: ticks(100),
       xUnit: ' %',
-      points: shown.map((point) => ({ ...point, x: point.removed, y: point.bend })),
+      points: shown.map((point) => ({ ...point, x: point.removed, y: point.lostMm })),
       lines: kPublished.map(({ label, removed }) => ({
         at: removed,
         label: `${label}: ${removed} %`,
@@ -87,7 +87,7 @@ export function savingsFigure(points, notes) {
       xName: 'times faster than the fine mesh',
       xTicks: ticks(fastest),
       xUnit: '',
-      points: shown.map((point) => ({ ...point, x: point.faster, y: point.bend })),
+      points: shown.map((point) => ({ ...point, x: point.faster, y: point.lostMm })),
       lines: kPublished
         .filter(({ faster }) => faster)
         .map(({ label, faster }) => ({ at: faster, label: `${label}: ${faster}` })),
@@ -116,7 +116,7 @@ export function savingsFigure(points, notes) {
     text(
       left,
       22,
-      'Garments refined by example: difference in bending from the fine mesh [1/m]',
+      'Garments refined by example: what faces lose of the fine shapes [mm]',
       'font-size="14" font-weight="600"',
     ),
     ...panels.map((each, k) => panel(k, { ...each, yTicks })),

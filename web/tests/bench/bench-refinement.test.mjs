@@ -190,9 +190,9 @@ describe('the figure of savings', () => {
   });
 
   it('marks every point with an error twice and names what was published', () => {
-    const point = { garment: 'skirt', kind: 'plan', removed: 70, faster: 4, bend: 0.5 };
+    const point = { garment: 'skirt', kind: 'plan', removed: 70, faster: 4, lostMm: 0.5 };
     const none = savingsFigure([point], []).match(/<circle/g).length;
-    const more = savingsFigure([point, point, { ...point, bend: Number.NaN }], ['7 s < 9 s']);
+    const more = savingsFigure([point, point, { ...point, lostMm: Number.NaN }], ['7 s < 9 s']);
     expect(more.match(/<circle/g).length).toBe(none + 2);
     expect(more).toContain('73.8 %');
     expect(more).toContain('76.2 %');

@@ -32,7 +32,7 @@ const paneWidths = (page) =>
 
 export async function checkRefinement(harness) {
   const { open, check, countColours } = harness;
-  const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(
+  const { visit, checkAccess, checkSizes, checkWidths, checkWithoutModule } = createVisitor(
     harness,
     isReady,
     'refinement: ',
@@ -353,45 +353,41 @@ export async function checkRefinement(harness) {
     [390, 844],
     [1440, 900],
   ];
-  for (const [width, height] of WINDOWS) {
-    await check(`refinement: Play is in sight and badges lie on no picture at ${width} px`, () =>
-      visit(
-        '#view=refinement',
-        async (page) => {
-          await expectInWindow(button(page, 'Play'));
-          const isOnPicture = await page.evaluate(() => {
-            const edge = (selector, end) =>
-              [...document.querySelectorAll(selector)].map(
-                (element) => element.getBoundingClientRect()[end],
-              );
-            const badges = edge('#refinement .garment-badge', 'bottom');
-            return Math.max(...badges) > edge('#refinement canvas', 'top')[0];
-          });
-          expectThat(!isOnPicture, 'a badge lies on the picture');
-        },
-        { width, height },
-      ),
-    );
-  }
+  await checkSizes(
+    'Play is in sight and badges lie on no picture',
+    '#view=refinement',
+    WINDOWS,
+    async (page, size) => {
+      await expectInWindow(button(page, 'Play'));
+      const isOnPicture = await page.evaluate(() => {
+        const edge = (selector, end) =>
+          [...document.querySelectorAll(selector)].map(
+            (element) => element.getBoundingClientRect()[end],
+          );
+        const badges = edge('#refinement .garment-badge', 'bottom');
+        return Math.max(...badges) > edge('#refinement canvas', 'top')[0];
+      });
+      expectThat(!isOnPicture, `a badge lies on the picture at ${size}`);
+    },
+  );
 
-  for (const [width, height] of WINDOWS) {
-    await check(`refinement: no name of a garment or a fabric is cut at ${width} px`, () =>
-      visit(
-        '#view=refinement',
-        async (page) => {
-          for (const name of ['Garment', 'Fabric']) {
-            const [shown, whole] = await choice(page, name).evaluate((control) => {
-              const { offsetWidth } = control;
-              control.style.width = 'max-content';
-              return [offsetWidth, control.offsetWidth];
-            });
-            expectThat(shown >= whole, `${name} has ${shown} px of ${whole}`);
-          }
-        },
-        { width, height },
-      ),
-    );
-  }
+  await checkSizes(
+    'no name of a garment or a fabric is cut',
+    '#view=refinement',
+    WINDOWS,
+    async (page, size) => {
+      for (const name of ['Garment', 'Fabric']) {
+        const [shown, whole] = await choice(page, name).evaluate((control) => {
+          const { offsetWidth } = control;
+          control.style.width = 'max-content';
+          const widest = control.offsetWidth;
+          control.style.width = '';
+          return [offsetWidth, widest];
+        });
+        expectThat(shown >= whole, `${name} has ${shown} px of ${whole} at ${size}`);
+      }
+    },
+  );
 
   await checkAccess('#view=refinement&colour=pattern', '#refinement details');
 

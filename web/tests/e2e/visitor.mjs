@@ -68,26 +68,40 @@ export function createVisitor({ open, check }, isReady, prefix = '') {
   }
 
   async function checkAccess(hash, details) {
-    for (const colorScheme of ['light', 'dark']) {
-      await check(`${prefix}axe finds nothing serious, ${colorScheme}`, () =>
-        visit(hash, (page) => expectAccessible(page, details), { colorScheme }),
-      );
-    }
+    await check(`${prefix}axe finds nothing serious, light and dark`, () =>
+      visit(hash, async (page) => {
+        for (const colorScheme of ['light', 'dark']) {
+          await page.emulateMedia({ colorScheme });
+          await twoPictures(page);
+          await expectAccessible(page, details);
+        }
+      }),
+    );
+  }
+
+  /** One visit, in windows of these sizes one after another. */
+  async function checkSizes(title, hash, sizes, work) {
+    const [[firstWidth, firstHeight]] = sizes;
+    const inAll = async (page) => {
+      for (const [width, height] of sizes) {
+        await page.setViewportSize({ width, height });
+        await twoPictures(page);
+        await work(page, `${width} px`);
+      }
+    };
+    await check(`${prefix}${title}`, () =>
+      visit(hash, inAll, { width: firstWidth, height: firstHeight }),
+    );
   }
 
   async function checkWidths(hash, sizes) {
-    for (const [width, height] of sizes) {
-      const work = async (page) => {
-        const [content, view] = await page.evaluate(() => [
-          document.documentElement.scrollWidth,
-          window.innerWidth,
-        ]);
-        expectThat(content <= view, `${content} px of content in ${view} px`);
-      };
-      await check(`${prefix}nothing scrolls sideways at ${width} px`, () =>
-        visit(hash, work, { width, height }),
-      );
-    }
+    await checkSizes('nothing scrolls sideways', hash, sizes, async (page) => {
+      const [content, view] = await page.evaluate(() => [
+        document.documentElement.scrollWidth,
+        window.innerWidth,
+      ]);
+      expectThat(content <= view, `${content} px of content in ${view} px`);
+    });
   }
 
   /** Without the files that match `files` there is a sentence; `work` looks at what is left. */
@@ -107,7 +121,7 @@ export function createVisitor({ open, check }, isReady, prefix = '') {
     });
   }
 
-  return { visit, checkAccess, checkWidths, checkWithoutModule };
+  return { visit, checkAccess, checkSizes, checkWidths, checkWithoutModule };
 }
 
 /** The view of motion works, whatever became of the one that was shown first. */
