@@ -106,10 +106,10 @@ describe('planner', () => {
     const shipped: PlanFile = JSON.parse(
       new TextDecoder().decode(await recordBytes(urls?.plan ?? '')),
     );
-    const wish: Wish = { ...DEFAULT_LINK, rule: 'demand', demand: 1.5, budget: null };
+    const wish: Wish = { ...DEFAULT_LINK };
     const planner = plannerParts();
     // A hair more demand is another wish, and the same mesh.
-    const near = await planner.plan({ ...wish, demand: 1.5001 });
+    const near = await planner.plan({ ...wish, demand: wish.demand + 0.0001 });
     expect(near.splits).toEqual(shipped.splits);
     near.curvature_limits_per_m.forEach((limit, pattern) => {
       expect(limit).toBeCloseTo(shipped.curvature_limits_per_m[pattern] ?? 0, 6);
@@ -480,7 +480,7 @@ describe('trio', () => {
         phase: 'ready',
         doing: null,
         rule: 'demand',
-        demand: 1.25,
+        demand: DEFAULT_LINK.demand,
       });
     },
     PATIENCE_MS,
