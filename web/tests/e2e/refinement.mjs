@@ -110,7 +110,7 @@ export async function checkRefinement(harness) {
       await isReady(page);
       const before = await picture(page);
       await button(page, 'Play').click();
-      const { panes } = await until(page, (state) => state.timeS > 0.4, LOAD_MS);
+      const { panes } = await until(page, (state) => state.timeS > 0.15, LOAD_MS);
       expectThat(panes.fine.nVertices > 10000, `${panes.fine.nVertices} vertices`);
       expectThat(panes.fine.warnings.length === 0, 'it moves as no cloth does');
       await button(page, 'Pause').click();
