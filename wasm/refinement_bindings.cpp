@@ -149,7 +149,8 @@ class GarmentRun {
     return guarded([&](val& envelope) {
       const pleat::Positions fine = fine_positions(fine_places);
       const pleat::MeshSampling& sampling = reference().sampling;
-      envelope.set("rms_m", sampling.error(fine, shown_).distance);
+      const pleat::Positions own = sampling.shown(shown_);
+      envelope.set("rms_m", pleat::position_error(own, fine, reference().areas));
       const pleat::Positions sampled = sampling.sampled(fine);
       const pleat::SamplingError lost = sampling.error(fine, sampled);
       envelope.set("lost_m", lost.distance);
@@ -254,9 +255,10 @@ class GarmentRun {
   /// A fine mesh, and how shapes of it are shown on this one.
   struct Reference {
     Reference(const pleat::QuadMesh& own, const pleat::QuadMesh& fine)
-        : mesh(fine), sampling(own, fine) {}
+        : mesh(fine), areas(fine.vertex_areas()), sampling(own, fine) {}
 
     pleat::QuadMesh mesh;
+    Eigen::VectorXd areas;  // of its vertices at rest [m^2]
     pleat::MeshSampling sampling;
   };
 

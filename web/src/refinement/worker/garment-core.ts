@@ -90,7 +90,6 @@ export class GarmentCore {
       if (timeS >= this.settledS && read<object>(owner.put(places, timeS)).ok) owner.addFolds();
     });
     const folds = owner.folds().slice();
-    owner.reset();
     return folds.length > 0 ? folds : null;
   }
 
