@@ -207,8 +207,7 @@ float AttachmentProgram::stretch_of_pins(const LaneView& view) const {
 }
 
 // As the rigid law of springs (core/dynamics/xpbd/spring_law.h), with an end that does not move.
-void AttachmentProgram::sweep(const LaneView& view) const {
-  if (operations_.empty()) return;
+float AttachmentProgram::sweep(const LaneView& view) const {
   const float stretch = stretch_of_pins(view);
   const Float4 squared_stretch = Float4::all(stretch * stretch);
   const auto at_pins = [](const auto& arrays, const Operation& operation) {
@@ -240,6 +239,7 @@ void AttachmentProgram::sweep(const LaneView& view) const {
     const Float4 pull = where_positive(excess, Float4::all(0.5f) * excess / slope);
     store(moves - pull * g, view.moves, slot);
   }
+  return stretch;
 }
 
 }  // namespace pleat

@@ -33,7 +33,8 @@ class AttachmentProgram {
 
   /// Moves vertices that are too far from a pin back to where they may be, the nearest pin first.
   /// Where pins themselves are further apart than attachments allow, all lengths grow with them.
-  void sweep(const LaneView& view) const;
+  /// Returns what they are multiplied by, at least 1.
+  float sweep(const LaneView& view) const;
 
  private:
   /// One attachment of each of four neighbours.

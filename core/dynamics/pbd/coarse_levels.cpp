@@ -111,8 +111,8 @@ CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vect
 
 template <class Quad>
 void CoarseLevels<Quad>::correct(const Real* begins, Real* moves, const CycleSmoothing& smoothing,
-                                 const Real* strains) {
-  if (!levels_.empty()) correct_level(0, begins, moves, smoothing, strains);
+                                 const Real* strains, Real growth) {
+  if (!levels_.empty()) correct_level(0, begins, moves, smoothing, strains, growth);
 }
 
 template <class Quad>
@@ -133,7 +133,8 @@ int CoarseLevels<Quad>::n_projections(const CycleSmoothing& smoothing) const {
 
 template <class Quad>
 void CoarseLevels<Quad>::correct_level(std::size_t k, const Real* begins, Real* moves,
-                                       const CycleSmoothing& smoothing, const Real* strains) {
+                                       const CycleSmoothing& smoothing, const Real* strains,
+                                       Real growth) {
   Level& level = levels_[k];
   for (std::size_t i = 0; i < level.sources.size(); ++i) {
     const int source = level.sources[i];
@@ -147,13 +148,14 @@ void CoarseLevels<Quad>::correct_level(std::size_t k, const Real* begins, Real* 
     level.from_finer.apply(strains, level.strains.data());
     level.lengths.aim_at(level.begins.data(), level.moves.data(), level.strains.data());
   }
-  level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.before);
+  level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.before, growth);
   if (is_by_error() && !is_coarsest)
     level.lengths.strains(level.begins.data(), level.moves.data(), level.strains.data());
   if (!is_coarsest)
-    correct_level(k + 1, level.begins.data(), level.moves.data(), smoothing, level.strains.data());
+    correct_level(k + 1, level.begins.data(), level.moves.data(), smoothing, level.strains.data(),
+                  growth);
   for (int sweep = n_sweeps(k); sweep > 0; --sweep)
-    level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.after);
+    level.lengths.sweep(level.begins.data(), level.moves.data(), smoothing.after, growth);
 
   const Quad share = Quad::all(share_);
   for (std::size_t i = 0; i < level.moves.size(); i += 4)

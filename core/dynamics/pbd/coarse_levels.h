@@ -44,8 +44,9 @@ class CoarseLevels {
   ///
   /// strains  what is wrong with each of the finest constraints, relative to its length; where
   ///          levels ask for it
+  /// growth   what all lengths are multiplied by
   void correct(const Real* begins, Real* moves, const CycleSmoothing& smoothing,
-               const Real* strains = nullptr);
+               const Real* strains = nullptr, Real growth = 1);
 
   /// Lengths that `correct` projects, each as often as it does.
   int n_projections(const CycleSmoothing& smoothing) const;
@@ -69,7 +70,7 @@ class CoarseLevels {
   /// On the way back.
   int n_sweeps(std::size_t k) const;
   void correct_level(std::size_t k, const Real* begins, Real* moves,
-                     const CycleSmoothing& smoothing, const Real* strains);
+                     const CycleSmoothing& smoothing, const Real* strains, Real growth);
 
   std::vector<Level> levels_;
   Real share_ = 0;  // of a correction that is handed back

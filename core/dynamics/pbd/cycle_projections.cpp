@@ -100,10 +100,10 @@ class CycleProjections final : public Projections {
   }
 
   void solve(const LaneView& view, int rounds) override {
-    attachments_.sweep(view);
+    const float growth = attachments_.sweep(view);
     vertices_.begin(view);
     is_swept_ = false;
-    by_error_.empty() ? solve_by_lengths(rounds) : solve_by_errors(rounds);
+    by_error_.empty() ? solve_by_lengths(rounds, growth) : solve_by_errors(rounds);
     vertices_.lanes();
   }
 
@@ -132,11 +132,12 @@ class CycleProjections final : public Projections {
     is_swept_ = true;
   }
 
-  void solve_by_lengths(int rounds) {
+  /// growth  of the coarser levels' lengths: else they throw cloth that pins stretch
+  void solve_by_lengths(int rounds, float growth) {
     for (int round = 0; round < rounds; ++round) {
       sweep(smoothing_.before);
       if (levels_.n_levels() > 0)
-        levels_.correct(vertices_.begins(), vertices_.moves(), smoothing_);
+        levels_.correct(vertices_.begins(), vertices_.moves(), smoothing_, nullptr, growth);
       sweep(smoothing_.after);
     }
   }

@@ -51,17 +51,19 @@ LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
 // d_begin, (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0, the slope d.g held above L^2 and l^2.
 // Where a length holds from above only, aims above zero, which push, are cut off.
 template <class Quad>
-void LengthGroups<Quad>::project(const Real* begins, const Real* moves, Real* to, Real omega) {
+void LengthGroups<Quad>::project(const Real* begins, const Real* moves, Real* to, Real omega,
+                                 Real growth) {
   const Quad most =
       Quad::all(side_ == LengthSide::longer ? Real(0) : std::numeric_limits<Real>::max());
   const Quad half = Quad::all(omega / 2);
+  const Quad squared_growth = Quad::all(growth * growth);
   for (const Group& group : groups_) {
     const QuadVectors<Quad> d_begin = gather<Quad>(begins, group.a) - gather<Quad>(begins, group.b);
     const QuadVectors<Quad> d =
         d_begin + (gather<Quad>(moves, group.a) - gather<Quad>(moves, group.b));
     const QuadVectors<Quad> g = d + d_begin;
     const Quad square = dots(d, d);
-    const Quad rest = Quad::load(group.square.data());
+    const Quad rest = squared_growth * Quad::load(group.square.data());
     const Quad aim = min(half * (rest - square), most);
     const Quad slope = max(dots(d, g), max(rest, square));
     const Quad f = aim / slope * Quad::load(group.inverse_w.data());
@@ -71,12 +73,13 @@ void LengthGroups<Quad>::project(const Real* begins, const Real* moves, Real* to
 }
 
 template <class Quad>
-void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation& relaxation) {
+void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation& relaxation,
+                               Real growth) {
   if (relaxation.smoother == Smoother::none) return;
   const auto omega = static_cast<Real>(relaxation.omega);
   const bool is_averaged = relaxation.smoother == Smoother::jacobi;
   project(begins, moves, is_averaged ? mean_.begin() : moves,
-          relaxation.smoother == Smoother::sor ? omega : 1);
+          relaxation.smoother == Smoother::sor ? omega : 1, growth);
   if (is_averaged) mean_.add_to(moves, omega);
 }
 

@@ -45,7 +45,9 @@ class LengthGroups {
                LengthSide side);
 
   /// Projects each constraint once, unless the smoother is none.
-  void sweep(const Real* begins, Real* moves, const Relaxation& relaxation);
+  ///
+  /// growth  what all lengths are multiplied by
+  void sweep(const Real* begins, Real* moves, const Relaxation& relaxation, Real growth = 1);
 
   /// Makes each length what its places are apart now, less a strain. In arrays of strains a length
   /// stands at its place_of.
@@ -66,7 +68,7 @@ class LengthGroups {
     std::array<Real, 4> inverse_w;  // of their sum; 0 where nothing moves
   };
 
-  void project(const Real* begins, const Real* moves, Real* to, Real omega);
+  void project(const Real* begins, const Real* moves, Real* to, Real omega, Real growth);
 
   LengthSide side_ = LengthSide::both;
   int n_lengths_ = 0;

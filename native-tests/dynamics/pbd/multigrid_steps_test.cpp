@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
@@ -108,6 +109,26 @@ TEST_CASE("multigrid: lines on the finest level leave half the stretch, and need
   sheet.model.rest_coordinates.resize(2, 0);
   for (Spring& spring : sheet.model.springs) spring.kind = SpringKind::other;
   CHECK(after(sheet, lines, 5).positions == after(sheet, one_by_one, 5).positions);
+}
+
+TEST_CASE("multigrid: corners that are pulled too far apart stretch a sheet without throwing it",
+          "[dynamics]") {
+  const double pull = GENERATE(0.3, 1.0);  // of each corner [m], of a metre of cloth
+  CAPTURE(pull);
+  Held sheet = held_sheet(square_sheet(8), By::corners);
+  auto& pins = sheet.model.pins;
+  REQUIRE(pins.size() == 2);
+  const Vec3 offset = pull * (pins[1].place - pins[0].place).normalized();
+  pins[0].motion = {Motion::Kind::ease, -offset, 0, 2};
+  pins[1].motion = {Motion::Kind::ease, offset, 0, 2};
+  const MethodOptions method = steppers::kMultigrid.usual_method();
+  const auto stepper = make_stepper(sheet.model, method);
+  double fastest = 0;  // [m/s]
+  for (int s = 0; s < 150; ++s) {
+    REQUIRE_FALSE(stepper->advance(sheet.state, s * method.step).ends_run());
+    fastest = std::max(fastest, sheet.state.velocities.colwise().norm().maxCoeff());
+  }
+  CHECK(fastest < 3 * pull);  // corners reach a quarter of that
 }
 
 /// How far a pendulum of 1 m that is let go at the horizontal has swung after so long [rad].

@@ -359,7 +359,7 @@ TEST_CASE("attachments: what is too far away comes back along its way, and nothi
                       inverse_masses.data()};
   const AttachmentProgram program({{{2, 0}, 0.5}, {{2, 1}, 0.6}, {{3, 0}, 0.5}, {{3, 1}, 0.5}},
                                   slots);
-  program.sweep(view);
+  CHECK(program.sweep(view) == 1);
   CHECK(begins[0][2] + moves[0][2] == Approx(0.5).epsilon(1e-5));
   CHECK(moves[0][3] == 0);
   CHECK(moves[0][0] == 0);
@@ -367,7 +367,7 @@ TEST_CASE("attachments: what is too far away comes back along its way, and nothi
 
   // Pins a hundredth further apart than the shorter pair of lengths: all lengths grow by that.
   moves[0] = {-5e-3f, 5e-3f, 6e-3f, 0};
-  program.sweep(view);
+  CHECK(program.sweep(view) == Approx(1.01));
   CHECK(begins[0][2] + moves[0][2] == Approx(0.505 - 0.005).epsilon(1e-4));
   CHECK(moves[0][3] == Approx(0).margin(1e-6));
 }
