@@ -19,6 +19,8 @@ constexpr int kMaxSubsteps = 1000000;
 enum class Constraints {
   compliant,  ///< compliance 1/k
   rigid,      ///< compliance 0
+  /// The same, but diagonals of quads give way to the threads: those of multigrid.
+  rigid_threads,
 };
 
 /// The equations that `newton` solves in a substep.

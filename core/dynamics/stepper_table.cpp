@@ -212,7 +212,7 @@ constinit const StepperType steppers::kMultigrid = {
     .start = {10, 1},
     .set_start =
         [](MethodOptions& method) {
-          method.constraints = Constraints::rigid;
+          method.constraints = Constraints::rigid_threads;
           method.levels = 3;
           method.ratio = 0.25;
           method.smoother_before = method.smoother_after = Smoother::lines;

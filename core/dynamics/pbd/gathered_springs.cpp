@@ -96,12 +96,12 @@ void GatheredSprings::first_sweep(const float* begins, float* moves, const Relax
 }
 
 std::span<float> GatheredSprings::multipliers() {
-  if (law_ == SpringLaw::rigid) return {};
+  if (is_rigid(law_)) return {};
   return multipliers_;
 }
 
 void GatheredSprings::strains(const float* begins, const float* moves, float* strains) const {
-  const bool is_rigid = law_ == SpringLaw::rigid;
+  const bool rigid = is_rigid(law_);
   const Float4 tiny = Float4::all(kTinySquare);
   const Float4 largest = Float4::all(std::numeric_limits<float>::max());
   const float* multiplier = multipliers_.data();
@@ -109,9 +109,9 @@ void GatheredSprings::strains(const float* begins, const float* moves, float* st
     const auto d_begin = gather<Float4>(begins, group.a) - gather<Float4>(begins, group.b);
     const auto d = d_begin + (gather<Float4>(moves, group.a) - gather<Float4>(moves, group.b));
     const Float4 kept = Float4::load(group.block.rest.data());
-    const Float4 rest = is_rigid ? sqrt(kept) : kept;
+    const Float4 rest = rigid ? sqrt(kept) : kept;
     Float4 error = sqrt(dots(d, d)) - rest;
-    if (!is_rigid)
+    if (!rigid)
       error = error + Float4::load(group.block.compliance.data()) * Float4::load(multiplier) -
               Float4::load(group.block.damper_share.data()) * (sqrt(dots(d_begin, d_begin)) - rest);
     const Float4 occupied = largest - Float4::load(group.block.denominator_share.data());

@@ -12,15 +12,21 @@ namespace pleat {
 /// How a spring pulls.
 enum class SpringLaw {
   rigid,             ///< keeps its rest length whatever the force
+  rigid_threads,     ///< the same, but diagonals of quads are corrected in part at a time
   elastic,           ///< stiffness only
   damped,            ///< stiffness, and damping along the spring
   damped_isotropic,  ///< stiffness, and damping of every relative velocity
 };
 
+constexpr bool is_rigid(SpringLaw law) {
+  return law == SpringLaw::rigid || law == SpringLaw::rigid_threads;
+}
+
 /// The law of a model's springs.
 SpringLaw spring_law(const ClothModel& model, Constraints constraints);
 
-/// Calls work(constant) with the law as a compile-time constant.
+/// Calls work(constant) with the law as a compile-time constant: `rigid` for all that are, which
+/// differ in the numbers of a SpringBlock alone.
 template <class Work>
 auto with_law(SpringLaw law, Work&& work) {
   switch (law) {
@@ -31,6 +37,7 @@ auto with_law(SpringLaw law, Work&& work) {
     case SpringLaw::damped_isotropic:
       return work(std::integral_constant<SpringLaw, SpringLaw::damped_isotropic>());
     case SpringLaw::rigid:
+    case SpringLaw::rigid_threads:
       break;
   }
   return work(std::integral_constant<SpringLaw, SpringLaw::rigid>());

@@ -262,7 +262,7 @@ double SpringProgram::squared_residual(const LaneView& v) const {
 
 double SpringProgram::squared_residual_before_sweeps(const LaneView& view) {
   // Rigid springs ask for none.
-  if (law_ != SpringLaw::rigid) std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
+  if (!is_rigid(law_)) std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
   return squared_residual(view);
 }
 

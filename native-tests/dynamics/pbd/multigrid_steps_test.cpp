@@ -131,6 +131,42 @@ TEST_CASE("multigrid: corners that are pulled too far apart stretch a sheet with
   CHECK(fastest < 3 * pull);  // corners reach a quarter of that
 }
 
+TEST_CASE(
+    "multigrid: threads stretch less where diagonals give way, and without any nothing changes",
+    "[dynamics]") {
+  Held sheet = held_sheet(lying_sheet(16), By::corners);
+  sheet.model.gravity = {0, 0, -9.81};
+  auto& pins = sheet.model.pins;
+  REQUIRE(pins.size() == 2);
+  const Vec3 offset = 0.25 * (pins[1].place - pins[0].place);
+  pins[0].motion = {Motion::Kind::ease, offset, 0, 1};
+  pins[1].motion = {Motion::Kind::ease, -offset, 0, 1};
+  const MethodOptions ours = steppers::kMultigrid.usual_method();
+  MethodOptions rigid = ours;
+  rigid.constraints = Constraints::rigid;
+
+  const auto stretch_of_threads = [&sheet](const MethodOptions& method) {
+    ClothModel model = sheet.model;
+    ClothModel threads = sheet.model;
+    std::erase_if(threads.springs,
+                  [](const Spring& spring) { return spring.kind == SpringKind::shear; });
+    REQUIRE(threads.springs.size() < model.springs.size());
+    State state = sheet.state;
+    const auto stepper = make_stepper(model, method);
+    double sum = 0;
+    for (int s = 0; s < 60; ++s) {
+      REQUIRE_FALSE(stepper->advance(state, s * method.step).ends_run());
+      sum += rms_stretch(threads, state.positions);
+    }
+    return sum;
+  };
+  CHECK(stretch_of_threads(ours) < 0.9 * stretch_of_threads(rigid));
+
+  for (Spring& spring : sheet.model.springs)
+    if (spring.kind == SpringKind::shear) spring.kind = SpringKind::other;
+  CHECK(after(sheet, ours, 5).positions == after(sheet, rigid, 5).positions);
+}
+
 /// How far a pendulum of 1 m that is let go at the horizontal has swung after so long [rad].
 double swung(double seconds) {
   constexpr int kSteps = 100000;
