@@ -23,18 +23,29 @@ const kCandidates = {
     constraints: 'rigid',
     substeps,
   })),
-  multigrid: [4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 45, 60, 90].flatMap((substeps) =>
-    [
-      {},
-      { smoother_before: 'none' },
-      { smoother_before: 'none', levels: 0 },
-      { carried_acceleration: kCarried },
-      { carried_acceleration: kCarried, levels: 0 },
-      { carried_acceleration: kCarried, smoother_before: 'none', levels: 0 },
-      { smoother_before: 'gauss_seidel', smoother: 'gauss_seidel' },
-      { smoother_before: 'none', smoother: 'gauss_seidel', levels: 0 },
-    ].map((more) => ({ stepper: 'multigrid', substeps, ...more })),
-  ),
+  multigrid: [
+    ...[4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 45, 60, 90].flatMap((substeps) =>
+      [
+        {},
+        { smoother_before: 'none' },
+        { smoother_before: 'none', levels: 0 },
+        { carried_acceleration: kCarried },
+        { carried_acceleration: kCarried, levels: 0 },
+        { carried_acceleration: kCarried, smoother_before: 'none', levels: 0 },
+        { smoother_before: 'gauss_seidel', smoother: 'gauss_seidel' },
+        { smoother_before: 'none', smoother: 'gauss_seidel', levels: 0 },
+      ].map((more) => ({ substeps, ...more })),
+    ),
+    // Without pins: sweeps of xpbd whose diagonals give way.
+    ...[17, 40, 50, 75, 120, 140, 170, 200].flatMap((substeps) =>
+      [{}, { carried_acceleration: kCarried }].map((more) => ({
+        substeps,
+        ...more,
+        smoother_before: 'none',
+        levels: 0,
+      })),
+    ),
+  ].map((more) => ({ stepper: 'multigrid', ...more })),
   // Springs of the fabric, for cloth that folds where no rigid link lets it.
   projective: [
     { substeps: 1, iterations: 3 },
