@@ -28,4 +28,4 @@ export const USUAL_DEMANDS_MM = { skirt: 1.5, trousers: 1.75, slim_trousers: 1.2
  * The method of a fine skirt that walks as it is computed: 0.5 % RMS stretch on the fast walk, a third of
  * the time of `implicit` (docs/methods/multigrid.md).
  */
-export const LIVE_SKIRT = { stepper: 'multigrid', substeps: 16, carried_acceleration: 0.4 };
+export const LIVE_SKIRT = { stepper: 'multigrid', substeps: 14, carried_acceleration: 0.4 };
