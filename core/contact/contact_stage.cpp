@@ -277,7 +277,8 @@ std::optional<ContactStage::Touch> ContactStage::resolve(VertexId vertex,
     const double parting_speed = bounces ? std::abs(normal_speed) : std::max(normal_speed, 0.0);
     const double left =
         slip(solid.friction, parting_speed - normal_speed, tangential_velocity.norm());
-    touch = {vertex, static_cast<int>(&solid - solids_.data()), normal, left == 0};
+    touch = {vertex, static_cast<int>(&solid - solids_.data()), normal, left == 0,
+             before != nullptr};
     const double path_left = 1 - meeting.impact.fraction;
     position = meeting.impact.point + path_left * left * path;
     if (bounces) position += path_left * std::max(-normal.dot(whole_path), 0.0) * normal;
@@ -386,6 +387,12 @@ double ContactStage::least_gap(const Eigen::Ref<const Positions>& positions,
 Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) const {
   const Solid& solid = solids_[static_cast<std::size_t>(touch.solid)];
   return solid.turns ? Vec3((solid.carry * place_begin - place_begin) / substep_) : solid.velocity;
+}
+
+Gap ContactStage::gap_at_end(const Touch& touch, const Vec3& place) const {
+  const Solid& solid = solids_[static_cast<std::size_t>(touch.solid)];
+  return with_held(solid, solid.swept, touch.vertex,
+                   [&](const SweptSolid& held) { return gap(held, place); });
 }
 
 SolidShape ContactStage::placed(const Collider& collider, double time) {

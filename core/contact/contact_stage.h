@@ -74,9 +74,10 @@ class ContactStage {
   /// substep after.
   struct Touch {
     VertexId vertex;
-    int solid = -1;        ///< the last one that acted
-    Vec3 normal{0, 0, 0};  ///< unit, away from it
-    bool sticks = false;   ///< friction took all of the velocity across the normal
+    int solid = -1;          ///< the last one that acted
+    Vec3 normal{0, 0, 0};    ///< unit, away from it
+    bool sticks = false;     ///< friction took all of the velocity across the normal
+    bool in_corner = false;  ///< others acted before it
   };
 
   /// Corrects the whole state that a stepper proposes for the end of the substep.
@@ -135,6 +136,10 @@ class ContactStage {
   /// Mean velocity over the substep of the touched solid's point that is at a place [m] when it
   /// begins [m/s].
   Vec3 solid_velocity(const Touch& touch, const Vec3& place_begin) const;
+
+  /// How far from where the touched solid holds the vertex this place [m] is when the substep ends;
+  /// negative below.
+  Gap gap_at_end(const Touch& touch, const Vec3& place) const;
 
   /// How often, since construction, solids closed in on a vertex from sides so opposed, or so many,
   /// that it was left inside one of them.

@@ -12,15 +12,25 @@ void ContactHold::set_resistances(const SystemMatrix& matrix, double mass_unit) 
     resistances_[i] = mass_unit / 3 * matrix.diagonal_trace(VertexId(i));
 }
 
-void ContactHold::choose(std::span<const ContactStage::Touch> touches,
-                         const Positions& positions_begin) {
+void ContactHold::choose(std::span<const ContactStage::Touch> touches, const State& begin,
+                         double h) {
   held_.clear();
   for (const ContactStage::Touch& touch : touches) {
     const VertexId v = touch.vertex;
-    const Mat3 held_parts =
-        touch.sticks ? Mat3(Mat3::Identity()) : Mat3(touch.normal * touch.normal.transpose());
-    held_.push_back({v, share_ * resistances_[v] * held_parts,
-                     contact_.solid_velocity(touch, positions_begin.col(v))});
+    const double resistance = share_ * resistances_[v];
+    const Vec3 solid_velocity = contact_.solid_velocity(touch, begin.positions.col(v));
+    if (touch.sticks) {
+      held_.push_back({v, resistance * Mat3::Identity(), solid_velocity});
+      continue;
+    }
+    // Round solids fall away below the tangent: held along it, a vertex would be lifted off.
+    const Vec3 slide = begin.velocities.col(v) - solid_velocity;
+    const Vec3 along = slide - touch.normal * touch.normal.dot(slide);
+    const Gap gap =
+        contact_.gap_at_end(touch, begin.positions.col(v) + h * (solid_velocity + along));
+    const double approach = gap.normal.dot(along) - gap.distance / h;
+    held_.push_back({v, resistance * gap.normal * gap.normal.transpose(),
+                     solid_velocity + approach * gap.normal});
   }
 }
 

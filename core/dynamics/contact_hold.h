@@ -11,8 +11,9 @@ namespace pleat {
 
 /// Lets the cloth around a touched vertex know in the solve itself that a solid holds it.
 ///
-/// A vertex that a solid touched in the last substep is held to the solid's velocity, along the
-/// normal if it slips, altogether if it sticks, by a resistance as large as its own. What that
+/// A vertex that a solid touched in the last substep is held by a resistance as large as its own:
+/// to the solid's velocity altogether if it sticks, and if it slips, along the normal, onto the
+/// solid's surface where it will be. What that
 /// exerts joins the remembered contact force, which thereby converges as a multiplier does: the
 /// resistance need not be large for the vertex to be held, and a vertex in equilibrium is held by
 /// the force alone.
@@ -28,7 +29,7 @@ class ContactHold {
   struct Held {
     VertexId vertex;
     Mat3 resistance;  // R [kg]
-    Vec3 velocity;    // u [m/s]
+    Vec3 velocity;    // u, that it is held to [m/s]
   };
 
   /// From the matrix of a substep without what holds; mass_unit turns its entries into kg.
@@ -36,7 +37,7 @@ class ContactHold {
   void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
 
   /// Says which vertices are held in the substep that the contact stage is at.
-  void choose(std::span<const ContactStage::Touch> touches, const Positions& positions_begin);
+  void choose(std::span<const ContactStage::Touch> touches, const State& begin, double h);
   std::span<const Held> held() const { return held_; }
 
   /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.

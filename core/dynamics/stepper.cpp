@@ -13,6 +13,13 @@
 namespace pleat {
 namespace {
 
+/// The part of a vector across a unit normal.
+Vec3 across(const Vec3& vector, const Vec3& normal) { return vector - normal.dot(vector) * normal; }
+
+/// Of the step with which friction is found. With all of it, friction of what hardly slides points
+/// wherever rounding does, and a symmetric drape does not stay so.
+constexpr double kFrictionShare = 0.15;
+
 /// Of a substep: contact that is sooner than this after its begin has been there before.
 constexpr double kLeastShare = 1e-12;
 
@@ -230,14 +237,21 @@ std::span<const ContactStage::Touch> Stepper::correct_for_contact(const Position
   return touches;
 }
 
-// With f the remembered force and r the vertex's resistance, the place and velocity without f are
-// x - h^2 f/r (times travel_share) and v - h f/r: what the vertex would do were it let go. The
-// contact acts on those, so it never pulls and stays inside Coulomb's cone. f then grows by the
-// force m dv/h that makes of the solved velocity the corrected one, and vanishes where the vertex
-// leaves. With r = m, that is of a free particle, it is the whole new force.
+// A vertex that its force still presses has not left, though it may end above a round solid: it is
+// brought down. With f the remembered force and r the vertex's resistance, the place and velocity
+// without f are x - h^2 f/r (times travel_share) and v - h f/r: what the vertex would do were it
+// let go. The contact acts on those, so it never pulls and stays inside Coulomb's cone. f then
+// grows by the force m dv/h that makes of the solved velocity the corrected one, and vanishes where
+// the vertex leaves. With r = m, that is of a free particle, it is the whole new force.
 void Stepper::let_go(State& state, double h, const Eigen::VectorXd& resistances,
                      double travel_share) {
   solved_velocities_ = state.velocities;
+  for (const ContactStage::Touch& touch : touches_) {
+    auto place = state.positions.col(touch.vertex);
+    const Gap gap = model_.contact->gap_at_end(touch, place);
+    if (gap.distance > 0 && gap.normal.dot(contact_forces_.col(touch.vertex)) > 0)
+      place -= gap.distance * gap.normal;
+  }
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
     if (model_.hangs(VertexId(i))) continue;
     const Vec3 change = h / resistances[i] * contact_forces_.col(i);
@@ -258,12 +272,41 @@ void Stepper::forget_untouched(std::span<const ContactStage::Touch> touches) {
   forget_until(contact_forces_.cols());
 }
 
+// The solve holds a vertex that slips along the normal alone, so that it hears of friction only as
+// a remembered force. That takes an augmented Lagrangian's step, with the resistance r, and is then
+// held to Coulomb's cone. Once it would drive the vertex, the vertex sticks.
+void Stepper::remember_friction(const Positions& positions_begin, const State& state, double h,
+                                const Eigen::VectorXd& resistances) {
+  for (ContactStage::Touch& touch : touches_) {
+    if (touch.sticks || touch.in_corner) continue;
+    const VertexId v = touch.vertex;
+    const Vec3 friction_before = across(contact_forces_.col(v), touch.normal);
+    const Vec3 slide =
+        solved_velocities_.col(v) - model_.contact->solid_velocity(touch, positions_begin.col(v));
+    touch.sticks = friction_before.dot(slide) > 0;
+    if (touch.sticks) continue;
+    contact_forces_.col(v) +=
+        std::max(kFrictionShare * resistances[v] - model_.masses[v], 0.0) / h *
+        across(state.velocities.col(v) - solved_velocities_.col(v), touch.normal);
+  }
+}
+
+// Of a vertex in a corner all forces are remembered as they are: they are not told apart.
 void Stepper::remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
                        double h) {
-  for (const ContactStage::Touch& touch : touches)
-    contact_forces_.col(touch.vertex) +=
-        model_.masses[touch.vertex] / h *
-        (velocities.col(touch.vertex) - solved_velocities_.col(touch.vertex));
+  for (const ContactStage::Touch& touch : touches) {
+    const VertexId v = touch.vertex;
+    auto force = contact_forces_.col(v);
+    force += model_.masses[v] / h * (velocities.col(v) - solved_velocities_.col(v));
+    if (touch.in_corner) continue;
+    const double pressing = touch.normal.dot(force);
+    const Vec3 rubbing = force - pressing * touch.normal;
+    const double friction =
+        model_.contact->colliders()[static_cast<std::size_t>(touch.solid)].friction;
+    const double most = friction * std::max(pressing, 0.0);
+    const double size = rubbing.norm();
+    if (size > most) force = pressing * touch.normal + most / size * rubbing;
+  }
 }
 
 void Stepper::resolve_contacts(const Positions& positions_begin, State& state, double h,
@@ -275,7 +318,8 @@ void Stepper::resolve_contacts(const Positions& positions_begin, State& state, d
   if (!remembers) return;
   touches_.assign(touches.begin(), touches.end());
   forget_untouched(touches);
-  remember(touches, state.velocities, h);
+  remember_friction(positions_begin, state, h, resistances);
+  remember(touches_, state.velocities, h);
 }
 
 // Solids push cloth beyond its limits, and limits pull it into solids: each in turn, contact last.

@@ -137,6 +137,8 @@ class Stepper {
                                                            State& state);
   void let_go(State& state, double h, const Eigen::VectorXd& resistances, double travel_share);
   void forget_untouched(std::span<const ContactStage::Touch> touches);
+  void remember_friction(const Positions& positions_begin, const State& state, double h,
+                         const Eigen::VectorXd& resistances);
   void remember(std::span<const ContactStage::Touch> touches, const Positions& velocities,
                 double h);
 

@@ -42,7 +42,7 @@ SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
   if (hold_) {
     const StageScope scope(observer_, Stage::contact);
     hold_->set_resistances(matrix_);
-    hold_->choose(touches_, state.positions);
+    hold_->choose(touches_, state, h);
     hold_->add(state.velocities, matrix_, forces_);
   }
   SolveReport report = solve_.advance(matrix_, forces_, state, time_end, h, observer_);

@@ -103,13 +103,13 @@ void StepperNewton::set_up(const State& state, double h) {
     loads_ += rate * state.velocities * model_.masses.asDiagonal();
   }
   base_.coeffs() = matrix_.lower().coeffs();
-  if (hold_) hold();
+  if (hold_) hold(state, h);
 }
 
-void StepperNewton::hold() {
+void StepperNewton::hold(const State& state, double h) {
   matrix_.add_elasticity(begin_, 1, 0, ElementHessian::projected);
   hold_->set_resistances(matrix_, interval_ * interval_);
-  hold_->choose(touches_, begin_);
+  hold_->choose(touches_, state, h);
   matrix_.set_values(base_);
   for (const ContactHold::Held& held : hold_->held()) {
     matrix_.add_diagonal(held.vertex, held.resistance / (interval_ * interval_));

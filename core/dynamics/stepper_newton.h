@@ -35,7 +35,7 @@ class StepperNewton final : public Stepper {
 
  private:
   void set_up(const State& state, double h);
-  void hold();
+  void hold(const State& state, double h);
   void place_first_guess(const State& state, double time_end);
   SolveReport minimise();
   bool is_stable();

@@ -94,12 +94,12 @@ void StepperProjective::refresh() {
   is_held_.assign(static_cast<std::size_t>(n), char{0});
 }
 
-void StepperProjective::hold() {
+void StepperProjective::hold(const State& state, double h) {
   const StageScope scope(observer_, Stage::contact);
   was_held_ = is_held_;
   std::fill(is_held_.begin(), is_held_.end(), char{0});
   for (const ContactStage::Touch& touch : touches_) is_held_[touch.vertex] = is_free_[touch.vertex];
-  hold_->choose(touches_, positions_begin_);
+  hold_->choose(touches_, state, h);
   if (is_held_ == was_held_) return;
   for (int i = 0; i < model_.n_vertices(); ++i)
     matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
@@ -213,6 +213,7 @@ void StepperProjective::accelerate(double h) {
 }
 
 /// Without what remembered forces alone would do: thrown far away from its neighbours by its mass.
+/// Friction of what slips is nothing that the rounds find, so it stays, as far as it brakes.
 void StepperProjective::place_first_guess(double time_end, double h) {
   positions_ = predicted_;
   if (contact_forces_.cols() > 0)
@@ -226,15 +227,20 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   for (const ContactHold::Held& held : hold_->held()) {
     const VertexId v = held.vertex;
     if (!is_held_[v]) continue;
+    const Mat3 held_parts = held.resistance / (kHeldShare * hold_->resistances()[v]);
+    const Mat3 free_parts = Mat3::Identity() - held_parts;
     const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
-    positions_.col(v) += held.resistance * way / (kHeldShare * hold_->resistances()[v]);
+    const Vec3 brake = h * h / model_.masses[v] * free_parts * contact_forces_.col(v);
+    const double slide = (free_parts * way).norm();
+    const double share = brake.norm() > slide ? slide / brake.norm() : 1;
+    positions_.col(v) += held_parts * way + share * brake;
   }
 }
 
 SolveReport StepperProjective::substep(State& state, double time_end, double h) {
   if (!factor_report_.ok()) return factor_report_;
   positions_begin_ = state.positions;
-  if (hold_) hold();
+  if (hold_) hold(state, h);
   if (!factor_report_.ok()) return factor_report_;
   set_damped_external_forces(state, h, forces_);
   {

@@ -51,7 +51,7 @@ class StepperProjective final : public Stepper {
     double value;
   };
 
-  void hold();
+  void hold(const State& state, double h);
   void place_first_guess(double time_end, double h);
   void set_targets(double h);
   /// The right-hand side of the global solve into `side`: M/h^2 y, what pull_of gives for each
