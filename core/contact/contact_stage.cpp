@@ -121,6 +121,12 @@ auto ContactStage::with_held(const Solid& solid, const Shape& shape, VertexId ve
   return action(own);
 }
 
+/// Of a place when the substep ends, from where the solid holds the vertex.
+Gap ContactStage::held_gap(const Solid& solid, VertexId vertex, const Vec3& place) const {
+  return with_held(solid, solid.swept, vertex,
+                   [&](const SweptSolid& held) { return gap(held, place); });
+}
+
 void ContactStage::make_budget() {
   std::vector<DistanceBudget::Hull> hulls;
   for (std::size_t k = first_cone_; k < colliders_.size(); ++k) {
@@ -285,8 +291,7 @@ std::optional<ContactStage::Touch> ContactStage::resolve(VertexId vertex,
     velocity = solid_velocity + left * tangential_velocity + parting_speed * normal;
 
     if (before) {
-      const Gap other = with_held(*before, before->swept, vertex,
-                                  [&](const SweptSolid& held) { return gap(held, position); });
+      const Gap other = held_gap(*before, vertex, position);
       const Vec3 along = tangential(other.normal, normal);
       const double squared_sine = along.squaredNorm();
       if (squared_sine > kLeastSine * kLeastSine) {
@@ -375,10 +380,7 @@ double ContactStage::least_gap(const Eigen::Ref<const Positions>& positions,
   for (const Solid& solid : solids_) {
     for (Eigen::Index i = 0; i < positions.cols(); ++i) {
       if (is_exempt[static_cast<std::size_t>(i)] != 0) continue;
-      const Gap found = with_held(solid, solid.swept, VertexId(i), [&](const SweptSolid& held) {
-        return gap(held, positions.col(i));
-      });
-      least = std::min(least, found.distance);
+      least = std::min(least, held_gap(solid, VertexId(i), positions.col(i)).distance);
     }
   }
   return least;
@@ -390,9 +392,7 @@ Vec3 ContactStage::solid_velocity(const Touch& touch, const Vec3& place_begin) c
 }
 
 Gap ContactStage::gap_at_end(const Touch& touch, const Vec3& place) const {
-  const Solid& solid = solids_[static_cast<std::size_t>(touch.solid)];
-  return with_held(solid, solid.swept, touch.vertex,
-                   [&](const SweptSolid& held) { return gap(held, place); });
+  return held_gap(solids_[static_cast<std::size_t>(touch.solid)], touch.vertex, place);
 }
 
 SolidShape ContactStage::placed(const Collider& collider, double time) {

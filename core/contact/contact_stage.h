@@ -190,6 +190,7 @@ class ContactStage {
   template <class Shape, class Action>
   auto with_held(const Solid& solid, const Shape& shape, VertexId vertex,
                  const Action& action) const;
+  Gap held_gap(const Solid& solid, VertexId vertex, const Vec3& place) const;
   bool is_outside(const Solid& solid, const Vec3& place) const;
   Vec3 velocity_at(const Solid& solid, const Vec3& place) const;
   static Vec3 relative_path(const Solid& solid, const Vec3& begin, const Vec3& end);

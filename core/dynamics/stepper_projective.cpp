@@ -227,13 +227,14 @@ void StepperProjective::place_first_guess(double time_end, double h) {
   for (const ContactHold::Held& held : hold_->held()) {
     const VertexId v = held.vertex;
     if (!is_held_[v]) continue;
-    const Mat3 held_parts = held.resistance / (kHeldShare * hold_->resistances()[v]);
-    const Mat3 free_parts = Mat3::Identity() - held_parts;
+    const double whole = kHeldShare * hold_->resistances()[v];
+    const Vec3 force = contact_forces_.col(v);
     const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
-    const Vec3 brake = h * h / model_.masses[v] * free_parts * contact_forces_.col(v);
-    const double slide = (free_parts * way).norm();
+    const Vec3 held_way = held.resistance * way / whole;
+    const Vec3 brake = h * h / model_.masses[v] * (force - held.resistance * force / whole);
+    const double slide = (way - held_way).norm();
     const double share = brake.norm() > slide ? slide / brake.norm() : 1;
-    positions_.col(v) += held_parts * way + share * brake;
+    positions_.col(v) += held_way + share * brake;
   }
 }
 
