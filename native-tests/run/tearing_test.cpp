@@ -242,8 +242,9 @@ TEST_CASE("tearing: a hand keeps what it holds while the cloth tears", "[run]") 
 }
 
 TEST_CASE("tearing: what a solid holds goes on being held", "[run]") {
-  // At rest over a ball, until a hand tears one corner off. Were the ball's support forgotten, what
-  // hangs would fall freely for a substep and then jerk at what lies.
+  // At rest over a ball, until a hand slowly tears one corner off. Were the ball's support
+  // forgotten, what hangs would fall freely for a substep and then jerk at what lies, to 3 % of
+  // strain; the tear itself leaves more load to the threads beside it, but not twice as much.
   Scene scene = pulled_scene(usual_method());
   scene.cloth = SheetCloth(SheetShape{1, 1, 6, 6, {-0.5, 0.32, -0.5}, {0, 0, 1}, {1, 0, 0}});
   scene.colliders = {{Sphere{{0, 0, 0}, 0.3}, {}, 1}};
@@ -255,12 +256,12 @@ TEST_CASE("tearing: what a solid holds goes on being held", "[run]") {
   simulation.grab(VertexId(48));
   Vec3 target = simulation.state().positions.col(48);
   while (n_splits(simulation) == 0 && simulation.n_steps() < 400) {
-    target += Vec3(0.002, 0, 0.002);
+    target += Vec3(0.0005, 0, 0.0005);
     simulation.move_grab(target);
     step(simulation);
   }
   REQUIRE(n_splits(simulation) > 0);
-  CHECK(largest_strain(simulation) < 0.005);
+  CHECK(largest_strain(simulation) < 2 * scene.model.tearing->breaking_elongation);
 }
 
 TEST_CASE("tearing: the account of energy goes on, with what tears took", "[run]") {
