@@ -9,8 +9,8 @@ import { START_S } from '../src/refinement/state/garment-frames.ts';
 const NAME = 'virtual:pleat-figure';
 const BUILT = new URL('../src/wasm/refinement.mjs', import.meta.url);
 const ASSETS = new URL('../../assets/', import.meta.url);
-const SCENE = 'scenes/garments/skirt_fast_walk.json';
-const MOTION = 'motions/walk_fast.json';
+const FOLDER = 'scenes/garments/';
+const SCENE = 'skirt_fast_walk.json';
 
 /** Digits of a length [m] that can be seen. */
 const DIGITS = 4;
@@ -22,8 +22,11 @@ async function figure(): Promise<unknown> {
   const binary = new URL('refinement.wasm', BUILT);
   const { GarmentRun } = await create({ wasmBinary: readFileSync(fileURLToPath(binary)) });
   const run: GarmentRunHandle = new GarmentRun(textOf('fabrics/fabrics.json'));
-  const scene = { ...JSON.parse(textOf(SCENE)), refinement: { level: 0 } };
-  run.load(JSON.stringify(scene), { [scene.figure.motion]: textOf(MOTION) });
+  const scene = { ...JSON.parse(textOf(FOLDER + SCENE)), refinement: { level: 0 } };
+  const named: string[] = [scene.figure.motion, scene.start];
+  const files = Object.fromEntries(named.map((name) => [name, textOf(FOLDER + name)]));
+  const { ok, message } = JSON.parse(run.load(JSON.stringify(scene), files));
+  if (!ok) throw new Error(`${SCENE}: ${message}`);
   run.put(run.positions().slice(), START_S);
   const { cones, pelvis_m } = JSON.parse(run.solids());
   run.delete();

@@ -31,6 +31,7 @@ function withFullNames(scene, folder) {
   const full = structuredClone(scene);
   if (mesh?.obj) full.cloth.mesh.obj = join(folder, mesh.obj);
   if (typeof figure?.motion === 'string') full.figure.motion = join(folder, figure.motion);
+  if (typeof scene.start === 'string') full.start = join(folder, scene.start);
   return full;
 }
 
