@@ -223,6 +223,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
                {"built", built.built},
                {"built_bytes", built.bytes},
                {"left_out", built.left_out},
+               {"remark", simulation.remark()},
                {"status", name(summary.report.status)},
                {"message", summary.report.message},
                {"n_steps", simulation.n_steps()},
@@ -299,6 +300,8 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   std::printf("stretch at the end: rms %.3g %%, largest %.3g %%; largest of all %.3g %%\n",
               100 * summary.last_stretch.rms, 100 * summary.last_stretch.largest,
               100 * summary.largest_stretch);
+  if (const std::string remark = simulation.remark(); !remark.empty())
+    std::printf("method: %s\n", remark.c_str());
   if (!summary.report.message.empty() && !summary.report.ends_run())
     std::printf("%s\n", summary.report.message.c_str());
   std::printf("largest residual %.3g\n", summary.report.relative_residual);

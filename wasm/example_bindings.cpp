@@ -73,7 +73,11 @@ class ExampleStudy {
       const val wanted = pleat::json_value(options_text);
       pleat::PlanOptions options;
       const bool has_demand = wanted["demand"].isNumber();
-      if (has_demand || wanted["criterion"].equals(val("curvature")))
+      const val criterion = wanted["criterion"];
+      if (!criterion.isUndefined() && !criterion.equals(val("curvature")) &&
+          !criterion.equals(val("shape")))
+        throw pleat::InputError("/criterion", "expected shape or curvature");
+      if (has_demand || criterion.equals(val("curvature")))
         options.criterion = pleat::PlanCriterion::curvature;
       if (has_demand) options.demand = wanted["demand"].as<double>();
       if (wanted["largest_loss_m"].isNumber())

@@ -188,7 +188,7 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
   if (!is_available(options.preconditioner))
     throw InputError("/method/preconditioner",
                      "expected automatic or incomplete_factor, got multigrid, which the page does "
-                     "without: its meshes are too small for it");
+                     "without, for the room that it takes");
   return make_linear_solver(
       options.solver, {options.tolerance, max_iterations, options.omega, options.preconditioner});
 }

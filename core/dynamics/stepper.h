@@ -52,6 +52,9 @@ class Stepper {
   /// all alike. Valid until the next call that changes the stepper.
   virtual std::span<const char> implicit_springs() const { return {}; }
 
+  /// What the options ask for and this cloth has not, in a sentence's middle; empty for nothing.
+  virtual std::string remark() const { return {}; }
+
   /// When a solid first touched the cloth since this was made, to the accuracy that
   /// MethodOptions::first_contact asks for [s]; nothing before, and where none is asked for.
   std::optional<double> first_contact() const { return first_contact_; }

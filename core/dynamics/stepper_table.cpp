@@ -388,7 +388,8 @@ std::unique_ptr<Stepper> make_stepper(ClothModel& model, const MethodOptions& op
   if (model.bend_friction && !type.takes_bend_friction)
     throw InputError(
         "/method/stepper",
-        std::string("expected implicit or newton for friction inside the fabric, got ") +
+        std::string("expected implicit or newton for friction inside the fabric, whose moments "
+                    "they find with the end of a step as no other does, got ") +
             type.name);
   if (type.needs_springs && !model.is_plain_spring_lattice())
     throw InputError("/model", std::string("expected springs with quadratic bending or none for ") +

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/linalg/float4.h"
+#include "core/linalg/four_floats.h"
 
 namespace pleat {
 namespace {
@@ -72,7 +72,7 @@ inline void scale_block(const double* V, const double* W, double* A) {
 template <int B>
 struct Row {
   static constexpr int kFours = kLanes<B> / 4;
-  Float4 fours[kFours];
+  FourFloats fours[kFours];
 
   static Row zero() { return Row{}; }
   static Row load(const float* from) {
@@ -91,7 +91,7 @@ struct Row {
 /// Sums of B x B blocks times rows. Blocks are loaded beyond their end: x is zero there.
 template <int B>
 struct Products {
-  Float4 sums[B] = {};
+  FourFloats sums[B] = {};
 
   void add(const float* block, const float* x) {
     const Row<B> row = Row<B>::load(x);

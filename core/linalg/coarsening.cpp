@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/linalg/float4.h"
+#include "core/linalg/four_floats.h"
 
 namespace pleat {
 namespace {
@@ -326,8 +326,8 @@ void Coarsening<B>::restrict_to(const float* r, float* b) const {
   for (int row = 0; row < n; ++row) {
     for (int p = begin(row); p < begin(row + 1); ++p) {
       float* sum = b + column(p) * kLanes<kRigid>;
-      Float4 low = load4(sum);
-      Float4 high = load4(sum + 4);
+      FourFloats low = load4(sum);
+      FourFloats high = load4(sum + 4);
       for (int k = 0; k < B; ++k) {
         const float factor = r[row * kLanes<B> + k];
         low += factor * load4(scaled_block(p) + k * kRigid);
@@ -344,10 +344,10 @@ template <int B>
 void Coarsening<B>::add_prolonged(const float* e, float* x) const {
   const int n = static_cast<int>(begins_.size()) - 1;
   for (int row = 0; row < n; ++row) {
-    Float4 sums[B] = {};
+    FourFloats sums[B] = {};
     for (int p = begin(row); p < begin(row + 1); ++p) {
-      const Float4 low = load4(e + column(p) * kLanes<kRigid>);
-      const Float4 high = load4(e + column(p) * kLanes<kRigid> + 4);
+      const FourFloats low = load4(e + column(p) * kLanes<kRigid>);
+      const FourFloats high = load4(e + column(p) * kLanes<kRigid> + 4);
       for (int k = 0; k < B; ++k)
         sums[k] += load4(scaled_block(p) + k * kRigid) * low +
                    load4(scaled_block(p) + k * kRigid + 4) * high;

@@ -77,7 +77,7 @@ struct SolverOptions {
 /// False for cholmod where SuiteSparse's source could not be had when this was built.
 bool is_available(SolverKind kind);
 
-/// False for multigrid in the page's modules, whose meshes are too small for it.
+/// False for multigrid in the page's modules, for the room that it takes.
 bool is_available(Preconditioner preconditioner);
 
 /// The direct solver to prefer: cholmod where there is one, else eigen.

@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/scene/rest_cloth.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
@@ -19,7 +20,7 @@ const QuadCloth& quad_cloth(const Scene& scene) {
 AdaptiveRun::AdaptiveRun(const Scene& scene, const DynamicOptions& options)
     : scene_(scene), base_(quad_cloth(scene).base_quads()), refinement_(base_, options) {
   expect_whole(scene);
-  build(quad_cloth(scene_).at_rest(base_));
+  build(rest_cloth(scene_, 0));
   state_ = scene_state(cloth_);
   for (const Pin& pin : model_->pins) state_.positions.col(pin.vertex) = pin.position(0);
   if (model_->bend_friction) model_->bend_friction->restart(state_.positions);

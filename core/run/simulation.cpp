@@ -137,6 +137,7 @@ void Simulation::go_on_from(const State& state, double time,
   straighten(model_.hanging, state_.positions);
   straighten(model_.hanging, state_.velocities);
   for (const Pin& pin : model_.pins) state_.positions.col(pin.vertex) = pin.position(time);
+  if (model_.bend_friction) model_.bend_friction->restart(state_.positions);
   if (contact_accelerations.cols() > 0)
     stepper_->start_from_contact_forces(contact_accelerations * model_.masses.asDiagonal());
   time_begin_ = time;

@@ -89,6 +89,8 @@ class Simulation final : public MovingCloth {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
   int substeps() const { return stepper_->substeps(); }
+  /// See Stepper::remark.
+  std::string remark() const { return stepper_->remark(); }
   /// See Stepper::first_contact.
   std::optional<double> first_contact() const { return stepper_->first_contact(); }
   /// See Stepper::contact_forces.

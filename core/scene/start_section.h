@@ -14,7 +14,8 @@ namespace pleat {
 /// without velocities it is at rest.
 StartState read_start(const JsonReader& reader, const FileSource& files, const Scene& scene);
 
-/// The same, and Wavefront OBJ: its vertices, at rest.
+/// The same, and Wavefront OBJ: its vertices, at rest. Its faces have to be the cloth's, by either
+/// diagonal.
 StartState read_start_or_obj(const JsonReader& reader, const FileSource& files, const Scene& scene);
 
 /// Throws InputError{where} unless the start is of some uniform refinement of the scene's cloth,

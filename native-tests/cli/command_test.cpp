@@ -201,6 +201,17 @@ TEST_CASE("command: options change the scene", "[cli]") {
   CHECK(metrics.at("time_s").get<double>() == Approx(0.04));
 }
 
+TEST_CASE("command: more levels than a mesh has are told with the run", "[cli]") {
+  const SmallScene scene(scene_with("\"step_s\": 0.02, \"solver\": \"eigen\"",
+                                    "\"stepper\": \"multigrid\", \"levels\": 30"));
+  const Ending told = scene.run({"run", "--steps", "2"});
+  REQUIRE(told.status == 0);
+  CHECK_THAT(told.out, Catch::Contains("method: expected 30 coarser levels, got "));
+  const Ending ending = scene.run({"run", "--json", "--steps", "2"});
+  CHECK_THAT(parse_json(ending.out).at("remark").get<std::string>(),
+             Catch::StartsWith("expected 30 coarser levels, got "));
+}
+
 TEST_CASE("command: bad input is one sentence that names the place, and exit status 2", "[cli]") {
   struct Bad {
     std::vector<std::string> words;  // after the scene's file

@@ -405,7 +405,9 @@ TEST_CASE("bend_friction: steppers that do not take it refuse it", "[model]") {
       } catch (const InputError& error) {
         CHECK(error.where() == "/method/stepper");
         CHECK(std::string(error.what()) == std::string("expected implicit or newton for friction "
-                                                       "inside the fabric, got ") +
+                                                       "inside the fabric, whose moments they "
+                                                       "find with the end of a step as no other "
+                                                       "does, got ") +
                                                stepper->name);
       }
     }

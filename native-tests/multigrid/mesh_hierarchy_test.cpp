@@ -4,8 +4,11 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/check.h"
+#include "core/files/obj_file.h"
 #include "core/mesh/mesh_fault.h"
+#include "native-tests/support/assets.h"
 #include "native-tests/support/meshes.h"
+#include "native-tests/support/topology.h"
 
 namespace pleat {
 namespace {
@@ -52,6 +55,30 @@ TEST_CASE("hierarchy: every level is a sound mesh of vertices of the finer one",
     CHECK_FALSE(mesh_fault(positions_on(level, mesh.rest_positions), level.triangles, 0));
     CHECK(level.edges.size() == mesh_edges(level.triangles).size());
     CHECK(finer.from_coarser.n_rows() == finer.n_vertices());
+  }
+}
+
+TEST_CASE("hierarchy: levels of a garment have its pieces, its borders and its holes",
+          "[multigrid]") {
+  const std::string name = GENERATE("skirt", "t_shirt");
+  const ObjMesh obj = read_obj(repository_file("assets/meshes/" + name + ".obj"));
+  TriangleMesh mesh;
+  mesh.rest_positions = obj.positions;
+  mesh.triangles = obj.triangles;
+  HierarchyOptions options;
+  options.ratio = 0.5;
+  options.n_coarser = 4;
+  const MeshHierarchy hierarchy = hierarchy_of(mesh, options);
+  REQUIRE(hierarchy.shortage.empty());
+  const Topology finest = topology(mesh.triangles, mesh.n_vertices());
+  for (const MeshLevel& level : hierarchy.levels) {
+    CAPTURE(name, level.n_vertices());
+    CHECK_FALSE(mesh_fault(positions_on(level, mesh.rest_positions), level.triangles, 0));
+    const Topology kept = topology(level.triangles, level.n_vertices());
+    CHECK(kept.is_manifold);
+    CHECK(kept.n_components == finest.n_components);
+    CHECK(kept.n_border_loops == finest.n_border_loops);
+    CHECK(kept.euler == finest.euler);
   }
 }
 

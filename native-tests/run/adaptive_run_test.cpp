@@ -7,6 +7,7 @@
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
 #include "core/scene/particle_cloth.h"
+#include "core/scene/scene_parts.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
@@ -85,6 +86,25 @@ TEST_CASE("adaptive run: where nothing is refined it is the simulation, to the b
   CHECK(run.time() == simulation.time());
   CHECK(run.state().positions == simulation.state().positions);
   CHECK(run.state().velocities == simulation.state().velocities);
+}
+
+TEST_CASE("adaptive run: it begins where the scene starts, as the simulation does", "[run]") {
+  Scene scene = hanging_scene();
+  scene.method.substeps = 1;
+  Simulation before(scene);
+  for (int step = 0; step < 10; ++step) REQUIRE(before.step().ok());
+  scene.start = StartState{before.state().positions, before.state().velocities, 0};
+  scene.start_part = all_scene_parts().start;
+  AdaptiveRun run(scene, {1e6, 2});
+  Simulation simulation(scene);
+  CHECK(run.state().positions == simulation.state().positions);
+  CHECK(run.state().velocities == before.state().velocities);
+  for (int step = 0; step < 5; ++step) {
+    CHECK_FALSE(run.adapt());
+    REQUIRE(run.step().ok());
+    REQUIRE(simulation.step().ok());
+  }
+  CHECK(run.state().positions == simulation.state().positions);
 }
 
 TEST_CASE("adaptive run: cloth that is not of quads is refused", "[run]") {

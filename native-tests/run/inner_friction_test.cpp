@@ -107,8 +107,10 @@ TEST_CASE("inner_friction: other models and the rule equilibrium refuse it", "[r
                 "expected backward_euler or midpoint with friction inside the fabric, whose rest "
                 "depends on the way to it, got equilibrium");
   scene.method = steppers::kXpbd.usual_method();
-  check_refused(scene, "/method/stepper",
-                "expected implicit or newton for friction inside the fabric, got xpbd");
+  check_refused(
+      scene, "/method/stepper",
+      "expected implicit or newton for friction inside the fabric, whose moments they find "
+      "with the end of a step as no other does, got xpbd");
   scene = read_scene(scene_text("spring_pendulum"), fabric_library());
   scene.fabric.bend_hysteresis = 1e-3;
   check_refused(scene, "/fabric",

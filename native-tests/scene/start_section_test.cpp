@@ -104,6 +104,11 @@ TEST_CASE("start: one that this cloth cannot begin at is refused with a sentence
         "f.obj: expected a start of this cloth, which has 6 vertices at level 0, got 3");
   CHECK(refusal("\"f.obj\"", 0, "v 0 1 nan\nv 1 1 0\nv 0 2 0\nf 1 2 3\n").find("f.obj: line 1") ==
         0);
+  const std::string others =
+      "v 0 1 0\nv 0 1 1\nv 0 2 0\nv 0 2 1\nv 0 3 0\nv 0 3 1\nf 1 2 4\nf 1 4 3\nf 3 4 6\nf 2 1 5\n";
+  CHECK(
+      refusal("\"f.obj\"", 0, others) ==
+      "f.obj: line 8: expected a face of this cloth, got one of vertices that have none together");
   CHECK(refusal("\"f.json\"", 0, R"({"places": []})").find("f.json: ") == 0);
   CHECK(refusal("7").find("/start: expected") == 0);
 }

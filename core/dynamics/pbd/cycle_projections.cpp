@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/dynamics/pbd/attachments.h"
@@ -49,15 +50,24 @@ MeshHierarchy hierarchy_of(const ClothModel& model, const MethodOptions& options
 }
 
 /// Lines need a grid, are what both smoothers ask for, and tell nobody their errors.
-std::unique_ptr<MeshSweeps> sweeps_of(const ClothModel& model, const MethodOptions& options,
-                                      const LaneLayout& layout, SpringLaw law, double h) {
+bool sweeps_lines(const MethodOptions& options, const LaneLayout& layout) {
   const auto takes_lines = [](Smoother smoother) {
     return smoother == Smoother::lines || smoother == Smoother::none;
   };
-  const bool in_lines = takes_lines(options.smoother_before) &&
-                        takes_lines(options.smoother_after) && layout.n_rows > 1 &&
-                        options.level_lengths != LevelLengths::error;
-  return (in_lines ? line_sweeps : gathered_sweeps)(model, layout, law, h);
+  return takes_lines(options.smoother_before) && takes_lines(options.smoother_after) &&
+         layout.n_rows > 1 && options.level_lengths != LevelLengths::error;
+}
+
+/// Why lines that are asked for are swept one constraint after the other; empty where they are not.
+std::string lines_remark(const MethodOptions& options, const LaneLayout& layout) {
+  const bool asks_for_lines =
+      options.smoother_before == Smoother::lines || options.smoother_after == Smoother::lines;
+  if (!asks_for_lines || sweeps_lines(options, layout)) return {};
+  const char* why = layout.n_rows <= 1 ? "this cloth has no grid"
+                    : options.level_lengths == LevelLengths::error
+                        ? "levels by errors ask springs for theirs one by one"
+                        : "the other smoother is none";
+  return std::string("gauss_seidel in the place of lines, as ") + why;
 }
 
 /// Of the finest level behind each correction by errors: half of what the cycle costs.
@@ -71,8 +81,10 @@ class CycleProjections final : public Projections {
         smoothing_{relaxation(options.smoother_before, options.omega),
                    relaxation(options.smoother_after, options.omega)},
         vertices_(layout.n_slots),
-        sweeps_(sweeps_of(model, options, layout, law, h)),
-        hierarchy_(hierarchy_of(model, options)) {
+        sweeps_(
+            (sweeps_lines(options, layout) ? line_sweeps : gathered_sweeps)(model, layout, law, h)),
+        hierarchy_(hierarchy_of(model, options)),
+        lines_remark_(lines_remark(options, layout)) {
     for (const LaneLayout::Place& place : layout.places) slots_.push_back(place.slot);
   }
 
@@ -123,6 +135,11 @@ class CycleProjections final : public Projections {
   double squared_residual_before(const LaneView& view) override {
     vertices_.begin(view);
     return sweeps_->squared_residual_before(vertices_);
+  }
+
+  std::string remark() const override {
+    const bool says_both = !hierarchy_.shortage.empty() && !lines_remark_.empty();
+    return hierarchy_.shortage + (says_both ? "; " : "") + lines_remark_;
   }
 
  private:
@@ -182,7 +199,8 @@ class CycleProjections final : public Projections {
   GatheredVertices vertices_;
   std::unique_ptr<MeshSweeps> sweeps_;
   MeshHierarchy hierarchy_;
-  std::vector<int> slots_;  // of each vertex
+  std::string lines_remark_;  // see lines_remark
+  std::vector<int> slots_;    // of each vertex
   CoarseLevels<Float4> levels_;
   ErrorCorrection by_error_;  // in the place of levels_, where the options ask for it
   CycleAcceleration acceleration_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/dynamics/method_options.h"
 #include "core/dynamics/xpbd/lane_layout.h"
@@ -34,6 +35,9 @@ class Projections {
   /// `solve`, or with multipliers of zero, as before it.
   virtual double squared_residual(const LaneView& view) = 0;
   virtual double squared_residual_before(const LaneView& view) = 0;
+
+  /// What the options ask for and this cloth has not, in a sentence's middle; empty for nothing.
+  virtual std::string remark() const { return {}; }
 };
 
 /// What makes the projections of a model, for substeps of h [s].

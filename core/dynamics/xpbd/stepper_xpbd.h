@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/dynamics/stepper.h"
@@ -27,6 +28,7 @@ class StepperXpbd final : public Stepper {
 
   void refresh() override;
   void refresh_rest_lengths() override;
+  std::string remark() const override { return projections_->remark(); }
 
  protected:
   void load(const State& state) override;

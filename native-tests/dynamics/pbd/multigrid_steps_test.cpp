@@ -72,6 +72,8 @@ TEST_CASE("multigrid: a sheet that hangs at rest stays there for 10 s, in any or
         sheet.model.springs[i - 1],
         sheet.model.springs[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i)))]);
   MethodOptions method = steppers::kMultigrid.usual_method();
+  // Lines have an order of their own.
+  method.smoother_before = method.smoother_after = Smoother::gauss_seidel;
   method.substeps = 30;
   const State end = after(sheet, method, 600);
   CHECK((end.positions - sheet.state.positions).colwise().norm().maxCoeff() < 2e-3);
@@ -106,9 +108,20 @@ TEST_CASE("multigrid: lines on the finest level leave half the stretch, and need
   CHECK(rms_stretch(sheet.model, ours) <
         0.5 * rms_stretch(sheet.model, after(sheet, one_by_one, 20).positions));
 
+  const auto remark = [&](const MethodOptions& method) {
+    return make_stepper(sheet.model, method)->remark();
+  };
+  CHECK(remark(lines).empty());
+  CHECK(remark(one_by_one).empty());
+  MethodOptions mixed = lines;
+  mixed.smoother_before = Smoother::sor;
+  CHECK(remark(mixed) == "gauss_seidel in the place of lines, as the other smoother is none");
   sheet.model.rest_coordinates.resize(2, 0);
   for (Spring& spring : sheet.model.springs) spring.kind = SpringKind::other;
   CHECK(after(sheet, lines, 5).positions == after(sheet, one_by_one, 5).positions);
+  CHECK(remark(lines) == "gauss_seidel in the place of lines, as this cloth has no grid");
+  one_by_one.levels = 30;
+  CHECK_THAT(remark(one_by_one), Catch::StartsWith("expected 30 coarser levels, got "));
 }
 
 TEST_CASE("multigrid: corners that are pulled too far apart stretch a sheet without throwing it",

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 
 #include "core/base/random.h"
@@ -177,6 +178,35 @@ TEST_CASE("lengths: jacobi takes the mean of what each constraint alone would do
   }
   LengthGroups<Double4> lengths(all, inverse_masses, LengthSide::both);
   CHECK((swept(lengths, begin, now, {Smoother::jacobi, 0.8}) - mean).norm() < 1e-14);
+}
+
+TEST_CASE("lengths: a sweep damps each wave as local Fourier analysis says", "[dynamics]") {
+  constexpr int kLengths = 200;
+  constexpr double kError = 1e-6;
+  const double cosine = GENERATE(0.8, 0.3, 0.0, -0.4, -0.5, -0.9, -1.0);
+  const double omega = GENERATE(0.7, 1.0, 1.3);
+  CAPTURE(cosine, omega);
+  // Along a straight chain errors of lengths are linear in moves: wave k is cos(k theta).
+  const double theta = std::acos(cosine);
+  std::vector<PlaceLength> all;
+  Positions x = Positions::Zero(3, kLengths + 1);
+  for (int k = 0; k < kLengths; ++k) {
+    all.push_back({{k, k + 1}, 1});
+    x(0, k + 1) = x(0, k) + 1 + kError * std::cos(k * theta);
+  }
+  std::vector<double> inverse_masses(kLengths + 1, 1.0);
+  inverse_masses.push_back(0);
+  const auto check = [&](Smoother smoother, int k, double damping) {
+    LengthGroups<Double4> lengths(all, inverse_masses, LengthSide::both);
+    const Positions after = swept(lengths, x, x, {smoother, omega});
+    const double left = after(0, k + 1) - after(0, k) - 1;
+    CHECK(left / kError == Approx(damping * std::cos(k * theta)).margin(1e-5));
+  };
+  // Every second length first, then those between.
+  const double between = 1 + omega * cosine;
+  check(Smoother::sor, 100, 1 - omega + omega * cosine * between);
+  check(Smoother::sor, 101, (1 - omega) * between);
+  for (const int k : {100, 101}) check(Smoother::jacobi, k, 1 - omega / 2 * (1 - cosine));
 }
 
 TEST_CASE("coarse levels: strain-free cloth is left alone, rolled or folded", "[dynamics]") {
