@@ -14,9 +14,10 @@ std::string repository_file(const std::string& path);
 const FabricLibrary& fabric_library();
 
 /// The scenes that come with the program.
-constexpr const char* kSceneFiles[] = {
-    "curtain",       "tablecloth",      "swinging_sheet", "corners_meet", "falling_sheet",
-    "hanging_chain", "spring_pendulum", "wool",           "flag",         "tearing_curtain"};
+constexpr const char* kSceneFiles[] = {"curtain",         "tablecloth",    "swinging_sheet",
+                                       "corners_meet",    "falling_sheet", "hanging_chain",
+                                       "spring_pendulum", "wool",          "flag",
+                                       "tearing_curtain", "swags"};
 
 std::string scene_text(const std::string& name);
 

@@ -46,6 +46,7 @@ const { visit, checkAccess, checkWidths, checkWithoutModule } = createVisitor(ha
 
 for (const preset of [
   'curtain',
+  'swags',
   'tablecloth',
   'swinging-sheet',
   'free-fall-drape',

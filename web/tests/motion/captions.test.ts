@@ -128,6 +128,25 @@ describe.runIf(isBuilt('pleat'))('the caption of', { timeout: 60000 }, () => {
     }
   });
 
+  it('the swags: half the width, and each fabric by itself', async () => {
+    const module = await loadModule('pleat');
+    expect(sceneOf('swags').caption).toMatch(/half its width.*5 to 8 cm apart/);
+    const runs = ['silk', 'canvas', 'leather'].map((name) =>
+      begin(module, { ...sceneOf('swags'), fabric: { name } }),
+    );
+    const shapes = runs.map(({ at }) => at(4));
+    const [rest = []] = runs.map((run) => run.rest);
+    const top = Math.max(...rest.map(({ y }) => y));
+    for (const [k, shape] of shapes.entries()) {
+      const width = span(those(rest, shape, ({ y }) => isNear(y, top)).map(({ x }) => x)) / 1.2;
+      expect(Math.abs(width - 0.5)).toBeLessThan(0.25);
+      for (const other of shapes.slice(0, k)) {
+        expect(rmsApart(shape, other)).toBeGreaterThan(0.045);
+        expect(rmsApart(shape, other)).toBeLessThan(0.085);
+      }
+    }
+  });
+
   it('the tablecloth: corners hang close to the ball, the hem between stands out', async () => {
     const module = await loadModule('pleat');
     expect(sceneOf('tablecloth').caption).toMatch(/settles.*corners hang down close/);

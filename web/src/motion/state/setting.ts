@@ -6,6 +6,7 @@ import flagText from '../../../../assets/scenes/flag.json?raw';
 import freeFallText from '../../../../assets/scenes/free_fall_drape.json?raw';
 import pendulumText from '../../../../assets/scenes/pendulum_10x10.json?raw';
 import skirtText from '../../../../assets/scenes/skirt.json?raw';
+import swagsText from '../../../../assets/scenes/swags.json?raw';
 import swingingSheetText from '../../../../assets/scenes/swinging_sheet.json?raw';
 import tableclothText from '../../../../assets/scenes/tablecloth.json?raw';
 import tearingCurtainText from '../../../../assets/scenes/tearing_curtain.json?raw';
@@ -27,6 +28,7 @@ import { type Hold, type ObjMesh, objScene } from './obj-mesh';
 
 export type PresetId =
   | 'curtain'
+  | 'swags'
   | 'tearing-curtain'
   | 'flag'
   | 'tablecloth'
@@ -139,6 +141,7 @@ function presetFrom(title: string, text: string): Preset {
 
 export const PRESETS: Record<PresetId, Preset> = {
   curtain: presetFrom('Curtain', curtainText),
+  swags: presetFrom('Curtain on three hooks', swagsText),
   'tearing-curtain': presetFrom('Tearing curtain', tearingCurtainText),
   flag: presetFrom('Flag in the wind', flagText),
   tablecloth: presetFrom('Tablecloth on a ball', tableclothText),
