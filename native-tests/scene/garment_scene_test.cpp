@@ -14,7 +14,7 @@
 namespace pleat {
 namespace {
 
-constexpr const char* kGarments[] = {"skirt", "trousers"};
+constexpr const char* kGarments[] = {"skirt", "trousers", "slim_trousers"};
 constexpr const char* kMotions[] = {"walk", "fast_walk", "squat", "turn"};
 
 std::string file_beside_garments(const std::string& name) {

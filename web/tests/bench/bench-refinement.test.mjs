@@ -14,6 +14,7 @@ import {
   restartFaults,
   runRow,
   runTable,
+  stretchGoals,
   wasmGoals,
 } from '../../../native-tests/bench/parts/refinement-goals.mjs';
 
@@ -99,14 +100,22 @@ describe('goals of refinement', () => {
     expect(verdicts(row(), first, first, fired)).toEqual([true, false, false, true]);
   });
 
-  it('hold friction to half of the distance without it, for the first pair', () => {
+  it('hold friction to half of the distance without it, in the mean of pairs', () => {
     const apart = (position_m) => row({ errors: { position_m } });
     const { goals, text } = frictionGoals({
       without: [apart(0.04), apart(0.03)],
-      withFriction: [apart(0.018), apart(0.018)],
+      withFriction: [apart(0.018), apart(0.0135)],
     });
-    expect(lines(goals)).toEqual(['goal skirt_twin_with_friction_to_without 0.45 at-most 0.5 ok']);
-    expect(text).toBe('shown skirt_further_twins_with_friction_to_without 0.6');
+    expect(lines(goals)).toEqual(['goal skirt_twins_with_friction_to_without 0.45 at-most 0.5 ok']);
+    expect(text).toBe('mm apart without friction 40, 30; with it 18, 13.5');
+  });
+
+  it('hold the largest stretch of trousers in all motions, and none of a skirt', () => {
+    const rows = [row({ largest_stretch: 0.12 }), row({ largest_stretch: 0.2 })];
+    expect(lines(stretchGoals('trousers', rows))).toEqual([
+      'goal trousers_largest_edge_stretch 0.2 at-most 0.15 short',
+    ]);
+    expect(stretchGoals('skirt', rows)).toEqual([]);
   });
 
   it('count frames with any vertex inside', () => {

@@ -91,7 +91,7 @@ export async function checkRefinement(harness) {
   await check('refinement: sliders make other plans, by demand and by a budget', () =>
     visit('#view=refinement&fine=on', async (page) => {
       const first = (await stateOf(page)).panes.planned.nVertices;
-      await press(page, /^At most so much/, 'ArrowRight', 6);
+      await press(page, /^At most so much/, 'ArrowRight', 16);
       await until(page, (state) => state.plan?.largest_loss_m === 0.003 && state.phase === 'ready');
       const fewer = (await stateOf(page)).panes.planned;
       expectThat(fewer.nVertices < first, `${fewer.nVertices} of ${first} vertices`);

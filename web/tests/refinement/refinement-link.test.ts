@@ -17,7 +17,7 @@ describe('refinement-link', () => {
       fabric: 'silk',
       further: ['squat', 'walk'],
       rule: 'budget',
-      demand: 1.75,
+      demand: 1.8,
       budget: 2500,
       rival: 'even',
       method: 'implicit',
@@ -31,7 +31,7 @@ describe('refinement-link', () => {
       startS: 1.233,
     };
     expect(decodeRefinementLink(`#${encodeRefinementLink(link)}`)).toEqual({ link, problems: [] });
-    const demand = { ...link, rule: 'demand' as const, budget: null, demand: 2.75 };
+    const demand = { ...link, rule: 'demand' as const, budget: null, demand: 2.7 };
     expect(decodeRefinementLink(encodeRefinementLink(demand))).toEqual({
       link: demand,
       problems: [],
@@ -55,7 +55,7 @@ describe('refinement-link', () => {
     expect(problems).toEqual([
       'garment: expected skirt, trousers, slim_trousers, found "hat"',
       'examples: expected some of walk, fast_walk, turn, squat, found "squat,hat"',
-      'lost-mm: expected 0.5 to 4 in quarters, found "8"',
+      'lost-mm: expected 0.5 to 4 in tenths, found "8"',
       'vertices: expected a number of vertices, found "-3"',
       'start: expected a time in seconds, found "late"',
       'hat: not a known part',

@@ -81,6 +81,18 @@ describe('the module of garments', () => {
     expect(basePatterns(plan).slice(0, 7)).toEqual([1, 1, 0, 0, 0, 0, 1]);
   });
 
+  it('refuses a criterion that it does not know', () => {
+    const study = new module.ExampleStudy(fabricsText);
+    study.open(JSON.stringify(sheet({ level: 1 })), {});
+    const answer = JSON.parse(study.plan('{"criterion": "beauty", "max_vertices": 60}'));
+    study.delete();
+    expect(answer).toMatchObject({
+      ok: false,
+      where: '/criterion',
+      what: 'expected shape or curvature',
+    });
+  });
+
   it('binds exactly the classes and methods that the types name', () => {
     expect(boundMethods(module)).toEqual(REFINEMENT_METHODS);
   });

@@ -95,7 +95,11 @@ export function noticeSentence(state: RefinementState): string {
   if (planned.nVertices === 0 || fine.nVertices === 0 || !plan)
     return `One garment on one walking figure, on a uniform, a ${PLANNED} and a fine mesh.`;
   const share = planned.nVertices / fine.nVertices;
-  return `The ${PLANNED} mesh has ${percent(share)} of the fine one’s vertices: small faces only where the ${examplesWords(planStory(plan))} bent the cloth. ${whatToDo(state, plan)}`;
+  const story = planStory(plan);
+  const where = story.isByShape
+    ? `where larger ones would lose most of what the ${examplesWords(story)} showed`
+    : `only where the ${examplesWords(story)} bent the cloth`;
+  return `The ${PLANNED} mesh has ${percent(share)} of the fine one’s vertices: small faces ${where}. ${whatToDo(state, plan)}`;
 }
 
 function times(more: number, less: number): string {

@@ -26,7 +26,7 @@ const LARGEST_BUDGET = 100000;
 const LATEST_START_S = 60;
 
 function demandIn(text: string): number | undefined {
-  const value = /^\d(\.(25|5|75))?$/.test(text) ? Number(text) : Number.NaN;
+  const value = /^\d(\.\d)?$/.test(text) ? Number(text) : Number.NaN;
   return value >= DEMANDS.least && value <= DEMANDS.most ? value : undefined;
 }
 
@@ -97,7 +97,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
   const demand = take(
     'lost-mm',
     USUAL_DEMANDS_MM[garment],
-    `${DEMANDS.least} to ${DEMANDS.most} in quarters`,
+    `${DEMANDS.least} to ${DEMANDS.most} in tenths`,
     demandIn,
   );
   const budget = take<number | null>('vertices', null, 'a number of vertices', budgetIn);

@@ -27,7 +27,7 @@ export const MOST_SUBSTEPS = 64;
 export type ColourId = (typeof COLOURS)[number];
 
 /** How much of the examples' shapes a plan may lose [mm]. */
-export const DEMANDS = { least: 0.5, most: 4, step: 0.25 };
+export const DEMANDS = { least: 0.5, most: 4, step: 0.1 };
 
 /**
  * Where a pane's frames come from: a record that comes with the page, this device, or, until it
