@@ -27,6 +27,7 @@ import {
   runRow,
   runTable,
   shownLines,
+  stretchGoals,
   wasmGoals,
 } from './parts/refinement-goals.mjs';
 import { answer, garmentScene, keptAnswers, shownPlan } from './parts/refinement-runs.mjs';
@@ -237,6 +238,7 @@ async function garmentPart(garment, { options }) {
       ...comparisonGoals(garment, { fine, multi, same, faults }),
       ...monitorGoals(garment, { ...others, test }),
       ...insideGoals(garment, walks),
+      ...stretchGoals(garment, [multi, ...Object.values(others)]),
     ],
     text: `${shownLines(garment, { fine, multi, same, twin })}
 
@@ -280,7 +282,7 @@ async function friction({ options }) {
   const twins = (scene) => {
     const further = Array.from({ length: kFurtherRuns }, (_, k) => inHeavierAir(scene, k + 1));
     tell(`skirt: ${further.length + 1} fine runs`);
-    const frames = ['--from', kChanceAfter - 0.1, '--every', kErrorEvery];
+    const frames = ['--from', kChanceAfter - 0.1, '--every', 1];
     const { runs } = answer('bench', 'together', scene, '--with', further, ...frames);
     return runs.slice(1).map((run) => runRow('twin', run, { garment: 'skirt', commit }));
   };

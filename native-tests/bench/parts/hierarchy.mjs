@@ -7,7 +7,7 @@ import { commit, tell } from './bench-parts.mjs';
 import { goal, markdown, median, short } from './bench-rows.mjs';
 import { ask } from './command.mjs';
 import { crumpledDress } from './crumpled-dress.mjs';
-import { garment } from './multigrid-preconditioner.mjs';
+import { walking } from './multigrid-preconditioner.mjs';
 import { squareSheet } from './square-sheet.mjs';
 
 const kMostMs = 150;
@@ -21,7 +21,7 @@ const meshesOf = (folder) => {
     fabric: { name: 'fine cotton' },
     pins: [{ part: 'upper_edge' }],
   };
-  const { substeps, ...skirt } = garment('skirt_walk', 2);
+  const { substeps, ...skirt } = walking('skirt', 2);
   return [
     ['sheet 100x100', sheet],
     ['skirt in a walk', skirt],

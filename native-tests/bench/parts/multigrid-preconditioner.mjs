@@ -1,12 +1,13 @@
 // A step of implicit by conjugate gradients with each preconditioner: its iterations and milliseconds.
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
 import { tell } from './bench-parts.mjs';
 import { goal, markdown, median, short } from './bench-rows.mjs';
-import { nativeTurns, root } from './command.mjs';
+import { nativeTurns } from './command.mjs';
 import { crumpledDress } from './crumpled-dress.mjs';
+import { garmentScene } from './refinement-runs.mjs';
 import { squareSheet } from './square-sheet.mjs';
 
 const kStep = 1 / 60; // [s]
@@ -54,17 +55,10 @@ const onBall = (n) => ({
   world: kBall,
 });
 
-/** A garment of the shipped scenes; a file of its own finds the motion nowhere else. */
-export function garment(name, level) {
-  const file = join(root, 'assets', 'scenes', 'garments', `${name}.json`);
-  const { method, ...scene } = JSON.parse(readFileSync(file, 'utf8'));
-  const motion = join(root, 'assets', 'motions', 'walk_normal.json');
-  return {
-    ...scene,
-    figure: { ...scene.figure, motion },
-    refinement: { level },
-    substeps: method.substeps,
-  };
+/** A garment in a walk; its rows have a method of their own, and its substeps. */
+export function walking(garment, level) {
+  const { method, ...scene } = garmentScene(garment, 'walk');
+  return { ...scene, refinement: { level }, substeps: method.substeps };
 }
 
 const dress = (file) => ({
@@ -81,12 +75,12 @@ const scenesOf = (folder) => [
   ['sheet 257x257 by an edge', sheet(257, kEdge), 3],
   ['sheet 257x257 by two corners', sheet(257, kCorners), 3],
   ['sheet 129x129 on a ball', onBall(129), 22],
-  ['skirt in a walk', garment('skirt_walk', 2), 8],
+  ['skirt in a walk', walking('skirt', 2), 8],
   ['crumpled dress of six pieces', dress(folder), 3],
   ['silk 65x65 by two corners', sheet(65, kCorners, { fabric: { name: 'silk' } }), 8],
   ['canvas 65x65 by two corners', sheet(65, kCorners, { fabric: { name: 'canvas' } }), 8],
   ['membrane 65x65, fitted bending', sheet(65, kCorners, kMembrane), 8],
-  ['trousers in a walk', garment('trousers_walk', 2), 4],
+  ['trousers in a walk', walking('trousers', 2), 4],
   ['strip 65x257 by an edge', strip, 6],
 ];
 
