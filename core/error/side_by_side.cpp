@@ -136,8 +136,8 @@ void SideBySide::Run::observe_frame(bool is_compared, bool is_monitored,
   const State& state = cloth->state();
   ++result.n_frames;
   n_vertices_sum += cloth->model().n_vertices();
-  result.largest_stretch =
-      std::max(result.largest_stretch, stretch(cloth->gauge(), state.positions).largest);
+  for (const GaugeEdge& edge : cloth->gauge())
+    result.longest_edge = std::max(result.longest_edge, strain(edge, state.positions));
   if (const auto& contact = cloth->model().contact) {
     result.all_inside.add(contact->penetration(state.positions, cloth->time()));
     const Positions unpinned = unpinned_columns(cloth->model(), state.positions);

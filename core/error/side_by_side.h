@@ -61,11 +61,11 @@ struct ContestantResult {
   /// Of the first contestant's shapes sampled on this one's mesh, root mean square over the frames
   /// that are compared: the mesh's own fault. Not of an adaptive mesh.
   SamplingError sampling{RunErrors::kUnknown, RunErrors::kUnknown};
-  Eigen::MatrixXd folds;       ///< FoldSpectrum::amplitudes over garment_rings, of those frames [m]
-  double rms_stretch = 0;      ///< mean over the frames that are compared
-  double largest_stretch = 0;  ///< of all frames
-  Insides all_inside;          ///< of all frames
-  Insides unpinned_inside;     ///< of the vertices that no pin takes along
+  Eigen::MatrixXd folds;    ///< FoldSpectrum::amplitudes over garment_rings, of those frames [m]
+  double rms_stretch = 0;   ///< mean over the frames that are compared
+  double longest_edge = 0;  ///< largest l/L - 1 of all frames, 0 where all edges are shorter
+  Insides all_inside;       ///< of all frames
+  Insides unpinned_inside;  ///< of the vertices that no pin takes along
   std::optional<FitSummary> fit;  ///< on a mesh of a plan with limits
 };
 

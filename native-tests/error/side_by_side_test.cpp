@@ -1,9 +1,11 @@
 #include "core/error/side_by_side.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/scene/scene_file.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
@@ -73,6 +75,29 @@ TEST_CASE("side by side: vertices inside of a solid are counted, pinned ones apa
   CHECK(results[0].all_inside.most == 1);
   CHECK(results[0].all_inside.deepest == Approx(0.1));
   CHECK(results[0].unpinned_inside.n_frames == 0);
+}
+
+TEST_CASE("side by side: the longest edge of all frames is stretched, however short others are",
+          "[error]") {
+  Scene scene = canvas_scene(1);
+  const Positions at_rest = rest_cloth(scene).mesh.rest_positions;
+  scene.start = StartState{0.7 * at_rest, Positions::Zero(3, at_rest.cols()), scene.level};
+  scene.start_part = all_scene_parts().start;
+  const FrameOptions options = half_a_second();
+  Simulation own(scene);
+  double longest = 0, shortest = 0;
+  while (own.time() < options.duration - scene.method.step / 2) {
+    own.step();
+    const auto frame = std::lround(own.time() / options.frame_time);
+    if (std::abs(own.time() - static_cast<double>(frame) * options.frame_time) > 1e-9) continue;
+    for (const GaugeEdge& edge : own.gauge()) {
+      longest = std::max(longest, strain(edge, own.state().positions));
+      shortest = std::min(shortest, strain(edge, own.state().positions));
+    }
+  }
+  CHECK(run({{scene, {}}})[0].longest_edge == Approx(longest).epsilon(1e-12));
+  CHECK(longest > 0);
+  CHECK(-shortest > longest);
 }
 
 TEST_CASE("side by side: the parts of timed frames fit into their time", "[error]") {

@@ -37,7 +37,7 @@ const run = {
   },
   folds_m: [[0.01, 0.02]],
   rms_stretch: 0.01,
-  largest_stretch: 0.1,
+  longest_edge: 0.1,
   inside: { n_frames: 0, most: 0, deepest_m: 0 },
   unpinned_inside: { n_frames: 0, most: 0, deepest_m: 0 },
   fit: { share_outside: 0.004, worst_share: 0.02, n_frames: 9, first_fired: null },
@@ -111,9 +111,9 @@ describe('goals of refinement', () => {
   });
 
   it('hold the largest stretch of trousers in all motions, and none of a skirt', () => {
-    const rows = [row({ largest_stretch: 0.12 }), row({ largest_stretch: 0.2 })];
+    const rows = [row({ longest_edge: 0.12 }), row({ longest_edge: 0.2 })];
     expect(lines(stretchGoals('trousers', rows))).toEqual([
-      'goal trousers_largest_edge_stretch 0.2 at-most 0.15 short',
+      'goal trousers_longest_edge_stretch 0.2 at-most 0.15 short',
     ]);
     expect(stretchGoals('skirt', rows)).toEqual([]);
   });
