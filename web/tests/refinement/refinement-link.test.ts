@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { USUAL_DEMANDS_MM } from '../../src/refinement/state/garment-frames';
 import {
   decodeRefinementLink,
   encodeRefinementLink,
@@ -17,7 +18,7 @@ describe('refinement-link', () => {
       fabric: 'silk',
       further: ['squat', 'walk'],
       rule: 'budget',
-      demand: 1.8,
+      demand: USUAL_DEMANDS_MM.trousers,
       budget: 2500,
       rival: 'even',
       method: 'implicit',
