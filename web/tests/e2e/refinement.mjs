@@ -103,6 +103,34 @@ export async function checkRefinement(harness) {
     }),
   );
 
+  await check('refinement: every mesh shows the fine cloth when asked, and its own again', () =>
+    visit('#view=refinement&beside=even&edges=off&colour=material', async (page) => {
+      const isNumbered = ({ panes }) => panes.planned.foldsM !== null;
+      await until(page, isNumbered, LOAD_MS);
+      const own = [await positionsOf(page, 0), await positionsOf(page, 1)];
+      const before = await picture(page);
+      const control = page.getByLabel('The fine cloth on every mesh');
+      await control.check();
+      await until(page, (state) => !isNumbered(state));
+      const fine = await positionsOf(page, 2);
+      for (const pane of [0, 1]) {
+        const places = await positionsOf(page, pane);
+        const move = largestMove(own[pane], places);
+        expectThat(move > 0.005, `pane ${pane} moved ${move} m`);
+        expectThat(places.length < fine.length, 'it has the fine mesh');
+      }
+      const badges = await page.locator('.garment-panes').textContent();
+      expectThat(/fine’s shape on this mesh/.test(badges), `the panes say: ${badges}`);
+      expectThat(!before.equals(await picture(page)), 'the picture is the same');
+      await control.uncheck();
+      await until(page, isNumbered);
+      for (const pane of [0, 1]) {
+        const move = largestMove(own[pane], await positionsOf(page, pane));
+        expectThat(move === 0, `pane ${pane} is ${move} m from its own shape`);
+      }
+    }),
+  );
+
   await check('refinement: the fine skirt walks as it is computed, by position-based steps', () =>
     visit('#view=refinement&edges=off&colour=material', async (page) => {
       await choice(page, 'Steps').selectOption({ label: 'multigrid: computed as it walks' });

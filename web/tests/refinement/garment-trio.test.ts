@@ -461,6 +461,27 @@ describe('trio', () => {
   );
 
   it(
+    'shows the fine cloth on every mesh for as long as that is wanted',
+    async () => {
+      const { store, settled, shown } = stand();
+      const own = await settled(isMeasured);
+      const { lostM } = own.panes.planned;
+      const ownPlaces = shown.planned;
+      // Vertices of the base mesh are vertices of all; its last are at the hem.
+      const hemOf = (places?: Float32Array) => places?.slice(3 * 700, 3 * 714);
+      expect(hemOf(ownPlaces)).not.toEqual(hemOf(shown.fine));
+      store.set({ cloth: 'fine' });
+      const ofFine = await settled(({ panes }) => panes.planned.foldsM === null);
+      expect(hemOf(shown.planned)).toEqual(hemOf(shown.fine));
+      expect(ofFine.panes.planned).toMatchObject({ source: 'recorded', lostM });
+      store.set({ cloth: 'own' });
+      await settled(({ panes }) => panes.planned.foldsM !== null);
+      expect(shown.planned).toEqual(ownPlaces);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     'gives a plan up when told to, and keeps the one it has',
     async () => {
       const planner = plannerParts();

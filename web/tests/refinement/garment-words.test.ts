@@ -82,9 +82,12 @@ const panesOf = (other: GarmentPane, fine: GarmentPane) => ({
 describe('garment-words', () => {
   it('says where a cost was found out', () => {
     const pane = { ...EMPTY_PANE, nVertices: 5, msPerFrame: 12.34 };
-    expect(costWords({ ...pane, source: 'recorded' })).toBe('12 ms a frame, recorded');
-    expect(costWords({ ...pane, source: 'computed' })).toBe('12 ms a frame here');
-    expect(costWords({ ...pane, source: 'computed', msPerFrame: null })).toBe('computed here');
+    expect(costWords({ ...pane, source: 'recorded' }, false)).toBe('12 ms a frame, recorded');
+    expect(costWords({ ...pane, source: 'computed' }, false)).toBe('12 ms a frame here');
+    expect(costWords({ ...pane, source: 'computed', msPerFrame: null }, false)).toBe(
+      'computed here',
+    );
+    expect(costWords({ ...pane, source: 'recorded' }, true)).toBe('fine’s shape on this mesh');
     expect(errorWords('coarse', { ...pane, lostM: 0.0123 })).toBe('12 mm of shape lost');
     expect(errorWords('fine', { ...pane, source: 'resting' })).toBe('');
   });

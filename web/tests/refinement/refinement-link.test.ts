@@ -25,6 +25,7 @@ describe('refinement-link', () => {
       substeps: 8,
       useRecords: false,
       computeFine: false,
+      cloth: 'fine',
       colour: 'distance',
       edges: false,
       hanging: true,

@@ -8,6 +8,7 @@ import {
   PANES,
   type RefinementState,
   shownPanes,
+  showsFineCloth,
 } from '../state/refinement-state';
 import { costWords, errorWords, hintedSubsteps, vertices, warningWords } from './garment-words';
 
@@ -79,18 +80,22 @@ export function createGarmentBadges(
     grid.append(cell);
     return { id, cell, count, cost, error, showWarning };
   });
-  return watch(store, ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine'], (state) => {
-    const shown = shownPanes(state);
-    grid.style.setProperty('--columns', String(shown.length));
-    showChoice(state, shown.includes('fine') ? shown.length : 0);
-    for (const { id, cell, count, cost, error, showWarning } of badges) {
-      const pane = state.panes[id];
-      cell.hidden = !shown.includes(id);
-      const isKnown = pane.nVertices > 0;
-      setText(count, isKnown ? vertices(pane.nVertices) : 'opening');
-      setText(cost, isKnown ? costWords(pane) : '');
-      setText(error, isKnown ? errorWords(id, pane) : '');
-      showWarning(pane);
-    }
-  });
+  return watch(
+    store,
+    ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine', 'cloth'],
+    (state) => {
+      const shown = shownPanes(state);
+      grid.style.setProperty('--columns', String(shown.length));
+      showChoice(state, shown.includes('fine') ? shown.length : 0);
+      for (const { id, cell, count, cost, error, showWarning } of badges) {
+        const pane = state.panes[id];
+        cell.hidden = !shown.includes(id);
+        const isKnown = pane.nVertices > 0;
+        setText(count, isKnown ? vertices(pane.nVertices) : 'opening');
+        setText(cost, isKnown ? costWords(pane, id !== 'fine' && showsFineCloth(state)) : '');
+        setText(error, isKnown ? errorWords(id, pane) : '');
+        showWarning(pane);
+      }
+    },
+  );
 }

@@ -4,7 +4,12 @@ import { choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { USUAL_DEMANDS_MM } from '../state/garment-frames';
 import { GARMENTS, METHODS, MOTIONS, methodsOf, usualFabric } from '../state/garments';
-import type { ColourId, RefinementState, RivalId } from '../state/refinement-state';
+import {
+  type ColourId,
+  type RefinementState,
+  type RivalId,
+  showsFineCloth,
+} from '../state/refinement-state';
 import { noticeSentence } from './garment-words';
 
 const COLOUR_TITLES: readonly { value: ColourId; title: string }[] = [
@@ -23,6 +28,45 @@ const RIVAL_TITLES: readonly { value: RivalId; title: string }[] = [
 function check(title: string, change: (isOn: boolean) => void) {
   const input = element('input', { type: 'checkbox', change: () => change(input.checked) });
   return { input, label: element('label', { class: 'check' }, input, title) };
+}
+
+/** What of the cloth is shown, and how. */
+function createLook(store: Store<RefinementState>) {
+  const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
+  const cloth = check('The fine cloth on every mesh', (isOn) =>
+    store.set({ cloth: isOn ? 'fine' : 'own' }),
+  );
+  const clothNote = element(
+    'p',
+    { class: 'note' },
+    'Each mesh shows the fine run’s shape as well as its faces can: a fold that is missing now it can never show.',
+  );
+  const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
+  const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
+  const hangingNote = element(
+    'p',
+    { class: 'note' },
+    'A hanging vertex lies in the middle of a larger face’s edge and stays there: it is no unknown.',
+  );
+  return {
+    controls: [
+      cloth.label,
+      clothNote,
+      field('Colour shows', colour.control),
+      edges.label,
+      hanging.label,
+      hangingNote,
+    ],
+    show(state: RefinementState) {
+      colour.select(state.colour);
+      cloth.input.checked = showsFineCloth(state);
+      cloth.input.disabled = state.panes.fine.source === 'resting';
+      clothNote.hidden = !showsFineCloth(state);
+      edges.input.checked = state.edges;
+      hanging.input.checked = state.hanging;
+      hangingNote.hidden = !state.hanging;
+    },
+  };
 }
 
 export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementState>): () => void {
@@ -48,14 +92,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
   const rival = choice(RIVAL_TITLES, (value) =>
     store.set({ rival: value, startS: store.get().timeS }),
   );
-  const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
-  const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
-  const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
-  const hangingNote = element(
-    'p',
-    { class: 'note' },
-    'A hanging vertex lies in the middle of a larger face’s edge and stays there: it is no unknown.',
-  );
+  const look = createLook(store);
   parent.append(
     element(
       'section',
@@ -70,10 +107,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       field('Motion', motion.control),
       methodField,
       field('Uniform mesh beside', rival.control),
-      field('Colour shows', colour.control),
-      edges.label,
-      hanging.label,
-      hangingNote,
+      ...look.controls,
     ),
   );
   return watch(
@@ -85,6 +119,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       'method',
       'rival',
       'further',
+      'cloth',
       'colour',
       'edges',
       'hanging',
@@ -99,10 +134,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       method.select(state.method);
       rival.select(state.rival);
       methodField.hidden = methodsOf(state.garment).length < 2;
-      colour.select(state.colour);
-      edges.input.checked = state.edges;
-      hanging.input.checked = state.hanging;
-      hangingNote.hidden = !state.hanging;
+      look.show(state);
     },
   );
 }

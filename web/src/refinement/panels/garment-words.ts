@@ -28,8 +28,11 @@ export function vertices(count: number): string {
   return `${count.toLocaleString('en').replaceAll(',', '\u202f')} vertices`;
 }
 
-/** The cost of a frame, and where it was measured. */
-export function costWords({ source, msPerFrame }: GarmentPane): string {
+const FINE_CLOTH = 'fine’s shape on this mesh';
+
+/** The cost of a frame, and where it was measured; of the fine pane's cloth, that it is that. */
+export function costWords({ source, msPerFrame }: GarmentPane, isFineCloth: boolean): string {
+  if (isFineCloth) return FINE_CLOTH;
   const cost = msPerFrame === null ? '' : `${milliseconds(msPerFrame)} a frame`;
   switch (source) {
     case 'recorded':
@@ -37,7 +40,7 @@ export function costWords({ source, msPerFrame }: GarmentPane): string {
     case 'computed':
       return cost === '' ? 'computed here' : `${cost} here`;
     case 'sampled':
-      return 'fine’s shape on this mesh; press Play';
+      return `${FINE_CLOTH}; press Play`;
     case 'resting':
       return 'rests';
   }

@@ -12,6 +12,7 @@ import {
   type GarmentPane,
   type PaneId,
   type RefinementState,
+  showsFineCloth,
 } from '../state/refinement-state';
 import type { Advance, Described, GarmentMesh, GarmentScalar } from '../worker/garment-protocol';
 import type { RecordingHead } from '../worker/recording';
@@ -191,12 +192,18 @@ export class PaneSet {
     await this.describe(false, isCurrent);
   }
 
-  private isSampled(pane: PaneRun): boolean {
+  private isPreviewOf(pane: PaneRun): boolean {
     return this.isPreview && pane.source === 'computed';
   }
 
+  /** A pane that shows the fine one's shape. */
+  private isSampled(pane: PaneRun): boolean {
+    if (pane === this.fine) return false;
+    return this.isPreviewOf(pane) || showsFineCloth(this.store.get());
+  }
+
   private shownSource(pane: PaneRun): FrameSource {
-    return this.isSampled(pane) ? 'sampled' : pane.source;
+    return this.isPreviewOf(pane) ? 'sampled' : pane.source;
   }
 
   private set(id: PaneId, patch: Partial<GarmentPane>): void {
@@ -270,7 +277,7 @@ export class PaneSet {
     wantsNumbers: boolean,
   ): Promise<Described> {
     const state = this.store.get();
-    const isSampled = pane !== this.fine && this.isSampled(pane);
+    const isSampled = this.isSampled(pane);
     const isCompared = wantsNumbers || state.colour === 'distance' || isSampled;
     return pane.describe({
       scalar: scalarOf(state),

@@ -61,7 +61,7 @@ export class Trio {
   private readonly pace: FramePace;
   private wanted = 0; // counts loads: what belongs to an earlier one is dropped
   private isBusy = false;
-  private isAskedAgain = false; // for colours, while busy
+  private isAskedAgain = false; // for colours and cloth, while busy
   private isTakingBack = false; // a wish that was given up
   private isBuilt = false; // all panes are as wanted, but for the plan
   private planned: readonly MotionId[] = []; // further examples of the plan that is there
@@ -125,7 +125,7 @@ export class Trio {
     const ofPanes = ['garment', 'motion', 'fabric', 'rival', 'method', 'substeps'] as const;
     if (differs(...ofPanes, 'useRecords', 'computeFine', 'startS')) void this.load('all');
     else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
-    else if (differs('colour')) this.recolour();
+    else if (differs('colour', 'cloth')) this.recolour();
     if (!state.playing || previous.playing) return;
     this.pace.start();
     this.parts.later(() => this.tick());

@@ -13,6 +13,7 @@ import {
   usualFabric,
 } from './garments';
 import {
+  CLOTHS,
   COLOURS,
   DEFAULT_LINK,
   DEMANDS,
@@ -71,6 +72,7 @@ export function encodeRefinementLink(link: RefinementLink): string {
     ['speed', String(link.speed)],
     ['start', String(Number(link.startS.toFixed(3)))],
   ];
+  if (link.cloth !== 'own') parts.push(['cloth', link.cloth]);
   if (link.method !== 'implicit') parts.push(['method', link.method]);
   if (link.substeps !== null) parts.push(['substeps', String(link.substeps)]);
   if (link.further.length > 0) parts.push(['examples', link.further.join(',')]);
@@ -115,6 +117,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     substeps: take<number | null>('substeps', null, `1 to ${MOST_SUBSTEPS}`, substepsIn),
     useRecords: isOn('records', usual.useRecords),
     computeFine: isOn('fine', usual.computeFine),
+    cloth: take('cloth', usual.cloth, CLOTHS.join(', '), oneOf(CLOTHS)),
     colour: take('colour', usual.colour, COLOURS.join(', '), oneOf(COLOURS)),
     edges: isOn('edges', usual.edges),
     hanging: isOn('hanging', usual.hanging),

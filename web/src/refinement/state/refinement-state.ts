@@ -26,6 +26,10 @@ export const MOST_SUBSTEPS = 64;
 
 export type ColourId = (typeof COLOURS)[number];
 
+/** What a mesh shows: its own run, or the fine pane's as well as its faces can. */
+export const CLOTHS = ['own', 'fine'] as const;
+export type ClothId = (typeof CLOTHS)[number];
+
 /** How much of the examples' shapes a plan may lose [mm]. */
 export const DEMANDS = { least: 0.5, most: 4, step: 0.1 };
 
@@ -88,6 +92,7 @@ export interface RefinementLink {
   useRecords: boolean;
   /** When no frames of the fine mesh come with the page, the other panes wait for it. */
   computeFine: boolean;
+  cloth: ClothId;
   colour: ColourId;
   edges: boolean;
   hanging: boolean;
@@ -146,6 +151,7 @@ export const DEFAULT_LINK: RefinementLink = {
   substeps: null,
   useRecords: true,
   computeFine: true,
+  cloth: 'own',
   colour: 'level',
   edges: false,
   hanging: false,
@@ -167,6 +173,14 @@ export function shownPanes(
 /** The panes that are in step, whether there is room for all or not. */
 export function comparedPanes({ rival }: Pick<RefinementState, 'rival'>): readonly PaneId[] {
   return [rival, 'planned', 'fine'];
+}
+
+/** The panes beside fine show its shape in place of their own. */
+export function showsFineCloth({
+  cloth,
+  panes,
+}: Pick<RefinementState, 'cloth' | 'panes'>): boolean {
+  return cloth === 'fine' && panes.fine.source !== 'resting';
 }
 
 /** The shown motion is one of those that the plan is made of. */

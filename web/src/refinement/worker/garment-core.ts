@@ -155,7 +155,8 @@ export class GarmentCore {
 
   private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
     const { request, reference, timeS } = message;
-    if (message.takesSample && reference) {
+    const own = message.takesSample ? owner.positions().slice() : null;
+    if (own && reference) {
       const answer = read<object>(owner.putSample(reference, timeS));
       if (!answer.ok) return this.refuse(request, answer);
     }
@@ -170,6 +171,7 @@ export class GarmentCore {
     const costs = payloadOf<GarmentCosts>(owner.costs());
     const warnings = payloadOf<WarningsAnswer>(owner.warnings())?.warnings ?? [];
     const solids = payloadOf<SolidsAnswer>(owner.solids());
+    if (own) owner.put(own, timeS);
     const answer: Described = {
       type: 'described',
       request,
