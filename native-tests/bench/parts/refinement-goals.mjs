@@ -1,8 +1,9 @@
 // Rows of runs on meshes of one garment, their table, and what was promised of them.
 import { goal, markdown, median, short } from './bench-rows.mjs';
 
-/** Bounds of the share of vertices, and of a plan's faults over a uniform mesh's, by garment. */
-const kMostVertices = { skirt: 1 / 3, trousers: 1 / 4, slim_trousers: 1 / 3 };
+/** Of the fine mesh's. */
+const kMostVertices = 1 / 3;
+/** Of a plan's faults over a uniform mesh's, by garment. */
 const kMostFaults = { skirt: 0.9, trousers: 0.9, slim_trousers: 0.75 };
 /** Of the distance of two fine runs without friction. */
 const kMostChance = 0.5;
@@ -196,7 +197,7 @@ export function comparisonGoals(garment, { fine, multi, same, faults }) {
     goal(`${garment}_${name}`, value, 'at-most', bound, of);
   const apart = Math.abs(multi.n_vertices / same.n_vertices - 1);
   return [
-    at('vertices_share', share, kMostVertices[garment]),
+    at('vertices_share', share, kMostVertices),
     at('vertices_from_uniform', apart, kMostVerticesApart, [multi, same]),
     at(
       'time_share',
