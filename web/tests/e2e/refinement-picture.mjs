@@ -6,7 +6,7 @@ import { createHarness, until } from './harness.mjs';
 const target = fileURLToPath(new URL('../../../docs/refinement.png', import.meta.url));
 const harness = await createHarness();
 const { page, close } = await harness.open(
-  '#view=refinement&garment=slim_trousers&beside=even&cloth=fine&colour=material&start=4',
+  '#view=refinement&garment=slim_trousers&beside=even&fine-cloth=on&colour=material&start=4',
   { width: 1440, height: 860 },
 );
 await until(page, ({ phase, panes }) => phase === 'ready' && panes.planned.lostM !== null);

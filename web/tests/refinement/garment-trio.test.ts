@@ -470,11 +470,11 @@ describe('trio', () => {
       // Vertices of the base mesh are vertices of all; its last are at the hem.
       const hemOf = (places?: Float32Array) => places?.slice(3 * 700, 3 * 714);
       expect(hemOf(ownPlaces)).not.toEqual(hemOf(shown.fine));
-      store.set({ cloth: 'fine' });
+      store.set({ fineCloth: true });
       const ofFine = await settled(({ panes }) => panes.planned.foldsM === null);
       expect(hemOf(shown.planned)).toEqual(hemOf(shown.fine));
       expect(ofFine.panes.planned).toMatchObject({ source: 'recorded', lostM });
-      store.set({ cloth: 'own' });
+      store.set({ fineCloth: false });
       await settled(({ panes }) => panes.planned.foldsM !== null);
       expect(shown.planned).toEqual(ownPlaces);
     },

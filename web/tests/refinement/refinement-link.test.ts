@@ -25,7 +25,7 @@ describe('refinement-link', () => {
       substeps: 8,
       useRecords: false,
       computeFine: false,
-      cloth: 'fine',
+      fineCloth: true,
       colour: 'distance',
       edges: false,
       hanging: true,

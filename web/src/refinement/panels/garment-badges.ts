@@ -82,7 +82,7 @@ export function createGarmentBadges(
   });
   return watch(
     store,
-    ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine', 'cloth'],
+    ['panes', 'phase', 'isNarrow', 'beside', 'rival', 'computeFine', 'fineCloth'],
     (state) => {
       const shown = shownPanes(state);
       grid.style.setProperty('--columns', String(shown.length));

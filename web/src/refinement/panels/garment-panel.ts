@@ -33,13 +33,11 @@ function check(title: string, change: (isOn: boolean) => void) {
 /** What of the cloth is shown, and how. */
 function createLook(store: Store<RefinementState>) {
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
-  const cloth = check('The fine cloth on every mesh', (isOn) =>
-    store.set({ cloth: isOn ? 'fine' : 'own' }),
-  );
+  const fineCloth = check('The fine cloth on every mesh', (isOn) => store.set({ fineCloth: isOn }));
   const clothNote = element(
     'p',
     { class: 'note' },
-    'Each mesh shows the fine run’s shape as well as its faces can: a fold that is missing now it can never show.',
+    'Each mesh shows the fine run’s shape as well as its faces can: a fold that is missing now is too fine for them.',
   );
   const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
   const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
@@ -50,7 +48,7 @@ function createLook(store: Store<RefinementState>) {
   );
   return {
     controls: [
-      cloth.label,
+      fineCloth.label,
       clothNote,
       field('Colour shows', colour.control),
       edges.label,
@@ -59,8 +57,8 @@ function createLook(store: Store<RefinementState>) {
     ],
     show(state: RefinementState) {
       colour.select(state.colour);
-      cloth.input.checked = showsFineCloth(state);
-      cloth.input.disabled = state.panes.fine.source === 'resting';
+      fineCloth.input.checked = showsFineCloth(state);
+      fineCloth.input.disabled = state.panes.fine.source === 'resting';
       clothNote.hidden = !showsFineCloth(state);
       edges.input.checked = state.edges;
       hanging.input.checked = state.hanging;
@@ -119,7 +117,7 @@ export function createGarmentPanel(parent: HTMLElement, store: Store<RefinementS
       'method',
       'rival',
       'further',
-      'cloth',
+      'fineCloth',
       'colour',
       'edges',
       'hanging',

@@ -125,7 +125,7 @@ export class Trio {
     const ofPanes = ['garment', 'motion', 'fabric', 'rival', 'method', 'substeps'] as const;
     if (differs(...ofPanes, 'useRecords', 'computeFine', 'startS')) void this.load('all');
     else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
-    else if (differs('colour', 'cloth')) this.recolour();
+    else if (differs('colour', 'fineCloth')) this.recolour();
     if (!state.playing || previous.playing) return;
     this.pace.start();
     this.parts.later(() => this.tick());

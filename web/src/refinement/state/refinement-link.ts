@@ -13,7 +13,6 @@ import {
   usualFabric,
 } from './garments';
 import {
-  CLOTHS,
   COLOURS,
   DEFAULT_LINK,
   DEMANDS,
@@ -66,13 +65,13 @@ export function encodeRefinementLink(link: RefinementLink): string {
     ['beside', link.rival],
     ['records', flag(link.useRecords)],
     ['fine', flag(link.computeFine)],
+    ['fine-cloth', flag(link.fineCloth)],
     ['colour', link.colour],
     ['edges', flag(link.edges)],
     ['hanging', flag(link.hanging)],
     ['speed', String(link.speed)],
     ['start', String(Number(link.startS.toFixed(3)))],
   ];
-  if (link.cloth !== 'own') parts.push(['cloth', link.cloth]);
   if (link.method !== 'implicit') parts.push(['method', link.method]);
   if (link.substeps !== null) parts.push(['substeps', String(link.substeps)]);
   if (link.further.length > 0) parts.push(['examples', link.further.join(',')]);
@@ -117,7 +116,7 @@ export function decodeRefinementLink(hash: string): { link: RefinementLink; prob
     substeps: take<number | null>('substeps', null, `1 to ${MOST_SUBSTEPS}`, substepsIn),
     useRecords: isOn('records', usual.useRecords),
     computeFine: isOn('fine', usual.computeFine),
-    cloth: take('cloth', usual.cloth, CLOTHS.join(', '), oneOf(CLOTHS)),
+    fineCloth: isOn('fine-cloth', usual.fineCloth),
     colour: take('colour', usual.colour, COLOURS.join(', '), oneOf(COLOURS)),
     edges: isOn('edges', usual.edges),
     hanging: isOn('hanging', usual.hanging),

@@ -26,10 +26,6 @@ export const MOST_SUBSTEPS = 64;
 
 export type ColourId = (typeof COLOURS)[number];
 
-/** What a mesh shows: its own run, or the fine pane's as well as its faces can. */
-export const CLOTHS = ['own', 'fine'] as const;
-export type ClothId = (typeof CLOTHS)[number];
-
 /** How much of the examples' shapes a plan may lose [mm]. */
 export const DEMANDS = { least: 0.5, most: 4, step: 0.1 };
 
@@ -92,7 +88,8 @@ export interface RefinementLink {
   useRecords: boolean;
   /** When no frames of the fine mesh come with the page, the other panes wait for it. */
   computeFine: boolean;
-  cloth: ClothId;
+  /** Panes show the fine one's shape as well as their faces can, in place of their own run. */
+  fineCloth: boolean;
   colour: ColourId;
   edges: boolean;
   hanging: boolean;
@@ -151,7 +148,7 @@ export const DEFAULT_LINK: RefinementLink = {
   substeps: null,
   useRecords: true,
   computeFine: true,
-  cloth: 'own',
+  fineCloth: false,
   colour: 'level',
   edges: false,
   hanging: false,
@@ -177,10 +174,10 @@ export function comparedPanes({ rival }: Pick<RefinementState, 'rival'>): readon
 
 /** The panes beside fine show its shape in place of their own. */
 export function showsFineCloth({
-  cloth,
+  fineCloth,
   panes,
-}: Pick<RefinementState, 'cloth' | 'panes'>): boolean {
-  return cloth === 'fine' && panes.fine.source !== 'resting';
+}: Pick<RefinementState, 'fineCloth' | 'panes'>): boolean {
+  return fineCloth && panes.fine.source !== 'resting';
 }
 
 /** The shown motion is one of those that the plan is made of. */
