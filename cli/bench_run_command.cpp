@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cli/bare_cloth.h"
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
@@ -266,27 +266,24 @@ Outcome bench_reference(Arguments arguments) {
 
 }  // namespace
 
-Outcome bench_command(Arguments arguments) {
-  const std::string kind = arguments.first_word(
-      "what to measure: run, reference, deform, inbetween, plans, together, restarts, response, "
-      "rows "
-      "or limit");
-  arguments.flag("--json");  // its only form
-  if (kind == "run") return bench_run(std::move(arguments));
-  if (kind == "reference") return bench_reference(std::move(arguments));
-  if (kind == "deform") return bench_deform(std::move(arguments));
-  if (kind == "inbetween") return bench_inbetween(std::move(arguments));
-  if (kind == "plans") return bench_plans(std::move(arguments));
-  if (kind == "together") return bench_together(std::move(arguments));
-  if (kind == "restarts") return bench_restarts(std::move(arguments));
-  if (kind == "response") return bench_response(std::move(arguments));
-  if (kind == "rows") return bench_rows(std::move(arguments));
-  if (kind == "limit") return bench_limit(std::move(arguments));
-  throw InputError(
-      "bench",
-      "expected run, reference, deform, inbetween, plans, together, restarts, response, rows "
-      "or limit after it, got " +
-          abbreviated(Json(kind)));
-}
+extern const Command kBenchRun(
+    "run", "SCENE.json", "what one run costs, with positions to compare", bench_run,
+    {kFabricHelp, kMethodHelp},
+    R"(  --frames N             of 1/60 s (default 60);  --times T1,T2  of the positions, within them
+  --parts                what the parts of a step cost
+  --bare                 the stepper alone on masses, springs, pins and weight: what else a scene
+                         could ask for costs, where it does not, what a run takes more than this
+  --turns                print "ready" after the first frame and wait for a line with the number of
+                         frames of the next turn, until all have been run
+)");
+
+extern const Command kBenchReference(
+    "reference", "SCENE.json", "positions that are taken for right", bench_reference,
+    {kFabricHelp, kMethodHelp, kTimeHelp},
+    R"(  --times T1,T2          of the positions (default: the scene's end, or that of --steps, --duration)
+  --kind KIND            run (default), or rigid_chain or closed_form, which take no option of a
+                         method
+  --cache DIR            keep runs here;  --halved  how far twice the step is from it
+)");
 
 }  // namespace pleat
