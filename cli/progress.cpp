@@ -31,6 +31,13 @@ void Progress::show(double share, const std::string& message) {
   line_is_open_ = on_terminal_;
 }
 
+void tell_warnings(std::span<const RunWarning> warnings, const std::string& of) {
+  const std::string begin = of.empty() ? "" : printable(of) + ": ";
+  for (const RunWarning& warning : warnings)
+    std::fprintf(stderr, "pleat: warning: %s%s; %s\n", begin.c_str(), sentence(warning).c_str(),
+                 advice(warning).c_str());
+}
+
 void print_early_end(std::int64_t n_steps, const SolveReport& report, const char* consequence) {
   std::fprintf(stderr, "pleat: stopped in step %lld: %s%s\n", static_cast<long long>(n_steps + 1),
                report.message.c_str(), consequence);

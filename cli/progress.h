@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "core/linalg/solve_report.h"
+#include "core/run/run_watch.h"
 #include "core/run/stage_timer.h"
 
 namespace pleat {
@@ -40,6 +42,11 @@ void finish(Work& work, const std::string& message) {
     progress.show(work.progress(), message);
   }
 }
+
+/// Says each on stderr with what to try.
+///
+/// of  what was run, where that is not clear: a setting, an example
+void tell_warnings(std::span<const RunWarning> warnings, const std::string& of = "");
 
 /// Says on stderr in which step the numbers ended a run, why, and what comes of it.
 ///

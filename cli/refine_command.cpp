@@ -7,7 +7,6 @@
 #include "cli/overwriting.h"
 #include "cli/plan_options.h"
 #include "cli/progress.h"
-#include "cli/run_warnings.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/files/plan_file.h"

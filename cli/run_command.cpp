@@ -8,7 +8,6 @@
 #include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
-#include "cli/run_warnings.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"

@@ -9,16 +9,86 @@
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
-#include "cli/run_warnings.h"
-#include "cli/shipped_references.h"
 #include "cli/sweep_folder.h"
 #include "cli/sweep_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/sweep/sweep.h"
+#include "core/sweep/sweep_reference.h"
 
 namespace pleat {
 namespace {
+
+/// The references of recipes, each made when it is first asked for.
+class MadeReferences {
+ public:
+  MadeReferences(const SweepPlan& plan, const SweepReferences& references, ReferenceStore& store)
+      : times_(sweep_sample_times(plan.duration)),
+        recipes_(references.recipes),
+        store_(store),
+        made_(references.recipes.size()) {}
+
+  const Reference& operator[](std::size_t index) {
+    std::optional<Reference>& reference = made_[index];
+    if (!reference) reference = store_.find(recipes_[index].id);
+    if (!reference) reference = make(recipes_[index]);
+    return *reference;
+  }
+
+ private:
+  Reference make(const ReferenceRecipe& recipe) {
+    const Reference* coarser = recipe.coarser ? &(*this)[*recipe.coarser] : nullptr;
+    const auto same_mesh = of_own_mesh(recipe);
+    if (coarser != nullptr && same_mesh &&
+        (*this)[*same_mesh].samples.size() == coarser->samples.size())
+      return checked_on_coarser(recipe, (*this)[*same_mesh], *coarser);
+    const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times_, coarser);
+    finish(*maker, recipe.scene.name + ", level " + std::to_string(recipe.scene.level));
+    Reference reference = maker->reference();
+    if (!reference.samples.empty()) store_.keep(reference);
+    return reference;
+  }
+
+  /// The recipe of the same run that is compared with on its own mesh, where there is one.
+  std::optional<std::size_t> of_own_mesh(const ReferenceRecipe& recipe) const {
+    const std::string id = reference_id(id_prefix(ReferenceKind::same_mesh), recipe.scene, times_);
+    for (std::size_t r = 0; r < recipes_.size(); ++r)
+      if (recipes_[r].id == id) return r;
+    return std::nullopt;
+  }
+
+  std::vector<double> times_;
+  const std::vector<ReferenceRecipe>& recipes_;
+  ReferenceStore& store_;
+  std::vector<std::optional<Reference>> made_;
+};
+
+/// Makes what the rows of a plan are compared with, and keeps it in a folder by id, with 32-bit
+/// positions. Prints how well each is known. False when the numbers ended one, which is not kept.
+///
+/// store       of whole references: what it has is not made again
+/// kept_level  of finer ones only the vertices of this level are kept
+/// Throws FileError, before anything is made, where one stands that may not be written over.
+bool ship_references(const SweepPlan& plan, ReferenceStore& store,
+                     const std::filesystem::path& folder, std::optional<int> kept_level,
+                     const Overwriting& overwriting) {
+  const SweepReferences references = sweep_references(plan);
+  ReferenceFolder shipped(folder, Precision::float32);
+  for (const std::size_t index : references.compared())
+    overwriting.check(shipped.path(references.recipes[index].id));
+  MadeReferences made(plan, references, store);
+  bool all_made = true;
+  for (const std::size_t index : references.compared()) {
+    Reference reference = made[index];
+    std::printf("%s: %s\n", reference.label.id.c_str(), reference.label.description.c_str());
+    all_made = all_made && !reference.samples.empty();
+    if (reference.samples.empty()) continue;
+    const Scene& scene = references.recipes[index].scene;
+    if (kept_level) thin(reference, scene.cloth->n_vertices(*kept_level));
+    shipped.keep(reference);
+  }
+  return all_made;
+}
 
 /// Runs what no earlier start has run. `folder` may be null.
 void work_through(Sweep& sweep, const SweepInput& input, SweepFolder* folder) {
