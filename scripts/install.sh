@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What a command needs from the machine, and how it gets there. Sourced by ./pleat after phase.sh.
+# Gets a command what it needs from the machine. Sourced by ./pleat after phase.sh.
 
 node_version=22.23.3
 
@@ -121,7 +121,7 @@ fetch_suitesparse() {
   [ "$(id -u)" -eq 0 ] && apt-get update && scripts/fetch-suitesparse.sh third_party/suitesparse
 }
 
-# Without it the WebAssembly build uses Eigen's Cholesky, and the page says so.
+# SuiteSparse is not needed: else the WebAssembly build uses Eigen's Cholesky, and the page says so.
 install_suitesparse() {
   [ ! -d "$root/third_party/suitesparse/src" ] || return 0
   phase suitesparse "Fetch SuiteSparse's source" fetch_suitesparse

@@ -12,7 +12,7 @@ give_up() {
   exit 1
 }
 
-# The same for a command line that cannot be understood.
+# Gives up on a command line that cannot be understood.
 bad_usage() {
   say "pleat: $*"
   exit 2

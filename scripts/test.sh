@@ -77,7 +77,7 @@ run_long_tests() {
       exit "$status"' build/release/native-tests/long_tests {}
 }
 
-# What joins tested modules, and the eigensolver's templates, take a compiler with sanitizers as long as all the rest;
+# Tests that join modules, and the eigensolver's templates, take a compiler with sanitizers as long as all the rest;
 # long motions walk the same code as short ones, twenty times slower then.
 release_modules="cli error hard_cases modal reference sweep"
 
