@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/base/check.h"
-#include "core/files/json_text.h"
 #include "core/files/nearest_word.h"
 
 namespace pleat {
@@ -24,13 +22,6 @@ std::string option_of(const std::string& word) {
 
 bool has_joined_value(const std::string& word) { return word.find('=') != std::string::npos; }
 
-/// NaN where it says no finite number.
-double parsed_number(const std::string& text) {
-  char* stop = nullptr;
-  const double value = std::strtod(text.c_str(), &stop);
-  return text.empty() || *stop != '\0' || !std::isfinite(value) ? std::nan("") : value;
-}
-
 }  // namespace
 
 std::string either(const std::vector<const char*>& words) {
@@ -38,6 +29,16 @@ std::string either(const std::vector<const char*>& words) {
   for (std::size_t k = 0; k < words.size(); ++k)
     text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + std::string(words[k]);
   return text;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
 }
 
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high) {
@@ -50,16 +51,14 @@ int parse_whole_number(const std::string& text, const std::string& where, int lo
   return value;
 }
 
-double parse_positive_number(const std::string& text, const std::string& where) {
-  const double value = parsed_number(text);
-  if (!(value > 0)) throw InputError(where, "expected a number > 0, got " + quotation(text));
-  return value;
-}
-
-double parse_number_from_zero(const std::string& text, const std::string& where) {
-  const double value = parsed_number(text);
-  if (!(value >= 0)) throw InputError(where, "expected a number >= 0, got " + quotation(text));
-  return value;
+double parse_number(const std::string& text, const std::string& where, Numbers which) {
+  char* stop = nullptr;
+  const double value = std::strtod(text.c_str(), &stop);
+  const bool is_number = !text.empty() && *stop == '\0' && std::isfinite(value);
+  if (is_number && (value > 0 || (value == 0 && which == Numbers::not_negative))) return value;
+  throw InputError(where, std::string("expected a number ") +
+                              (which == Numbers::positive ? "> 0" : ">= 0") + ", got " +
+                              quotation(text));
 }
 
 std::vector<std::string>::iterator Arguments::find(const char* option) {
@@ -97,24 +96,31 @@ std::optional<int> Arguments::whole_number(const char* option, int low, int high
   return parse_whole_number(*value, option, low, high);
 }
 
-std::vector<std::string> Arguments::list(const char* option) {
-  std::vector<std::string> entries;
+std::vector<std::string> Arguments::texts(const char* option) {
+  std::vector<std::string> all;
+  while (const auto value = text(option)) all.push_back(*value);
+  return all;
+}
+
+std::optional<double> Arguments::number(const char* option, Numbers which) {
   const std::optional<std::string> value = text(option);
-  if (!value) return entries;
-  std::size_t begin = 0;
-  while (begin <= value->size()) {
-    const std::size_t end = std::min(value->find(',', begin), value->size());
-    entries.push_back(value->substr(begin, end - begin));
-    if (entries.back().empty())
-      throw InputError(
-          option, "expected entries separated by single commas, got " + abbreviated(Json(*value)));
-    begin = end + 1;
-  }
+  if (!value) return std::nullopt;
+  return parse_number(*value, option, which);
+}
+
+std::vector<std::string> Arguments::list(const char* option) {
+  const std::optional<std::string> value = text(option);
+  if (!value) return {};
+  const std::vector<std::string> entries = split(*value);
+  if (std::find(entries.begin(), entries.end(), "") != entries.end())
+    throw InputError(option,
+                     "expected entries separated by single commas, got " + quotation(*value));
   return entries;
 }
 
-void Arguments::refuse(const char* option, const std::string& sentence) {
-  if (find(option) != words_.end()) throw InputError(option, sentence);
+void Arguments::refuse(std::initializer_list<const char*> options, const std::string& sentence) {
+  for (const char* option : options)
+    if (find(option) != words_.end()) throw InputError(option, sentence);
 }
 
 void Arguments::refuse_options() const {
@@ -123,7 +129,7 @@ void Arguments::refuse_options() const {
   const std::string option = option_of(*word);
   if (std::find(asked_.begin(), asked_.end(), option) != asked_.end())
     throw InputError(option, "expected this option once, got it twice");
-  std::vector<const char*> known;  // without dashes, which would make all of them alike
+  std::vector<const char*> known;  // less their dashes, which would make all of them alike
   for (const char* asked : asked_) known.push_back(asked + 2);
   const std::string_view near =
       nearest_word(option.substr(std::min(option.size(), std::size_t{2})), known);
@@ -135,7 +141,7 @@ void Arguments::refuse_options() const {
 std::string Arguments::first_word(const char* what) {
   if (words_.empty() || is_option(words_.front()))
     throw InputError("", std::string("expected ") + what + ", got " +
-                             (words_.empty() ? "nothing" : abbreviated(Json(words_.front()))));
+                             (words_.empty() ? "nothing" : quotation(words_.front())));
   std::string word = words_.front();
   words_.erase(words_.begin());
   return word;

@@ -5,7 +5,6 @@
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
 #include "core/error/surface_distance.h"
-#include "core/files/json_text.h"
 #include "core/sweep/deform_cost.h"
 #include "core/sweep/platform.h"
 
@@ -22,15 +21,12 @@ Json cost_json(const DeformCost& cost) {
 }
 
 DeformSolver solved(const DeformScene& scene) {
-  const HeldVertices held = held_vertices(scene);
-  DeformSolver solver(scene.mesh, scene.form, scene.weights());
-  solver.hold(held.vertices);
-  solver.restart(held.targets);
+  DeformSolver solver = held_solver(scene);
   solver.solve();
   return solver;
 }
 
-/// Where it is bent.
+/// Tells how much of the bending is at each vertex.
 Json vertices_json(const DeformScene& scene) {
   const DeformSolver solver = solved(scene);
   const Eigen::VectorXd shares = solver.model().bending_shares(solver.positions());
@@ -63,7 +59,6 @@ Outcome bench_deform(Arguments arguments) {
   const auto against = arguments.text("--against");
   const bool wants_vertices = arguments.flag("--vertices");
   const DeformInput input = take_deform_scene(arguments);
-  arguments.finish();
   const DeformScene& scene = input.scene;
   const DeformCost cost = with_source_named(input, [&] { return deform_cost(scene); });
   Json json = {{"scene", scene.name},

@@ -3,18 +3,15 @@
 
 #include "cli/command_table.h"
 #include "cli/modal_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/files/frame_file.h"
-#include "core/files/json_text.h"
-#include "core/files/whole_file.h"
 #include "core/sweep/completion_cost.h"
 #include "core/sweep/platform.h"
 
 namespace pleat {
 namespace {
 
-/// Of all frames, the largest and the sums.
+/// The largest numbers of all frames, and the sums.
 Json figures_json(const std::vector<FrameFigures>& figures) {
   double change = 0, unequal = 0;
   int n_inverted = 0;
@@ -46,7 +43,6 @@ Outcome bench_inbetween(Arguments arguments) {
   const bool wants_unreduced = arguments.flag("--unreduced");
   const ModalOptions options = take_completion_options(arguments);
   const KeySurfaces keys = take_keys(arguments);
-  arguments.finish();
   const CompletionCost cost =
       completion_cost(keys.positions, keys.mesh.triangles, options, n_frames);
   Json json = {{"n_vertices", keys.mesh.positions.cols()},

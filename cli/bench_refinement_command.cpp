@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdio>
 #include <numeric>
 
@@ -6,14 +5,12 @@
 #include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/error/error_norms.h"
 #include "core/error/restarts.h"
 #include "core/error/side_by_side.h"
 #include "core/files/plan_file.h"
 #include "core/reference/reference.h"
-#include "core/run/plan_maker.h"
 #include "core/scene/method_section.h"
 #include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
@@ -21,21 +18,13 @@
 namespace pleat {
 namespace {
 
-std::optional<double> take_number(Arguments& arguments, const char* option) {
-  const auto text = arguments.text(option);
-  if (!text) return std::nullopt;
-  return parse_positive_number(*text, option);
-}
-
-std::vector<PlanOptions> take_plan_options(Arguments& arguments) {
+/// The plans that are asked for, each with one demand or number of vertices.
+std::vector<PlanOptions> take_plan_options(Arguments& arguments, const PlanOptions& usual) {
   std::vector<PlanOptions> all;
-  PlanOptions options;
-  options.criterion = take_criterion(arguments);
-  options.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
   for (const std::string& demand : arguments.list("--demand"))
-    set_demand(all.emplace_back(options), demand);
+    set_demand(all.emplace_back(usual), demand);
   for (const std::string& count : arguments.list("--vertices"))
-    all.emplace_back(options).max_vertices =
+    all.emplace_back(usual).max_vertices =
         parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices));
   return all;
 }
@@ -134,7 +123,7 @@ Json row_json(const Contestant& contestant, const ContestantResult& result,
   return json;
 }
 
-/// What all runs of a bench are held against: the first one.
+/// Names the first run, against which all of a bench are held.
 ReferenceLabel label_of_first(const Scene& scene, int n_vertices, const FrameOptions& options) {
   char run[96];
   std::snprintf(run, sizeof run, ", %d vertices, its own run of %g s", n_vertices,
@@ -193,27 +182,11 @@ Outcome print_restarts(const std::vector<SceneInput>& inputs, const RestartOptio
   return Outcome::ok;
 }
 
-/// A scene and those after --with.
-std::vector<SceneInput> take_scenes(Arguments& arguments) {
-  const std::vector<std::string> others = arguments.list("--with");
-  const FabricLibrary fabrics = take_fabrics(arguments);
-  const SceneChanges changes = take_scene_changes(arguments);
-  const std::string file = arguments.word("a scene, SCENE.json");
-  arguments.finish();
-  std::vector<SceneInput> inputs{read_scene_input(file, changes, fabrics)};
-  for (const std::string& other : others)
-    inputs.push_back(read_scene_input(other, changes, fabrics));
-  return inputs;
-}
-
 Outcome bench_plans(Arguments arguments) {
-  const std::vector<PlanOptions> options = take_plan_options(arguments);
-  PlanRecipe recipe;
-  if (const auto n = arguments.whole_number("--patterns", 1, kMaxPatterns))
-    recipe.patterns.n_patterns = *n;
-  const auto begin = take_number(arguments, "--from");
+  PlanRecipe recipe = take_plan_recipe(arguments);
+  const std::vector<PlanOptions> options = take_plan_options(arguments, recipe.plan);
+  const auto begin = arguments.number("--from");
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
   if (options.empty()) throw InputError("--demand", "expected this or --vertices, got neither");
   recipe.plan = options.front();
   recipe.begin = begin.value_or(settled_time(input.scene));
@@ -222,10 +195,10 @@ Outcome bench_plans(Arguments arguments) {
 
 Outcome bench_together(Arguments arguments) {
   FrameOptions options;
-  const auto begin = take_number(arguments, "--from");
-  const auto split_curvature = take_number(arguments, "--adaptive");
+  const auto begin = arguments.number("--from");
+  const auto split_curvature = arguments.number("--adaptive");
   if (const auto n = arguments.whole_number("--every", 1, 1'000'000)) options.error_every = *n;
-  const std::vector<SceneInput> inputs = take_scenes(arguments);
+  const std::vector<SceneInput> inputs = take_scenes(arguments, arguments.list("--with"));
   const Scene& first = inputs.front().scene;
   options.duration = first.duration;
   options.begin = begin.value_or(first.duration / 2);
@@ -240,9 +213,9 @@ Outcome bench_together(Arguments arguments) {
 
 Outcome bench_restarts(Arguments arguments) {
   RestartOptions options;
-  options.begin = take_number(arguments, "--every").value_or(options.begin);
-  options.after = take_number(arguments, "--after").value_or(options.after);
-  const std::vector<SceneInput> inputs = take_scenes(arguments);
+  options.begin = arguments.number("--every").value_or(options.begin);
+  options.after = arguments.number("--after").value_or(options.after);
+  const std::vector<SceneInput> inputs = take_scenes(arguments, arguments.list("--with"));
   options.duration = inputs.front().scene.duration;
   return with_source_named(inputs.front(), [&] { return print_restarts(inputs, options); });
 }

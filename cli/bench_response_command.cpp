@@ -24,11 +24,8 @@ Json response_json(const ResponseRun& run) {
 }
 
 Outcome bench_response(Arguments arguments) {
-  double window = kWindow;
-  if (const auto text = arguments.text("--window"))
-    window = parse_positive_number(*text, "--window");
+  const double window = arguments.number("--window").value_or(kWindow);
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
   return with_source_named(input, [&] {
     const ResponseStudy study = study_response(input.scene, window);
     const Json json = {{"scene", input.scene.name},

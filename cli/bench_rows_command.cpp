@@ -1,20 +1,19 @@
-#include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include "cli/command_table.h"
+#include "cli/source.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_figures.h"
-#include "core/files/whole_file.h"
 #include "core/reference/reference.h"
 
 namespace pleat {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;
+constexpr int kMostTurnFrames = 1'000'000;
 constexpr double kFramesPerSecond = 60;
 
-/// What is not known is null in JSON, which has no NaN.
+/// Numbers, of which what is not known is null in JSON, which has no NaN.
 std::vector<double> read_numbers(const JsonReader& reader) {
   std::vector<double> numbers;
   for (const JsonReader& element : reader.elements())
@@ -70,16 +69,13 @@ Runs read_runs(const JsonReader& contestant, const std::vector<Positions>& right
   return runs;
 }
 
-/// A number as JSON writes it, with which a time is named: "0.5 s".
-std::string seconds_key(const Json& time) { return time.dump() + " s"; }
-
 Json row_json(const Json& asked, const Json& contestant, const RunFigures& figures) {
   const Json& first = contestant.at("runs").at(0);
   const double last =
       figures.position_errors.empty() ? RunFigures::kUnknown : figures.position_errors.back();
   Json errors = Json::object();
   for (std::size_t t = 0; t < figures.position_errors.size(); ++t)
-    errors[seconds_key(asked.at("times_s").at(t))] = number_json(figures.position_errors[t]);
+    errors[asked.at("times_s").at(t).dump() + " s"] = number_json(figures.position_errors[t]);
   Json row = Json::object();
   for (const char* key : {"scene", "label", "method", "n_vertices"}) row[key] = contestant.at(key);
   row["target"] = first.at("target");
@@ -121,7 +117,7 @@ void print_rows(const Json& asked) {
   const std::vector<Positions> right = read_samples(reader.at("samples"));
   reader.at("times_s").elements(right.size());
   const auto turn_frames =
-      static_cast<std::size_t>(reader.at("turn_frames").integer(1, kMostFrames));
+      static_cast<std::size_t>(reader.at("turn_frames").integer(1, kMostTurnFrames));
   const Json& contestants = asked.at("contestants");
   std::vector<RunRecord> first;
   std::size_t i = 0;
@@ -159,17 +155,12 @@ void print_limit(const Json& asked) {
   std::printf("%s\n", Json{{"samples", samples}}.dump().c_str());
 }
 
-/// What `print` makes of the file that is named; its mistakes name the file.
+/// Prints what `print` makes of the file that is named; its mistakes name the file.
 template <class Print>
 Outcome from_file(Arguments arguments, const char* what, Print&& print) {
-  const std::string file = arguments.word(what);
+  const Source source{arguments.word(what)};
   arguments.finish();
-  try {
-    print(parse_json(read_file(file)));
-  } catch (const InputError& error) {
-    if (error.where().rfind(file, 0) == 0) throw;
-    throw InputError(file + ": " + error.where(), error.what());
-  }
+  with_source_named(source, [&] { print(parse_json(read_file(source.file))); });
   return Outcome::ok;
 }
 

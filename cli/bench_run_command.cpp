@@ -8,7 +8,6 @@
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/error/run_comparison.h"
@@ -28,10 +27,11 @@ constexpr double kFrame = 1.0 / 60;  // [s]
 std::vector<double> take_times(Arguments& arguments) {
   std::vector<double> times;
   for (const std::string& entry : arguments.list("--times")) {
-    times.push_back(parse_positive_number(entry, "--times"));
-    if (times.size() > 1 && times.back() < times[times.size() - 2])
+    const double time = parse_number(entry, "--times");
+    if (!times.empty() && time < times.back())
       throw InputError("--times", "expected ascending times, got " + cut(entry) + " after " +
-                                      Json(times[times.size() - 2]).dump());
+                                      Json(times.back()).dump());
+    times.push_back(time);
   }
   return times;
 }
@@ -46,24 +46,10 @@ Json sample_json(const Sample& sample) {
 
 struct BenchOptions {
   bool wants_parts = false;
-  bool takes_turns = false;  // with another program, by lines on stdin and stdout
+  bool takes_turns = false;  // runs in turn with another program, by lines on stdin and stdout
   bool is_bare = false;      // the stepper alone
   int n_frames = 60;
   std::vector<double> times;
-};
-
-/// Wall time, stretch and parts of a run, frame by frame, and its positions at the end of some
-/// frames.
-struct FrameSeries {
-  int n_frames = 0;                  // whole ones
-  double first_ms = 0;               // with what is built once
-  std::vector<double> ms;            // of the others
-  std::vector<double> processor_ms;  // of the same
-  std::vector<double> rms_stretch;
-  std::vector<double> largest_stretch;
-  Json samples = Json::array();
-  SolveReport report;                          // of all steps
-  std::array<double, kStageCount> parts_ms{};  // of a frame, without what is built once
 };
 
 /// Lets another program take its turn: says so in a line and waits for one with the number of
@@ -76,76 +62,66 @@ int await_turn(int n_left) {
   return std::clamp(n_frames, 1, n_left);
 }
 
-FrameSeries run_frames(MovingCloth& cloth, const Scene& scene, const BenchOptions& options) {
-  const int n_frames = options.n_frames;
-  const std::vector<double>& times = options.times;
-  const std::int64_t n_steps = steps_of_frame(scene.method.step, kFrame);
-  TimedRun run(cloth, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
-  FrameSeries series;
-  Progress progress;
-  std::size_t next = 0;
-  int turn_end = options.takes_turns ? 1 : n_frames;
-  for (int frame = 0; frame < n_frames; ++frame) {
-    if (frame == turn_end) turn_end += await_turn(n_frames - frame);
-    const double processor_begin = process_processor_time().value_or(0);
-    const double seconds = run.advance(n_steps);
-    const double processor_seconds = process_processor_time().value_or(0) - processor_begin;
-    if (run.has_ended()) break;
-    series.n_frames = frame + 1;
-    if (frame > 0) {
-      series.ms.push_back(1e3 * seconds);
-      series.processor_ms.push_back(1e3 * processor_seconds);
-    } else {
-      series.first_ms = 1e3 * seconds;
-    }
-    const Positions& positions = cloth.state().positions;
-    const Stretch now = stretch(cloth.gauge(), positions);
-    series.rms_stretch.push_back(now.rms);
-    series.largest_stretch.push_back(now.largest);
-    if (next < times.size() && cloth.time() > times[next] - kFrame / 2) {
-      series.samples.push_back(sample_json({cloth.time(), positions, now}));
-      ++next;
-    }
-    progress.show(static_cast<double>(series.n_frames) / n_frames, scene.name);
-  }
-  series.report = run.report();
-  if (run.n_timed() > 0)
-    series.parts_ms =
-        run.parts().mean_ms(static_cast<double>(run.n_timed()) / static_cast<double>(n_steps));
-  return series;
-}
-
+/// Runs frame by frame and prints wall time, stretch, parts, and positions at the end of some
+/// frames.
 template <class Cloth>
 Outcome run_bench(const Scene& scene, const BenchOptions& options) {
-  steps_of_frame(scene.method.step, kFrame);
+  const std::int64_t n_steps = steps_of_frame(scene.method.step, kFrame);
   Cloth cloth(scene);
-  const FrameSeries series = run_frames(cloth, scene, options);
-  const int n_frames = std::max(1, series.n_frames);
+  TimedRun run(cloth, options.wants_parts ? TimedRun::Parts::timed : TimedRun::Parts::untimed);
+  Progress progress;
+  double first_ms = 0;  // the first frame, in which things are built once
+  std::vector<double> ms, processor_ms, rms_stretch, largest_stretch;
+  Json samples = Json::array();
+  int turn_end = options.takes_turns ? 1 : options.n_frames;
+  for (int frame = 0; frame < options.n_frames; ++frame) {
+    if (frame == turn_end) turn_end += await_turn(options.n_frames - frame);
+    const double processor_start = process_processor_time().value_or(0);
+    const double seconds = run.advance(n_steps);
+    const double processor_seconds = process_processor_time().value_or(0) - processor_start;
+    if (run.has_ended()) break;
+    if (frame > 0) {
+      ms.push_back(1e3 * seconds);
+      processor_ms.push_back(1e3 * processor_seconds);
+    } else {
+      first_ms = 1e3 * seconds;
+    }
+    const Stretch now = stretch(cloth.gauge(), cloth.state().positions);
+    rms_stretch.push_back(now.rms);
+    largest_stretch.push_back(now.largest);
+    if (samples.size() < options.times.size() &&
+        cloth.time() > options.times[samples.size()] - kFrame / 2)
+      samples.push_back(sample_json({cloth.time(), cloth.state().positions, now}));
+    progress.show((frame + 1.0) / options.n_frames, scene.name);
+  }
+  const SolveReport& report = run.report();
+  const auto n_frames = static_cast<double>(std::max<std::size_t>(1, rms_stretch.size()));
   const auto& masses = cloth.model().masses;
   Json json = {{"scene", scene.name},
                {"method", json_method(scene.method)},
                {"level", scene.level},
                {"n_vertices", cloth.model().n_vertices()},
                {"n_substeps", cloth.substeps()},
-               {"first_ms", series.first_ms},
-               {"ms", series.ms},
-               {"processor_ms", series.processor_ms},
-               {"rms_stretch", series.rms_stretch},
-               {"largest_stretch", series.largest_stretch},
-               {"residual", series.report.relative_residual},
-               {"iterations_per_frame", static_cast<double>(series.report.iterations) / n_frames},
-               {"status", name(series.report.status)},
-               {"message", series.report.message},
+               {"first_ms", first_ms},
+               {"ms", ms},
+               {"processor_ms", processor_ms},
+               {"rms_stretch", rms_stretch},
+               {"largest_stretch", largest_stretch},
+               {"residual", report.relative_residual},
+               {"iterations_per_frame", report.iterations / n_frames},
+               {"status", name(report.status)},
+               {"message", report.message},
                {"target", build_target()},
                {"core", core_version()},
-               {"samples", series.samples},
+               {"samples", samples},
                {"masses_kg", std::vector<double>(masses.data(), masses.data() + masses.size())}};
-  if (options.wants_parts) json["parts_ms"] = json_parts(series.parts_ms);
+  if (options.wants_parts)
+    json["parts_ms"] = json_parts(
+        run.parts().mean_ms(std::max<double>(1, run.n_timed()) / static_cast<double>(n_steps)));
   if (const auto memory = process_peak_memory()) json["process_peak_memory_bytes"] = *memory;
   std::printf("%s\n", json.dump().c_str());
-  if (!series.report.ends_run()) return Outcome::ok;
-  const std::int64_t n_steps = std::llround(cloth.time() / scene.method.step);
-  print_early_end(n_steps, series.report, "");
+  if (!report.ends_run()) return Outcome::ok;
+  print_early_end(std::llround(cloth.time() / scene.method.step), report, "");
   return Outcome::check_failed;
 }
 
@@ -160,10 +136,8 @@ Outcome bench_run(Arguments arguments) {
     throw InputError("--times", "expected times within the " + std::to_string(options.n_frames) +
                                     " frames of 1/60 s that --frames says, got " +
                                     Json(options.times.back()).dump() + " s");
-  for (const char* option : {"--steps", "--duration"})
-    arguments.refuse(option, "bench run does not take this option, but --frames");
+  arguments.refuse({"--steps", "--duration"}, "bench run does not take this option, but --frames");
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
   return with_source_named(input, [&] {
     return options.is_bare ? run_bench<BareCloth>(input.scene, options)
                            : run_bench<Simulation>(input.scene, options);
@@ -219,24 +193,21 @@ std::optional<Reference> with_step_halved(Reference reference, Scene scene,
 }
 
 Outcome bench_reference(Arguments arguments) {
-  const std::string kind = arguments.text("--kind").value_or("run");
-  if (kind != "run" && kind != "rigid_chain" && kind != "closed_form")
-    throw InputError("--kind",
-                     "expected run, rigid_chain or closed_form, got " + abbreviated(Json(kind)));
+  const std::string kind = arguments.choice(
+      "--kind", std::string("run"),
+      {{"run", "run"}, {"rigid_chain", "rigid_chain"}, {"closed_form", "closed_form"}});
   const auto cache = arguments.text("--cache");
   const bool halves_step = arguments.flag("--halved");
   if (halves_step && kind != "run") throw InputError("--halved", kind + " has no step to halve");
   std::vector<double> times = take_times(arguments);
   if (!times.empty())
-    for (const char* option : {"--steps", "--duration"})
-      arguments.refuse(option, "expected either this or --times, got both");
+    arguments.refuse({"--steps", "--duration"}, "expected either this or --times, got both");
   if (kind != "run")
-    for (const char* option :
-         {"--stepper", "--step", "--substeps", "--iterations", "--solver", "--tolerance"})
-      arguments.refuse(option, kind + " has no method; only --kind run takes this option");
+    arguments.refuse(
+        {"--stepper", "--step", "--substeps", "--iterations", "--solver", "--tolerance"},
+        kind + " has no method; only --kind run takes this option");
   const SceneInput input = take_scene(arguments);
   const Scene& scene = input.scene;
-  arguments.finish();
   if (times.empty()) times = {scene.duration};
   if (times.back() > static_cast<double>(kMaxSteps) * scene.method.step)
     throw InputError("--times", "expected at most 1e9 steps of the scene, got " +

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/files/json_text.h"
 
 namespace pleat {
 

@@ -2,10 +2,8 @@
 
 #include "cli/command_table.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/files/whole_file.h"
 #include "core/run/convergence_json.h"
 #include "core/scene/method_section.h"
 
@@ -17,14 +15,10 @@ constexpr int kMostRepeats = 1000;
 
 /// A section "method" as scenes have it, in a file of its own.
 MethodOptions read_method_file(const std::string& file) {
-  try {
+  return with_source_named(Source{file}, [&] {
     const Json json = parse_json(read_file(file));
     return read_method(JsonReader(json), standard_steppers());
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    throw InputError(error.where().empty() ? file : file + ": " + error.where(), error.what());
-  }
+  });
 }
 
 std::vector<MethodOptions> take_methods(Arguments& arguments) {
@@ -32,36 +26,24 @@ std::vector<MethodOptions> take_methods(Arguments& arguments) {
   if (words.empty()) words = {"pbd", "hpbd", "multigrid", "xpbd"};
   std::vector<MethodOptions> methods;
   for (const std::string& word : words) {
-    if (word.find(".json") != std::string::npos) {
-      methods.push_back(read_method_file(word));
-      continue;
-    }
+    const bool is_file = word.find(".json") != std::string::npos;
     const StepperType* const type = find_stepper(standard_steppers(), word);
-    if (type == nullptr)
+    if (!is_file && type == nullptr)
       throw InputError("--methods", "expected steppers (" + stepper_names(standard_steppers()) +
                                         ") or JSON files with a method, got " + cut(word));
-    methods.push_back(type->usual_method());
+    methods.push_back(is_file ? read_method_file(word) : type->usual_method());
   }
   return methods;
 }
 
-/// 0 or 1: which of two words stands after an option.
-int take_choice(Arguments& arguments, const char* option, const char* first, const char* second) {
-  const auto text = arguments.text(option);
-  if (!text || *text == first) return 0;
-  if (*text == second) return 1;
-  throw InputError(option,
-                   std::string("expected ") + first + " or " + second + ", got " + cut(*text));
-}
-
 ConvergenceOptions take_convergence_options(Arguments& arguments) {
   ConvergenceOptions options;
-  if (const auto at = arguments.text("--at")) options.time = parse_number_from_zero(*at, "--at");
-  options.constraints = take_choice(arguments, "--constraints", "rigid", "compliant") == 0
-                            ? Constraints::rigid
-                            : Constraints::compliant;
-  options.diagonals =
-      take_choice(arguments, "--diagonals", "one", "both") == 0 ? Diagonals::one : Diagonals::both;
+  options.time = arguments.number("--at", Numbers::not_negative).value_or(options.time);
+  options.constraints =
+      arguments.choice("--constraints", Constraints::rigid,
+                       {{"rigid", Constraints::rigid}, {"compliant", Constraints::compliant}});
+  options.diagonals = arguments.choice("--diagonals", Diagonals::one,
+                                       {{"one", Diagonals::one}, {"both", Diagonals::both}});
   options.most_rounds =
       arguments.whole_number("--rounds", 1, kMostRounds).value_or(options.most_rounds);
   options.repeat = arguments.whole_number("--repeat", 1, kMostRepeats).value_or(options.repeat);
@@ -88,7 +70,6 @@ Outcome convergence_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const ConvergenceOptions options = take_convergence_options(arguments);
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
   if (options.time > input.scene.duration)
     throw InputError("--at", "expected a time within the scene's " +
                                  Json(input.scene.duration).dump() + " s, got " +

@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 #include "cli/command_table.h"
 #include "cli/deform_input.h"
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
-#include "core/deform/deform_solver.h"
 #include "core/files/obj_file.h"
 
 namespace pleat {
@@ -15,28 +13,15 @@ namespace {
 
 /// A solved scene.
 struct Deformation {
-  DeformTerms begin;  ///< once what is held was moved, before the first step
-  SolveReport report;
-  std::vector<DeformStep> steps;
-  Positions positions;  // [m]
-  double farthest = 0;  // of a vertex from its place at rest [m]
-  std::size_t n_held = 0;
-};
+  DeformSolver solver;
+  DeformTerms start = solver.terms();  ///< when what is held was moved, before the first step
+  SolveReport report = solver.solve();
 
-Deformation deformed(const DeformScene& scene) {
-  DeformSolver solver(scene.mesh, scene.form, scene.weights());
-  const HeldVertices held = held_vertices(scene);
-  solver.hold(held.vertices);
-  solver.restart(held.targets);
-  Deformation result;
-  result.begin = solver.terms();
-  result.report = solver.solve();
-  result.steps = solver.steps();
-  result.positions = solver.positions();
-  result.n_held = held.vertices.size();
-  result.farthest = (result.positions - scene.mesh.rest_positions).colwise().norm().maxCoeff();
-  return result;
-}
+  /// How far a vertex has gone at most from its place at rest [m].
+  double farthest(const DeformScene& scene) const {
+    return (solver.positions() - scene.mesh.rest_positions).colwise().norm().maxCoeff();
+  }
+};
 
 /// A warning about the shape that these weights have; mostly none.
 std::string caution(const DeformWeights& weights) {
@@ -81,13 +66,13 @@ Json json_deformation(const DeformScene& scene, const Deformation& result,
       {"n_vertices", scene.mesh.n_vertices()},
       {"n_triangles", scene.mesh.triangles.size()},
       {"n_edges", mesh_edges(scene.mesh.triangles).size()},
-      {"n_held", result.n_held},
+      {"n_held", result.solver.held().size()},
       {"status", name(result.report.status)},
       {"message", result.report.message},
       {"linearisations", result.report.iterations},
-      {"begin", {{"energy", result.begin.weighted(weights)}, {"terms", json_three(result.begin)}}},
-      {"steps", json_steps(result.steps)},
-      {"farthest_m", result.farthest}};
+      {"begin", {{"energy", result.start.weighted(weights)}, {"terms", json_three(result.start)}}},
+      {"steps", json_steps(result.solver.steps())},
+      {"farthest_m", result.farthest(scene)}};
   if (!caution(weights).empty()) json["caution"] = caution(weights);
   if (scene.fit) json["fit"] = json_fit(*scene.fit, fabrics);
   json["core"] = core_version();
@@ -112,22 +97,22 @@ void print_deformation(const DeformScene& scene, const Deformation& result,
   std::printf("%s: %s, %s, %d vertices, %zu triangles, %zu edges, %zu held\n",
               printable(scene.name).c_str(), printable(fabric_name(scene)).c_str(),
               name(scene.form), scene.mesh.n_vertices(), scene.mesh.triangles.size(),
-              mesh_edges(scene.mesh.triangles).size(), result.n_held);
+              mesh_edges(scene.mesh.triangles).size(), result.solver.held().size());
   std::printf("weights: recovery %.4g, stretch %.4g, bending %.4g\n", weights.recovery,
               weights.stretch, weights.bending);
   if (!caution(weights).empty()) std::printf("%s\n", caution(weights).c_str());
   if (scene.fit) print_fit(*scene.fit, fabrics);
   std::printf("step  energy       recovery     stretch      bending      relative step\n");
-  std::printf("%4d  %-11.5g  %-11.5g  %-11.5g  %-11.5g\n", 0, result.begin.weighted(weights),
-              result.begin.recovery, result.begin.stretch, result.begin.bending);
+  std::printf("%4d  %-11.5g  %-11.5g  %-11.5g  %-11.5g\n", 0, result.start.weighted(weights),
+              result.start.recovery, result.start.stretch, result.start.bending);
   int n = 0;
-  for (const DeformStep& step : result.steps)
+  for (const DeformStep& step : result.solver.steps())
     std::printf("%4d  %-11.5g  %-11.5g  %-11.5g  %-11.5g  %.2g%s\n", ++n, step.energy,
                 step.terms.recovery, step.terms.stretch, step.terms.bending, step.relative_step,
                 step.linearised ? " linearised" : "");
   std::printf("status %s, %zu steps, %d linearisations, farthest from rest %.4g m\n",
-              name(result.report.status), result.steps.size(), result.report.iterations,
-              result.farthest);
+              name(result.report.status), result.solver.steps().size(), result.report.iterations,
+              result.farthest(scene));
   if (!result.report.message.empty()) std::printf("%s\n", result.report.message.c_str());
 }
 
@@ -137,12 +122,12 @@ Outcome deform_command(Arguments arguments) {
   const auto out = arguments.text("--out");
   Overwriting overwriting(arguments);
   const DeformInput input = take_deform_scene(arguments);
-  arguments.finish();
   const DeformScene& scene = input.scene;
   overwriting.need(out.has_value(), "--out");
   overwriting.spare(input.files_read);
   if (out) overwriting.check(*out);
-  const Deformation result = with_source_named(input, [&] { return deformed(scene); });
+  const Deformation result =
+      with_source_named(input, [&] { return Deformation{held_solver(scene)}; });
   if (for_machines)
     std::printf("%s\n", json_deformation(scene, result, input.fabrics).dump().c_str());
   else
@@ -152,9 +137,12 @@ Outcome deform_command(Arguments arguments) {
                  result.report.ends_run() ? "" : "warning: ", result.report.message.c_str());
   if (result.report.ends_run()) return Outcome::check_failed;
   if (out)
-    write_file(
-        *out,
-        write_obj({result.positions, scene.mesh.triangles, scene.textures, scene.groups, {}, {}}));
+    write_file(*out, write_obj({result.solver.positions(),
+                                scene.mesh.triangles,
+                                scene.textures,
+                                scene.groups,
+                                {},
+                                {}}));
   return checks && !result.report.ok() ? Outcome::check_failed : Outcome::ok;
 }
 

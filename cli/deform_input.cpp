@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "cli/scene_input.h"
 
 namespace pleat {
 namespace {
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 /// Numbers, and texts where they are none: the reader of the scene tells them apart.
 Json values(const std::vector<std::string>& parts, std::size_t begin, std::size_t end) {
@@ -26,19 +17,19 @@ Json values(const std::vector<std::string>& parts, std::size_t begin, std::size_
 }
 
 /// The values of an option, as many as it takes.
-std::vector<std::string> split(const std::string& text, std::size_t at_least, std::size_t at_most,
-                               const char* option) {
+std::vector<std::string> values_of(const std::string& text, std::size_t at_least,
+                                   std::size_t at_most, const char* option) {
   std::vector<std::string> parts = split(text);
   if (parts.size() >= at_least && parts.size() <= at_most) return parts;
   const std::string range = at_least == at_most
                                 ? std::to_string(at_least)
                                 : std::to_string(at_least) + " or " + std::to_string(at_most);
-  throw InputError(
-      option, "expected " + range + " numbers separated by commas, got " + abbreviated(Json(text)));
+  throw InputError(option,
+                   "expected " + range + " numbers separated by commas, got " + quotation(text));
 }
 
 Json three_numbers(const std::string& text, const char* option) {
-  const std::vector<std::string> parts = split(text, 3, 3, option);
+  const std::vector<std::string> parts = values_of(text, 3, 3, option);
   return {{"recovery", option_value(parts[0])},
           {"stretch", option_value(parts[1])},
           {"bending", option_value(parts[2])}};
@@ -49,7 +40,7 @@ Json place_json(const std::string& text, const char* option) {
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
   if (colon != std::string::npos && kind == "box") {
-    const std::vector<std::string> parts = split(text.substr(colon + 1), 6, 6, option);
+    const std::vector<std::string> parts = values_of(text.substr(colon + 1), 6, 6, option);
     Json low = values(parts, 0, 3);
     Json high = values(parts, 3, 6);
     for (std::size_t axis = 0; axis < 3; ++axis)  // any two corners that face each other
@@ -58,7 +49,7 @@ Json place_json(const std::string& text, const char* option) {
     return {{"box", {{"low_m", low}, {"high_m", high}}}};
   }
   if (colon != std::string::npos && kind == "near") {
-    const std::vector<std::string> parts = split(text.substr(colon + 1), 3, 4, option);
+    const std::vector<std::string> parts = values_of(text.substr(colon + 1), 3, 4, option);
     Json near{{"point_m", values(parts, 0, 3)}};
     if (parts.size() == 4) near["radius_m"] = option_value(parts[3]);
     return {{"near", near}};
@@ -68,105 +59,78 @@ Json place_json(const std::string& text, const char* option) {
   return {{"vertices", values(parts, 0, parts.size())}};
 }
 
-/// A scene's text with the options' changes.
-class DeformText {
- public:
-  DeformText(Json json, DeformInput& input) : json_(std::move(json)), input_(input) {}
+Json as_text(const std::string& text, const char*) { return text; }
+Json as_list(const std::string& text, const char*) { return split(text); }
 
-  void set(const char* key, Json value, const char* option) {
-    if (json_.is_object()) json_[key] = std::move(value);
-    input_.sources.emplace_back(std::string("/") + key, option);
-  }
-
-  /// A fabric in one of its three ways, in place of the scene's.
-  void set_fabric(const char* key, Json value, const char* option) {
-    if (json_.is_object())
-      for (const char* other : {"fabric", "weights", "measures"}) json_.erase(other);
-    set(key, std::move(value), option);
-  }
-
-  void add_pin(const std::string& text) { add("pins", place_json(text, "--pin"), "--pin"); }
-
-  void add_handle(const std::string& text) {
-    const std::size_t colon = text.rfind(':');
-    if (colon == std::string::npos)
-      throw InputError("--handle",
-                       "expected a place and how far it goes, such as hem:0,0.1,0, got " +
-                           abbreviated(Json(text)));
-    const std::string place = text.substr(0, colon);
-    const std::vector<std::string> parts = split(text.substr(colon + 1), 3, 3, "--handle");
-    const Json move = values(parts, 0, 3);
-    if (Json* named = handle(place)) {
-      for (const char* key : {"onto_sphere", "turn"}) named->erase(key);
-      (*named)["move_m"] = move;
-      return;
-    }
-    Json added = place_json(place, "--handle");
-    added["name"] = place;
-    added["move_m"] = move;
-    add("handles", std::move(added), "--handle");
-  }
-
-  /// An option may hold bytes that are no text.
-  std::string text() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
- private:
-  void add(const char* key, Json value, const char* option) {
-    if (!json_.is_object()) return;  // for the reader to refuse
-    Json& array = json_.emplace(key, Json::array()).first.value();
-    if (!array.is_array()) return;
-    std::string pointer = "/";
-    pointer.append(key).append("/").append(std::to_string(array.size()));
-    input_.sources.emplace_back(std::move(pointer), option);
-    array.push_back(std::move(value));
-  }
-
-  /// The scene's handle of that name, marked as set by the option; null when there is none.
-  Json* handle(const std::string& name) {
-    if (!json_.is_object() || !json_.contains("handles") || !json_["handles"].is_array())
-      return nullptr;
-    Json& handles = json_["handles"];
-    for (std::size_t k = 0; k < handles.size(); ++k) {
-      if (!handles[k].is_object() || handles[k].value("name", Json()) != name) continue;
-      const std::string pointer = "/handles/" + std::to_string(k);
-      for (const auto& source : input_.sources)
-        if (source.first == pointer)
-          throw InputError("--handle",
-                           "expected each handle once, got " + abbreviated(Json(name)) + " twice");
-      input_.sources.emplace_back(pointer, "--handle");
-      return &handles[k];
-    }
-    return nullptr;
-  }
-
-  Json json_;
-  DeformInput& input_;
+/// An option that sets a key of the scene.
+struct KeyOption {
+  const char* option;
+  const char* key;
+  Json (*value)(const std::string& text, const char* option);
+  bool is_fabric;
 };
+constexpr KeyOption kKeyOptions[] = {{"--fabric", "fabric", as_text, true},
+                                     {"--measure", "measures", three_numbers, true},
+                                     {"--weights", "weights", three_numbers, true},
+                                     {"--form", "form", as_text, false},
+                                     {"--terms", "terms", as_list, false}};
 
 struct DeformOptions {
-  std::vector<std::pair<const char*, std::string>> fabric;  // option and value
-  std::optional<std::string> form;
-  std::vector<std::string> terms, pins, handles;
+  std::vector<std::pair<const KeyOption*, std::string>> keys;
+  std::vector<std::string> pins, handles;
+  bool has_fabric = false;
 };
-
-std::vector<std::string> take_all(Arguments& arguments, const char* option) {
-  std::vector<std::string> all;
-  while (const auto value = arguments.text(option)) all.push_back(*value);
-  return all;
-}
 
 DeformOptions take_options(Arguments& arguments) {
   DeformOptions options;
-  for (const char* option : {"--fabric", "--measure", "--weights"})
-    if (const auto value = arguments.text(option)) options.fabric.emplace_back(option, *value);
-  if (options.fabric.size() > 1)
-    throw InputError(options.fabric[1].first, std::string("expected either this or ") +
-                                                  options.fabric[0].first + ", got both");
-  options.form = arguments.text("--form");
-  options.terms = arguments.list("--terms");
-  options.pins = take_all(arguments, "--pin");
-  options.handles = take_all(arguments, "--handle");
+  for (const KeyOption& key : kKeyOptions) {
+    const auto value = arguments.text(key.option);
+    if (!value) continue;
+    if (key.is_fabric && std::exchange(options.has_fabric, true))
+      throw InputError(key.option, std::string("expected either this or ") +
+                                       options.keys[0].first->option + ", got both");
+    options.keys.emplace_back(&key, *value);
+  }
+  options.pins = arguments.texts("--pin");
+  options.handles = arguments.texts("--handle");
   return options;
+}
+
+/// JSON pointers to what options have set, with the options (Source).
+using ChangedPlaces = std::vector<std::pair<std::string, const char*>>;
+
+void add_pin(Json& scene, const std::string& text, ChangedPlaces& changed) {
+  Json& pins = scene.emplace("pins", Json::array()).first.value();
+  if (!pins.is_array()) return;  // the reader refuses it
+  changed.emplace_back("/pins/" + std::to_string(pins.size()), "--pin");
+  pins.push_back(place_json(text, "--pin"));
+}
+
+/// Moves the scene's handle of the name that stands before the last colon, else adds one there.
+void set_handle(Json& scene, const std::string& text, ChangedPlaces& changed) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos)
+    throw InputError("--handle", "expected a place and how far it goes, such as hem:0,0.1,0, got " +
+                                     quotation(text));
+  Json& handles = scene.emplace("handles", Json::array()).first.value();
+  if (!handles.is_array()) return;  // the reader refuses it
+  const std::string name = text.substr(0, colon);
+  const Json move = values(values_of(text.substr(colon + 1), 3, 3, "--handle"), 0, 3);
+  auto handle = std::find_if(handles.begin(), handles.end(), [&](const Json& known) {
+    return known.is_object() && known.value("name", Json()) == name;
+  });
+  const std::string pointer = "/handles/" + std::to_string(handle - handles.begin());
+  for (const auto& [place, option] : changed)
+    if (place == pointer)
+      throw InputError("--handle", "expected each handle once, got " + quotation(name) + " twice");
+  changed.emplace_back(pointer, "--handle");
+  if (handle == handles.end()) {
+    handles.push_back(place_json(name, "--handle"));
+    handle = handles.end() - 1;
+    (*handle)["name"] = name;
+  }
+  for (const char* key : {"onto_sphere", "turn"}) handle->erase(key);
+  (*handle)["move_m"] = move;
 }
 
 bool is_obj(const std::string& file) {
@@ -182,36 +146,29 @@ Json scene_of_mesh(const std::string& file) {
 }
 
 std::string changed_text(const DeformOptions& options, DeformInput& input) {
-  DeformText text(
-      is_obj(input.file) ? scene_of_mesh(input.file) : parse_json(read_file(input.file)), input);
-  for (const auto& [option, value] : options.fabric) {
-    if (option == std::string("--fabric")) text.set_fabric("fabric", value, option);
-    if (option == std::string("--measure"))
-      text.set_fabric("measures", three_numbers(value, option), option);
-    if (option == std::string("--weights"))
-      text.set_fabric("weights", three_numbers(value, option), option);
+  Json scene = is_obj(input.file) ? scene_of_mesh(input.file) : parse_json(read_file(input.file));
+  if (scene.is_object()) {  // else the reader refuses it
+    for (const auto& [key, value] : options.keys) {
+      if (key->is_fabric)
+        for (const char* other : {"fabric", "weights", "measures"}) scene.erase(other);
+      scene[key->key] = key->value(value, key->option);
+      input.options.emplace_back(std::string("/") + key->key, key->option);
+    }
+    for (const std::string& pin : options.pins) add_pin(scene, pin, input.options);
+    for (const std::string& handle : options.handles) set_handle(scene, handle, input.options);
   }
-  if (options.form) text.set("form", *options.form, "--form");
-  if (!options.terms.empty()) text.set("terms", options.terms, "--terms");
-  for (const std::string& pin : options.pins) text.add_pin(pin);
-  for (const std::string& handle : options.handles) text.add_handle(handle);
-  return text.text();
+  // An option may hold bytes that are no text.
+  return scene.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
 
-void DeformInput::throw_with_source(const InputError& error) const {
-  const std::string& where = error.where();
-  for (const auto& [pointer, option] : sources)
-    if (where == pointer || where.rfind(pointer + "/", 0) == 0)
-      throw InputError(option, error.what());
-  if (where.empty()) throw InputError(file, error.what());
-  const bool is_named = where.rfind(file, 0) == 0;  // by the reader of a mesh
-  throw InputError(is_named ? where : file + ": " + where, error.what());
-}
-
-void DeformInput::throw_out_of_memory() const {
-  throw InputError(file, "not enough memory for its cloth");
+DeformSolver held_solver(const DeformScene& scene) {
+  const HeldVertices held = held_vertices(scene);
+  DeformSolver solver(scene.mesh, scene.form, scene.weights());
+  solver.hold(held.vertices);
+  solver.restart(held.targets);
+  return solver;
 }
 
 DeformInput take_deform_scene(Arguments& arguments) {
@@ -219,7 +176,8 @@ DeformInput take_deform_scene(Arguments& arguments) {
   input.fabrics = take_fabrics(arguments);
   const DeformOptions options = take_options(arguments);
   input.file = arguments.word("a scene or a mesh (.obj)");
-  if (is_obj(input.file) && options.fabric.empty())
+  arguments.finish();
+  if (is_obj(input.file) && !options.has_fabric)
     throw InputError("--fabric", "expected this, --measure or --weights beside a mesh, got none");
   input.files_read = {input.file};
   with_source_named(input, [&] {

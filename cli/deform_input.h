@@ -2,11 +2,11 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/arguments.h"
-#include "core/base/check.h"
+#include "cli/source.h"
+#include "core/deform/deform_solver.h"
 #include "core/files/json_text.h"
 #include "core/scene/deform_scene.h"
 
@@ -26,19 +26,16 @@ constexpr const char* kDeformHelp =
 )";
 
 /// A deformation and where its values came from.
-struct DeformInput {
+struct DeformInput : Source {
   DeformScene scene;
   FabricLibrary fabrics;
-  std::string file;
-  std::vector<std::filesystem::path> files_read;  ///< it, and those that it names
-  /// Pointers to what options have set, with the options.
-  std::vector<std::pair<std::string, const char*>> sources;
+  std::vector<std::filesystem::path> files_read;  ///< its file, and those that it names
 
-  /// Throws InputError naming the option that set the value at fault, else the file with the JSON
-  /// pointer.
-  [[noreturn]] void throw_with_source(const InputError& error) const;
-  [[noreturn]] void throw_out_of_memory() const;
+  std::string need() const { return "for its cloth"; }
 };
+
+/// Moves what the scene holds to its place, and takes no step yet.
+DeformSolver held_solver(const DeformScene& scene);
 
 /// Weights, measures or terms.
 template <class Three>
@@ -47,7 +44,8 @@ Json json_three(const Three& numbers) {
       {"recovery", numbers.recovery}, {"stretch", numbers.stretch}, {"bending", numbers.bending}};
 }
 
-/// The scene or mesh that the next word names, with the options --fabrics, --fabric, --measure,
+/// Reads the scene or mesh that the last word names, with the options --fabrics, --fabric,
+/// --measure,
 /// --weights, --form, --terms, --pin and --handle.
 DeformInput take_deform_scene(Arguments& arguments);
 

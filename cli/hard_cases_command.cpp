@@ -1,17 +1,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <set>
 #include <vector>
 
 #include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/files/whole_file.h"
 #include "core/hard_cases/case_report.h"
 #include "core/hard_cases/hard_case_table.h"
 
@@ -20,24 +18,20 @@ namespace {
 
 constexpr const char* kUsualScenes = "assets/hard_cases";
 
-/// Those of these names, in the order of the table; all without names.
+/// The cases that words name, in the order of the table; all without words.
 std::vector<HardCase> named_cases(Arguments& arguments) {
-  std::vector<HardCase> all = hard_cases();
-  std::vector<std::string> names;
+  std::vector<HardCase> cases = hard_cases();
   std::string known;
-  for (const HardCase& hard_case : all) known += (known.empty() ? "" : ", ") + hard_case.name;
+  for (const HardCase& hard_case : cases) known += (known.empty() ? "" : ", ") + hard_case.name;
+  std::set<std::string> names;
   while (arguments.has_words()) {
-    names.push_back(arguments.word("a case's name"));
-    const bool is_known = std::any_of(all.begin(), all.end(),
-                                      [&](const HardCase& c) { return c.name == names.back(); });
-    if (!is_known) throw InputError(cut(names.back()), "unknown case; the cases are " + known);
+    const std::string name = *names.insert(arguments.word("a case's name")).first;
+    if (std::none_of(cases.begin(), cases.end(), [&](const HardCase& c) { return c.name == name; }))
+      throw InputError(cut(name), "unknown case; the cases are " + known);
   }
-  if (names.empty()) return all;
-  std::vector<HardCase> chosen;
-  for (const HardCase& hard_case : all)
-    if (std::find(names.begin(), names.end(), hard_case.name) != names.end())
-      chosen.push_back(hard_case);
-  return chosen;
+  if (!names.empty())
+    std::erase_if(cases, [&](const HardCase& c) { return names.count(c.name) == 0; });
+  return cases;
 }
 
 std::vector<const StepperType*> take_steppers(Arguments& arguments) {
@@ -51,28 +45,20 @@ std::vector<const StepperType*> take_steppers(Arguments& arguments) {
   return {type};
 }
 
-/// Outcomes to be had of the cases.
-std::size_t count_outcomes(const std::vector<HardCase>& cases, std::size_t n_steppers) {
-  std::size_t n = 0;
-  for (const HardCase& hard_case : cases) n += hard_case.still ? 1 : n_steppers;
-  return n;
-}
-
 std::vector<CaseOutcome> run_cases(const std::vector<HardCase>& cases,
                                    const std::vector<const StepperType*>& steppers,
                                    CaseLength length, const CaseFiles& files) {
   Progress progress;
   std::vector<CaseOutcome> outcomes;
-  const auto n_all = static_cast<double>(count_outcomes(cases, steppers.size()));
+  double n_all = 0;
+  for (const HardCase& hard_case : cases)
+    n_all += hard_case.still ? 1 : static_cast<double>(steppers.size());
   for (const HardCase& hard_case : cases) {
-    if (hard_case.still) {
-      outcomes.push_back(do_case(hard_case, files));
-      continue;
-    }
-    for (const StepperType* type : steppers) {
+    if (hard_case.still) outcomes.push_back(do_case(hard_case, files));
+    for (std::size_t s = 0; s < steppers.size() && !hard_case.still; ++s) {
       const auto n_done = static_cast<double>(outcomes.size());
-      const std::string what = hard_case.name + ", " + type->name;
-      outcomes.push_back(run_case(hard_case, *type, length, files, [&](double share) {
+      const std::string what = hard_case.name + ", " + steppers[s]->name;
+      outcomes.push_back(run_case(hard_case, *steppers[s], length, files, [&](double share) {
         progress.show((n_done + share) / n_all, what);
       }));
     }
@@ -80,25 +66,9 @@ std::vector<CaseOutcome> run_cases(const std::vector<HardCase>& cases,
   return outcomes;
 }
 
-/// How the words of a call are written, for what it wrote.
-std::string call_of(const std::vector<std::string>& words) {
-  std::string call = "./pleat hard-cases";
-  for (const std::string& word : words) call += " " + word;
-  return call;
-}
-
-std::string json_lines(const std::vector<CaseOutcome>& outcomes) {
-  std::string text;
-  for (const CaseOutcome& outcome : outcomes) {
-    Json json = json_outcome(outcome);
-    json["core"] = core_version();
-    text += json.dump() + "\n";
-  }
-  return text;
-}
-
 Outcome hard_cases_command(Arguments arguments) {
-  const std::string call = call_of(arguments.words());
+  std::string call = "./pleat hard-cases";
+  for (const std::string& word : arguments.words()) call += " " + word;
   const bool is_short = arguments.flag("--short");
   Overwriting overwriting(arguments);
   const std::string folder = arguments.text("--scenes").value_or(kUsualScenes);
@@ -107,7 +77,6 @@ Outcome hard_cases_command(Arguments arguments) {
   const FabricLibrary fabrics = take_fabrics(arguments);
   const std::vector<const StepperType*> steppers = take_steppers(arguments);
   const std::vector<HardCase> cases = named_cases(arguments);
-  arguments.finish();
   overwriting.need(markdown || json, "--markdown or --json");
   for (const auto& file : {markdown, json})
     if (file) overwriting.check(*file);
@@ -120,7 +89,13 @@ Outcome hard_cases_command(Arguments arguments) {
   if (markdown)
     write_file(*markdown, "# What came of the hard cases\n\nThis file is what `" + call +
                               "` wrote.\n\n" + tables);
-  if (json) write_file(*json, json_lines(outcomes));
+  std::string lines;
+  for (const CaseOutcome& outcome : outcomes) {
+    Json line = json_outcome(outcome);
+    line["core"] = core_version();
+    lines += line.dump() + "\n";
+  }
+  if (json) write_file(*json, lines);
   if (!markdown && !json) std::printf("%s\n", tables.c_str());
   const auto n_unexpected =
       std::count_if(outcomes.begin(), outcomes.end(),

@@ -1,14 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cstdio>
 
 #include "cli/command_table.h"
-#include "cli/mesh_input.h"
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/files/frame_file.h"
 #include "core/mesh/mesh_fault.h"
 #include "core/multigrid/level_faults.h"
 #include "core/multigrid/mesh_hierarchy.h"
@@ -29,13 +25,15 @@ struct HierarchyInput {
 
 CollapseGuards take_guards(Arguments& arguments) {
   CollapseGuards guards;
-  const std::array<bool*, kCollapseGuardNames.size()> each{&guards.flips, &guards.borders,
-                                                           &guards.links};
   for (const std::string& name : arguments.list("--without")) {
-    const auto at = std::find(kCollapseGuardNames.begin(), kCollapseGuardNames.end(), name);
-    if (at == kCollapseGuardNames.end())
-      throw InputError("--without", "expected flips, borders or links, got " + cut(name));
-    *each[static_cast<std::size_t>(at - kCollapseGuardNames.begin())] = false;
+    if (name == "flips")
+      guards.flips = false;
+    else if (name == "borders")
+      guards.borders = false;
+    else if (name == "links")
+      guards.links = false;
+    else
+      throw InputError("--without", "expected flips, borders or links, got " + quotation(name));
   }
   return guards;
 }
@@ -44,21 +42,12 @@ HierarchyOptions take_hierarchy_options(Arguments& arguments) {
   HierarchyOptions options;
   options.n_coarser =
       arguments.whole_number("--levels", 1, kMostLevels).value_or(options.n_coarser);
-  if (const auto ratio = arguments.text("--ratio")) {
-    options.ratio = parse_positive_number(*ratio, "--ratio");
-    try {
-      options.validate();
-    } catch (const InputError& error) {
-      throw InputError("--ratio", error.what());
-    }
-  }
-  if (const auto weights = arguments.text("--weights")) {
-    const auto at = std::find(kTransferWeightsNames.begin(), kTransferWeightsNames.end(), *weights);
-    if (at == kTransferWeightsNames.end())
-      throw InputError("--weights",
-                       "expected inverse_distance or moving_least_squares, got " + cut(*weights));
-    options.weights = static_cast<TransferWeights>(at - kTransferWeightsNames.begin());
-  }
+  options.ratio = arguments.number("--ratio").value_or(options.ratio);
+  with_source_named(Source{"", {{"ratio", "--ratio"}}}, [&] { options.validate(); });
+  options.weights =
+      arguments.choice("--weights", options.weights,
+                       {{"inverse_distance", TransferWeights::inverse_distance},
+                        {"moving_least_squares", TransferWeights::moving_least_squares}});
   options.guards = take_guards(arguments);
   return options;
 }
@@ -66,19 +55,13 @@ HierarchyOptions take_hierarchy_options(Arguments& arguments) {
 HierarchyInput take_mesh(Arguments& arguments) {
   const std::string file = arguments.word("an OBJ file or a scene");
   arguments.finish();
-  HierarchyInput input;
   const ObjMesh obj = read_mesh(file);
-  input.name = file;
-  input.mesh.rest_positions = obj.positions;
-  input.mesh.triangles = obj.triangles;
-  input.files_read = {file};
-  return input;
+  return {file, {obj.positions, obj.triangles, {}}, {}, {file}};
 }
 
 /// A scene's cloth at rest; its pinned vertices are on every level.
 HierarchyInput take_cloth(Arguments& arguments) {
   const SceneInput scene = take_scene(arguments);
-  arguments.finish();
   return with_source_named(scene, [&] {
     const RestCloth cloth = rest_cloth(scene.scene);
     if (const auto fault = mesh_fault(cloth.mesh.rest_positions, cloth.mesh.triangles, 0))
@@ -94,116 +77,90 @@ HierarchyInput take_cloth(Arguments& arguments) {
   });
 }
 
-/// What a table tells of a level.
-struct LevelRow {
-  int n_vertices, n_triangles, n_edges;
-  double mean_edge;     ///< along the surface [m]
-  double longest_edge;  ///< [m]
-  double chord_gap;     ///< the most that a chord is shorter than the surface, over the latter
-  double linear_error;  ///< of places from the next coarser level [m]; 0 on the coarsest
-  LevelFaults faults;
-};
-
-std::vector<LevelRow> rows_of(const MeshHierarchy& hierarchy, const TriangleMesh& mesh) {
+Json json_levels(const MeshHierarchy& hierarchy, const TriangleMesh& mesh) {
   const Positions& finest = mesh.rest_positions;
-  std::vector<LevelRow> rows;
+  Json levels = Json::array();
   for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
     const MeshLevel& level = hierarchy.levels[k];
-    LevelRow row{level.n_vertices(),
-                 static_cast<int>(level.triangles.size()),
-                 static_cast<int>(level.edges.size()),
-                 0,
-                 0,
-                 0,
-                 0,
-                 level_faults(level, mesh)};
+    const auto n_edges = static_cast<double>(level.edges.size());
+    double mean_edge = 0;     // along the surface [m]
+    double longest_edge = 0;  // [m]
+    double chord_gap = 0;     // the most that a chord is shorter than the surface, over the latter
     for (const LevelEdge& edge : level.edges) {
-      row.mean_edge += edge.geodesic / row.n_edges;
-      row.longest_edge = std::max(row.longest_edge, edge.geodesic);
+      mean_edge += edge.geodesic / n_edges;
+      longest_edge = std::max(longest_edge, edge.geodesic);
       constexpr double kRounding = 1e-9;
       const double gap = 1 - edge.chord / edge.geodesic;
-      if (gap > kRounding) row.chord_gap = std::max(row.chord_gap, gap);
+      if (gap > kRounding) chord_gap = std::max(chord_gap, gap);
     }
+    double error = 0;  // in places from the next coarser level [m]
     if (k + 1 < hierarchy.levels.size())
-      row.linear_error =
-          linear_error(level.from_coarser, positions_on(hierarchy.levels[k + 1], finest),
-                       positions_on(level, finest));
-    rows.push_back(row);
+      error = linear_error(level.from_coarser, positions_on(hierarchy.levels[k + 1], finest),
+                           positions_on(level, finest));
+    const LevelFaults faults = level_faults(level, mesh);
+    levels.push_back({{"n_vertices", level.n_vertices()},
+                      {"n_triangles", level.triangles.size()},
+                      {"n_edges", level.edges.size()},
+                      {"mean_edge_m", mean_edge},
+                      {"longest_edge_m", longest_edge},
+                      {"chord_gap", chord_gap},
+                      {"linear_error_m", error},
+                      {"turned_triangles", faults.turned_triangles},
+                      {"strayed_borders", faults.strayed_borders},
+                      {"crowded_edges", faults.crowded_edges},
+                      {"covered_share", faults.covered_share}});
   }
-  return rows;
+  return levels;
 }
 
-Json json_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& rows,
-                    const std::string& shortage, double seconds) {
-  Json levels = Json::array();
-  for (const LevelRow& row : rows)
-    levels.push_back({{"n_vertices", row.n_vertices},
-                      {"n_triangles", row.n_triangles},
-                      {"n_edges", row.n_edges},
-                      {"mean_edge_m", row.mean_edge},
-                      {"longest_edge_m", row.longest_edge},
-                      {"chord_gap", row.chord_gap},
-                      {"linear_error_m", row.linear_error},
-                      {"turned_triangles", row.faults.turned_triangles},
-                      {"strayed_borders", row.faults.strayed_borders},
-                      {"crowded_edges", row.faults.crowded_edges},
-                      {"covered_share", row.faults.covered_share}});
-  return {{"mesh", text_value(input.name)},
-          {"levels", std::move(levels)},
-          {"shortage", shortage},
-          {"processor_ms", 1000 * seconds},
-          {"core", core_version()}};
-}
-
-void print_hierarchy(const HierarchyInput& input, const std::vector<LevelRow>& rows,
-                     const std::string& shortage, double seconds) {
-  std::printf("%s\n", printable(input.name).c_str());
+void print_hierarchy(const std::string& name, const Json& json) {
+  std::printf("%s\n", printable(name).c_str());
   std::printf(
       "level  vertices  triangles  mean edge mm  longest mm  chord shorter by %%  turned  strayed  "
       "crowded  covered %%  linear error mm\n");
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const LevelRow& row = rows[k];
-    std::printf("%5zu  %8d  %9d  %12.4g  %10.4g  %18.3g  %6d  %7d  %7d  %9.4g", k, row.n_vertices,
-                row.n_triangles, 1000 * row.mean_edge, 1000 * row.longest_edge, 100 * row.chord_gap,
-                row.faults.turned_triangles, row.faults.strayed_borders, row.faults.crowded_edges,
-                100 * row.faults.covered_share);
-    if (k + 1 < rows.size()) std::printf("  %15.3g", 1000 * row.linear_error);
+  const Json& levels = json["levels"];
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const auto number = [&](const char* key) { return levels[k][key].get<double>(); };
+    std::printf("%5zu  %8.0f  %9.0f  %12.4g  %10.4g  %18.3g  %6.0f  %7.0f  %7.0f  %9.4g", k,
+                number("n_vertices"), number("n_triangles"), 1000 * number("mean_edge_m"),
+                1000 * number("longest_edge_m"), 100 * number("chord_gap"),
+                number("turned_triangles"), number("strayed_borders"), number("crowded_edges"),
+                100 * number("covered_share"));
+    if (k + 1 < levels.size()) std::printf("  %15.3g", 1000 * number("linear_error_m"));
     std::printf("\n");
   }
+  const auto shortage = json["shortage"].get<std::string>();
   if (!shortage.empty()) std::printf("%s\n", shortage.c_str());
-  std::printf("made in %.0f ms of processor time\n", 1000 * seconds);
-}
-
-void write_levels(const MeshHierarchy& hierarchy, const Positions& finest,
-                  const std::string& folder) {
-  FrameWriter writer(folder, FrameFormat::obj, {});
-  double number = 0;
-  for (const MeshLevel& level : hierarchy.levels) {
-    writer.set_mesh({{}, level.triangles});
-    writer.write(positions_on(level, finest), number++);
-  }
-  writer.finish();
+  std::printf("made in %.0f ms of processor time\n", json["processor_ms"].get<double>());
 }
 
 Outcome hierarchy_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
-  const auto folder = arguments.text("--out");
-  Overwriting overwriting(arguments);
-  overwriting.need(folder.has_value(), "--out");
+  FrameFolder out(arguments);
   const HierarchyOptions options = take_hierarchy_options(arguments);
   const HierarchyInput input =
       arguments.has_word_ending(".json") ? take_cloth(arguments) : take_mesh(arguments);
-  const auto old = prepare_frame_folder(folder, overwriting, input.files_read);
+  out.prepare(input.files_read);
   const double begin = process_processor_time().value_or(0);
   const MeshHierarchy hierarchy = mesh_hierarchy(input.mesh, input.is_fixed, options);
   const double seconds = process_processor_time().value_or(0) - begin;
-  const std::vector<LevelRow> rows = rows_of(hierarchy, input.mesh);
+  const Json json = {{"mesh", text_value(input.name)},
+                     {"levels", json_levels(hierarchy, input.mesh)},
+                     {"shortage", hierarchy.shortage},
+                     {"processor_ms", 1000 * seconds},
+                     {"core", core_version()}};
   if (for_machines)
-    std::printf("%s\n", json_hierarchy(input, rows, hierarchy.shortage, seconds).dump().c_str());
+    std::printf("%s\n", json.dump().c_str());
   else
-    print_hierarchy(input, rows, hierarchy.shortage, seconds);
-  for (const std::filesystem::path& file : old) remove_file(file);
-  if (folder) write_levels(hierarchy, input.mesh.rest_positions, *folder);
+    print_hierarchy(input.name, json);
+  if (!out) return Outcome::ok;
+  FrameWriter writer = out.open(FrameFormat::obj, {});
+  double number = 0;
+  for (const MeshLevel& level : hierarchy.levels) {
+    writer.set_mesh({{}, level.triangles});
+    writer.write(positions_on(level, input.mesh.rest_positions), number++);
+  }
+  writer.finish();
   return Outcome::ok;
 }
 

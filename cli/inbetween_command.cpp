@@ -5,11 +5,7 @@
 #include "cli/command_table.h"
 #include "cli/modal_input.h"
 #include "cli/overwriting.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/files/frame_file.h"
-#include "core/files/json_text.h"
-#include "core/files/whole_file.h"
 #include "core/modal/frame_figures.h"
 
 namespace pleat {
@@ -17,21 +13,6 @@ namespace {
 
 constexpr int kUsualFrames = 60;
 constexpr int kMostFrames = 10'000;
-
-struct InbetweenOptions {
-  bool for_machines = false;
-  bool checks = false;
-  std::optional<int> n_frames;
-  std::optional<double> step;  // [m]
-  std::optional<std::string> out;
-};
-
-std::vector<KeyCompletion::Frame> frames_of(const KeyCompletion& completion,
-                                            const InbetweenOptions& options) {
-  if (options.step)
-    return completion.frames_by_step(*options.step, options.n_frames.value_or(kMostFrames));
-  return completion.frames(options.n_frames.value_or(kUsualFrames));
-}
 
 bool has_converged(const KeyCompletion::Frame& frame) {
   return std::all_of(frame.bodies.begin(), frame.bodies.end(),
@@ -49,14 +30,6 @@ double widest_step(const KeyCompletion& completion,
     before = next;
   }
   return widest;
-}
-
-void write_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames,
-                  const std::vector<Triangle>& triangles, const std::string& folder) {
-  FrameWriter writer(folder, FrameFormat::obj, {{}, triangles});
-  for (const KeyCompletion::Frame& frame : frames)
-    writer.write(completion.surface(frame), frame.time);
-  writer.finish();
 }
 
 Json json_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames) {
@@ -118,7 +91,7 @@ void print_inbetween(const Json& json) {
                   .c_str());
 }
 
-/// What a reader should know of the frames; mostly nothing.
+/// Sentences on what a reader should know of the frames; mostly none.
 std::vector<std::string> warnings(const Json& json) {
   std::vector<std::string> all;
   if (const auto step = json.find("wanted_step_m");
@@ -145,34 +118,36 @@ std::vector<std::string> warnings(const Json& json) {
 }
 
 Outcome inbetween_command(Arguments arguments) {
-  InbetweenOptions options;
-  options.for_machines = arguments.flag("--json");
-  options.checks = arguments.flag("--check");
-  options.n_frames = arguments.whole_number("--frames", 2, kMostFrames);
-  if (const auto step = arguments.text("--step"))
-    options.step = parse_positive_number(*step, "--step");
-  options.out = arguments.text("--out");
+  const bool for_machines = arguments.flag("--json");
+  const bool checks = arguments.flag("--check");
+  const auto n_frames = arguments.whole_number("--frames", 2, kMostFrames);
+  const auto step = arguments.number("--step");  // [m]
   const ModalOptions modal = take_completion_options(arguments);
-  Overwriting overwriting(arguments);
+  FrameFolder out(arguments);
   const KeySurfaces keys = take_keys(arguments);
-  overwriting.need(options.out.has_value(), "--out");
-  const auto old_frames = prepare_frame_folder(options.out, overwriting, keys.files);
+  out.prepare(keys.files);
   const KeyCompletion completion(keys.positions, keys.mesh.triangles, modal);
-  const std::vector<KeyCompletion::Frame> frames = frames_of(completion, options);
+  const auto frames = step ? completion.frames_by_step(*step, n_frames.value_or(kMostFrames))
+                           : completion.frames(n_frames.value_or(kUsualFrames));
   Json json = json_inbetween(completion, json_frames(completion, frames));
-  if (options.step) {
-    json["wanted_step_m"] = *options.step;
+  if (step) {
+    json["wanted_step_m"] = *step;
     json["widest_step_m"] = widest_step(completion, frames);
   }
-  if (options.for_machines)
+  if (for_machines)
     std::printf("%s\n", json.dump().c_str());
   else
     print_inbetween(json);
-  for (const std::string& warning : warnings(json))
+  const std::vector<std::string> told = warnings(json);
+  for (const std::string& warning : told)
     std::fprintf(stderr, "pleat: warning: %s\n", warning.c_str());
-  for (const std::filesystem::path& file : old_frames) remove_file(file);
-  if (options.out) write_frames(completion, frames, keys.mesh.triangles, *options.out);
-  return options.checks && !warnings(json).empty() ? Outcome::check_failed : Outcome::ok;
+  if (out) {
+    FrameWriter writer = out.open(FrameFormat::obj, {{}, keys.mesh.triangles});
+    for (const KeyCompletion::Frame& frame : frames)
+      writer.write(completion.surface(frame), frame.time);
+    writer.finish();
+  }
+  return checks && !told.empty() ? Outcome::check_failed : Outcome::ok;
 }
 
 }  // namespace

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "cli/command_table.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/files/json_text.h"
 #include "core/files/whole_file.h"
 
 namespace pleat {
@@ -17,16 +15,10 @@ constexpr int kExitCheckFailed = 1;
 constexpr int kExitBadInput = 2;
 constexpr int kExitOwnFault = 3;
 
-Outcome version(Arguments arguments) {
-  arguments.finish();
-  std::printf("pleat %s\n", core_version());
-  return Outcome::ok;
-}
-
 int run(const std::vector<std::string>& words) {
-  const bool asks_version = !words.empty() && words.front() == "--version";
-  const Outcome outcome = asks_version ? version(Arguments({words.begin() + 1, words.end()}))
-                                       : dispatch(standard_commands(), words);
+  const bool asks_version = words == std::vector<std::string>{"--version"};
+  if (asks_version) std::printf("pleat %s\n", core_version());
+  const Outcome outcome = asks_version ? Outcome::ok : dispatch(standard_commands(), words);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     std::fputs("pleat: the output could not be written whole\n", stderr);
     return kExitCheckFailed;

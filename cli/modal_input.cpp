@@ -1,8 +1,6 @@
 #include "cli/modal_input.h"
 
-#include "cli/mesh_input.h"
-#include "core/base/check.h"
-#include "core/files/json_text.h"
+#include "cli/source.h"
 #include "core/modal/key_faces.h"
 
 namespace pleat {
@@ -14,22 +12,17 @@ constexpr int kMostModes = 1000;
 
 KeySurfaces take_keys(Arguments& arguments) {
   KeySurfaces keys;
-  std::string file = arguments.word("an OBJ file");
-  keys.mesh = read_mesh(file);
-  keys.positions.push_back(keys.mesh.positions);
-  keys.files.emplace_back(file);
-  while (arguments.has_words()) {
-    file = arguments.word("an OBJ file");
-    const ObjMesh mesh = read_mesh(file);
-    try {
+  do {
+    const std::string file = arguments.word("an OBJ file");
+    ObjMesh mesh = read_mesh(file);
+    if (keys.files.empty()) keys.mesh = mesh;
+    with_source_named(Source{file}, [&] {
       check_key_faces(keys.mesh.positions.cols(), keys.mesh.triangles, mesh.positions.cols(),
                       mesh.triangles);
-    } catch (const InputError& error) {
-      throw InputError(file, error.what());
-    }
-    keys.positions.push_back(mesh.positions);
+    });
+    keys.positions.push_back(std::move(mesh.positions));
     keys.files.emplace_back(file);
-  }
+  } while (arguments.has_words());
   return keys;
 }
 
@@ -39,16 +32,9 @@ std::optional<int> take_mode_count(Arguments& arguments) {
 
 ModalOptions take_volume_options(Arguments& arguments) {
   ModalOptions options;
-  if (const auto kind = arguments.text("--volume")) {
-    if (*kind == "lattice")
-      options.volume = VolumeKind::lattice;
-    else if (*kind == "shell")
-      options.volume = VolumeKind::shell;
-    else
-      throw InputError("--volume", "expected lattice or shell, got " + cut(*kind));
-  }
-  if (const auto size = arguments.text("--size"))
-    options.size = parse_positive_number(*size, "--size");
+  options.volume = arguments.choice(
+      "--volume", options.volume, {{"lattice", VolumeKind::lattice}, {"shell", VolumeKind::shell}});
+  options.size = arguments.number("--size").value_or(options.size);
   return options;
 }
 
@@ -60,8 +46,8 @@ ModalOptions take_completion_options(Arguments& arguments) {
   options.n_clusters =
       arguments.whole_number("--clusters", 1, kMostModes).value_or(options.n_clusters);
   options.exact_keys = arguments.flag("--exact-keys");
-  if (const auto beyond = arguments.text("--detail-beyond"))
-    options.detail_beyond = parse_number_from_zero(*beyond, "--detail-beyond");
+  options.detail_beyond =
+      arguments.number("--detail-beyond", Numbers::not_negative).value_or(options.detail_beyond);
   return options;
 }
 

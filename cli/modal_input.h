@@ -24,10 +24,10 @@ constexpr const char* kCompletionHelp =
 struct KeySurfaces {
   std::vector<std::filesystem::path> files;
   std::vector<Positions> positions;  ///< [m]
-  ObjMesh mesh;                      ///< of the first
+  ObjMesh mesh;                      ///< the first
 };
 
-/// Of all words that are left. Throws InputError for files of different triangles.
+/// Reads the files of all words that are left. Throws InputError for files of different triangles.
 KeySurfaces take_keys(Arguments& arguments);
 
 /// --modes N.

@@ -6,10 +6,7 @@
 #include "cli/modal_input.h"
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/files/frame_file.h"
-#include "core/files/json_text.h"
 #include "core/modal/cloth_modes.h"
 #include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
@@ -20,8 +17,10 @@ namespace pleat {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kShownMove = 0.1;  // of a mode's farthest vertex in a file, over the extent
+constexpr double kShownMove = 0.1;  // the farthest vertex's in a file, over the extent
 constexpr int kUsualModes = 20;
+constexpr std::initializer_list<const char*> kVolumeOptions = {"--volume", "--size", "--young",
+                                                               "--density"};
 
 /// Modes of something that has a surface to show them on.
 struct ModeTable {
@@ -30,10 +29,10 @@ struct ModeTable {
   double hertz_of_one = 0;  ///< frequency where the stiffness is 1 [Hz]; 0: it means nothing
   Positions surface;        ///< [m]
   std::vector<Triangle> triangles;
-  std::vector<double> shares;  ///< of a motion, of the modes one after another; empty without one
+  std::vector<double> shares;  ///< each mode's of a motion; empty without one
 
   bool has_frequencies() const { return hertz_of_one > 0; }
-  /// Below zero for a way that the shape falls.
+  /// Negative for a way that the shape falls.
   double frequency(Eigen::Index mode) const {
     const double stiffness = modes.stiffness[mode];
     return std::copysign(std::sqrt(std::abs(stiffness)), stiffness) * hertz_of_one;
@@ -43,38 +42,8 @@ struct ModeTable {
   }
 };
 
-struct Material {
-  double young = 1e6;     // [Pa]
-  double density = 1000;  // [kg/m^3]
-};
-
-/// A mode of 1 Pa and 1 kg/m^3 has the same shape; its stiffness goes with Young's modulus over the
-/// density.
-ModeTable volume_table(const KeySurfaces& mesh, const ModalOptions& options,
-                       const Material& material) {
-  const Positions& surface = mesh.positions.front();
-  const std::vector<Triangle>& triangles = mesh.mesh.triangles;
-  ModeTable table;
-  table.modes = volume_surface_modes(surface, triangles, options);
-  if (volume_kind(triangles, options) == VolumeKind::lattice)
-    table.hertz_of_one = std::sqrt(material.young / material.density) / (2 * kPi);
-  table.surface = surface;
-  table.triangles = triangles;
-  table.subject = "volume of " + std::to_string(table.modes.n_tets) + " tetrahedra";
-  return table;
-}
-
-ModeTable surface_table(const KeySurfaces& mesh, int count) {
-  const Positions& surface = mesh.positions.front();
-  ModeTable table;
-  table.modes = surface_modes(surface, mesh.mesh.triangles, count);
-  table.surface = surface;
-  table.triangles = mesh.mesh.triangles;
-  table.subject = "surface alone, " + std::to_string(surface.cols()) + " vertices";
-  return table;
-}
-
-/// About the state at the end of the scene's time; the motion until then is compared with it.
+/// Finds the modes about the state at the end of the scene's time, and what they have of the motion
+/// until then.
 ModeTable cloth_table(const Scene& scene, int count) {
   expect_whole(scene);
   Simulation simulation(scene);
@@ -139,74 +108,59 @@ void print_table(const ModeTable& table) {
         "not at rest\n");
 }
 
-/// One file for each mode.
-void write_shapes(const ModeTable& table, const std::string& folder) {
-  FrameWriter writer(folder, FrameFormat::obj, {{}, table.triangles});
-  const double move = kShownMove * box_diagonal(table.surface);
-  for (Eigen::Index m = 0; m < table.modes.size(); ++m)
-    writer.write(table.surface + move * table.modes.moves.col(m).reshaped(3, table.surface.cols()),
-                 static_cast<double>(m));
-  writer.finish();
-}
-
-/// The folder after --out, if there is one.
-struct FrameFolder {
-  std::optional<std::string> folder;
-  Overwriting& overwriting;
-  std::vector<std::filesystem::path> old;
-
-  void prepare(const std::vector<std::filesystem::path>& files_read) {
-    old = prepare_frame_folder(folder, overwriting, files_read);
-  }
-};
-
-/// Takes what only volumes have, and refuses it for what is none.
-void refuse_volume_options(Arguments& arguments, const std::string& why) {
-  for (const char* option : {"--volume", "--size", "--young", "--density"})
-    arguments.refuse(option, why);
-}
-
 ModeTable table_of_scene(Arguments& arguments, FrameFolder& out) {
-  refuse_volume_options(arguments, "a scene's modes are of its cloth, which has its own masses");
-  arguments.refuse("--surface", "a scene's modes are of its cloth, which has its own forces");
+  arguments.refuse(kVolumeOptions, "a scene's modes are of its cloth, which has its own masses");
+  arguments.refuse({"--surface"}, "a scene's modes are of its cloth, which has its own forces");
   const int count = take_mode_count(arguments).value_or(kUsualModes);
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
   out.prepare(input.files_read);
   return with_source_named(input, [&] { return cloth_table(input.scene, count); });
 }
 
 ModeTable table_of_mesh(Arguments& arguments, FrameFolder& out) {
   const bool of_surface = arguments.flag("--surface");
-  if (of_surface) refuse_volume_options(arguments, "a surface alone has no volume");
-  Material material;
-  if (const auto young = arguments.text("--young"))
-    material.young = parse_positive_number(*young, "--young");
-  if (const auto density = arguments.text("--density"))
-    material.density = parse_positive_number(*density, "--density");
+  if (of_surface) arguments.refuse(kVolumeOptions, "a surface alone has no volume");
+  const double young = arguments.number("--young").value_or(1e6);       // [Pa]
+  const double density = arguments.number("--density").value_or(1000);  // [kg/m^3]
   ModalOptions options = take_volume_options(arguments);
   options.n_modes = take_mode_count(arguments).value_or(kUsualModes);
   const KeySurfaces mesh = take_keys(arguments);
   if (mesh.files.size() > 1)
     throw InputError(mesh.files[1].string(), "one word too many; modes are of one mesh");
   out.prepare(mesh.files);
-  return of_surface ? surface_table(mesh, options.n_modes) : volume_table(mesh, options, material);
+  ModeTable table;
+  table.surface = mesh.positions.front();
+  table.triangles = mesh.mesh.triangles;
+  if (of_surface) {
+    table.modes = surface_modes(table.surface, table.triangles, options.n_modes);
+    table.subject = "surface alone, " + std::to_string(table.surface.cols()) + " vertices";
+    return table;
+  }
+  table.modes = volume_surface_modes(table.surface, table.triangles, options);
+  table.subject = "volume of " + std::to_string(table.modes.n_tets) + " tetrahedra";
+  // A mode of 1 Pa and 1 kg/m^3 has the same shape; its stiffness goes with Young's modulus over
+  // the density.
+  if (volume_kind(table.triangles, options) == VolumeKind::lattice)
+    table.hertz_of_one = std::sqrt(young / density) / (2 * kPi);
+  return table;
 }
 
 Outcome modes_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
-  const auto folder = arguments.text("--out");
-  Overwriting overwriting(arguments);
-  overwriting.need(folder.has_value(), "--out");
-  FrameFolder out{folder, overwriting, {}};
+  FrameFolder out(arguments);
   const ModeTable table = arguments.has_word_ending(".json") ? table_of_scene(arguments, out)
                                                              : table_of_mesh(arguments, out);
   if (for_machines)
     std::printf("%s\n", json_table(table).dump().c_str());
   else
     print_table(table);
-  for (const std::filesystem::path& file : out.old) remove_file(file);
-  if (folder) write_shapes(table, *folder);
+  if (!out) return Outcome::ok;
+  FrameWriter writer = out.open(FrameFormat::obj, {{}, table.triangles});
+  const double move = kShownMove * box_diagonal(table.surface);
+  for (Eigen::Index m = 0; m < table.modes.size(); ++m)
+    writer.write(table.surface + move * table.modes.moves.col(m).reshaped(3, table.surface.cols()),
+                 static_cast<double>(m));
+  writer.finish();
   return Outcome::ok;
 }
 

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "core/files/frame_file.h"
 #include "core/files/whole_file.h"
 
 namespace pleat {
@@ -21,7 +20,7 @@ void Overwriting::spare(const std::vector<std::filesystem::path>& files) {
 }
 
 void Overwriting::check_spared(const std::filesystem::path& file) const {
-  std::error_code error;  // of a file that is not there
+  std::error_code error;  // a file may not be there
   for (const std::filesystem::path& spared : spared_)
     if (std::filesystem::equivalent(file, spared, error))
       throw FileError(file, "expected another file than those that are read, got one of them");
@@ -37,19 +36,39 @@ void Overwriting::check(const std::filesystem::path& file) const {
                     "replaces it");
 }
 
-std::vector<std::filesystem::path> prepare_frame_folder(
-    const std::optional<std::string>& folder, Overwriting& overwriting,
-    const std::vector<std::filesystem::path>& files) {
-  overwriting.spare(files);
-  if (!folder) return {};
-  std::vector<std::filesystem::path> old = frame_files(*folder);
-  if (!old.empty() && !overwriting.is_asked())
-    throw FileError(*folder, "expected a folder without frames, got " +
-                                 old.front().filename().string() +
-                                 "; --overwrite removes those that stand there");
-  for (const std::filesystem::path& file : old) overwriting.check(file);
-  make_folder(*folder);
-  return old;
+FrameFolder::FrameFolder(Arguments& arguments, std::string other)
+    : folder_(arguments.text("--out").value_or("")),
+      other_(std::move(other)),
+      overwriting_(arguments) {}
+
+std::vector<std::filesystem::path> FrameFolder::old_files() const {
+  std::vector<std::filesystem::path> files = frame_files(folder_);
+  std::error_code error;
+  if (!other_.empty() && std::filesystem::exists(other_file(), error))
+    files.push_back(other_file());
+  return files;
+}
+
+void FrameFolder::prepare() const {
+  if (folder_.empty()) return;
+  const std::vector<std::filesystem::path> old = old_files();
+  if (!old.empty() && !overwriting_.is_asked())
+    throw FileError(folder_, "expected a folder without a run's files, got " +
+                                 old.front().filename().string() + "; --overwrite removes them");
+  make_folder(folder_);
+  if (!other_.empty()) check_writable(other_file());
+  for (const std::filesystem::path& file : old) overwriting_.check(file);
+}
+
+void FrameFolder::prepare(const std::vector<std::filesystem::path>& files_read) {
+  overwriting_.need(!folder_.empty(), "--out");
+  overwriting_.spare(files_read);
+  prepare();
+}
+
+FrameWriter FrameFolder::open(FrameFormat format, const FrameMesh& mesh) const {
+  for (const std::filesystem::path& file : old_files()) remove_file(file);
+  return {folder_.string(), format, mesh};
 }
 
 }  // namespace pleat

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "core/files/frame_file.h"
 
 namespace pleat {
 
 constexpr const char* kOverwriteHelp =
     "  --overwrite            write where a file stands; what is read is never written over\n";
 
-/// What a command may write over: nothing that stands there unless --overwrite says so, and never a
-/// file that the command reads.
+/// Tells what a command may write over: nothing that stands there unless --overwrite says so, and
+/// never a file that the command reads.
 class Overwriting {
  public:
   /// Takes --overwrite, and spares the file after --fabrics, which has not been taken yet.
@@ -37,13 +38,32 @@ class Overwriting {
   std::vector<std::filesystem::path> spared_;
 };
 
-/// The folder after --out, if there is one, and the frames of another run that stand in it: they
-/// are to be removed once there is something to write. Throws before anything is computed where the
-/// folder cannot be had or they may not be removed.
-///
-/// files  that are read, and spared
-std::vector<std::filesystem::path> prepare_frame_folder(
-    const std::optional<std::string>& folder, Overwriting& overwriting,
-    const std::vector<std::filesystem::path>& files);
+/// The folder after --out for frames, which take the place of an earlier run's.
+class FrameFolder {
+ public:
+  /// Takes --out and --overwrite.
+  ///
+  /// other  a further file that a run has there, or empty
+  explicit FrameFolder(Arguments& arguments, std::string other = "");
+
+  explicit operator bool() const { return !folder_.empty(); }  ///< --out was given
+  Overwriting& overwriting() { return overwriting_; }
+  std::filesystem::path other_file() const { return folder_ / other_; }
+
+  /// Makes the folder, where there is to be one. Throws FileError, before anything is computed,
+  /// where it cannot be had or its files may not be written over.
+  void prepare() const;
+  /// Refuses --overwrite without --out, spares the files that are read, and prepares.
+  void prepare(const std::vector<std::filesystem::path>& files_read);
+  /// Removes the files of an earlier run. Call where there is a folder.
+  FrameWriter open(FrameFormat format, const FrameMesh& mesh) const;
+
+ private:
+  std::vector<std::filesystem::path> old_files() const;
+
+  std::filesystem::path folder_;
+  std::string other_;
+  Overwriting overwriting_;
+};
 
 }  // namespace pleat

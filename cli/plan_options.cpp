@@ -1,20 +1,20 @@
 #include "cli/plan_options.h"
 
-#include "core/base/check.h"
 #include "core/files/plan_file.h"
 
 namespace pleat {
 
-PlanCriterion take_criterion(Arguments& arguments) {
-  const auto name = arguments.text("--criterion");
-  if (!name) return PlanOptions{}.criterion;
-  for (const auto& [text, criterion] : kPlanCriteria)
-    if (*name == text) return criterion;
-  throw InputError("--criterion", "expected shape or curvature, got " + abbreviated(Json(*name)));
+PlanRecipe take_plan_recipe(Arguments& arguments) {
+  PlanRecipe recipe;
+  recipe.patterns.n_patterns =
+      arguments.whole_number("--patterns", 1, kMaxPatterns).value_or(recipe.patterns.n_patterns);
+  recipe.plan.criterion = arguments.choice("--criterion", recipe.plan.criterion, kPlanCriteria);
+  recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
+  return recipe;
 }
 
 void set_demand(PlanOptions& options, const std::string& text) {
-  const double number = parse_number_from_zero(text, "--demand");
+  const double number = parse_number(text, "--demand", Numbers::not_negative);
   (options.criterion == PlanCriterion::shape ? options.largest_loss : options.demand) = number;
 }
 

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "cli/arguments.h"
-#include "core/refinement/refinement_plan.h"
+#include "core/run/plan_maker.h"
 
 namespace pleat {
 
-/// That of --criterion, else the usual one.
-PlanCriterion take_criterion(Arguments& arguments);
+/// Takes --patterns, --criterion and --cap.
+PlanRecipe take_plan_recipe(Arguments& arguments);
 
-/// What --demand says: how much may be lost [m], or of curvature the sum of demands.
+/// Sets how much may be lost [m], or of curvature the sum of demands, to what --demand says.
 void set_demand(PlanOptions& options, const std::string& text);
 
 }  // namespace pleat

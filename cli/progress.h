@@ -50,7 +50,7 @@ void tell_warnings(std::span<const RunWarning> warnings, const std::string& of =
 
 /// Says on stderr in which step the numbers ended a run, why, and what comes of it.
 ///
-/// n_steps  that were done before
+/// n_steps  done before
 void print_early_end(std::int64_t n_steps, const SolveReport& report, const char* consequence);
 
 }  // namespace pleat

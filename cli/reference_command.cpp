@@ -1,13 +1,11 @@
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <optional>
 
 #include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
-#include "core/scene/scene_file.h"
 #include "core/sweep/sweep_reference.h"
 
 namespace pleat {
@@ -15,16 +13,9 @@ namespace {
 
 constexpr double kUsualStep = 1.0 / 960;  // [s]
 
-ReferenceKind take_kind(Arguments& arguments) {
-  const std::string kind = arguments.text("--kind").value_or("same_mesh");
-  if (kind == "same_mesh") return ReferenceKind::same_mesh;
-  if (kind == "converged") return ReferenceKind::converged;
-  throw InputError("--kind", "expected same_mesh or converged, got " + abbreviated(Json(kind)));
-}
-
 /// Multiples of `every` [s] up to the scene's end.
 std::vector<double> sample_times(const Scene& scene, double every) {
-  constexpr double kRounding = 1e-9;  // of a sample
+  constexpr double kRounding = 1e-9;  // a share of a sample
   constexpr double kMaxSamples = 100'000;
   const double n = std::floor(scene.duration / every + kRounding);
   if (n < 1 || n > kMaxSamples)
@@ -36,7 +27,7 @@ std::vector<double> sample_times(const Scene& scene, double every) {
   return times;
 }
 
-/// How well it is known, in ten lines at most.
+/// Tells how well it is known, in ten lines at most.
 void print_reference(const Reference& reference) {
   std::printf("%s: %s\n%s\n", reference.label.id.c_str(), reference.label.description.c_str(),
               "time s   known to mm");
@@ -49,32 +40,25 @@ void print_reference(const Reference& reference) {
   }
 }
 
-ReferenceRecipe recipe_of(ReferenceKind kind, const Scene& scene,
-                          const std::vector<double>& times) {
-  return {reference_id(id_prefix(kind), scene, times), kind, scene, {}};
-}
-
-Reference made(const ReferenceRecipe& recipe, const std::vector<double>& times,
-               const Reference* coarser = nullptr) {
-  const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times, coarser);
-  finish(*maker, recipe.scene.name + ", level " + std::to_string(recipe.scene.level));
+/// Makes the reference; one whose mesh is halved is made on the coarser mesh first.
+Reference made(ReferenceKind kind, const Scene& scene, const std::vector<double>& times) {
+  ReferenceRecipe recipe{reference_id(id_prefix(kind), scene, times), kind, scene, {}};
+  std::optional<Reference> coarser;
+  if (kind == ReferenceKind::converged) {
+    if (scene.level == 0)
+      throw InputError("/refinement/level",
+                       "expected at least 1, as the mesh is to be halved, got 0");
+    Scene below = scene;
+    --below.level;
+    coarser = made(ReferenceKind::same_mesh, below, times);
+    recipe.coarser = 0;
+  }
+  const auto maker = make_reference_maker(recipe, times, coarser ? &*coarser : nullptr);
+  finish(*maker, scene.name + ", level " + std::to_string(scene.level));
   return maker->reference();
 }
 
-Reference made(ReferenceKind kind, const Scene& scene, const std::vector<double>& times) {
-  ReferenceRecipe recipe = recipe_of(kind, scene, times);
-  if (kind == ReferenceKind::same_mesh) return made(recipe, times);
-  if (scene.level == 0)
-    throw InputError("/refinement/level",
-                     "expected at least 1, as the mesh is to be halved, got 0");
-  Scene coarser = scene;
-  --coarser.level;
-  const Reference below = made(recipe_of(ReferenceKind::same_mesh, coarser, times), times);
-  recipe.coarser = 0;
-  return made(recipe, times, &below);
-}
-
-/// With the vertices of one of its coarser meshes alone.
+/// Keeps the vertices of one of its coarser meshes alone.
 void keep_level(Reference& reference, const Scene& scene, int level) {
   if (level > scene.level)
     throw InputError("--keep-level", "expected at most the level of the run, " +
@@ -84,17 +68,16 @@ void keep_level(Reference& reference, const Scene& scene, int level) {
 }
 
 Outcome reference_command(Arguments arguments) {
-  const ReferenceKind kind = take_kind(arguments);
+  const auto kind = arguments.choice(
+      "--kind", ReferenceKind::same_mesh,
+      {{"same_mesh", ReferenceKind::same_mesh}, {"converged", ReferenceKind::converged}});
   const auto out = arguments.text("--out");
   Overwriting overwriting(arguments);
-  const auto every_text = arguments.text("--every");
-  const double every =
-      every_text ? parse_positive_number(*every_text, "--every") : RecordOptions{}.every;
-  for (const char* option : {"--stepper", "--substeps", "--iterations", "--solver", "--tolerance"})
-    arguments.refuse(option, "a reference is made by newton with the midpoint rule");
+  const double every = arguments.number("--every").value_or(RecordOptions{}.every);
+  arguments.refuse({"--stepper", "--substeps", "--iterations", "--solver", "--tolerance"},
+                   "a reference is made by newton with the midpoint rule");
   const auto kept_level = arguments.whole_number("--keep-level", 0, kMaxLevel);
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
   Scene scene = input.scene;
   const double step = input.is_set_by("--step") ? input.scene.method.step : kUsualStep;
   if (step > every)

@@ -17,7 +17,7 @@ class ReferenceFolder : public ReferenceStore {
   std::optional<Reference> find(const std::string& id) override;
   void keep(const Reference& reference) override;
 
-  /// Of the file that one is kept in.
+  /// Names the file that one is kept in.
   std::filesystem::path path(const std::string& id) const;
 
  private:

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -8,14 +7,12 @@
 #include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
-#include "core/base/check.h"
 #include "core/files/plan_file.h"
-#include "core/run/plan_maker.h"
 
 namespace pleat {
 namespace {
 
-constexpr int kUsualFineLevel = 2;  // of an example, where neither it nor --level says one
+constexpr int kUsualFineLevel = 2;  // an example's, where neither it nor --level says one
 
 /// The option that sets what the planner names.
 constexpr std::pair<const char*, const char*> kOptions[] = {{"detail demand", "--demand"},
@@ -23,29 +20,16 @@ constexpr std::pair<const char*, const char*> kOptions[] = {{"detail demand", "-
                                                             {"level cap", "--cap"},
                                                             {"number of patterns", "--patterns"}};
 
-PlanRecipe take_recipe(Arguments& arguments) {
-  PlanRecipe recipe;
-  if (const auto n = arguments.whole_number("--patterns", 1, kMaxPatterns))
-    recipe.patterns.n_patterns = *n;
-  recipe.patterns.normalised = !arguments.flag("--raw-features");
-  recipe.plan.criterion = take_criterion(arguments);
-  if (const auto text = arguments.text("--demand")) set_demand(recipe.plan, *text);
-  recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
-  recipe.plan.level_cap = arguments.whole_number("--cap", 1, kMaxLevel);
-  return recipe;
-}
-
-/// The examples, and where else what is refused comes from.
-struct RefineInput {
+/// The first example and all of them.
+struct RefineInput : SceneInput {
   std::vector<SceneInput> examples;
 
-  [[noreturn]] void throw_with_source(const InputError& error) const {
+  [[noreturn]] void throw_named(const InputError& error) const {
     for (const auto& [name, option] : kOptions)
       if (error.where() == name) throw InputError(option, error.what());
     const auto* of_example = dynamic_cast<const ExampleError*>(&error);
-    examples[of_example != nullptr ? of_example->example() : 0].throw_with_source(error);
+    examples[of_example != nullptr ? of_example->example() : 0].throw_named(error);
   }
-  [[noreturn]] void throw_out_of_memory() const { examples.front().throw_out_of_memory(); }
 };
 
 void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& scene) {
@@ -73,33 +57,29 @@ void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& s
 
 Outcome refine_command(Arguments arguments) {
   const auto out = arguments.text("--out");
-  const auto begin = arguments.text("--from");
-  const auto more = arguments.list("--merge");
-  PlanRecipe recipe = take_recipe(arguments);
+  const auto start = arguments.number("--from", Numbers::not_negative);
+  PlanRecipe recipe = take_plan_recipe(arguments);
+  recipe.patterns.normalised = !arguments.flag("--raw-features");
+  if (const auto text = arguments.text("--demand")) set_demand(recipe.plan, *text);
+  recipe.plan.max_vertices = arguments.whole_number("--vertices", 1, kMaxVertices);
   Overwriting overwriting(arguments);
-  const FabricLibrary fabrics = take_fabrics(arguments);
-  SceneChanges changes = take_scene_changes(arguments);
-  const std::string file = arguments.word("an example, SCENE.json");
-  arguments.finish();
+  const std::vector<SceneInput> examples = take_scenes(arguments, arguments.list("--merge"));
+  const RefineInput input{examples.front(), examples};
   overwriting.need(out.has_value(), "--out");
-  RefineInput input;
-  input.examples.push_back(read_scene_input(file, changes, fabrics));
-  for (const std::string& other : more)
-    input.examples.push_back(read_scene_input(other, changes, fabrics));
   std::vector<Scene> scenes;
-  for (const SceneInput& example : input.examples) {
+  for (const SceneInput& example : examples) {
     overwriting.spare(example.files_read);
     scenes.push_back(example.scene);
     if (scenes.back().level == 0 && !scenes.back().plan && !example.is_set_by("--level"))
       scenes.back().level = kUsualFineLevel;
   }
-  recipe.begin = begin ? parse_number_from_zero(*begin, "--from") : settled_time(scenes.front());
+  recipe.begin = start.value_or(settled_time(scenes.front()));
   if (out) overwriting.check(*out);
   return with_source_named(input, [&] {
     PlanMaker maker(scenes, recipe);
     finish(maker, scenes.front().name);
     for (std::size_t k = 0; k < scenes.size(); ++k)
-      tell_warnings(maker.warnings()[k], "example " + abbreviated(Json(scenes[k].name)));
+      tell_warnings(maker.warnings()[k], "example " + quotation(scenes[k].name));
     print_plan(maker.plan(), maker.cost(), scenes.front());
     if (out) write_file(*out, plan_text(maker.plan()));
     return Outcome::ok;

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "cli/command_table.h"
@@ -29,11 +27,11 @@ namespace {
 
 /// The results of a whole run.
 struct RunSummary {
-  SolveReport report;  // of all steps
+  SolveReport report;  // sum of all steps
   Stretch last_stretch;
   double largest_stretch = 0;
-  double rms_stretch_sum = 0;       // over steps
-  std::int64_t last_crossings = 0;  // of the cloth with itself, where they are counted
+  double rms_stretch_sum = 0;       // all steps
+  std::int64_t last_crossings = 0;  // the cloth with itself, where they are counted
   std::int64_t largest_crossings = 0;
   int n_frames = 0;
   std::vector<RunWarning> warnings;
@@ -52,34 +50,6 @@ struct Dump {
   }
 };
 
-/// The folder after --out.
-struct Output {
-  std::filesystem::path folder;
-  std::filesystem::path metrics = folder / "metrics.json";
-
-  /// Files of an earlier run.
-  std::vector<std::filesystem::path> old_files() const {
-    std::vector<std::filesystem::path> files = frame_files(folder);
-    std::error_code error;
-    if (std::filesystem::exists(metrics, error)) files.push_back(metrics);
-    if (error)
-      throw FileError(metrics, "expected a place that can be read, got \"" + error.message() + '"');
-    return files;
-  }
-
-  /// Frames of two runs side by side would pass for those of one.
-  void prepare(const Overwriting& overwriting) const {
-    const std::vector<std::filesystem::path> old = old_files();
-    if (!old.empty() && !overwriting.is_asked())
-      throw FileError(folder, "expected a folder without a run's files, got " +
-                                  old.front().filename().string() +
-                                  "; --overwrite removes those of the earlier run");
-    make_folder(folder);
-    check_writable(metrics);
-    for (const std::filesystem::path& file : old) overwriting.check(file);
-  }
-};
-
 void check_frame_count(const Scene& scene) {
   if (scene.record.format == FrameFormat::none) return;
   const std::int64_t n_frames = 1 + whole_steps(scene.duration, scene.method.step) /
@@ -94,12 +64,6 @@ void write_stiffness(const Simulation& simulation, const std::filesystem::path& 
                        simulation.model(), simulation.state().positions, ElementHessian::exact)));
 }
 
-void add_step(const Simulation& simulation, RunSummary& summary) {
-  summary.last_stretch = stretch(simulation.gauge(), simulation.state().positions);
-  summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
-  summary.rms_stretch_sum += summary.last_stretch.rms;
-}
-
 FrameMesh frame_mesh(const Simulation& simulation) {
   return {simulation.model().rest_coordinates, simulation.triangles()};
 }
@@ -108,30 +72,30 @@ SelfCrossings crossings_of(const Simulation& simulation) {
   return {simulation.triangles(), simulation.rest_positions(), simulation.model().hanging};
 }
 
-/// Who watches a run; any may be null.
+/// Who watches a run, where it is asked for.
 struct Watchers {
-  FrameWriter* frames = nullptr;
-  SelfCrossings* crossings = nullptr;
-  RunLedger* ledger = nullptr;
+  std::optional<FrameWriter> frames;
+  std::optional<SelfCrossings> crossings;
+  std::optional<RunLedger> ledger;
 };
 
 /// Shows a mesh that a tear has changed to those who keep one.
-void show_mesh(const Simulation& simulation, const Watchers& watchers) {
-  if (watchers.frames != nullptr) watchers.frames->set_mesh(frame_mesh(simulation));
-  if (watchers.crossings != nullptr) *watchers.crossings = crossings_of(simulation);
+void show_mesh(const Simulation& simulation, Watchers& watchers) {
+  if (watchers.frames) watchers.frames->set_mesh(frame_mesh(simulation));
+  if (watchers.crossings) watchers.crossings = crossings_of(simulation);
 }
 
 /// Hands a frame to everything that watches them.
-void add_frame(const Simulation& simulation, const Watchers& watchers, RunSummary& summary) {
+void add_frame(const Simulation& simulation, Watchers& watchers, RunSummary& summary) {
   const Positions& positions = simulation.state().positions;
-  if (watchers.frames != nullptr) watchers.frames->write(positions, simulation.time());
-  if (watchers.crossings == nullptr) return;
+  if (watchers.frames) watchers.frames->write(positions, simulation.time());
+  if (!watchers.crossings) return;
   summary.last_crossings = watchers.crossings->count(positions);
   summary.largest_crossings = std::max(summary.largest_crossings, summary.last_crossings);
 }
 
 /// Runs to the scene's end or until the numbers end it.
-RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
+RunSummary run_to_end(Simulation& simulation, Watchers& watchers) {
   const Scene& scene = simulation.scene();
   const double step = scene.method.step;
   const std::int64_t n_steps = whole_steps(scene.duration, step);
@@ -146,9 +110,11 @@ RunSummary run_to_end(Simulation& simulation, const Watchers& watchers) {
     const SolveReport step_report = run.step();
     if (std::exchange(topology, simulation.topology()) != topology) show_mesh(simulation, watchers);
     const bool ended = run.has_ended();
-    add_step(simulation, summary);
+    summary.last_stretch = stretch(simulation.gauge(), simulation.state().positions);
+    summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
+    summary.rms_stretch_sum += summary.last_stretch.rms;
     watch.look(simulation, step_report);
-    if (watchers.ledger != nullptr) watchers.ledger->look();
+    if (watchers.ledger) watchers.ledger->look();
     // The last finite frame of a run that ended early is kept, unless it was written already.
     const bool is_frame = (simulation.n_steps() % steps_per_frame == 0) != ended;
     if (is_frame) add_frame(simulation, watchers, summary);
@@ -178,32 +144,7 @@ Json drift_json(const EnergyLedger& ledger) {
           {"work_of_tears_j", works.tears}};
 }
 
-/// How many springs of all are implicit.
-struct ImplicitCount {
-  std::size_t count;
-  std::size_t all;
-
-  double share() const { return static_cast<double>(count) / static_cast<double>(all); }
-};
-
-/// Nothing for steppers that treat all springs alike.
-std::optional<ImplicitCount> implicit_count(const Simulation& simulation) {
-  const std::span<const char> is_implicit = simulation.implicit_springs();
-  if (is_implicit.empty()) return std::nullopt;
-  const auto n_explicit = std::count(is_implicit.begin(), is_implicit.end(), char{0});
-  return ImplicitCount{is_implicit.size() - static_cast<std::size_t>(n_explicit),
-                       is_implicit.size()};
-}
-
-/// A 1 for each spring that is implicit, a 0 for others, in the order of the model's springs.
-std::string implicit_map(const Simulation& simulation) {
-  std::string map;
-  for (const char is_implicit : simulation.implicit_springs()) map += is_implicit != 0 ? '1' : '0';
-  return map;
-}
-
-Json metrics_json(const Simulation& simulation, const RunSummary& summary,
-                  const Watchers& watchers) {
+Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watchers& watchers) {
   const Scene& scene = simulation.scene();
   const ClothModel& model = simulation.model();
   const BuildReport built = build_report(model, scene.model);
@@ -241,25 +182,30 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary,
     json["strain_limit_sweeps_per_step"] = static_cast<double>(limit->n_sweeps()) / n_steps;
     json["n_strain_limit_capped"] = limit->n_capped();
   }
-  if (watchers.crossings != nullptr) {
+  if (watchers.crossings) {
     json["crossings_at_end"] = summary.last_crossings;
     json["largest_crossings"] = summary.largest_crossings;
   }
-  if (const auto springs = implicit_count(simulation))
-    json["implicit_springs"] = {{"count", springs->count},
-                                {"all", springs->all},
-                                {"share", springs->share()},
-                                {"map", implicit_map(simulation)}};
+  // Empty for steppers that treat all springs alike.
+  if (const auto springs = simulation.implicit_springs(); !springs.empty()) {
+    std::string map;  // a 1 for each that is implicit, a 0 for others
+    for (const char is_implicit : springs) map += is_implicit != 0 ? '1' : '0';
+    const auto count = std::count(map.begin(), map.end(), '1');
+    json["implicit_springs"] = {{"count", count},
+                                {"all", map.size()},
+                                {"share", static_cast<double>(count) / map.size()},
+                                {"map", map}};
+  }
   if (const auto bound = simulation.stability_bound()) json["stability_bound_s"] = *bound;
   if (const auto contact = simulation.first_contact()) json["first_contact_s"] = *contact;
-  if (watchers.ledger != nullptr) json["energy"] = drift_json(watchers.ledger->account());
+  if (watchers.ledger) json["energy"] = drift_json(watchers.ledger->account());
   json["core"] = core_version();
   return json;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string joined(const Json& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const Json& word : words) text += (text.empty() ? "" : ", ") + word.get<std::string>();
   return text.empty() ? "nothing" : text;
 }
 
@@ -284,16 +230,14 @@ void print_beginning(const Simulation& simulation) {
                  substep);
 }
 
-void print_summary(const Simulation& simulation, const RunSummary& summary,
-                   const Watchers& watchers) {
+void print_summary(const Simulation& simulation, const RunSummary& summary, const Json& metrics) {
   const Scene& scene = simulation.scene();
-  const BuildReport built = build_report(simulation.model(), scene.model);
   std::printf("%s: %s, level %d, %d vertices, %s, step %.4g s x %d\n",
               printable(scene.name).c_str(), printable(scene.fabric.name).c_str(), scene.level,
               simulation.model().n_vertices(), scene.method.stepper->name, scene.method.step,
               simulation.substeps());
-  std::printf("built: %s\nleft out: %s\n", joined(built.built).c_str(),
-              joined(built.left_out).c_str());
+  std::printf("built: %s\nleft out: %s\n", joined(metrics["built"]).c_str(),
+              joined(metrics["left_out"]).c_str());
   std::printf("%lld steps to %.10g s, status %s\n", static_cast<long long>(simulation.n_steps()),
               simulation.time(), name(summary.report.status));
   std::printf("stretch at the end: rms %.3g %%, largest %.3g %%; largest of all %.3g %%\n",
@@ -304,37 +248,27 @@ void print_summary(const Simulation& simulation, const RunSummary& summary,
   if (!summary.report.message.empty() && !summary.report.ends_run())
     std::printf("%s\n", summary.report.message.c_str());
   std::printf("largest residual %.3g\n", summary.report.relative_residual);
-  if (const auto springs = implicit_count(simulation))
-    std::printf("implicit springs: %zu of %zu, %.3g %%\n", springs->count, springs->all,
-                100 * springs->share());
+  if (const auto springs = metrics.find("implicit_springs"); springs != metrics.end())
+    std::printf("implicit springs: %d of %d, %.3g %%\n", springs->at("count").get<int>(),
+                springs->at("all").get<int>(), 100 * springs->at("share").get<double>());
   if (const auto contact = simulation.first_contact())
     std::printf("first contact at %.10g s\n", *contact);
   if (scene.model.tearing)
     std::printf("tears: %zu vertices were split\n", simulation.tear_origins().size());
-  if (watchers.crossings != nullptr)
+  if (metrics.contains("crossings_at_end"))
     std::printf("crossings of the cloth with itself: %lld in the last frame, at most %lld\n",
                 static_cast<long long>(summary.last_crossings),
                 static_cast<long long>(summary.largest_crossings));
-  if (watchers.ledger != nullptr) {
-    const EnergyLedger& ledger = watchers.ledger->account();
-    std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n", ledger.drift(),
-                100 * ledger.relative_drift());
-  }
+  if (const auto energy = metrics.find("energy"); energy != metrics.end())
+    std::printf("energy drift %.3g J, %.3g %% of the largest kinetic energy\n",
+                energy->at("drift_j").get<double>(),
+                100 * energy->at("share_of_largest_kinetic_energy").get<double>());
 }
-
-struct RunOptions {
-  bool for_machines = false;
-  bool checks = false;
-  bool wants_drift = false;
-  std::optional<Output> out;
-  std::optional<Dump> dump;
-  std::optional<std::filesystem::path> state;
-};
 
 /// Slower cloth is written as if it were at rest [m/s].
 constexpr double kRestSpeed = 1e-2;
 
-/// For a scene's "start": to a micrometre, and a micrometre per second.
+/// Writes a scene's "start": to a micrometre, and a micrometre per second.
 std::string state_text(const State& state) {
   const auto rounded = [](const Positions& columns) {
     constexpr double kPerUnit = 1e6;
@@ -346,67 +280,54 @@ std::string state_text(const State& state) {
   return json_start(start).dump() + '\n';
 }
 
-Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriting& overwriting) {
-  const auto& [for_machines, checks, wants_drift, out, dump, state] = options;
-  if (out) check_frame_count(scene);
-  if (dump || state) expect_whole(scene);
-  Simulation simulation(scene);
-  if (dump) dump->prepare(overwriting);
-  if (state) overwriting.check(*state);
-  if (out) out->prepare(overwriting);
-  if (!for_machines || chooses_substeps(scene)) print_beginning(simulation);
-  if (dump) {
-    write_file(dump->mass, matrix_market_text(mass_matrix(simulation.model())));
-    write_stiffness(simulation, dump->stiffness_begin);
-  }
-  std::optional<FrameWriter> frames;
-  if (out) {
-    for (const std::filesystem::path& file : out->old_files()) remove_file(file);
-    frames.emplace(out->folder.string(), scene.record.format, frame_mesh(simulation));
-  }
-  std::optional<RunLedger> ledger;
-  if (wants_drift) ledger.emplace(simulation);
-  std::optional<SelfCrossings> crossings;
-  if (frames || scene.cloth->is_worn()) crossings = crossings_of(simulation);
-  const Watchers watchers{frames ? &*frames : nullptr, crossings ? &*crossings : nullptr,
-                          ledger ? &*ledger : nullptr};
-  RunSummary summary = run_to_end(simulation, watchers);
-  if (frames) {
-    frames->finish();
-    summary.n_frames = frames->n_frames();
-  }
-
-  const Json metrics = metrics_json(simulation, summary, watchers);
-  if (for_machines)
-    std::printf("%s\n", metrics.dump().c_str());
-  else
-    print_summary(simulation, summary, watchers);
-  if (out) write_file(out->metrics, format_json(metrics));
-  if (dump) write_stiffness(simulation, dump->stiffness_end);
-  if (!summary.report.ends_run()) {
-    if (state) write_file(*state, state_text(simulation.state()));
-    tell_warnings(summary.warnings);
-    return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
-  }
-  print_early_end(simulation.n_steps(), summary.report,
-                  frames ? "; the last finite frame is kept" : "");
-  return Outcome::check_failed;
-}
-
 Outcome run_command(Arguments arguments) {
-  RunOptions options;
-  options.for_machines = arguments.flag("--json");
-  options.checks = arguments.flag("--check");
-  options.wants_drift = arguments.flag("--drift");
-  Overwriting overwriting(arguments);
-  if (const auto folder = arguments.text("--out")) options.out = Output{*folder};
-  if (const auto folder = arguments.text("--dump")) options.dump = Dump{*folder};
-  if (const auto file = arguments.text("--state")) options.state = *file;
-  overwriting.need(options.out || options.dump || options.state, "--out, --dump or --state");
+  const bool for_machines = arguments.flag("--json");
+  const bool checks = arguments.flag("--check");
+  const bool wants_drift = arguments.flag("--drift");
+  FrameFolder out(arguments, "metrics.json");
+  Overwriting& overwriting = out.overwriting();
+  std::optional<Dump> dump;
+  if (const auto folder = arguments.text("--dump")) dump = Dump{*folder};
+  const auto state = arguments.text("--state");
+  overwriting.need(out || dump || state, "--out, --dump or --state");
   const SceneInput input = take_scene(arguments);
-  arguments.finish();
+  const Scene& scene = input.scene;
   overwriting.spare(input.files_read);
-  return with_source_named(input, [&] { return run_scene(input.scene, options, overwriting); });
+  return with_source_named(input, [&] {
+    if (out) check_frame_count(scene);
+    if (dump || state) expect_whole(scene);
+    Simulation simulation(scene);
+    if (dump) dump->prepare(overwriting);
+    if (state) overwriting.check(*state);
+    out.prepare();
+    if (!for_machines || chooses_substeps(scene)) print_beginning(simulation);
+    if (dump) {
+      write_file(dump->mass, matrix_market_text(mass_matrix(simulation.model())));
+      write_stiffness(simulation, dump->stiffness_begin);
+    }
+    Watchers watchers;
+    if (out) watchers.frames.emplace(out.open(scene.record.format, frame_mesh(simulation)));
+    if (out || scene.cloth->is_worn()) watchers.crossings = crossings_of(simulation);
+    if (wants_drift) watchers.ledger.emplace(simulation);
+    RunSummary summary = run_to_end(simulation, watchers);
+    if (out) watchers.frames->finish();
+    if (out) summary.n_frames = watchers.frames->n_frames();
+    const Json metrics = metrics_json(simulation, summary, watchers);
+    if (for_machines)
+      std::printf("%s\n", metrics.dump().c_str());
+    else
+      print_summary(simulation, summary, metrics);
+    if (out) write_file(out.other_file(), format_json(metrics));
+    if (dump) write_stiffness(simulation, dump->stiffness_end);
+    if (!summary.report.ends_run()) {
+      if (state) write_file(*state, state_text(simulation.state()));
+      tell_warnings(summary.warnings);
+      return checks && !summary.warnings.empty() ? Outcome::check_failed : Outcome::ok;
+    }
+    print_early_end(simulation.n_steps(), summary.report,
+                    out ? "; the last finite frame is kept" : "");
+    return Outcome::check_failed;
+  });
 }
 
 }  // namespace

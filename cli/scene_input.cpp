@@ -1,25 +1,17 @@
 #include "cli/scene_input.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
 
-#include "core/files/json_reader.h"
-#include "core/scene/cloth_section.h"
-
 namespace pleat {
 namespace {
 
-/// An option that replaces one value of the scene's text before it is read, so that the same checks
-/// hold for both.
-struct SceneOption {
-  const char* option;
-  const char* pointer;
-};
-constexpr SceneOption kSceneOptions[] = {
+/// Options that replace one value of the scene's text before it is read, so that the same checks
+/// hold for both, and their JSON pointers.
+constexpr std::pair<const char*, const char*> kSceneOptions[] = {
     {"--fabric", "/fabric/name"},       {"--level", "/refinement/level"},
     {"--stepper", "/method/stepper"},   {"--step", "/method/step_s"},
     {"--substeps", "/method/substeps"}, {"--iterations", "/method/iterations"},
@@ -42,37 +34,15 @@ bool is_duration(const Json& value) {
 
 }  // namespace
 
-bool SceneInput::is_set_by(std::string_view option) const {
-  return std::find(options.begin(), options.end(), option) != options.end();
-}
-
-void SceneInput::throw_with_source(const InputError& error) const {
-  const std::string& where = error.where();
-  for (const SceneOption& entry : kSceneOptions) {
-    // The numbers of a fabric come with its name.
-    const bool sets_it = where == entry.pointer || where + "/name" == entry.pointer;
-    if (sets_it && is_set_by(entry.option)) throw InputError(entry.option, error.what());
-  }
-  if (where == "/duration_s" && is_set_by("--steps")) throw InputError("--steps", error.what());
-  if (where == "/duration_s" && is_set_by("--step") && has_duration)  // which is too many steps
-    throw InputError("--step", error.what());
-  throw InputError(where.empty() ? file : file + ": " + where, error.what());
-}
-
-void SceneInput::throw_out_of_memory() const {
-  const std::int64_t n = scene.cloth->n_vertices(scene.level);
-  throw InputError(file, "not enough memory for " + std::to_string(n) + " vertices");
+std::string SceneInput::need() const {
+  if (!is_read) return Source::need();
+  return "for " + std::to_string(scene.cloth->n_vertices(scene.level)) + " vertices";
 }
 
 FabricLibrary take_fabrics(Arguments& arguments) {
   const auto file = arguments.text("--fabrics");
   if (!file) return read_fabrics(embedded_fabrics());
-  const std::string text = read_file(*file);
-  try {
-    return read_fabrics(text);
-  } catch (const InputError& error) {
-    throw InputError(error.where().empty() ? *file : *file + ": " + error.where(), error.what());
-  }
+  return with_source_named(Source{*file}, [&] { return read_fabrics(read_file(*file)); });
 }
 
 FileSource files_beside(const std::string& scene_file, std::vector<std::filesystem::path>& read) {
@@ -98,18 +68,17 @@ void tell_remark(const std::string& remark) {
 
 SceneChanges take_scene_changes(Arguments& arguments) {
   SceneChanges changes;
-  for (const SceneOption& entry : kSceneOptions) {
-    const auto value = arguments.text(entry.option);
+  for (const auto& [option, pointer] : kSceneOptions) {
+    const auto value = arguments.text(option);
     if (!value) continue;
-    changes.overrides.push_back({entry.pointer, option_value(*value)});
-    changes.options.emplace_back(entry.option);
+    changes.overrides.push_back({pointer, option_value(*value)});
+    changes.options.emplace_back(pointer, option);
   }
   changes.n_steps = arguments.whole_number("--steps", 1, kMaxSteps);
   if (!changes.n_steps) return changes;
-  const auto& given = changes.options;
-  if (std::find(given.begin(), given.end(), "--duration") != given.end())
+  if (Source{"", changes.options}.is_set_by("--duration"))
     throw InputError("--steps", "expected either this or --duration, got both");
-  changes.options.emplace_back("--steps");
+  changes.options.emplace_back("/duration_s", "--steps");
   return changes;
 }
 
@@ -119,31 +88,37 @@ SceneInput read_scene_input(const std::string& file, const SceneChanges& changes
   input.file = file;
   input.files_read = {file};
   input.options = changes.options;
-  try {
+  with_source_named(input, [&] {
     Json& json = input.json;
     json = parse_json(read_file(file));
     override_scene(json, changes.overrides);
     if (changes.n_steps)
       override_scene(json,
                      std::array{SceneOverride{"/duration_s", duration_of(*changes.n_steps, json)}});
-    if (json.is_object() && json.contains("duration_s"))
-      input.has_duration = is_duration(json["duration_s"]);
+    // A step may be too short for a duration that is one.
+    const Json duration = json.is_object() ? json.value("duration_s", Json(1)) : Json(1);
+    if (input.is_set_by("--step") && is_duration(duration))
+      input.options.emplace_back("/duration_s", "--step");
     input.scene = read_scene(JsonReader(json), fabrics, files_beside(file, input.files_read));
     tell_remark(input.scene.cloth->remark());
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    input.throw_with_source(error);
-  } catch (const std::bad_alloc&) {
-    throw InputError(file, "not enough memory to read it");
-  }
+    input.is_read = true;
+  });
   return input;
 }
 
-SceneInput take_scene(Arguments& arguments) {
+std::vector<SceneInput> take_scenes(Arguments& arguments, const std::vector<std::string>& others) {
   const FabricLibrary fabrics = take_fabrics(arguments);
   const SceneChanges changes = take_scene_changes(arguments);
-  return read_scene_input(arguments.word("a scene file"), changes, fabrics);
+  std::vector<std::string> files{arguments.word("a scene's file")};
+  arguments.finish();
+  files.insert(files.end(), others.begin(), others.end());
+  std::vector<SceneInput> inputs;
+  for (const std::string& file : files) inputs.push_back(read_scene_input(file, changes, fabrics));
+  return inputs;
+}
+
+SceneInput take_scene(Arguments& arguments) {
+  return std::move(take_scenes(arguments, {}).front());
 }
 
 }  // namespace pleat

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cli/arguments.h"
-#include "core/files/whole_file.h"
+#include "cli/source.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_override.h"
 
@@ -34,25 +34,18 @@ FabricLibrary take_fabrics(Arguments& arguments);
 /// The changes to a scene that options ask for.
 struct SceneChanges {
   std::vector<SceneOverride> overrides;
-  std::optional<int> n_steps;             ///< in the place of its duration
-  std::vector<std::string_view> options;  ///< that were given
+  std::optional<int> n_steps;                                ///< takes the place of its duration
+  std::vector<std::pair<std::string, const char*>> options;  ///< JSON pointers, who sets them
 };
 
 /// A scene and where its values came from.
-struct SceneInput {
+struct SceneInput : Source {
   Scene scene;
-  Json json;  ///< that it was read from: the file's with the options' changes
-  std::string file;
+  Json json;  ///< the file's with the options' changes, from which the scene was read
   std::vector<std::filesystem::path> files_read;  ///< it, and those that it names
-  std::vector<std::string_view> options;          ///< that changed the scene
-  bool has_duration = true;                       ///< that is one, whatever the step
+  bool is_read = false;
 
-  bool is_set_by(std::string_view option) const;
-  /// Throws InputError naming the option that set the value at fault, else the file with the JSON
-  /// pointer.
-  [[noreturn]] void throw_with_source(const InputError& error) const;
-  /// Throws InputError that says for how many vertices.
-  [[noreturn]] void throw_out_of_memory() const;
+  std::string need() const;
 };
 
 /// Names of files in a scene are relative to its own folder.
@@ -78,21 +71,9 @@ SceneChanges take_scene_changes(Arguments& arguments);
 SceneInput read_scene_input(const std::string& file, const SceneChanges& changes,
                             const FabricLibrary& fabrics);
 
-/// The same with fabrics, options and file as the next words say.
+/// Reads the scene that the last word names, with fabrics and changes as options say, and then the
+/// others alike.
+std::vector<SceneInput> take_scenes(Arguments& arguments, const std::vector<std::string>& others);
 SceneInput take_scene(Arguments& arguments);
-
-/// Does `work` on the scene or plan; bad input that it meets there is told with its source.
-template <class Input, class Work>
-auto with_source_named(const Input& input, Work&& work) {
-  try {
-    return work();
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    input.throw_with_source(error);
-  } catch (const std::bad_alloc&) {
-    input.throw_out_of_memory();
-  }
-}
 
 }  // namespace pleat

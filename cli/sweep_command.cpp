@@ -11,7 +11,6 @@
 #include "cli/reference_folder.h"
 #include "cli/sweep_folder.h"
 #include "cli/sweep_input.h"
-#include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/sweep/sweep.h"
 #include "core/sweep/sweep_reference.h"
@@ -20,54 +19,38 @@ namespace pleat {
 namespace {
 
 /// The references of recipes, each made when it is first asked for.
-class MadeReferences {
- public:
-  MadeReferences(const SweepPlan& plan, const SweepReferences& references, ReferenceStore& store)
-      : times_(sweep_sample_times(plan.duration)),
-        recipes_(references.recipes),
-        store_(store),
-        made_(references.recipes.size()) {}
+struct MadeReferences {
+  std::vector<double> times;  // the samples' [s]
+  const std::vector<ReferenceRecipe>& recipes;
+  ReferenceStore& store;
+  std::vector<std::optional<Reference>> made =
+      std::vector<std::optional<Reference>>(recipes.size());
 
   const Reference& operator[](std::size_t index) {
-    std::optional<Reference>& reference = made_[index];
-    if (!reference) reference = store_.find(recipes_[index].id);
-    if (!reference) reference = make(recipes_[index]);
+    const ReferenceRecipe& recipe = recipes[index];
+    std::optional<Reference>& reference = made[index];
+    if (!reference) reference = store.find(recipe.id);
+    if (reference) return *reference;
+    const Reference* coarser = recipe.coarser ? &(*this)[*recipe.coarser] : nullptr;
+    // A run that is compared with on its own mesh too is not run again.
+    const std::string own_id =
+        reference_id(id_prefix(ReferenceKind::same_mesh), recipe.scene, times);
+    for (std::size_t own = 0; own < recipes.size() && coarser != nullptr; ++own)
+      if (recipes[own].id == own_id && (*this)[own].samples.size() == coarser->samples.size())
+        return reference.emplace(checked_on_coarser(recipe, (*this)[own], *coarser));
+    const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times, coarser);
+    finish(*maker, recipe.scene.name + ", level " + std::to_string(recipe.scene.level));
+    reference = maker->reference();
+    if (!reference->samples.empty()) store.keep(*reference);
     return *reference;
   }
-
- private:
-  Reference make(const ReferenceRecipe& recipe) {
-    const Reference* coarser = recipe.coarser ? &(*this)[*recipe.coarser] : nullptr;
-    const auto same_mesh = of_own_mesh(recipe);
-    if (coarser != nullptr && same_mesh &&
-        (*this)[*same_mesh].samples.size() == coarser->samples.size())
-      return checked_on_coarser(recipe, (*this)[*same_mesh], *coarser);
-    const std::unique_ptr<ReferenceMaker> maker = make_reference_maker(recipe, times_, coarser);
-    finish(*maker, recipe.scene.name + ", level " + std::to_string(recipe.scene.level));
-    Reference reference = maker->reference();
-    if (!reference.samples.empty()) store_.keep(reference);
-    return reference;
-  }
-
-  /// The recipe of the same run that is compared with on its own mesh, where there is one.
-  std::optional<std::size_t> of_own_mesh(const ReferenceRecipe& recipe) const {
-    const std::string id = reference_id(id_prefix(ReferenceKind::same_mesh), recipe.scene, times_);
-    for (std::size_t r = 0; r < recipes_.size(); ++r)
-      if (recipes_[r].id == id) return r;
-    return std::nullopt;
-  }
-
-  std::vector<double> times_;
-  const std::vector<ReferenceRecipe>& recipes_;
-  ReferenceStore& store_;
-  std::vector<std::optional<Reference>> made_;
 };
 
 /// Makes what the rows of a plan are compared with, and keeps it in a folder by id, with 32-bit
 /// positions. Prints how well each is known. False when the numbers ended one, which is not kept.
 ///
-/// store       of whole references: what it has is not made again
-/// kept_level  of finer ones only the vertices of this level are kept
+/// store       has whole references, which are not made again
+/// kept_level  the vertices of finer ones that are on this level are kept alone
 /// Throws FileError, before anything is made, where one stands that may not be written over.
 bool ship_references(const SweepPlan& plan, ReferenceStore& store,
                      const std::filesystem::path& folder, std::optional<int> kept_level,
@@ -76,7 +59,7 @@ bool ship_references(const SweepPlan& plan, ReferenceStore& store,
   ReferenceFolder shipped(folder, Precision::float32);
   for (const std::size_t index : references.compared())
     overwriting.check(shipped.path(references.recipes[index].id));
-  MadeReferences made(plan, references, store);
+  MadeReferences made{sweep_sample_times(plan.duration), references.recipes, store};
   bool all_made = true;
   for (const std::size_t index : references.compared()) {
     Reference reference = made[index];
@@ -154,7 +137,6 @@ Outcome sweep_command(Arguments arguments) {
   const std::string commit =
       text_value(arguments.text("--commit").value_or(core_version())).get<std::string>();
   const SweepInput input = take_sweep(arguments);
-  arguments.finish();
   overwriting.need(out || ship, "--out or --ship-references");
   overwriting.spare(input.files_read());
 

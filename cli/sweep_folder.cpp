@@ -3,8 +3,6 @@
 #include <array>
 #include <set>
 
-#include "core/files/json_text.h"
-#include "core/files/whole_file.h"
 #include "core/sweep/front_figure.h"
 
 namespace pleat {
@@ -20,15 +18,9 @@ constexpr const char* kFigure = "front.svg";
 /// The plan's last: without the others it is a sweep that has just begun.
 constexpr std::array kFiles = {kJournal, kRows, kTable, kFigure, kPlan};
 
-std::string core_of(const std::string& identity) {
-  try {
-    const Json json = parse_json(identity);
-    return json.is_object() ? json.value("core", "") : "";
-  } catch (const InputError&) {
-    return "";
-  } catch (const Json::exception&) {
-    return "";
-  }
+Json core_of(const std::string& identity) {
+  const Json json = Json::parse(identity, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() ? json.value("core", Json()) : Json();
 }
 
 }  // namespace

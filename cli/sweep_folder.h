@@ -12,7 +12,7 @@ namespace pleat {
 /// Rows as JSON lines.
 std::string json_lines(const std::vector<BenchRow>& rows);
 
-/// What was measured against what, and the table, for people.
+/// Says to people what was measured against what, and lists the rows.
 std::string sweep_table(const Sweep& sweep);
 
 /// The folder of a sweep that can be stopped at any moment and goes on where it was.

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/base/check.h"
 #include "core/scene/method_section.h"
 #include "core/sweep/usual_settings.h"
 
@@ -20,7 +19,7 @@ std::vector<const StepperType*> chosen_steppers(const std::vector<std::string>& 
     const StepperType* type = find_stepper(standard_steppers(), wanted);
     if (type == nullptr)
       throw InputError("--steppers", "expected some of " + stepper_names(standard_steppers()) +
-                                         ", got " + abbreviated(Json(wanted)));
+                                         ", got " + quotation(wanted));
     if (std::find(chosen.begin(), chosen.end(), type) != chosen.end())
       throw InputError("--steppers", "expected each stepper once, got " + wanted + " twice");
     chosen.push_back(type);
@@ -43,71 +42,61 @@ Json value_list(const std::string& text) {
   } catch (const InputError&) {
   }
   Json values = Json::array();
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    values.push_back(option_value(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
+  for (const std::string& value : split(text)) values.push_back(option_value(value));
   return values;
 }
 
-/// The options that say something about a plan.
+/// The plan that options make, but for its scene and steppers.
 struct SweepOptions {
-  Json values = Json::object();  // of the grid
-  std::map<std::string, const char*> grid;
+  Json plan = {{"grid", Json::object()}};
   std::vector<std::string> steppers;
-  std::optional<int> n_repeats;
-  std::optional<std::string> reference;
-  std::optional<int> reference_level;
-  std::vector<std::string_view> given;
+  Source given = {};  // names the options
 
+  void set(const char* key, const char* option, Json value) {
+    plan[key] = std::move(value);
+    given.options.emplace_back(std::string("/") + key, option);
+  }
   void add_list(const char* option, const std::string& pointer, const std::string& list) {
     const auto key = text_value(pointer).get<std::string>();
-    if (!grid.emplace(key, option).second)
-      throw InputError(option,
-                       "expected each pointer once, got " + abbreviated(Json(key)) + " twice");
-    values[key] = value_list(list);
-    given.emplace_back(option);
-  }
-  bool is_given(std::string_view option) const {
-    return std::find(given.begin(), given.end(), option) != given.end();
+    if (!plan["grid"].emplace(key, value_list(list)).second)
+      throw InputError(option, "expected each pointer once, got " + quotation(key) + " twice");
+    given.options.emplace_back("/grid/" + pointer_token(key), option);
   }
 };
 
-SweepOptions take_plan_options(Arguments& arguments) {
+SweepOptions take_sweep_options(Arguments& arguments) {
   SweepOptions options;
   if (const auto levels = arguments.text("--levels"))
     options.add_list("--levels", "/refinement/level", *levels);
-  while (const auto set = arguments.text("--set")) {
-    const std::size_t equals = set->find('=');
+  for (const std::string& set : arguments.texts("--set")) {
+    const std::size_t equals = set.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError("--set",
-                       "expected a pointer and its values, such as /method/substeps=1,2, got " +
-                           abbreviated(Json(*set)));
-    options.add_list("--set", set->substr(0, equals), set->substr(equals + 1));
+      throw InputError(
+          "--set",
+          "expected a pointer and its values, such as /method/substeps=1,2, got " + quotation(set));
+    options.add_list("--set", set.substr(0, equals), set.substr(equals + 1));
   }
   options.steppers = arguments.list("--steppers");
-  if (!options.steppers.empty()) options.given.emplace_back("--steppers");
-  options.n_repeats = arguments.whole_number("--repeat", 1, 1000);
-  if (options.n_repeats) options.given.emplace_back("--repeat");
-  options.reference = arguments.text("--reference");
-  if (options.reference) options.given.emplace_back("--reference");
-  options.reference_level = arguments.whole_number("--reference-level", 0, kMaxLevel);
-  if (options.reference_level) options.given.emplace_back("--reference-level");
-  arguments.refuse("--level", "a sweep does not take this option, but --levels");
-  for (const char* option : {"--stepper", "--substeps", "--iterations"})
-    arguments.refuse(option, "a sweep does not take this option, but --steppers and --set");
+  if (!options.steppers.empty()) options.given.options.emplace_back("/settings", "--steppers");
+  if (const auto n = arguments.whole_number("--repeat", 1, 1000))
+    options.set("repeats", "--repeat", *n);
+  if (const auto kind = arguments.text("--reference"))
+    options.set("reference", "--reference", text_value(*kind));
+  if (const auto level = arguments.whole_number("--reference-level", 0, kMaxLevel))
+    options.set("reference_level", "--reference-level", *level);
+  arguments.refuse({"--level"}, "a sweep does not take this option, but --levels");
+  arguments.refuse({"--stepper", "--substeps", "--iterations"},
+                   "a sweep does not take this option, but --steppers and --set");
   return options;
 }
 
 /// The plan of a file, or nothing. Broken files are no plans: who reads them as a scene says what
 /// is wrong.
 std::optional<Json> plan_in_file(const std::string& file) {
+  const std::string text = read_file(file);
   try {
-    Json json = parse_json(read_file(file));
+    Json json = parse_json(text);
     if (json.is_object() && json.contains("scene")) return json;
-  } catch (const FileError&) {
-    throw;
   } catch (const InputError&) {
   }
   return std::nullopt;
@@ -118,23 +107,16 @@ Json whole_plan(Json json, SweepInput& input) {
   if (!json["scene"].is_string()) return json;
   const std::filesystem::path folder = std::filesystem::path(input.file).parent_path();
   input.scene_file = (folder / json["scene"].get<std::string>()).string();
-  try {
-    json["scene"] = parse_json(read_file(input.scene_file));
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    throw InputError(input.scene_file + ": " + error.where(), error.what());
-  }
+  json["scene"] = with_source_named(Source{input.scene_file},
+                                    [&] { return parse_json(read_file(input.scene_file)); });
   return json;
 }
 
 Json plan_of_options(const SweepOptions& options, const SceneInput& scene) {
-  Json plan = {{"scene", scene.json}, {"grid", options.values}};
-  if (!options.steppers.empty() || !options.is_given("--set"))
+  Json plan = options.plan;
+  plan["scene"] = scene.json;
+  if (!options.steppers.empty() || !options.given.is_set_by("--set"))
     plan["settings"] = stepper_settings(options.steppers, scene.scene);
-  if (options.n_repeats) plan["repeats"] = *options.n_repeats;
-  if (options.reference) plan["reference"] = text_value(*options.reference);
-  if (options.reference_level) plan["reference_level"] = *options.reference_level;
   return plan;
 }
 
@@ -145,45 +127,37 @@ std::vector<std::filesystem::path> SweepInput::files_read() const {
   return {file, scene_file};
 }
 
-void SweepInput::throw_with_source(const InputError& error) const {
+void SweepInput::throw_named(const InputError& error) const {
   const std::string& where = error.where();
+  if (scene && (where == "/grid" || where == "/settings")) throw InputError("--set", error.what());
   const bool in_scene = where == "/scene" || where.rfind("/scene/", 0) == 0;
-  const std::string in_its_file = in_scene ? where.substr(std::string("/scene").size()) : where;
-  if (scene) {
-    for (const auto& [pointer, option] : grid)
-      if (where.rfind("/grid/" + pointer_token(pointer), 0) == 0)
-        throw InputError(option, error.what());
-    if (where == "/grid" || where == "/settings") throw InputError("--set", error.what());
-    if (where == "/reference") throw InputError("--reference", error.what());
-    if (where == "/reference_level") throw InputError("--reference-level", error.what());
-    if (where.rfind("--", 0) == 0) throw error;  // an option of its own
-    scene->throw_with_source(InputError(in_its_file, error.what()));
-  }
-  const bool in_scene_file = in_scene && !scene_file.empty();
-  const std::string& place = in_scene_file ? scene_file : file;
-  const std::string& pointer = in_scene_file ? in_its_file : where;
-  throw InputError(pointer.empty() ? place : place + ": " + pointer, error.what());
+  if (!in_scene || (!scene && scene_file.empty())) Source::throw_named(error);
+  Source{scene ? file : scene_file, options}.throw_named({where.substr(6), error.what()});
 }
 
-void SweepInput::throw_out_of_memory() const {
+std::string SweepInput::need() const {
   double most = 0;
   for (const SweepSetting& setting : plan.settings) most = std::max(most, setting.n_vertices);
-  throw InputError(file,
-                   "not enough memory for " + std::to_string(std::llround(most)) + " vertices");
+  return "for " + std::to_string(std::llround(most)) + " vertices";
 }
 
 SweepInput take_sweep(Arguments& arguments) {
-  const SweepOptions options = take_plan_options(arguments);
+  const SweepOptions options = take_sweep_options(arguments);
   const FabricLibrary fabrics = take_fabrics(arguments);
   const SceneChanges changes = take_scene_changes(arguments);
   SweepInput input;
   input.file = arguments.word("a scene's or a plan's file");
-  input.grid = options.grid;
+  arguments.finish();
   const std::optional<Json> plan_file = plan_in_file(input.file);
-  for (const auto* given : {&options.given, &changes.options})
+  for (const auto* given : {&options.given.options, &changes.options})
     if (plan_file && !given->empty())
-      throw InputError(std::string(given->front()), "a plan's file says this itself");
-  if (!plan_file) input.scene = read_scene_input(input.file, changes, fabrics);
+      throw InputError(given->front().second, "a plan's file says this itself");
+  if (!plan_file) {
+    input.scene = read_scene_input(input.file, changes, fabrics);
+    input.options = options.given.options;
+    input.options.insert(input.options.end(), input.scene->options.begin(),
+                         input.scene->options.end());
+  }
   with_source_named(input, [&] {
     const Json plan =
         plan_file ? whole_plan(*plan_file, input) : plan_of_options(options, *input.scene);
