@@ -7,7 +7,7 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/files/whole_file.h"
 #include "core/run/convergence_json.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 
 namespace pleat {
 namespace {

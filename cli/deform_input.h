@@ -8,7 +8,7 @@
 #include "cli/arguments.h"
 #include "core/base/check.h"
 #include "core/files/json_text.h"
-#include "core/scene/deform_scene.h"
+#include "core/scene/deform/deform_scene.h"
 
 namespace pleat {
 

@@ -9,9 +9,9 @@
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/files/frame_file.h"
+#include "core/hierarchy/level_faults.h"
+#include "core/hierarchy/mesh_hierarchy.h"
 #include "core/mesh/mesh_fault.h"
-#include "core/multigrid/level_faults.h"
-#include "core/multigrid/mesh_hierarchy.h"
 #include "core/scene/rest_cloth.h"
 #include "core/sweep/platform.h"
 

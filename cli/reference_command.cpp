@@ -7,7 +7,7 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep_reference.h"
 
 namespace pleat {

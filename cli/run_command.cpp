@@ -21,8 +21,8 @@
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
-#include "core/scene/method_section.h"
-#include "core/scene/start_section.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/start_section.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/run/convergence_json.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/scene/tearing.h"
 #include "wasm/envelope.h"
 

@@ -17,7 +17,7 @@
 #include "core/modal/key_faces.h"
 #include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/scene/sheet_cloth.h"
 #include "core/sweep/completion_cost.h"
 #include "wasm/arrays.h"

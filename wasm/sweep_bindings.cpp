@@ -7,7 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep.h"
 #include "wasm/envelope.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/hierarchy/mesh_hierarchy.h"
 #include "core/linalg/linear_solver.h"
-#include "core/multigrid/mesh_hierarchy.h"
 
 namespace pleat {
 

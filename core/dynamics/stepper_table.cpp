@@ -4,14 +4,14 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/dynamics/pbd/cycle_projections.h"
-#include "core/dynamics/stepper_explicit.h"
-#include "core/dynamics/stepper_imex.h"
-#include "core/dynamics/stepper_implicit.h"
-#include "core/dynamics/stepper_newton.h"
-#include "core/dynamics/stepper_projective.h"
-#include "core/dynamics/stepper_rk4.h"
-#include "core/dynamics/xpbd/stepper_xpbd.h"
+#include "core/dynamics/explicit/stepper_explicit.h"
+#include "core/dynamics/explicit/stepper_rk4.h"
+#include "core/dynamics/implicit/stepper_imex.h"
+#include "core/dynamics/implicit/stepper_implicit.h"
+#include "core/dynamics/implicit/stepper_newton.h"
+#include "core/dynamics/implicit/stepper_projective.h"
+#include "core/dynamics/position_based/levels/cycle_projections.h"
+#include "core/dynamics/position_based/stepper_position_based.h"
 
 namespace pleat {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "core/dynamics/method_options.h"
+#include "core/dynamics/position_based/projections.h"
 #include "core/dynamics/stepper.h"
-#include "core/dynamics/xpbd/projections.h"
 #include "core/mesh/quad_mesh.h"
 
 namespace pleat {

@@ -6,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/files/whole_file.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {

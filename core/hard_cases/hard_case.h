@@ -11,8 +11,8 @@
 #include "core/files/fabric_file.h"
 #include "core/files/file_source.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_override.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/format/scene_override.h"
+#include "core/scene/format/scene_parts.h"
 
 namespace pleat {
 

@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/linalg/conjugate_gradient.h"
-#include "core/linalg/eigen_solver.h"
+#include "core/linalg/direct/eigen_solver.h"
+#include "core/linalg/direct/supernodal_solver.h"
 #include "core/linalg/finite_check.h"
-#include "core/linalg/successive_overrelaxation.h"
-#include "core/linalg/supernodal_solver.h"
+#include "core/linalg/iterative/conjugate_gradient.h"
+#include "core/linalg/iterative/successive_overrelaxation.h"
 #ifdef PLEAT_HAS_CHOLMOD
-#include "core/linalg/cholmod_solver.h"
+#include "core/linalg/direct/cholmod_solver.h"
 #endif
 
 namespace pleat {

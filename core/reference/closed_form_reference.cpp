@@ -6,7 +6,7 @@
 #include "core/base/check.h"
 #include "core/reference/closed_forms.h"
 #include "core/run/scene_model.h"
-#include "core/scene/particle_cloth.h"
+#include "core/scene/cloth/particle_cloth.h"
 
 namespace pleat {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/run/carry_over.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/dynamics/pbd/converged_step.h"
-#include "core/dynamics/pbd/step_solve.h"
+#include "core/dynamics/position_based/converged_step.h"
+#include "core/dynamics/position_based/spring_law.h"
+#include "core/dynamics/position_based/step_solve.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/dynamics/xpbd/spring_law.h"
 #include "core/run/simulation.h"
 #include "core/run/stage_timer.h"
 

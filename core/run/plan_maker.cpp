@@ -6,7 +6,7 @@
 #include "core/base/check.h"
 #include "core/files/json_text.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/cloth_section.h"
+#include "core/scene/format/cloth_section.h"
 
 namespace pleat {
 namespace {

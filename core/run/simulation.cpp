@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/dynamics/stability_bound.h"
+#include "core/dynamics/explicit/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/refinement/mesh_match.h"
 #include "core/run/content_id.h"

@@ -1,7 +1,7 @@
 #include "core/scene/rest_cloth.h"
 
 #include "core/base/check.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/format/scene_parts.h"
 #include "core/scene/vertex_place.h"
 
 namespace pleat {

@@ -7,7 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 #include "core/sweep/pareto.h"
 
 namespace pleat {

@@ -4,7 +4,7 @@
 
 #include "core/deform/deform_solver.h"
 #include "core/run/stage_timer.h"
-#include "core/scene/deform_scene.h"
+#include "core/scene/deform/deform_scene.h"
 
 namespace pleat {
 

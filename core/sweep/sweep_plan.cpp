@@ -7,8 +7,8 @@
 #include "core/base/check.h"
 #include "core/files/json_reader.h"
 #include "core/reference/reference.h"
-#include "core/scene/cloth_section.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/cloth_section.h"
+#include "core/scene/format/scene_override.h"
 
 namespace pleat {
 namespace {

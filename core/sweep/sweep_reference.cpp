@@ -18,8 +18,8 @@
 #include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
-#include "core/scene/cloth_section.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/cloth_section.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/error/mesh_sampling.h"
 #include "core/model/momentum.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 

@@ -2,7 +2,7 @@
 
 #include "core/error/error_norms.h"
 #include "core/reference/reference_track.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep_reference.h"
 #include "native-tests/support/assets.h"
 

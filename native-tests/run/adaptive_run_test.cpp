@@ -6,8 +6,8 @@
 #include "core/base/check.h"
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
-#include "core/scene/particle_cloth.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/cloth/particle_cloth.h"
+#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 

@@ -8,7 +8,7 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/models.h"
 

@@ -4,8 +4,8 @@
 
 #include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
-#include "core/scene/particle_cloth.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/cloth/particle_cloth.h"
+#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"

@@ -6,8 +6,8 @@
 
 #include "core/dynamics/stepper_table.h"
 #include "core/run/timed_run.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/scene_override.h"
 #include "native-tests/support/assets.h"
 
 using namespace pleat;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/particle_cloth.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/cloth/particle_cloth.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/particle.h"
 

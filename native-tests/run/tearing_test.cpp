@@ -11,7 +11,7 @@
 #include "core/run/run_watch.h"
 #include "core/run/sampled_run.h"
 #include "core/run/simulation.h"
-#include "core/scene/mesh_cloth.h"
+#include "core/scene/cloth/mesh_cloth.h"
 #include "native-tests/support/models.h"
 #include "native-tests/support/topology.h"
 

@@ -5,7 +5,7 @@
 #include "core/base/check.h"
 #include "core/files/plan_file.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/scene/scene_schema.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/check.h"
-#include "core/scene/mesh_cloth.h"
+#include "core/scene/cloth/mesh_cloth.h"
+#include "core/scene/format/scene_file.h"
 #include "core/scene/rest_cloth.h"
-#include "core/scene/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/meshes.h"
 

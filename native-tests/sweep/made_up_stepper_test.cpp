@@ -6,9 +6,9 @@
 
 #include "core/base/check.h"
 #include "core/run/simulation.h"
-#include "core/scene/method_section.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/scene_override.h"
 #include "core/scene/scene_schema.h"
 #include "core/sweep/front_figure.h"
 #include "core/sweep/sweep.h"

@@ -1,0 +1,35 @@
+#include "core/scene/format/cloth_section.h"
+
+#include "core/base/check.h"
+
+namespace pleat {
+
+void check_level(const Scene& scene, int level, const std::string& where) {
+  if (level > 0 && !scene.cloth->is_surface())
+    throw InputError(where,
+                     "expected 0, as particles cannot be refined, got " + std::to_string(level));
+  const std::int64_t n_vertices = scene.cloth->n_vertices(level);
+  if (n_vertices > kMaxVertices)
+    throw InputError(where, "expected a level with at most " + std::to_string(kMaxVertices) +
+                                " vertices, got " + std::to_string(level) + " with " +
+                                std::to_string(n_vertices));
+}
+
+void read_cloth(const JsonReader& reader, const FileSource& files, const SceneParts& parts,
+                Scene& scene) {
+  std::vector<const char*> keys;
+  for (const SceneParts::ClothKind& kind : parts.cloths) keys.push_back(kind.key);
+  reader.allow_keys(keys);
+  const SceneParts::ClothKind& kind = parts.cloths[reader.only_one_of(keys)];
+  const JsonReader at = reader.at(kind.key);
+  if (kind.read == nullptr) refuse_part(at, kind.key);
+  scene.cloth = kind.read(at, {files, scene.figure.get()});
+}
+
+Json json_cloth(const Scene& scene) {
+  Json json;
+  json[scene.cloth->key()] = scene.cloth->json();
+  return json;
+}
+
+}  // namespace pleat
