@@ -15,6 +15,7 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/files/obj_file.h"
 #include "core/hierarchy/mesh_hierarchy.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/mesh/mesh_fault.h"
 #include "core/model/stretch.h"
 #include "core/reference/reference_track.h"

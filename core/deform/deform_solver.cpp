@@ -6,6 +6,7 @@
 #include "core/base/rigid_motion.h"
 #include "core/deform/cloth_extent.h"
 #include "core/deform/deform_settling.h"
+#include "core/linalg/make_linear_solver.h"
 
 namespace pleat {
 namespace {

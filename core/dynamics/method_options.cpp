@@ -1,7 +1,7 @@
 #include "core/dynamics/method_options.h"
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_table.h"
+#include "core/dynamics/stepper_type.h"
 
 namespace pleat {
 

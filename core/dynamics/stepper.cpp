@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/check.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 #include "core/model/system_matrix.h"
@@ -185,10 +186,6 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
     throw InputError("/method/solver",
                      std::string("expected a solver of this build, got ") + name(options.solver) +
                          ", whose source could not be had when it was built; take eigen");
-  if (!is_available(options.preconditioner))
-    throw InputError("/method/preconditioner",
-                     "expected automatic or incomplete_factor, got multigrid, which the page does "
-                     "without, for the room that it takes");
   return make_linear_solver(
       options.solver, {options.tolerance, max_iterations, options.omega, options.preconditioner});
 }

@@ -12,6 +12,7 @@
 #include "core/dynamics/implicit/stepper_projective.h"
 #include "core/dynamics/position_based/levels/cycle_projections.h"
 #include "core/dynamics/position_based/stepper_position_based.h"
+#include "core/linalg/make_linear_solver.h"
 
 namespace pleat {
 namespace {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string_view>
-
 #include "core/linalg/solve_report.h"
 #include "core/linalg/sparse.h"
 
@@ -73,19 +70,5 @@ struct SolverOptions {
 
   void validate() const;  ///< throws ContractError
 };
-
-/// False for cholmod where SuiteSparse's source could not be had when this was built.
-bool is_available(SolverKind kind);
-
-/// False for multigrid in the page's modules, for the room that it takes.
-bool is_available(Preconditioner preconditioner);
-
-/// The direct solver to prefer: cholmod where there is one, else eigen.
-SolverKind best_direct_solver();
-
-/// cg and sor work on 3 x 3 blocks: n must be a multiple of 3.
-/// Throws ContractError when the kind is not available.
-std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind,
-                                                 const SolverOptions& options = {});
 
 }  // namespace pleat

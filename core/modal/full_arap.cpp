@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/rigid_motion.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/modal/nearest_rotation.h"
 
 namespace pleat {

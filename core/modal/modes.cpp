@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/linalg/linear_solver.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/linalg/orthonormal.h"
 
 namespace pleat {

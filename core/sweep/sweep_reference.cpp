@@ -16,6 +16,7 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
 #include "core/scene/format/cloth_section.h"

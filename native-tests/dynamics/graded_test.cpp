@@ -8,6 +8,7 @@
 #include "core/base/check.h"
 #include "core/dynamics/explicit/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/model/elasticity.h"
 #include "core/model/energy_ledger.h"
 #include "core/model/hanging_vertices.h"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_table.h"
+#include "core/dynamics/stepper_type.h"
 #include "core/model/elements.h"
 #include "core/model/hanging_vertices.h"
 

@@ -40,10 +40,4 @@ class Projections {
   virtual std::string remark() const { return {}; }
 };
 
-/// What makes the projections of a model, for substeps of h [s].
-using MakeProjections = std::unique_ptr<Projections> (*)(const ClothModel& model,
-                                                         const MethodOptions& options,
-                                                         const LaneLayout& layout, SpringLaw law,
-                                                         double h);
-
 }  // namespace pleat

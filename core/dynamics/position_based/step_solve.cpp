@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_table.h"
+#include "core/dynamics/stepper_type.h"
 #include "core/model/hanging_vertices.h"
 
 namespace pleat {

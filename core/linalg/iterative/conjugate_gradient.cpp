@@ -69,14 +69,13 @@ class ConjugateGradient final : public BlockIteration {
   void start() { residual_ = active_->start(b_, x_); }
 
   bool loses_patience(int iterations) const {
-    return is_available(Preconditioner::multigrid) &&
-           options_.preconditioner == Preconditioner::automatic && active_ == &incomplete_ &&
+    return options_.preconditioner == Preconditioner::automatic && active_ == &incomplete_ &&
            !is_multigrid_lost_ && iterations >= kPatience;
   }
 
   void take_multigrid() {
     if (!multigrid_) {
-      multigrid_ = make_multigrid_preconditioning();
+      multigrid_ = std::make_unique<MultigridPreconditioning>();
       multigrid_->analyze(incomplete_.factor().rows());
     }
     multigrid_->compute(incomplete_.factor(), places_);

@@ -62,12 +62,4 @@ void MultigridPreconditioning::advance(double curvature, std::vector<double>& x)
 
 double MultigridPreconditioning::residual(double /*goal*/, Look /*look*/) { return residual_; }
 
-std::unique_ptr<MultigridPreconditioning> make_multigrid_preconditioning() {
-#ifdef PLEAT_HAS_MULTIGRID
-  return std::make_unique<MultigridPreconditioning>();
-#else
-  return nullptr;
-#endif
-}
-
 }  // namespace pleat

@@ -40,7 +40,4 @@ class MultigridPreconditioning : public Preconditioning {
   double alpha_ = 0;  // of the last step
 };
 
-/// Null in a build without multigrid, see is_available.
-std::unique_ptr<MultigridPreconditioning> make_multigrid_preconditioning();
-
 }  // namespace pleat

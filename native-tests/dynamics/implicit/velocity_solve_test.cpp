@@ -1,4 +1,5 @@
 #include "core/dynamics/implicit/velocity_solve.h"
+#include "core/linalg/make_linear_solver.h"
 
 #include <catch2/catch.hpp>
 #include <vector>
