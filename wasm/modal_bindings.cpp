@@ -18,7 +18,6 @@
 #include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
 #include "core/scene/format/scene_file.h"
-#include "core/scene/sheet_cloth.h"
 #include "core/sweep/completion_cost.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
@@ -47,18 +46,6 @@ pleat::ModalOptions options_in(const val& wanted) {
   if (volume == "lattice") options.volume = pleat::VolumeKind::lattice;
   if (volume == "shell") options.volume = pleat::VolumeKind::shell;
   return options;
-}
-
-/// Sheets that one stepper drapes: what else a scene may have is not linked.
-pleat::SceneParts sheet_parts() {
-  static constexpr std::array<const pleat::StepperType*, 1> kSteppers = {
-      &pleat::steppers::kImplicitEuler};
-  const auto sheet = [](const pleat::JsonReader& reader,
-                        const pleat::ClothSurroundings&) -> pleat::SceneCloth {
-    return pleat::read_sheet(reader);
-  };
-  return {.cloths = {{"sheet", sheet}, {"particles"}, {"knit"}, {"mesh"}, {"garment"}},
-          .steppers = kSteppers};
 }
 
 /// One surface, or one cloth of a scene, its modes and its key shapes.
@@ -97,8 +84,7 @@ class ModalStudy {
   /// The cloth of a scene, where it begins.
   std::string open_scene(const std::string& scene_text) {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene =
-          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, sheet_parts());
+      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_));
       auto run = std::make_unique<pleat::Simulation>(scene);
       take(run->rest_positions(), run->triangles(), envelope);
       run_ = std::move(run);

@@ -30,7 +30,7 @@ struct VariantRun {
 Json case_scene(const HardCase& hard_case, const StepperType& type, CaseLength length,
                 const CaseVariant& variant, const CaseFiles& files) {
   Json scene = parse_json(files.files(hard_case.name + ".json"));
-  const StepperTable steppers = files.parts.steppers;
+  const StepperTable steppers = files.tables.steppers;
   override_scene(scene, std::array{SceneOverride{"/method/stepper", type.name}}, steppers);
   for (const StepperSetting& setting : hard_case.settings)
     if (setting.stepper == type.name) override_scene(scene, {&setting.change, 1}, steppers);
@@ -41,7 +41,7 @@ Json case_scene(const HardCase& hard_case, const StepperType& type, CaseLength l
 
 std::unique_ptr<Simulation> simulation_of(const Json& scene, const CaseFiles& files) {
   return std::make_unique<Simulation>(
-      read_scene(JsonReader(scene), files.fabrics, files.files, files.parts));
+      read_scene(JsonReader(scene), files.fabrics, files.files, files.tables));
 }
 
 VariantRun begun(const HardCase& hard_case, const StepperType& type, CaseLength length,
@@ -92,7 +92,7 @@ struct EventHandler {
   }
   void operator()(const HandLetsGo&) const { simulation().release_grab(); }
   void operator()(const SceneSwitch& scene) const {
-    override_scene(run.json, scene.changes, files.parts.steppers);
+    override_scene(run.json, scene.changes, files.tables.steppers);
     auto next = simulation_of(run.json, files);
     next->carry_over(simulation());
     run.simulation = std::move(next);

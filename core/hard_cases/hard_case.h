@@ -12,7 +12,7 @@
 #include "core/files/file_source.h"
 #include "core/run/simulation.h"
 #include "core/scene/format/scene_override.h"
-#include "core/scene/format/scene_parts.h"
+#include "core/scene/format/scene_tables.h"
 
 namespace pleat {
 
@@ -104,7 +104,7 @@ struct CaseFinding {
 struct CaseFiles {
   const FabricLibrary& fabrics;
   FileSource files;  ///< of the folder of the cases' scenes
-  SceneParts parts = all_scene_parts();
+  SceneTables tables = {};
 };
 
 /// A case has a short length, for tests, and a full one.

@@ -49,7 +49,7 @@ enum class BendingModel {
   hinge,      ///< of edges, with a membrane: for comparison
 };
 
-class Tearing;
+struct Tearing;
 
 struct ModelOptions {
   Elasticity elasticity = Elasticity::springs;
@@ -76,9 +76,6 @@ struct StartState {
   int level = 0;         ///< of refinement
 };
 
-struct PlanPart;
-struct StartPart;
-
 /// A scene as its file describes it. Every default of the format stands here and in the option
 /// structs it holds, and nowhere else.
 struct Scene {
@@ -92,12 +89,10 @@ struct Scene {
   std::vector<std::string>
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   ModelOptions model;
-  int level = 0;                        ///< uniform refinements, 0 to kMaxLevel; with a plan 0
-  std::optional<RefinementPlan> plan;   ///< where to refine cloth that is made of quads
-  const PlanPart* plan_part = nullptr;  ///< with a plan
+  int level = 0;                       ///< uniform refinements, 0 to kMaxLevel; with a plan 0
+  std::optional<RefinementPlan> plan;  ///< where to refine cloth that is made of quads
   std::optional<StartState> start;
-  const StartPart* start_part = nullptr;  ///< with a start
-  std::shared_ptr<const Figure> figure;   ///< or null
+  std::shared_ptr<const Figure> figure;  ///< or null
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;

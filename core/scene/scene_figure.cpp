@@ -14,12 +14,12 @@ constexpr NumberRange kBlendTime{0.05, 1000};  // [s]
 
 }  // namespace
 
-Json Figure::json() const {
-  Json json{{"build", word_for(kBuilds, build)},
-            {"motion", json_motion(motion)},
-            {"time_scale", playback.time_scale},
-            {"blend_time_s", playback.blend_time}};
-  if (friction) json["friction"] = *friction;
+Json json_figure(const Figure& figure) {
+  Json json{{"build", word_for(kBuilds, figure.build)},
+            {"motion", json_motion(figure.motion)},
+            {"time_scale", figure.playback.time_scale},
+            {"blend_time_s", figure.playback.blend_time}};
+  if (figure.friction) json["friction"] = *figure.friction;
   return json;
 }
 

@@ -11,24 +11,21 @@
 namespace pleat {
 
 /// A body in the scene: a solid, and bones that pins may follow. It stands at time 0.
-///
-/// What it does is virtual, so that a program that reads no figure has no code for one.
-class Figure {
- public:
+struct Figure {
   BodyBuild build = BodyBuild::average;
   BodyMotion motion;
   Playback playback;
   std::optional<double> friction;  ///< else the fabric's
 
-  virtual ~Figure() = default;
-  /// The motion is always written out, so that the text is the whole scene.
-  virtual Json json() const;
-  virtual std::vector<BodyPart> parts() const;
+  std::vector<BodyPart> parts() const;
   /// One body in motion: what follows each Bone, by its number.
-  virtual std::vector<std::shared_ptr<const MovingFrame>> bone_frames() const;
+  std::vector<std::shared_ptr<const MovingFrame>> bone_frames() const;
 };
 
 /// The section "figure" of a scene file: a body, and a motion written out or the name of its file.
 std::shared_ptr<const Figure> read_figure(const JsonReader& reader, const FileSource& files);
+
+/// The motion is always written out, so that the text is the whole scene.
+Json json_figure(const Figure& figure);
 
 }  // namespace pleat

@@ -6,7 +6,6 @@
 #include "core/error/mesh_sampling.h"
 #include "core/model/momentum.h"
 #include "core/run/simulation.h"
-#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 
@@ -39,7 +38,6 @@ TEST_CASE("restarts: a state that is sampled keeps its linear momentum", "[error
   coarse.pins.clear();
   Simulation simulation(fine);
   if (is_graded) coarse.plan = patchy_plan(*base_quads(coarse));
-  coarse.plan_part = all_scene_parts().plan;
   Simulation restarted(coarse);
   State state = simulation.state();
   state.velocities = state.positions;

@@ -7,7 +7,6 @@
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
 #include "core/scene/cloth/particle_cloth.h"
-#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
@@ -94,7 +93,6 @@ TEST_CASE("adaptive run: it begins where the scene starts, as the simulation doe
   Simulation before(scene);
   for (int step = 0; step < 10; ++step) REQUIRE(before.step().ok());
   scene.start = StartState{before.state().positions, before.state().velocities, 0};
-  scene.start_part = all_scene_parts().start;
   AdaptiveRun run(scene, {1e6, 2});
   Simulation simulation(scene);
   CHECK(run.state().positions == simulation.state().positions);

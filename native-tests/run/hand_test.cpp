@@ -5,7 +5,6 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
 #include "core/scene/cloth/particle_cloth.h"
-#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
@@ -55,7 +54,6 @@ TEST_CASE("hand: a vertex that hangs is at its target too, between its parents",
     CAPTURE(method.stepper->name);
     Scene scene = hanging_scene(method);
     scene.plan = patchy_plan(*base_quads(scene));
-    scene.plan_part = all_scene_parts().plan;
     Simulation simulation(scene);
     const HangingVertex held = simulation.model().hanging.back();
     for (const Pin& pin : simulation.model().pins)

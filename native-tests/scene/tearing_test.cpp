@@ -153,10 +153,6 @@ TEST_CASE("tearing: what cannot tear says so in one sentence", "[scene]") {
              Catch::Contains("/model/tearing") && Catch::Contains("first contact"));
   CHECK_THAT(refusal(kSheet, R"(, "record": {"format": "binary"})"),
              Catch::Contains("/model/tearing") && Catch::Contains("frames"));
-  const char* const text =
-      R"({"cloth": {"sheet": {}}, "model": {"tearing": {"breaking_elongation": 0.3}}})";
-  CHECK_THROWS_WITH(read_scene(text, fabric_library(), {}, plain_scene_parts()),
-                    Catch::Contains("expected no tearing"));
   CHECK_THROWS_AS(expect_whole(read(kSheet, "")), InputError);
 }
 

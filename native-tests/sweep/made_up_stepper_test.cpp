@@ -41,15 +41,13 @@ const std::string kScene =
     R"({"cloth": {"sheet": {"columns": 2, "rows": 2}}, "pins": [{"part": "upper_edge"}],
         "method": {"stepper": "made_up"}})";
 
-SceneParts parts() {
-  SceneParts all = all_scene_parts();
-  all.steppers = kTable;
-  return all;
+Scene read(const JsonReader& scene) {
+  return read_scene(scene, fabric_library(), {}, {.steppers = kTable});
 }
 
-Scene read(const JsonReader& scene) { return read_scene(scene, fabric_library(), {}, parts()); }
-
-Scene scene_of(std::string_view text) { return read_scene(text, fabric_library(), {}, parts()); }
+Scene scene_of(std::string_view text) {
+  return read_scene(text, fabric_library(), {}, {.steppers = kTable});
+}
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -15,15 +15,13 @@ void check_level(const Scene& scene, int level, const std::string& where) {
                                 std::to_string(n_vertices));
 }
 
-void read_cloth(const JsonReader& reader, const FileSource& files, const SceneParts& parts,
+void read_cloth(const JsonReader& reader, const FileSource& files, std::span<const ClothKind> kinds,
                 Scene& scene) {
   std::vector<const char*> keys;
-  for (const SceneParts::ClothKind& kind : parts.cloths) keys.push_back(kind.key);
+  for (const ClothKind& kind : kinds) keys.push_back(kind.key);
   reader.allow_keys(keys);
-  const SceneParts::ClothKind& kind = parts.cloths[reader.only_one_of(keys)];
-  const JsonReader at = reader.at(kind.key);
-  if (kind.read == nullptr) refuse_part(at, kind.key);
-  scene.cloth = kind.read(at, {files, scene.figure.get()});
+  const ClothKind& kind = kinds[reader.only_one_of(keys)];
+  scene.cloth = kind.read(reader.at(kind.key), {files, scene.figure.get()});
 }
 
 Json json_cloth(const Scene& scene) {

@@ -90,7 +90,7 @@ ModelOptions usual_model(const Scene& scene) {
   return model;
 }
 
-void read_model(const JsonReader& reader, const SceneParts& parts, Scene& scene) {
+void read_model(const JsonReader& reader, Scene& scene) {
   reader.allow_keys({"elasticity", "bending", "shear", "damping", "stiffening_strain", "torsion",
                      "stiffness_exponent", "strain_limit", "tearing"});
   ModelOptions& model = scene.model;
@@ -125,10 +125,7 @@ void read_model(const JsonReader& reader, const SceneParts& parts, Scene& scene)
     if (model.bending != BendingModel::fitted) at->fail("no such key without fitted bending");
   }
   if (const auto at = reader.find("strain_limit")) model.strain_limit = read_strain_limit(*at);
-  if (const auto at = reader.find("tearing")) {
-    if (parts.read_tearing == nullptr) refuse_part(*at, "tearing");
-    model.tearing = parts.read_tearing(*at);
-  }
+  if (const auto at = reader.find("tearing")) model.tearing = read_tearing(*at);
 }
 
 Json json_model(const ModelOptions& model) {
@@ -143,7 +140,7 @@ Json json_model(const ModelOptions& model) {
   if (model.stiffening_strain > 0) json["stiffening_strain"] = model.stiffening_strain;
   if (model.bending == BendingModel::fitted) json["torsion"] = model.torsion;
   if (model.strain_limit) json["strain_limit"] = json_strain_limit(*model.strain_limit);
-  if (model.tearing) json["tearing"] = model.tearing->json();
+  if (model.tearing) json["tearing"] = json_tearing(*model.tearing);
   return json;
 }
 

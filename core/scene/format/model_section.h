@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/files/json_reader.h"
-#include "core/scene/format/scene_parts.h"
 #include "core/scene/scene.h"
 
 namespace pleat {
@@ -12,7 +11,7 @@ ModelOptions usual_model(const Scene& scene);
 
 /// The section "model" of a scene file: what holds the cloth together. The scene has its cloth and
 /// its usual model. Refuses laws that do not go together or that this cloth cannot have.
-void read_model(const JsonReader& reader, const SceneParts& parts, Scene& scene);
+void read_model(const JsonReader& reader, Scene& scene);
 Json json_model(const ModelOptions& model);
 
 }  // namespace pleat

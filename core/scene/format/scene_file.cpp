@@ -4,24 +4,24 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/files/plan_file.h"
 #include "core/scene/format/cloth_section.h"
 #include "core/scene/format/fabric_section.h"
 #include "core/scene/format/method_section.h"
 #include "core/scene/format/model_section.h"
+#include "core/scene/format/plan_section.h"
+#include "core/scene/format/start_section.h"
 #include "core/scene/format/world_section.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
 namespace {
 
-void read_refinement(const JsonReader& reader, const FileSource& files, const SceneParts& parts,
-                     Scene& scene) {
+void read_refinement(const JsonReader& reader, const FileSource& files, Scene& scene) {
   reader.allow_keys({"level", "plan"});
   if (const auto at = reader.find("plan")) {
     if (reader.find("level")) at->fail("no such key beside a level");
-    if (parts.plan == nullptr) refuse_part(*at, "plan");
-    scene.plan_part = parts.plan;
-    scene.plan = parts.plan->read(*at, files, scene);
+    scene.plan = read_scene_plan(*at, files, scene);
   } else if (const auto level = reader.find("level")) {
     scene.level = static_cast<int>(level->integer(0, kMaxLevel));
     check_level(scene, scene.level, level->pointer());
@@ -31,7 +31,7 @@ void read_refinement(const JsonReader& reader, const FileSource& files, const Sc
 Json json_refinement(const Scene& scene) {
   Json json;
   if (scene.plan)
-    json["plan"] = scene.plan_part->write(*scene.plan);
+    json["plan"] = json_plan(*scene.plan);
   else
     json["level"] = scene.level;
   return json;
@@ -52,45 +52,37 @@ std::int64_t whole_steps(double duration, double step) {
 }
 
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics, const FileSource& files,
-                 const SceneParts& parts) {
+                 const SceneTables& tables) {
   const Json document = parse_json(json_text);
-  return read_scene(JsonReader(document), fabrics, files, parts);
+  return read_scene(JsonReader(document), fabrics, files, tables);
 }
 
 Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files,
-                 const SceneParts& parts) {
+                 const SceneTables& tables) {
   root.allow_keys({"$schema", "name", "caption", "cloth", "fabric", "model", "figure", "refinement",
                    "pins", "world", "method", "duration_s", "record", "start"});
   Scene scene;
   if (const auto at = root.find("$schema")) at->text();
   if (const auto at = root.find("name")) scene.name = at->text();
   if (const auto at = root.find("caption")) scene.caption = at->text();
-  if (const auto at = root.find("figure")) {
-    if (parts.read_figure == nullptr) refuse_part(*at, "figure");
-    scene.figure = parts.read_figure(*at, files);
-  }
-  read_cloth(root.at("cloth"), files, parts, scene);
+  if (const auto at = root.find("figure")) scene.figure = read_figure(*at, files);
+  read_cloth(root.at("cloth"), files, tables.cloths, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
   scene.model = usual_model(scene);
-  if (const auto at = root.find("model")) read_model(*at, parts, scene);
-  if (const auto at = root.find("refinement")) read_refinement(*at, files, parts, scene);
-  if (const auto at = root.find("pins")) read_pins(*at, parts, scene);
+  if (const auto at = root.find("model")) read_model(*at, scene);
+  if (const auto at = root.find("refinement")) read_refinement(*at, files, scene);
+  if (const auto at = root.find("pins")) read_pins(*at, scene);
   if (const auto at = root.find("world")) read_world(*at, scene);
-  if (const auto at = root.find("method")) scene.method = read_method(*at, parts.steppers);
+  if (const auto at = root.find("method")) scene.method = read_method(*at, tables.steppers);
   if (const auto at = root.find("duration_s")) scene.duration = at->number(kPositive);
   if (const auto at = root.find("record")) read_record(*at, scene.record);
   check_duration(scene.duration, scene.method.step);
-  if (const auto at = root.find("start")) {
-    if (parts.start == nullptr) refuse_part(*at, "start");
-    scene.start_part = parts.start;
-    scene.start = parts.start->read(*at, files, scene);
-  }
-  if (scene.model.tearing) scene.model.tearing->check(root.at("model").at("tearing"), scene);
+  if (const auto at = root.find("start")) scene.start = read_start(*at, files, scene);
+  if (scene.model.tearing) check_tearing(root.at("model").at("tearing"), scene);
   return scene;
 }
 
 std::string write_scene(const Scene& scene) {
-  // Key by key: nlohmann's templates for a list in braces would be a part of a browser's download.
   Json json;
   json["name"] = scene.name;
   json["caption"] = scene.caption;
@@ -103,8 +95,8 @@ std::string write_scene(const Scene& scene) {
   json["method"] = json_method(scene.method);
   json["duration_s"] = scene.duration;
   json["record"] = json_record(scene.record);
-  if (scene.figure) json["figure"] = scene.figure->json();
-  if (scene.start) json["start"] = scene.start_part->write(*scene.start);
+  if (scene.figure) json["figure"] = json_figure(*scene.figure);
+  if (scene.start) json["start"] = json_start(*scene.start);
   return format_json(json);
 }
 

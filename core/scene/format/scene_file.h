@@ -6,7 +6,7 @@
 
 #include "core/files/fabric_file.h"
 #include "core/files/file_source.h"
-#include "core/scene/format/scene_parts.h"
+#include "core/scene/format/scene_tables.h"
 #include "core/scene/scene.h"
 
 namespace pleat {
@@ -17,16 +17,16 @@ class JsonReader;
 /// range and everything that could not run throw InputError with the JSON pointer, what was
 /// expected and what was found.
 ///
-/// files  for the meshes that it names. Without it they are refused.
-/// parts  what the program lets a scene be made of. Only who leaves the default contains all of it.
+/// files   for the meshes that it names. Without it they are refused.
+/// tables  the kinds of cloth and the steppers that it may name
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
-                 const FileSource& files = {}, const SceneParts& parts = all_scene_parts());
+                 const FileSource& files = {}, const SceneTables& tables = {});
 
 /// The same of a scene that is parsed already.
 ///
 /// root  of the scene's own document
 Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files = {},
-                 const SceneParts& parts = all_scene_parts());
+                 const SceneTables& tables = {});
 
 /// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s
 /// again.

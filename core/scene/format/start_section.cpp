@@ -4,12 +4,14 @@
 
 #include "core/base/check.h"
 #include "core/files/json_text.h"
-#include "core/refinement/mesh_match.h"
+#include "core/files/obj_file.h"
 #include "core/scene/vertex_arrays.h"
 
 namespace pleat {
+namespace {
 
-/// Finds which refinement of the cloth the start is of.
+/// Finds of which refinement of the cloth the start is, and puts it to rest where it has no
+/// velocities.
 StartState of_this_cloth(const std::string& where, StartState start, const Scene& scene) {
   const std::int64_t n = start.positions.cols();
   const bool is_refinable = scene.cloth->quads() != nullptr;
@@ -27,8 +29,6 @@ StartState of_this_cloth(const std::string& where, StartState start, const Scene
   return start;
 }
 
-namespace {
-
 StartState read_state(const JsonReader& reader, const Scene& scene) {
   reader.allow_keys({"positions_m", "velocities_m_per_s"});
   StartState start;
@@ -37,10 +37,33 @@ StartState read_state(const JsonReader& reader, const Scene& scene) {
   return of_this_cloth(reader.pointer(), std::move(start), scene);
 }
 
-QuadMesh refined(const QuadCloth& cloth, int level) {
-  QuadMesh quads = cloth.base_quads();
-  quads.refine_uniformly(level);
-  return quads;
+std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
+  for (Triangle& triangle : triangles) std::sort(triangle.begin(), triangle.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+/// The faces tell a file of this cloth from one of as many vertices in another order. A quad may be
+/// cut along either diagonal.
+void expect_faces_of(const Scene& scene, int level, const ObjMesh& mesh) {
+  const RestCloth cloth = scene.cloth->at_rest(level);
+  const std::vector<Triangle> known =
+      sorted(cloth.quads ? cloth.quads->crossed_triangles() : cloth.mesh.triangles);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle face = sorted({mesh.triangles[f]}).front();
+    if (!std::binary_search(known.begin(), known.end(), face))
+      throw InputError(
+          "line " + std::to_string(mesh.lines[f]),
+          "expected a face of this cloth, got one of vertices that have none together");
+  }
+}
+
+/// JSON starts with a brace, OBJ never.
+StartState read_obj_start(const std::string& text, const Scene& scene) {
+  const ObjMesh mesh = read_obj(text);
+  StartState start = of_this_cloth("", {mesh.positions, {}, 0}, scene);
+  expect_faces_of(scene, start.level, mesh);
+  return start;
 }
 
 }  // namespace
@@ -49,6 +72,8 @@ StartState read_start(const JsonReader& reader, const FileSource& files, const S
   if (!reader.is_text()) return read_state(reader, scene);
   if (!files) reader.fail("a start written out, as no files can be read here");
   return read_named_file(reader, files, [&](const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos || text[first] != '{') return read_obj_start(text, scene);
     const Json document = parse_json(text);
     return read_state(JsonReader(document), scene);
   });
@@ -59,21 +84,6 @@ Json json_start(const StartState& start) {
   json["positions_m"] = json_columns(start.positions);
   if (!start.velocities.isZero(0)) json["velocities_m_per_s"] = json_columns(start.velocities);
   return json;
-}
-
-void begin_at(const StartState& start, const Scene& scene, RestCloth& cloth) {
-  cloth.start = start.positions;
-  cloth.start_velocities = start.velocities;
-  if (!cloth.quads && cloth.mesh.rest_positions.cols() != start.positions.cols())
-    throw InputError("/start", "expected no other refinement, as this cloth is not made of quads");
-  if (!cloth.quads || cloth.quads->n_vertices() == start.positions.cols()) return;
-  int level = start.level;
-  for (const QuadFace& face : cloth.quads->faces()) level = std::max(level, int{face.level});
-  const QuadMesh own = refined(*scene.cloth->quads(), start.level);
-  const QuadMesh finer = refined(*scene.cloth->quads(), level);
-  const MeshSample sample(*cloth.quads, finer);
-  cloth.start = sample.of(on_finer_mesh(start.positions, own, finer));
-  cloth.start_velocities = sample.of(on_finer_mesh(start.velocities, own, finer));
 }
 
 }  // namespace pleat

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/base/check.h"
+#include "core/scene/format/bone_word.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
 #include "core/scene/vertex_place.h"
@@ -88,7 +89,7 @@ class BaseVertices {
   std::optional<RestCloth> at_rest_;
 };
 
-PinRule read_pin(const JsonReader& reader, const SceneParts& parts, const Scene& scene) {
+PinRule read_pin(const JsonReader& reader, const Scene& scene) {
   reader.allow_keys({"part", "vertices", "box", "motion", "bone"});
   PinRule pin;
   switch (reader.only_one_of({"part", "vertices", "box"})) {
@@ -105,8 +106,7 @@ PinRule read_pin(const JsonReader& reader, const SceneParts& parts, const Scene&
   if (const auto at = reader.find("bone")) {
     if (!scene.figure) at->fail("no such key, as the scene has no figure");
     if (reader.find("motion")) at->fail("no such key beside a motion");
-    if (parts.read_bone == nullptr) refuse_part(*at, "bone");
-    pin.bone = parts.read_bone(*at);
+    pin.bone = read_bone(*at);
   }
   return pin;
 }
@@ -187,11 +187,11 @@ Json json_wind(const WindOptions& wind) {
 
 }  // namespace
 
-void read_pins(const JsonReader& reader, const SceneParts& parts, Scene& scene) {
+void read_pins(const JsonReader& reader, Scene& scene) {
   BaseVertices base_vertices(*scene.cloth);
   std::map<std::int32_t, std::size_t> owner;  // the pin that a vertex belongs to
   for (const JsonReader& element : reader.elements()) {
-    const PinRule pin = read_pin(element, parts, scene);
+    const PinRule pin = read_pin(element, scene);
     const std::vector<VertexId> vertices = base_vertices.of(pin);
     if (vertices.empty())
       element.at("box").fail("a box with a vertex of the unrefined cloth in it");

@@ -7,7 +7,6 @@
 #include "core/mesh/mesh_lines.h"
 #include "core/run/simulation.h"
 #include "core/scene/format/scene_file.h"
-#include "core/scene/format/scene_parts.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/graded_sheets.h"
 
@@ -48,7 +47,6 @@ TEST_CASE("garment scene: what is written is read back as the same scene", "[sce
   CAPTURE(garment, motion);
   Scene scene = garment_scene(garment + "_" + motion);
   scene.plan = patchy_plan(*base_quads(scene));
-  scene.plan_part = all_scene_parts().plan;
   scene.level = 0;
   const std::string text = write_scene(scene);
   CHECK(write_scene(read_scene(text, fabric_library())) == text);
@@ -93,7 +91,6 @@ TEST_CASE("garment scene: a planned mesh keeps the mass and pins no hanging vert
   Scene scene = garment_scene(garment + "_walk");
   const Simulation uniform(scene);
   scene.plan = patchy_plan(*base_quads(scene));
-  scene.plan_part = all_scene_parts().plan;
   const Simulation graded(scene);
   CHECK(graded.model().hanging.size() > 50);
   CHECK(graded.model().masses.sum() == Approx(uniform.model().masses.sum()).epsilon(1e-13));
@@ -104,7 +101,6 @@ TEST_CASE("garment scene: both ends of an edge are held off as its half asks", "
   const std::string garment = GENERATE(from_range(std::begin(kGarments), std::end(kGarments)));
   Scene scene = garment_scene(garment + "_walk");
   scene.plan = patchy_plan(*base_quads(scene));
-  scene.plan_part = all_scene_parts().plan;
   const Simulation graded(scene);
   const RestCloth cloth = rest_cloth(scene);
   const QuadMesh& quads = *cloth.quads;
@@ -147,7 +143,6 @@ TEST_CASE("garment scene: what makes no scene is refused at its place", "[scene]
 TEST_CASE("garment scene: a plan for another mesh is refused", "[scene]") {
   Scene scene = garment_scene("skirt_walk");
   scene.plan = patchy_plan(*base_quads(scene));
-  scene.plan_part = all_scene_parts().plan;
   scene.plan->base_mesh ^= 1;
   CHECK(garment_refusal(write_scene(scene)).find("/refinement/plan") == 0);
 }
@@ -155,7 +150,6 @@ TEST_CASE("garment scene: a plan for another mesh is refused", "[scene]") {
 TEST_CASE("garment scene: a membrane is refused on a planned mesh", "[scene]") {
   Scene scene = garment_scene("skirt_walk");
   scene.plan = patchy_plan(*base_quads(scene));
-  scene.plan_part = all_scene_parts().plan;
   auto json = nlohmann::json::parse(write_scene(scene));
   json["model"] = {{"elasticity", "membrane"}};
   CHECK_THAT(garment_refusal(json.dump()),

@@ -1,12 +1,12 @@
-#include "core/scene/format/scene_parts.h"
+#include "core/scene/format/scene_tables.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/check.h"
 #include "core/run/simulation.h"
 #include "core/scene/format/scene_file.h"
-#include "core/scene/tearing.h"
 #include "native-tests/support/assets.h"
 
 namespace pleat {
@@ -46,18 +46,15 @@ SceneCloth read_disc(const JsonReader& reader, const ClothSurroundings&) {
   return DiscCloth(reader.at("radius_m").number(kPositive));
 }
 
-SceneParts parts_with_disc() {
-  SceneParts parts = plain_scene_parts();
-  parts.cloths.push_back({"disc", read_disc});
-  return parts;
-}
+const std::array<ClothKind, 1> kKinds{{{"disc", read_disc}}};
+const SceneTables kWithDisc{.cloths = kKinds};
 
 constexpr const char* kDiscScene = R"({"cloth": {"disc": {"radius_m": 0.3}},
     "fabric": {"name": "silk"}, "refinement": {"level": 2}, "pins": [{"part": "centre"}]})";
 
-std::string refusal(const std::string& text, const SceneParts& parts) {
+std::string refusal(const std::string& text, const SceneTables& tables) {
   try {
-    read_scene(text, fabric_library(), {}, parts);
+    read_scene(text, fabric_library(), {}, tables);
   } catch (const InputError& error) {
     return error.where() + ": " + error.what();
   }
@@ -66,12 +63,12 @@ std::string refusal(const std::string& text, const SceneParts& parts) {
 
 }  // namespace
 
-TEST_CASE("scene parts: a kind of cloth that is registered is read, written and run", "[scene]") {
-  const Scene scene = read_scene(kDiscScene, fabric_library(), {}, parts_with_disc());
+TEST_CASE("cloth kinds: a kind that the table has is read, written and run", "[scene]") {
+  const Scene scene = read_scene(kDiscScene, fabric_library(), {}, kWithDisc);
   REQUIRE(scene.cloth.as<DiscCloth>() != nullptr);
   CHECK(scene.cloth.as<DiscCloth>()->radius == 0.3);
   const std::string written = write_scene(scene);
-  CHECK(write_scene(read_scene(written, fabric_library(), {}, parts_with_disc())) == written);
+  CHECK(write_scene(read_scene(written, fabric_library(), {}, kWithDisc)) == written);
 
   Simulation simulation(scene);
   CHECK(simulation.model().n_vertices() == 81);
@@ -83,34 +80,18 @@ TEST_CASE("scene parts: a kind of cloth that is registered is read, written and 
   CHECK(x(1, 0) < simulation.rest_positions()(1, 0));
 }
 
-TEST_CASE("scene parts: what is not registered is refused at its place", "[scene]") {
-  const std::string refused_end = ", as this view shows none; pleat run takes it";
-  const SceneParts plain = plain_scene_parts();
-  CHECK(refusal(R"({"cloth": {"garment": {"skirt": {}}}})", plain) ==
-        "/cloth/garment: expected no garment" + refused_end);
-  CHECK(refusal(R"({"figure": {}, "cloth": {"sheet": {}}})", plain) ==
-        "/figure: expected no figure" + refused_end);
-  CHECK(refusal(R"({"cloth": {"sheet": {}}, "refinement": {"plan": {}}})", plain) ==
-        "/refinement/plan: expected no plan" + refused_end);
-  CHECK(refusal(R"({"cloth": {"mesh": {"obj": "shirt.obj"}}})", plain) ==
-        "/cloth/mesh/obj: expected a mesh written out in the scene, as no files can be read here, "
-        "got \"shirt.obj\"");
-  CHECK(refusal(kDiscScene, plain) ==
+TEST_CASE("cloth kinds: what the table lacks is refused at its place", "[scene]") {
+  CHECK(refusal(kDiscScene, {}) ==
         "/cloth/disc: expected one of the keys \"sheet\", \"particles\", \"knit\", \"mesh\", "
         "\"garment\", got \"disc\"");
-  CHECK(refusal(R"({"cloth": {"disc": {"radius_m": 1}}, "pins": [{"part": "rim"}]})",
-                parts_with_disc()) == "/pins/0/part: expected \"centre\", got \"rim\"");
+  CHECK(refusal(R"({"cloth": {"disc": {"radius_m": 1}}, "pins": [{"part": "rim"}]})", kWithDisc) ==
+        "/pins/0/part: expected \"centre\", got \"rim\"");
 }
 
-TEST_CASE("scene parts: plain parts and tearing read the scenes without figures and garments",
-          "[scene]") {
-  SceneParts parts = plain_scene_parts();
-  parts.read_tearing = read_tearing;
-  for (const char* name : kSceneFiles) {
-    CAPTURE(name);
-    CHECK(write_scene(read_scene(scene_text(name), fabric_library(), {}, parts)) ==
-          write_scene(read_scene(scene_text(name), fabric_library())));
-  }
+TEST_CASE("cloth kinds: a file is refused where none can be read", "[scene]") {
+  CHECK(refusal(R"({"cloth": {"mesh": {"obj": "shirt.obj"}}})", {}) ==
+        "/cloth/mesh/obj: expected a mesh written out in the scene, as no files can be read here, "
+        "got \"shirt.obj\"");
 }
 
 }  // namespace pleat
