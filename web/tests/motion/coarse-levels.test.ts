@@ -1,6 +1,6 @@
 // Coarser levels: as the method has them, the same as natively, in a link and in words.
 import { describe, expect, it } from 'vitest';
-import { levelCounts, levelWords } from '../../src/motion/panels/level-words';
+import { levelCounts, levelWords } from '../../src/motion/panels/levels/level-words';
 import { followLevels } from '../../src/motion/run/level-source';
 import { leftOut } from '../../src/motion/stage/level-overlay';
 import { LEVEL_MAKERS, levelWish, makerOf } from '../../src/motion/state/coarse-levels';

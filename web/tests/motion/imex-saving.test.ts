@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { savingWords } from '../../src/motion/panels/imex-panel';
+import { savingWords } from '../../src/motion/panels/method/imex-panel';
 import { ImexSavingSource } from '../../src/motion/run/imex-saving-source';
 import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { errorWords } from '../../src/motion/panels/error-words';
 import { linkSentence } from '../../src/motion/panels/link-tool';
+import { errorWords } from '../../src/motion/panels/numbers/error-words';
 import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
 import { MotionRun } from '../../src/motion/run/motion-run';
 import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/state/motion-link';
