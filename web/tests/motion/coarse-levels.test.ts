@@ -29,7 +29,7 @@ function halved(nMesh: number, nLevels: number): LevelsMessage {
     const vertices = all.filter((v) => v % 2 ** (k + 1) === 0);
     return { vertices, edges: vertices.slice(0, 2) };
   });
-  return { type: 'levels', request: 1, levels, shortage: '' };
+  return { type: 'levels', levels, shortage: '' };
 }
 
 describe('coarser levels', () => {

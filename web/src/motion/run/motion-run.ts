@@ -104,10 +104,9 @@ export class MotionRun {
     this.reference = new ReferenceSource(store, this.worker, (numbers) => {
       if (!this.isWaiting) store.set({ numbers });
     });
-    this.springs = new SpringSource(store, () => {
-      const { request } = this;
-      return this.answer(this.worker.ask({ type: 'readSprings', request }));
-    });
+    this.springs = new SpringSource(store, () =>
+      this.answer(this.worker.ask({ type: 'readSprings' })),
+    );
     store.subscribe((state, previous) => {
       if (state.setting !== previous.setting && state.phase !== 'broken') void this.load();
       if (state.playing && !previous.playing) this.startClock();
@@ -144,7 +143,7 @@ export class MotionRun {
     this.store.set({ playing: false, held: false, phase: 'loading', startSteps: 0, ahead: null });
     if (this.loaded?.setting !== setting) return void this.load();
     this.request += 1;
-    const question = { type: 'reset', request: this.request, scalar: this.scalar() } as const;
+    const question = { type: 'reset', scalar: this.scalar() } as const;
     void this.reload(question, this.loaded, null);
   }
 
@@ -187,15 +186,13 @@ export class MotionRun {
 
   /** How imex would take the loaded springs with such a setting; null when that comes too late. */
   implicitShare({ stepS, substeps, explicitShare }: Setting): Promise<ImexShare | null> {
-    const { request } = this;
     const method = { stepS, substeps, explicitShare };
-    return this.answer(this.worker.ask({ type: 'readImplicitShare', ...method, request }));
+    return this.answer(this.worker.ask({ type: 'readImplicitShare', ...method }));
   }
 
   /** Coarser levels of the loaded mesh; null when that comes too late. */
   levels(wish: LevelWish): Promise<LevelsMessage | null> {
-    const { request } = this;
-    return this.answer(this.worker.ask({ type: 'readLevels', ...wish, request }));
+    return this.answer(this.worker.ask({ type: 'readLevels', ...wish }));
   }
 
   grab(vertex: number): void {
@@ -325,7 +322,7 @@ export class MotionRun {
   /** The picture of a cloth at its start, for one that cannot be run: the stage is not left empty. */
   private async showStandIn(content: Content): Promise<void> {
     const { request } = this;
-    const question = { type: 'load', ...loadOf(content), keepMotion: false, request } as const;
+    const question = { type: 'load', ...loadOf(content), keepMotion: false } as const;
     const message = await answerOf(this.worker.ask(question), () => undefined);
     if (!message || request !== this.request) return;
     this.showLoaded(message, content);
@@ -346,10 +343,9 @@ export class MotionRun {
     this.isAhead = false;
     this.isWaiting = true;
     this.request += 1;
-    const { request } = this;
     this.store.set({ phase: 'loading', held: false, ahead: null });
     if (setting.preset === 'obj' && !mesh) return this.obj.bringExample();
-    const question = { type: 'load', ...loadOf(content), keepMotion, request } as const;
+    const question = { type: 'load', ...loadOf(content), keepMotion } as const;
     const led = keepMotion ? (astray ?? 'changed') : null;
     await this.reload({ ...question, scalar: this.scalar() }, content, led);
   }
@@ -510,11 +506,10 @@ export class MotionRun {
     const { playing, energy: wantsEnergy } = this.store.get();
     const wantsNumbers = this.clock.areNumbersDue(!playing);
     this.isStepping = true;
-    const { request } = this;
     const scalar = this.scalar();
     const beginMs = performance.now();
     const wants = { wantsNumbers, wantsEnergy, scalar };
-    const question = { type: 'step', count, request, buffer, ...wants } as const;
+    const question = { type: 'step', count, buffer, ...wants } as const;
     const frame = await this.answer(this.worker.ask(question, [buffer]));
     if (frame?.type !== 'frame') return;
     if (count > 0 && performance.now() - beginMs < PATIENCE_MS) {

@@ -10,7 +10,7 @@ import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 import { type FetchBytes, sceneFiles } from './scene-files';
 
-type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 'buffer'>;
+type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'buffer'>;
 
 export interface GarmentContent {
   garment: GarmentId;
@@ -43,7 +43,7 @@ export interface PaneRun {
 }
 
 export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: FetchBytes): PaneRun {
-  let request = 0;
+  let nLoads = 0;
   let loadedContent = '';
   let recording: RecordingHead | null = null;
   let missed: string | null = null;
@@ -59,8 +59,8 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
     isLoaded: () => loadedContent !== '',
     async load({ garment, sceneText, fineText, isEven, recordUrl }) {
       const content = `${recordUrl} ${sceneText}`;
-      request += 1;
-      const own = request;
+      nLoads += 1;
+      const own = nLoads;
       if (loadedContent === content) return null;
       loadedContent = '';
       let reason: string | null = null;
@@ -74,7 +74,6 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       const answer = await client.ask(
         {
           type: 'load',
-          request: own,
           fabricsText,
           sceneText,
           fineText,
@@ -85,7 +84,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
         },
         bytes ? [bytes] : [],
       );
-      if (own !== request) return null; // another one follows
+      if (own !== nLoads) return null; // another one follows
       loadedContent = content;
       recording = answer.recording;
       missed = bytes && !recording ? 'they are of another mesh' : reason;
@@ -95,13 +94,13 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       return answer;
     },
     async reset() {
-      await client.ask({ type: 'reset', request });
+      await client.ask({ type: 'reset' });
     },
-    advance: (frame, how) => client.ask({ type: 'advance', request, frame, how }),
+    advance: (frame, how) => client.ask({ type: 'advance', frame, how }),
     describe(wish) {
       const buffer = spare;
       spare = null;
-      return client.ask({ type: 'describe', request, ...wish, buffer }, buffer ? [buffer] : []);
+      return client.ask({ type: 'describe', ...wish, buffer }, buffer ? [buffer] : []);
     },
     keep({ buffer }) {
       spare = shown;
