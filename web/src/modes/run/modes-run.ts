@@ -8,6 +8,7 @@ import {
 } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
+import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
   type ObjUnit,
@@ -68,7 +69,7 @@ export class ModesRun {
   private body: Body | null = null;
   private own: OwnMesh | null = null;
   private last: Wanted | null = null; // that had its modes
-  private nOpened = 0; // counts what is to be opened: answers to an earlier one are dropped
+  private readonly latest = new Latest(); // opening
 
   constructor(
     readonly store: Store<ModesState>,
@@ -211,9 +212,7 @@ export class ModesRun {
 
   private async open(wanted: Wanted): Promise<void> {
     const { link, own } = wanted;
-    this.nOpened += 1;
-    const mark = this.nOpened;
-    const isCurrent = () => mark === this.nOpened;
+    const isCurrent = this.latest.start();
     const before = this.now();
     const isOther = !this.body || before.link.model !== link.model || before.own !== own;
     if (this.store.get().found) this.last = before;

@@ -1,6 +1,7 @@
 // One pane of a garment: its worker, what that has loaded, and the buffers of its frames.
 import { describe } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import { Latest } from '../../shared/state/latest';
 import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
 import { FRAME_S, SETTLED_S } from '../state/garment-frames';
 import type { GarmentId } from '../state/garments';
@@ -43,7 +44,7 @@ export interface PaneRun {
 }
 
 export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: FetchBytes): PaneRun {
-  let nLoads = 0;
+  const loads = new Latest();
   let loadedContent = '';
   let recording: RecordingHead | null = null;
   let missed: string | null = null;
@@ -59,8 +60,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
     isLoaded: () => loadedContent !== '',
     async load({ garment, sceneText, fineText, isEven, recordUrl }) {
       const content = `${recordUrl} ${sceneText}`;
-      nLoads += 1;
-      const own = nLoads;
+      const isCurrent = loads.start();
       if (loadedContent === content) return null;
       loadedContent = '';
       let reason: string | null = null;
@@ -84,7 +84,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
         },
         bytes ? [bytes] : [],
       );
-      if (own !== nLoads) return null; // another one follows
+      if (!isCurrent()) return null; // another one follows
       loadedContent = content;
       recording = answer.recording;
       missed = bytes && !recording ? 'they are of another mesh' : reason;
