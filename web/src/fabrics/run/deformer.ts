@@ -1,12 +1,6 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  inputFailure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
@@ -234,7 +228,7 @@ export class Deformer {
   }
 
   private breakDown(reason: string): void {
-    const problem = internalFailure(brokenSentence('The shapes', reason));
+    const problem = brokenFailure('The shapes', reason);
     this.store.set({ phase: 'broken', problem });
   }
 

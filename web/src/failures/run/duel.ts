@@ -1,6 +1,6 @@
 // Plays both sides of a case in step.
 import {
-  brokenSentence,
+  brokenFailure,
   describe,
   type Failure,
   internalFailure,
@@ -197,7 +197,7 @@ export class Duel {
   }
 
   private breakDown(reason: string): void {
-    const problem = internalFailure(brokenSentence('The cloth', reason));
+    const problem = brokenFailure('The cloth', reason);
     this.store.set({ phase: 'broken', playing: false, problem });
   }
 }

@@ -1,11 +1,5 @@
 // Runs the view of modes: turns what a visitor does into questions to the worker, and answers into state.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  inputFailure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import { Latest } from '../../shared/state/latest';
@@ -169,10 +163,7 @@ export class ModesRun {
   private startClient(): ModalClient {
     return this.start({
       broken: (reason) =>
-        this.store.set({
-          phase: 'broken',
-          problem: internalFailure(brokenSentence('Modes', reason)),
-        }),
+        this.store.set({ phase: 'broken', problem: brokenFailure('Modes', reason) }),
     });
   }
 

@@ -1,10 +1,9 @@
 // Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
 import {
-  brokenSentence,
+  brokenFailure,
   describe,
   type Failure,
   inputFailure,
-  internalFailure,
   quoted,
 } from '../../shared/bindings/answers';
 import { Clock, DISPLAY, type Display } from '../../shared/state/clock';
@@ -45,7 +44,7 @@ const BROWSER: TrioParts = {
 function failureOf(error: unknown): Failure {
   if (error instanceof Refused) return error.failure;
   const reason = describe(error);
-  if (error instanceof BrokenWorker) return internalFailure(brokenSentence('The garment', reason));
+  if (error instanceof BrokenWorker) return brokenFailure('The garment', reason);
   return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
