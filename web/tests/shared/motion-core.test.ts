@@ -27,12 +27,10 @@ import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/stepp
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
 import { boundMethods } from '../support/bound-methods';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
 
 type AllModules = PleatModule & SweepModule;
-
-const hasModule = (['pleat', 'sweep', 'deform'] as const).every(isBuilt);
 
 async function loadRealModule(): Promise<AllModules> {
   const [pleat, sweep] = [await loadModule('pleat'), await loadModule('sweep')];
@@ -98,8 +96,8 @@ function objText(isFlat: boolean, isTextured = false): string {
 
 const modules: [string, () => Promise<AllModules>][] = [
   ['the stand-in', async () => createFakeModule().module],
+  ['the WebAssembly module', loadRealModule],
 ];
-if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
 
 describe.each(modules)('motion-core with %s', (_name, load) => {
   it('answers a load with a mesh, a first frame and numbers that fit together', async () => {
@@ -570,7 +568,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
 
 const shippedFile = new URL('../../../assets/references/swinging_sheet.reference', import.meta.url);
 
-describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () => {
+describe('the WebAssembly module with a shipped reference', () => {
   const swinging = presetSetting('swinging-sheet');
   const textOf = (patch: Partial<Setting>) => JSON.stringify(sceneOf({ ...swinging, ...patch }));
 
@@ -651,7 +649,7 @@ describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () 
   });
 });
 
-describe.runIf(hasModule)('the cost of a step', () => {
+describe('the cost of a step', () => {
   async function projectiveRun() {
     const module = await loadRealModule();
     const simulation = new module.Simulation(fabricsText);
@@ -679,7 +677,7 @@ describe.runIf(hasModule)('the cost of a step', () => {
   });
 });
 
-describe.runIf(hasModule)('the modules', () => {
+describe('the modules', () => {
   it('binds exactly the classes and methods that the types name', async () => {
     const module: object = { ...(await loadRealModule()), ...(await loadModule('deform')) };
     expect(boundMethods(module)).toEqual({
