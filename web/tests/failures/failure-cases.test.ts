@@ -10,7 +10,7 @@ import {
 } from '../../src/failures/state/failure-cases';
 import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 /** All signs of a side until its end. */
 async function signsOf(one: FailureCase, side: Side): Promise<Sign[]> {
@@ -35,7 +35,7 @@ describe('ten cases', () => {
   });
 });
 
-describe.runIf(isBuilt('pleat'))('a case', () => {
+describe('a case', () => {
   for (const one of CASES) {
     it(`${one.id}: the naive side shows "${one.sign}", ours nothing`, {
       timeout: 60000,

@@ -13,7 +13,7 @@ import { ModalCore } from '../../src/modes/worker/modal-core';
 import type { FromModal, ToModal } from '../../src/modes/worker/modal-protocol';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { boundMethods } from '../support/bound-methods';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 /** First root of cos x cosh x = 1: a beam that nothing holds. */
 const FREE = 4.730041;
@@ -52,7 +52,7 @@ function joined(...keys: Float64Array[]): Float64Array {
   return Float64Array.from(keys.flatMap((key) => [...key]));
 }
 
-describe.runIf(isBuilt('modal'))('modal core', () => {
+describe('modal core', () => {
   let module: ModalModule;
   beforeAll(async () => {
     module = await loadModule('modal');

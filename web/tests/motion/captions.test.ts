@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import { PRESETS } from '../../src/motion/state/setting';
 import type { PleatModule, SimulationHandle } from '../../src/shared/bindings/pleat-module';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 const ASSETS = new URL('../../../assets/', import.meta.url);
 const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
@@ -104,7 +104,7 @@ function rmsApart(a: Vertex[], b: Vertex[]): number {
 }
 
 // Seconds of cloth in motion.
-describe.runIf(isBuilt('pleat'))('the caption of', { timeout: 60000 }, () => {
+describe('the caption of', { timeout: 60000 }, () => {
   it('the curtain: half the width, four folds in every fabric, deeper on their way down', async () => {
     const module = await loadModule('pleat');
     expect(sceneOf('curtain').caption).toMatch(/half its width.*the same four.*deeper/);

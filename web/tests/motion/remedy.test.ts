@@ -11,7 +11,7 @@ import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { warningSentence } from '../../src/shared/panels/warning-words';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 const warning = (hints: Record<string, number>): RunWarning => ({
   kind: 'stretch',
@@ -82,7 +82,7 @@ describe('the remedy for nonsense', () => {
   });
 });
 
-describe.runIf(isBuilt('pleat'))('the warnings of a run', () => {
+describe('the warnings of a run', () => {
   it('tell of an explosion', async () => {
     const { warnings } = await numbersOf(exploding);
     expect(warnings.map(({ kind }) => kind)).toContain('stretch');

@@ -18,11 +18,11 @@ interface Modules {
 
 const fileOf = (name: string) => new URL(`../../src/wasm/${name}`, import.meta.url);
 
-export function isBuilt(name: keyof Modules): boolean {
-  return existsSync(fileOf(`${name}.wasm`));
-}
-
 export async function loadModule<Name extends keyof Modules>(name: Name): Promise<Modules[Name]> {
+  if (!existsSync(fileOf(`${name}.wasm`)))
+    throw new Error(
+      `The WebAssembly module "${name}" is not built: ./pleat test and ./pleat demo do.`,
+    );
   const { default: create } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
   return create({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
 }
