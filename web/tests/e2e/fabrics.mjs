@@ -512,7 +512,7 @@ export async function checkFabrics(harness) {
 
   await checkWithoutModule(
     '#view=fabrics',
-    '**/deform*.wasm',
+    '**/pleat*.wasm',
     'the other view works',
     expectMotionWorks,
   );

@@ -266,7 +266,7 @@ export async function checkModes(harness) {
 
   await checkWithoutModule(
     '#view=modes',
-    '**/modal*.wasm',
+    '**/pleat*.wasm',
     'the other view works',
     expectMotionWorks,
   );

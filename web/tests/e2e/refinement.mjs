@@ -423,7 +423,7 @@ export async function checkRefinement(harness) {
 
   await checkWithoutModule(
     '#view=refinement',
-    '**/refinement*.wasm',
+    '**/pleat*.wasm',
     'other views work',
     expectMotionWorks,
   );

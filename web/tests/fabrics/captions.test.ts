@@ -93,7 +93,7 @@ function rankCorrelation(a: readonly number[], b: readonly number[]): number {
 
 describe('captions of experiments', () => {
   beforeAll(async () => {
-    module = await loadModule('deform');
+    module = await loadModule();
   });
 
   it('pull: silk lifts narrow peaks, linen most of the sheet', () => {

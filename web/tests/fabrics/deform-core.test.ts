@@ -23,7 +23,7 @@ const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
 
 /** A core whose turns are taken by `settle`, one after the other, and a page that gives buffers back. */
 async function serve(nowMs = () => performance.now()) {
-  const module = await loadModule('deform');
+  const module = await loadModule();
   const posted: FromDeform[] = [];
   const grants: string[] = [];
   let isWoken = false;

@@ -86,7 +86,7 @@ const NO_RECOVERY = { recovery: false, stretch: true, bending: true };
 describe('deformer', () => {
   beforeAll(async () => {
     vi.stubGlobal('window', globalThis);
-    module = await loadModule('deform');
+    module = await loadModule();
   });
 
   it('keeps what was moved by hand where it is when a later release is refused', async () => {

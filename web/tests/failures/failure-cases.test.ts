@@ -14,7 +14,7 @@ import { loadModule } from '../support/built-module';
 
 /** All signs of a side until its end. */
 async function signsOf(one: FailureCase, side: Side): Promise<Sign[]> {
-  const module = await loadModule('pleat');
+  const module = await loadModule();
   const simulation = new module.Simulation(fabricsText);
   expect(JSON.parse(simulation.load(sceneTextOf(one, side)))).toMatchObject({ ok: true });
   const nSteps = Math.round(one.endS / STEP_S);

@@ -75,7 +75,7 @@ const fileOf = (name: string, text: string) => new File([text], name);
 
 describe('run of modes', () => {
   beforeAll(async () => {
-    module = await loadModule('modal');
+    module = await loadModule();
   });
 
   it('opens the bar half way between its keys, with a ghost that is elsewhere', async () => {

@@ -46,7 +46,7 @@ describe('coarser levels', () => {
   });
 
   it('of a sheet, drawn curtains and a knit are the same natively', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     for (const preset of ['curtain', 'wool'] as const) {
       const scene = sceneOf(presetSetting(preset));
       const simulation = new module.Simulation(fabricsText);
@@ -164,7 +164,7 @@ describe('details of a method', () => {
   });
 
   it('of every stepper and value can be loaded', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     const scene = new module.Scene(fabricsText);
     try {
       const load = (setting: typeof curtain) =>

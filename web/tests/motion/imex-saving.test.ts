@@ -280,7 +280,7 @@ describe('race of imex and implicit', () => {
   });
 
   it('runs both with the WebAssembly module', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     let ms = 0;
     const now = () => {
       ms += 10;

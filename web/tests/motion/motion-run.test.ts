@@ -110,7 +110,7 @@ describe('motion run of a run that diverges', () => {
   });
 
   it('does so with the WebAssembly module', async () => {
-    module = await loadModule('pleat');
+    module = await loadModule();
     changeScene = (scene) => ({ ...scene, ...diverging });
     const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');

@@ -28,7 +28,7 @@ const exploding: Setting = { ...presetSetting('curtain'), stepper: 'xpbd', subst
 
 /** The numbers after a second of a setting. */
 async function numbersOf(setting: Setting): Promise<RunNumbers> {
-  const { Simulation } = await loadModule('pleat');
+  const { Simulation } = await loadModule();
   const simulation = new Simulation(fabricsText);
   try {
     expect(JSON.parse(simulation.load(JSON.stringify(sceneOf(setting, null))))).toMatchObject({

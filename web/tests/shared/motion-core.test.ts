@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { DEFORM_METHODS } from '../../src/fabrics/bindings/deform-module';
+import { MODAL_METHODS } from '../../src/modes/bindings/modal-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
 import {
@@ -17,6 +18,7 @@ import { readObj } from '../../src/motion/worker/obj-core';
 import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
 import { SweepCore } from '../../src/motion/worker/sweep-core';
 import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
+import { REFINEMENT_METHODS } from '../../src/refinement/bindings/refinement-module';
 import type { Failure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule, RunNumbers } from '../../src/shared/bindings/pleat-module';
@@ -31,11 +33,6 @@ import { loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
 
 type AllModules = PleatModule & SweepModule;
-
-async function loadRealModule(): Promise<AllModules> {
-  const [pleat, sweep] = [await loadModule('pleat'), await loadModule('sweep')];
-  return { ...pleat, ...sweep };
-}
 
 type Posted = FromMotion | FromSweep;
 type Sent<Type extends Posted['type']> = Extract<Posted, { type: Type }>;
@@ -96,7 +93,7 @@ function objText(isFlat: boolean, isTextured = false): string {
 
 const modules: [string, () => Promise<AllModules>][] = [
   ['the stand-in', async () => createFakeModule().module],
-  ['the WebAssembly module', loadRealModule],
+  ['the WebAssembly module', loadModule],
 ];
 
 describe.each(modules)('motion-core with %s', (_name, load) => {
@@ -573,7 +570,7 @@ describe('the WebAssembly module with a shipped reference', () => {
   const textOf = (patch: Partial<Setting>) => JSON.stringify(sceneOf({ ...swinging, ...patch }));
 
   async function openReferred() {
-    const server = serve(await loadRealModule());
+    const server = serve(await loadModule());
     const { send, take } = server;
     send({ type: 'open', fabricsText });
     take('ready');
@@ -651,7 +648,7 @@ describe('the WebAssembly module with a shipped reference', () => {
 
 describe('the cost of a step', () => {
   async function projectiveRun() {
-    const module = await loadRealModule();
+    const module = await loadModule();
     const simulation = new module.Simulation(fabricsText);
     const method = withStepper({ ...setting, level: 3 }, 'projective');
     simulation.load(JSON.stringify(sceneOf({ ...method, iterations: 1 })));
@@ -677,13 +674,14 @@ describe('the cost of a step', () => {
   });
 });
 
-describe('the modules', () => {
+describe('the module', () => {
   it('binds exactly the classes and methods that the types name', async () => {
-    const module: object = { ...(await loadRealModule()), ...(await loadModule('deform')) };
-    expect(boundMethods(module)).toEqual({
+    expect(boundMethods(await loadModule())).toEqual({
       ...PLEAT_METHODS,
       ...SWEEP_METHODS,
       ...DEFORM_METHODS,
+      ...REFINEMENT_METHODS,
+      ...MODAL_METHODS,
     });
   });
 });
