@@ -114,7 +114,7 @@ def jobs(pleat, quick):
     yield "refine tablecloth", lambda: pleat.made(
         "refine", ASSETS / "scenes/tablecloth.json", "--duration", "1", "--demand", "0.0005", out="plan.json")
     yield "refine skirt", lambda: pleat.made(
-        "refine", ASSETS / "scenes/garments/skirt_walk.json", "--level", "1", "--duration", "1.5", out="plan.json")
+        "refine", ASSETS / "scenes/garments/skirt_walk.json", "--level", "1", "--duration", "1.5", "--from", "0.5", out="plan.json")
     yield "modes of a shirt", lambda: pleat.made("modes", ASSETS / "meshes/t_shirt.obj", out="modes")
     yield "modes of a scene", lambda: pleat.made("modes", sheet, "--duration", "0.5", out="modes")
     yield "hierarchy", lambda: pleat.made("hierarchy", skirt, out="levels")
