@@ -170,12 +170,12 @@ class ModalStudy {
         val frame = val::object();
         frame.set("time", frames_[f].time);
         frame.set("left", frames_[f].left);
-        frame.set("shareOfNext", frames_[f].share_of_next);
-        frame.set("unequalHalves", figures[f].unequal_halves);
+        frame.set("share_of_next", frames_[f].share_of_next);
+        frame.set("unequal_halves", figures[f].unequal_halves);
         frame.set("volume_m3", figures[f].volume);
-        frame.set("straightVolume_m3", straight[f].volume);
+        frame.set("straight_volume_m3", straight[f].volume);
         frame.set("strain", figures[f].strain);
-        frame.set("straightStrain", straight[f].strain);
+        frame.set("straight_strain", straight[f].strain);
         frames.call<void>("push", frame);
       }
       envelope.set("frames", frames);

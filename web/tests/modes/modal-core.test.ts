@@ -94,10 +94,10 @@ describe('modal core', () => {
     expect(rest).toBeCloseTo(1.2 * 0.12 * 0.24, 9);
     for (const frame of frames) {
       expect(Math.abs(frame.volume_m3 / rest - 1)).toBeLessThan(0.02);
-      expect(frame.unequalHalves).toBeLessThan(0.01);
+      expect(frame.unequal_halves).toBeLessThan(0.01);
     }
-    expect(frames[8].straightVolume_m3 / rest).toBeLessThan(0.85);
-    expect(frames[8].straightStrain).toBeGreaterThan(2 * frames[8].strain);
+    expect(frames[8].straight_volume_m3 / rest).toBeLessThan(0.85);
+    expect(frames[8].straight_strain).toBeGreaterThan(2 * frames[8].strain);
     // What is drawn is the surface of that volume.
     const middle = filled.slice(8 * straight.length, 9 * straight.length);
     const drawn = enclosedVolume(middle, study.triangles());
