@@ -20,8 +20,8 @@ constexpr double kSameAngle = 1e-9;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kAnyAngle = kNever;
 
-/// Of the distance in space, how far away an end is looked for first, and by how much further when
-/// it is not found there.
+/// Radius of the first search over the farthest end's distance in space, and its growth when an end
+/// is not found.
 constexpr double kLikely = 1.03;
 constexpr double kFurther = 1.3;
 
@@ -38,7 +38,7 @@ Vec2 third_corner(const Vec2& begin, const Vec2& end, const Vec2& third) {
   return begin + third.x() * side + third.y() * Vec2(-side.y(), side.x());
 }
 
-/// From the origin to a segment.
+/// Squared distance from the origin to a segment.
 double squared_distance_to(const Vec2& begin, const Vec2& end) {
   const Vec2 side = end - begin;
   const double share = std::clamp(-begin.dot(side) / side.squaredNorm(), 0.0, 1.0);
@@ -148,8 +148,8 @@ void SurfaceDistances::go_along_edges(VertexId vertex) {
   }
 }
 
-/// From the corner of a triangle through the part of its far side that is seen between two angles
-/// around the corner.
+/// Adds the window from the corner of a triangle through the part of its far side that is seen
+/// between two angles around the corner.
 void SurfaceDistances::look_through(std::int32_t half_edge, double from_angle, double to_angle) {
   const HalfEdge& out = edge(half_edge);
   const double from = std::max(from_angle - out.angle, 0.0);

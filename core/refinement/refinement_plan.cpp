@@ -39,7 +39,7 @@ Eigen::VectorXd largest_means(std::span<const BendExample> examples) {
   return largest;
 }
 
-/// What each face loses in the example where it loses most [m^4].
+/// Loss of each face in the example where it is largest [m^4].
 FaceLosses largest_losses(std::span<const BendExample> examples, std::size_t n_faces) {
   FaceLosses largest = FaceLosses::Zero(4, static_cast<Eigen::Index>(n_faces));
   for (const BendExample& example : examples) {
@@ -196,7 +196,7 @@ class BudgetSplitter {
   const QuadMesh& fine_;
   CoveredMeans means_;
   const PlanOptions& options_;
-  std::vector<FaceId> fine_faces_;  // the same cloth as each face
+  std::vector<FaceId> fine_faces_;  // fine face that covers each face's cloth
   std::priority_queue<Candidate> queue_;
   std::vector<PlannedSplit> story_;
 };
