@@ -30,7 +30,7 @@ std::string_view nearest_word(std::string_view word, std::span<const char* const
   constexpr std::size_t kLongestWord = 64;  // letters worth comparing; the comparison is quadratic
   const std::string_view begin = word.substr(0, kLongestWord);
   std::string_view best;
-  std::size_t best_distance = (begin.size() + 1) / 3 + 1;  // with more wrong it is another word
+  std::size_t best_distance = (begin.size() + 1) / 3 + 1;  // a word as wrong as this is another one
   for (const std::string_view candidate : known) {
     const bool is_begin = !begin.empty() && candidate.substr(0, begin.size()) == begin;
     const std::size_t distance = is_begin ? 0 : edit_distance(begin, candidate);

@@ -117,7 +117,7 @@ void BendFriction::restore(const Kept& kept, const Positions& positions) {
 }
 
 // A normal that stays in space sees cloth that turns by an angle a lose kappa a^2/2 when it is that
-// of the begin, and nothing, up to a^4/24, when it is that of the middle.
+// of the start, and nothing, up to a^4/24, when it is that of the middle.
 void BendFriction::begin_substep(const State& state, double h, Knee knee) {
   middle_ = state.positions + h / 2 * state.velocities;
   look(state.positions, middle_);

@@ -42,7 +42,7 @@ class EnergyLedger {
   void record_tear(const State& state);
 
   const Works& works() const { return works_; }
-  const EnergyParts& parts() const { return parts_; }  ///< after the last step
+  const EnergyParts& parts() const { return parts_; }  ///< energies after the last step
   const EnergyParts& first_parts() const { return first_parts_; }
   double drift() const;  ///< change of the energy minus the works [J]
   /// |drift| over the largest kinetic energy seen, 0 while nothing moved.
@@ -70,7 +70,7 @@ class EnergyLedger {
   Loads end_;
   Positions part_;  // force of one kind [N]
   std::vector<char> is_pinned_;
-  std::optional<BendFriction> friction_begin_;  // with the moments after the last record
+  std::optional<BendFriction> friction_begin_;  // moments after the last record
   double first_friction_loss_;                  // [J]
   Works works_;
   EnergyParts first_parts_;
