@@ -65,8 +65,7 @@ void turn_half_way(const ShapeCoordinates& a, const ShapeCoordinates& b,
 }
 
 Vec3 shift_half_way(const Positions& a, const Positions& b, const Positions& x) {
-  constexpr double kStill =
-      1e-2;  // of the extent: moves so short do not count more than each other
+  constexpr double kStill = 1e-2;  // share of the extent; shorter moves all count alike
   const double still = kStill * std::max(box_diagonal(a), box_diagonal(b));
   const Eigen::VectorXd weights =
       ((a - b).colwise().squaredNorm().array() + still * still).inverse().matrix().transpose();
