@@ -14,8 +14,8 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 
 /// Points of a plane's cut through edges, and through which triangle each goes on to which other.
 struct Cut {
-  std::map<std::uint64_t, std::vector<std::uint64_t>> beside;  // by edge
-  std::map<std::uint64_t, Vec3> points;                        // by edge
+  std::map<std::uint64_t, std::vector<std::uint64_t>> beside;  // neighbours of each edge
+  std::map<std::uint64_t, Vec3> points;                        // point on each edge
 };
 
 Cut cut_at(const TriangleMesh& mesh, double height) {
@@ -119,7 +119,7 @@ std::vector<Positions> rest_rings(const TriangleMesh& mesh, double height, int n
 
 std::vector<Positions> garment_rings(const TriangleMesh& mesh) {
   constexpr int kPoints = 256;                     // six for each of the narrowest folds
-  constexpr double kShares[] = {0.5, 0.25, 0.01};  // of the height; the hem itself is no cut
+  constexpr double kShares[] = {0.5, 0.25, 0.01};  // shares of the height; the hem itself is no cut
   const double low = mesh.rest_positions.row(1).minCoeff();
   const double high = mesh.rest_positions.row(1).maxCoeff();
   std::vector<Positions> rings;

@@ -37,12 +37,12 @@ double slope(const Series& series, double t) {
   return sum;
 }
 
-/// Series about one arc length `begin`, in units of the strip's length.
+/// Series about the arc length `begin`, in units of the strip's length.
 struct ElasticaPiece {
   double begin = 0;
-  Series angle{};   // from straight down [rad]
-  Series across{};  // from the tip
-  Series up{};      // from the tip
+  Series angle{};   // angle from straight down [rad]
+  Series across{};  // distance from the tip
+  Series up{};      // height over the tip
 };
 
 /// Fills the series from their first terms, two of the angle's and one of each other.
@@ -173,8 +173,8 @@ template <class EndOf>
 std::optional<Eigen::Vector2d> solve_pull(const EndOf& end_of, const Eigen::Vector2d& far_support,
                                           double scale, Eigen::Vector2d pull) {
   constexpr int kMostSteps = 200;
-  constexpr double kTolerance = 1e-12;      // of the scale
-  constexpr double kSmallestShare = 1e-10;  // of a Newton step
+  constexpr double kTolerance = 1e-12;      // share of the scale
+  constexpr double kSmallestShare = 1e-10;  // share of a Newton step
   EndPlace end = end_of(pull);
   Eigen::Vector2d miss = end.place - far_support;
   for (int i = 0; i < kMostSteps && miss.norm() > kTolerance * scale; ++i) {
