@@ -45,7 +45,7 @@ class LargestOf final : public LargestFigure {
   std::function<double(const Simulation&)> figure_;
 };
 
-/// What a function of the state was when it was last seen.
+/// Value of a function of the state when it was last seen.
 class LastOf final : public CaseFigure {
  public:
   explicit LastOf(double (*figure)(const Simulation&)) : figure_(figure) {}
@@ -103,7 +103,7 @@ class Unrest final : public LargestFigure {
   }
 
   double begin_;     // [s]
-  Positions first_;  // since then [m]
+  Positions first_;  // positions at that time [m]
 };
 
 class EnergyGrowth final : public CaseFigure {
@@ -120,16 +120,16 @@ class EnergyGrowth final : public CaseFigure {
   double value() const override { return growth_ > 0 ? growth_ / (first_ - least_) : 0; }
 
  private:
-  double begin_;      // from when on it counts [s]
+  double begin_;      // time from which it counts [s]
   double first_ = 0;  // [J]
   double least_ = 0;
   double recent_least_ = std::numeric_limits<double>::infinity();
   double growth_ = 0;
 };
 
-/// For each vertex the one that is at rest where its mirror image is.
+/// Vertex at rest at the mirror image of each one.
 std::vector<Eigen::Index> mirror_images(const Positions& rest, double diagonal) {
-  constexpr double kTolerance = 1e-9;  // of the diagonal
+  constexpr double kTolerance = 1e-9;  // share of the diagonal
   std::vector<Eigen::Index> images;
   for (Eigen::Index i = 0; i < rest.cols(); ++i) {
     const Vec3 image(-rest(0, i), rest(1, i), rest(2, i));
@@ -195,7 +195,7 @@ std::unique_ptr<CaseFigure> largest_change(const std::function<Vec3(const Simula
       });
 }
 
-/// Where the vertices are about the place of the first at rest, in rest diagonals.
+/// Places of the vertices relative to that of the first at rest, in rest diagonals.
 Positions in_own_size(const Simulation& simulation) {
   const Vec3 origin = simulation.rest_positions().col(0);
   return (simulation.state().positions.colwise() - origin) /

@@ -17,7 +17,7 @@ CaseCheck stays_within(double distance);
 /// Largest |l/L - 1| of mesh edges, at any time.
 CaseCheck strain_at_most(double strain);
 
-/// The same at the end.
+/// Largest |l/L - 1| of mesh edges, at the end.
 CaseCheck end_strain_at_most(double strain);
 
 /// How far any vertex gets from where it was `window` [s] before the end, at any time since [m].
