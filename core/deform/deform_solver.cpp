@@ -261,10 +261,10 @@ Positions DeformSolver::descent(const Positions& gradient) {
 bool DeformSolver::descend(const Positions& direction, double slope, double before,
                            DeformStep& step) {
   const StageScope stage(observer_, Stage::forces);
-  const Positions begin = positions_;
+  const Positions start = positions_;
   double share = 1;
   for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {
-    positions_ = begin + share * direction;
+    positions_ = start + share * direction;
     step.terms = terms();
     step.energy = step.terms.weighted(weights_);
     if (!(step.energy <= before + kSufficientDecrease * share * slope)) continue;
@@ -274,7 +274,7 @@ bool DeformSolver::descend(const Positions& direction, double slope, double befo
     step.relative_step = last_change_.norm() / std::sqrt(n_free) / extent_;
     return true;
   }
-  positions_ = begin;
+  positions_ = start;
   return false;
 }
 

@@ -40,10 +40,10 @@ Cut cut_at(const TriangleMesh& mesh, double height) {
 }
 
 /// Takes a line out of the cut. Where it is closed the first point is the last one, too.
-std::vector<Vec3> taken_line(Cut& cut, std::uint64_t begin) {
+std::vector<Vec3> taken_line(Cut& cut, std::uint64_t start) {
   std::vector<Vec3> line;
-  std::uint64_t last = begin;
-  for (std::uint64_t at = begin;;) {
+  std::uint64_t last = start;
+  for (std::uint64_t at = start;;) {
     line.push_back(cut.points[at]);
     const auto place = cut.beside.find(at);
     if (place == cut.beside.end()) return line;

@@ -138,10 +138,10 @@ std::string read_file(const fs::path& path) {
   if (!file || fs::is_directory(path, error)) throw_unreadable(path, cause);
   std::string bytes;
   while (file) {  // the file may grow meanwhile, whatever its size was said to be
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + kBlock);
-    file.read(bytes.data() + begin, kBlock);
-    bytes.resize(begin + static_cast<std::size_t>(file.gcount()));
+    const std::size_t start = bytes.size();
+    bytes.resize(start + kBlock);
+    file.read(bytes.data() + start, kBlock);
+    bytes.resize(start + static_cast<std::size_t>(file.gcount()));
     if (bytes.size() > kMostBytesOfFile) throw_too_large(path);
   }
   if (file.bad()) throw FileError(path, "expected a file that can be read to its end");

@@ -32,7 +32,7 @@ struct CaseCheck {
   std::string what;  ///< the figure, with its unit, for people; no two of a case are called alike
   double bound;      ///< the largest value that passes
   /// Makes the figure from the run at its start and its length [s].
-  std::function<std::unique_ptr<CaseFigure>(const Simulation& begin, double duration)> figure;
+  std::function<std::unique_ptr<CaseFigure>(const Simulation& start, double duration)> figure;
   /// True when it says nothing of a run that is cut short.
   bool needs_whole_run = false;
 };

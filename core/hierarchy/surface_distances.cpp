@@ -139,12 +139,12 @@ void SurfaceDistances::reach(VertexId vertex, const Arrival& arrival) {
 }
 
 void SurfaceDistances::go_along_edges(VertexId vertex) {
-  const double begin = arrivals_[vertex].distance;
+  const double start_distance = arrivals_[vertex].distance;
   for (const std::int32_t out : from_[vertex]) {
     const HalfEdge& beyond = edge(next(out));
     const HalfEdge& in = edge(next(next(out)));
-    reach(beyond.from, {begin + edge(out).length, beyond.angle + beyond.corner});
-    if (in.twin < 0) reach(in.from, {begin + in.length, in.angle});
+    reach(beyond.from, {start_distance + edge(out).length, beyond.angle + beyond.corner});
+    if (in.twin < 0) reach(in.from, {start_distance + in.length, in.angle});
   }
 }
 
@@ -185,7 +185,7 @@ void SurfaceDistances::go_on_from(VertexId vertex, double limit) {
   }
 }
 
-void SurfaceDistances::cross(const Window& window, double begin, double limit) {
+void SurfaceDistances::cross(const Window& window, double start_distance, double limit) {
   const std::int32_t twin = edge(window.half_edge).twin;
   if (twin < 0) return;
   const std::int32_t right_side = next(twin), left_side = next(right_side);
@@ -194,13 +194,13 @@ void SurfaceDistances::cross(const Window& window, double begin, double limit) {
   const Vec2 ray = corner / distance;
   const double from_right = cross_product(window.from, ray);
   const double from_left = cross_product(ray, window.to);
-  if (from_right >= -kSameRay && from_left >= -kSameRay && begin + distance <= limit) {
+  if (from_right >= -kSameRay && from_left >= -kSameRay && start_distance + distance <= limit) {
     const HalfEdge& out = edge(left_side);
     const Vec2 side = window.left - corner;
     double angle = 0;
-    if (begin + distance < arrivals_[out.from].distance && can_turn(out.from))
+    if (start_distance + distance < arrivals_[out.from].distance && can_turn(out.from))
       angle = std::atan2(cross_product(side, -corner), side.dot(-corner));
-    reach(out.from, {begin + distance, out.angle + angle});
+    reach(out.from, {start_distance + distance, out.angle + angle});
   }
   if (from_right > kSameRay)
     windows_.push_back(

@@ -63,7 +63,7 @@ class SurfaceDistances {
   bool search(VertexId start, const std::vector<VertexId>& ends, double limit);
   void go_on_from(VertexId vertex, double limit);
   void look_through(std::int32_t half_edge, double from_angle, double to_angle);
-  void cross(const Window& window, double begin, double limit);
+  void cross(const Window& window, double start_distance, double limit);
   void reach(VertexId vertex, const Arrival& arrival);
   void push(VertexId vertex);
   Reached pop();
