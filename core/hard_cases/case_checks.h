@@ -7,7 +7,7 @@ namespace pleat {
 /// Signs of finite nonsense (RunWatch): none.
 CaseCheck no_nonsense();
 
-/// Vertices faster than falling, pulling and what was stored at the beginning explain (RunWatch):
+/// Vertices faster than falling, pulling and what was stored at the start explain (RunWatch):
 /// none.
 CaseCheck speeds_explained();
 
@@ -31,7 +31,7 @@ CaseCheck energy_grows_at_most(double share);
 /// positions are symmetric.
 CaseCheck stays_symmetric(double share);
 
-/// Change of the momentum in shares of the mass times the fastest vertex's speed at the beginning.
+/// Change of the momentum in shares of the mass times the fastest vertex's speed at the start.
 /// No outer forces.
 CaseCheck momentum_kept(double share);
 

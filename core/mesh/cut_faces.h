@@ -34,11 +34,11 @@ class CutFaces {
   /// is held that would split.
   ///
   /// far      faces around the vertex
-  /// is_held  for each vertex that there was at the beginning
+  /// is_held  for each vertex that there was at the start
   std::vector<VertexId> cut(VertexId vertex, std::span<const FaceId> far,
                             std::span<const char> is_held);
 
-  /// Corners of one face after the other, in the order given, with today's vertices.
+  /// Corners of one face after the other, in the order given, with the present vertices.
   const std::vector<VertexId>& corners() const { return corners_; }
   /// Vertex that each appended one was split from.
   const std::vector<VertexId>& origins() const { return origins_; }

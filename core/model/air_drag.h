@@ -49,7 +49,7 @@ class AirDrag {
   /// equal to f where motion is steady. In still air F is zero at the start of each step, so that
   /// drag never turns motion round.
   ///
-  /// applied  F, one column a vertex, zero to begin with [N]; not used in still air
+  /// applied  F, one column a vertex, zero at first [N]; not used in still air
   void add_damped_forces(const Eigen::Ref<const Positions>& positions,
                          const Eigen::Ref<const Positions>& velocities,
                          const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,

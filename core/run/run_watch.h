@@ -48,7 +48,7 @@ std::vector<RunWarning> read_warnings(const JsonReader& reader);
 /// explain. Costs nothing between looks.
 class RunWatch {
  public:
-  /// simulation  at the beginning of its run
+  /// simulation  at the start of its run
   explicit RunWatch(const Simulation& simulation);
 
   /// step  the report of the steps since the last look

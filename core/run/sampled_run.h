@@ -22,7 +22,7 @@ struct Sample {
   double uncertainty = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A scene run from its beginning through given times, in slices.
+/// A scene run from its start through given times, in slices.
 ///
 /// When a sample time lies inside a step, positions come from the cubic through both ends'
 /// positions and velocities, whose error is of fourth order in the step. Sampling is outside the

@@ -17,7 +17,7 @@ class TimedRun {
   /// Timing the parts of a step costs time itself.
   enum class Parts { untimed, timed };
 
-  /// cloth  at the beginning of a run; outlives this, and has no other observer where parts are
+  /// cloth  at the start of a run; outlives this, and has no other observer where parts are
   ///        timed
   TimedRun(MovingCloth& cloth, Parts parts);
   ~TimedRun();
