@@ -38,7 +38,7 @@ MiddleShape middle_shape(const ArapBlend& blend, double scale) {
                (shared - 2 * kEqualHalves * excess) * gradient_b;
     return sum * (1 + kEqualHalves * excess * excess);
   };
-  problem.solve = [&](const ShapeCoordinates& gradient) { return blend.answer(gradient); };
+  problem.solve = [&](const ShapeCoordinates& gradient) { return blend.preconditioned(gradient); };
   problem.least_share = kEnoughGain;
   problem.least_gain = kRigid * scale;
   middle.shape = blend.half_turned();

@@ -28,8 +28,8 @@ class ArapBlend {
   /// Shape of least sum if every piece turned half way from a to b, about the origin. Pieces take
   /// the short way round each, so that a and b must not be turned against each other as a whole.
   virtual ShapeCoordinates half_turned() const = 0;
-  /// The move that takes this gradient away from D(a -> x) + D(b -> x) while no piece turns.
-  virtual ShapeCoordinates answer(const ShapeCoordinates& gradient) const = 0;
+  /// Gradient through the inverse Hessian of D(a -> x) + D(b -> x) while no piece turns [m].
+  virtual ShapeCoordinates preconditioned(const ShapeCoordinates& gradient) const = 0;
 };
 
 /// A shape half way between two others.

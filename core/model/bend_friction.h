@@ -89,7 +89,7 @@ class BendFriction {
   std::size_t bytes() const;
 
  private:
-  void look(const Positions& positions, const Positions& places_of_normals);
+  void find_curvatures(const Positions& positions, const Positions& places_of_normals);
   double bent(const Element& element, const Eigen::Ref<const Positions>& positions) const;
 
   std::vector<Element> elements_;

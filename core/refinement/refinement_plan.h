@@ -56,7 +56,7 @@ struct PlanExample {
   Eigen::Vector2d high{1, 1};  ///< features that clustering maps to 1 [1/m]
 };
 
-/// One line of a plan's story.
+/// A split of a plan, and the reason for it.
 struct PlannedSplit {
   FaceId face;
   /// Sum of its corners' demands when it was split; with PlanCriterion::shape its loss, root mean

@@ -93,7 +93,7 @@ class ShapeSplitter {
       else
         make(step);
     }
-    return std::move(story_);
+    return std::move(splits_);
   }
 
  private:
@@ -205,9 +205,9 @@ class ShapeSplitter {
     for (const FaceId face : step.splits) {
       const bool is_wanted =
           std::find(step.wanted.begin(), step.wanted.end(), face) != step.wanted.end();
-      story_.push_back({ids_[face], std::sqrt(loss(face) / fine_.area(face)), !is_wanted});
+      splits_.push_back({ids_[face], std::sqrt(loss(face) / fine_.area(face)), !is_wanted});
       is_split_[face] = true;
-      std::int64_t next = fine_.n_base_faces() + 4 * static_cast<std::int64_t>(story_.size() - 1);
+      std::int64_t next = fine_.n_base_faces() + 4 * static_cast<std::int64_t>(splits_.size() - 1);
       for (const FaceId child : fine_.faces()[face].children) {
         ids_[child] = FaceId(next++);
         changed.push_back(child);
@@ -231,7 +231,7 @@ class ShapeSplitter {
   FaceId reader_;                             // face whose offer is looked at, if any
   std::vector<FaceId> ids_;                   // numbers in the planned mesh
   std::priority_queue<Candidate> queue_;
-  std::vector<PlannedSplit> story_;
+  std::vector<PlannedSplit> splits_;
   double loss_ = 0;          // loss of the mesh planned so far [m^4]
   double allowed_loss_ = 0;  // [m^4]
   int n_vertices_ = 0;

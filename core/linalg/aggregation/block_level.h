@@ -49,8 +49,8 @@ class BlockLevel {
   void smooth_from_zero();
   void smooth();
   /// Computes the residual after the last sweep.
-  void find_rest();
-  const float* rest() const { return r_.data(); }
+  void find_residual();
+  const float* residual() const { return r_.data(); }
 
  private:
   const float* low(int block) const { return low_.data() + block * kSize; }

@@ -113,7 +113,7 @@ class ConjugateGradient final : public BlockIteration {
         start();
         continue;
       }
-      const double curvature = active_->turn();
+      const double curvature = active_->next_direction();
       if (!std::isfinite(curvature))
         return report(SolveStatus::not_finite, "a search direction is not finite");
       if (curvature <= 0 && active_ != &incomplete_) {

@@ -15,7 +15,7 @@ class IncompletePreconditioning final : public Preconditioning {
   const IncompleteFactor& factor() const { return factor_; }
 
   double start(const std::vector<double>& b, const std::vector<double>& x) override;
-  double turn() override;
+  double next_direction() override;
   void advance(double curvature, std::vector<double>& x) override;
   double residual(double goal, Look look) override;
 

@@ -24,7 +24,7 @@ class MultigridPreconditioning : public Preconditioning {
   virtual void compute(const IncompleteFactor& factor, const std::vector<double>& places);
 
   double start(const std::vector<double>& b, const std::vector<double>& x) override;
-  double turn() override;
+  double next_direction() override;
   void advance(double curvature, std::vector<double>& x) override;
   double residual(double goal, Look look) override;
 
