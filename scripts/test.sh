@@ -10,6 +10,10 @@ check_layers() {
   python3 native-tests/check_layers.py --self-test && python3 native-tests/check_layers.py
 }
 
+check_comments() {
+  python3 native-tests/check_comments.py --self-test && python3 native-tests/check_comments.py
+}
+
 # The commit the changes are counted from: where this branch left its upstream, else the commit before.
 change_base() {
   local base
@@ -142,6 +146,7 @@ run_all_tests() {
   (install_tools "$native_tools" "$wasm_tools" "$node_tools" "$test_tools") || failed=1
   check format "Check the format of C++" check_format
   check layers "Check the layers" check_layers
+  check comments "Check the comments" check_comments
   test_in_release
   # The page's tests wait for a browser now and then, and leave a core to the compiler.
   meanwhile test_with_sanitizers

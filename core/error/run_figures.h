@@ -12,8 +12,8 @@ namespace pleat {
 struct RunRecord {
   std::vector<double> frame_ms;         ///< wall time of each frame but the first [ms]
   std::vector<double> processor_ms;     ///< processor time of the same frames [ms]
-  std::vector<double> rms_stretch;      ///< of each frame
-  std::vector<double> largest_stretch;  ///< of each frame
+  std::vector<double> rms_stretch;      ///< RMS stretch of each frame
+  std::vector<double> largest_stretch;  ///< largest stretch of each frame
   std::vector<Positions> samples;       ///< [m], at the times that are compared
 };
 
@@ -22,7 +22,7 @@ struct RunFigures {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   double ms_per_frame = kUnknown;     ///< median over the runs of the median frame [ms]
-  double spread_ms = kUnknown;        ///< of the runs' median frames, slowest minus quickest [ms]
+  double spread_ms = kUnknown;        ///< slowest minus quickest of the runs' median frames [ms]
   double rms_stretch = kUnknown;      ///< mean over the frames
   double largest_stretch = kUnknown;  ///< mean over the frames of each one's largest
   double rms_stretch_worst_frame = kUnknown;

@@ -68,7 +68,7 @@ class MotionCurves {
   ChannelValues at(double phase) const;
 
  private:
-  ChannelKeys coefficients_;  // of the uniform cubic B-splines centred at the keys
+  ChannelKeys coefficients_;  // coefficients of the uniform cubic B-splines centred at the keys
 };
 
 }  // namespace pleat

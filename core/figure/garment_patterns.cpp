@@ -190,7 +190,7 @@ std::vector<Vec3> hanging_arc(const Vec3& front, const Vec3& back, double bottom
 struct Hips {
   Ring waist;
   Ring fork;
-  Ring line;  // without its ends, which are the fork's
+  Ring line;  // open: its ends are the fork's
 };
 
 Ring line_between_legs(Pattern& pattern, const Ring& fork, double bottom) {

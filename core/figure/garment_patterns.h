@@ -18,17 +18,17 @@ struct Garment {
 struct SkirtMeasures {
   double waist_ease = 0.035;  ///< girth beyond the body's [m]
   double hem_girth = 2.6;     ///< [m]
-  double length = 0.6;        ///< along the cloth [m]
+  double length = 0.6;        ///< length along the cloth [m]
   int columns = 42;           ///< quads round, even, at least 8; rows follow from their shape
 };
 
 /// A tube from the waist to the fork and one for each leg.
 struct TrouserMeasures {
   double waist_ease = 0.035;    ///< girth beyond the body's [m]
-  double hip_ease = 0.08;       ///< the same from the hips to the fork [m]
-  double inseam = 0.66;         ///< from the crotch straight down [m]
+  double hip_ease = 0.08;       ///< girth beyond the body's from the hips to the fork [m]
+  double inseam = 0.66;         ///< length from the crotch straight down [m]
   double ankle_opening = 0.46;  ///< girth of a leg's hem [m]
-  int columns = 20;             ///< as of a skirt, around the hips
+  int columns = 20;             ///< quads round the hips, as of a skirt
 };
 
 /// Groups: waist, hem. A skirt's two ends are its border; every other vertex has four edges.

@@ -16,7 +16,7 @@ struct Section {
 struct Measures {
   double crotch_height;  // [m]
   Section hips, waist, chest, shoulders;
-  Section thigh;  // at the crotch
+  Section thigh;  // section at the crotch
   double knee, calf_top, calf, ankle;
   double shoulder, elbow, elbow_below, wrist;
   double neck;
@@ -36,9 +36,9 @@ constexpr Measures kSlim{0.790,          {0.105, 0.061}, {0.092, 0.044}, {0.112,
 constexpr double kWaistJointHeight = 0.984;  // [m], as the three below
 constexpr double kChestHeight = 1.176;
 constexpr double kShoulderHeight = 1.305;
-constexpr double kTorsoX = -0.01;  // of waist, chest and shoulders; hips and thighs are at 0
+constexpr double kTorsoX = -0.01;  // x [m] of waist, chest and shoulders; hips and thighs are at 0
 
-constexpr double kCalfShare = 0.27;  // of the shank, from the knee down to where it is thickest
+constexpr double kCalfShare = 0.27;  // share of the shank, from the knee down, where it is thickest
 
 Vec3 on_side(double side, const Vec3& right) { return {right.x(), right.y(), side * right.z()}; }
 

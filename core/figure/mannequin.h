@@ -11,7 +11,7 @@ namespace pleat {
 /// Two builds of a woman of 1.635 m.
 enum class BodyBuild {
   average,  ///< the mean of women of that height, 67 kg
-  slim,     ///< of 58 kg, nearer to a shop's mannequin
+  slim,     ///< woman of 58 kg, nearer to a shop's mannequin
 };
 
 /// A solid that moves with a bone.

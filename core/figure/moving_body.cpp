@@ -15,9 +15,9 @@ constexpr double kStandingTilt = 0.17453292519943295;
 
 struct BoneSpec {
   const char* name;
-  Bone parent;  // of the pelvis: itself
-  double x, y;  // of its joint while standing [m]
-  double z;     // to its own side [m]
+  Bone parent;  // pelvis: itself
+  double x, y;  // place of its joint while standing [m]
+  double z;     // distance to its own side [m]
 };
 constexpr std::array<BoneSpec, kBones> kSpecs{{
     {"pelvis", Bone::pelvis, 0, 0.867, 0},

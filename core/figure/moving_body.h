@@ -37,7 +37,7 @@ Vec3 standing_joint(Bone bone);
 /// How a motion is played.
 struct Playback {
   double time_scale = 1;  ///< positive; 2 is double speed
-  double blend_time = 1;  ///< from standing into the motion [s], positive
+  double blend_time = 1;  ///< time from standing into the motion [s], positive
 };
 
 /// A body that stands at time 0 with straight limbs, and before it, and goes over into a motion by

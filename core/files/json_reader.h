@@ -16,7 +16,7 @@ namespace pleat {
 /// No quantity of a scene is larger in SI units; squares and products of two stay finite.
 constexpr double kLargestNumber = 1e12;
 
-/// Which numbers a key takes.
+/// Range of numbers that a key takes.
 struct NumberRange {
   enum class Ends { included, low_excluded, excluded };
   double low = -kLargestNumber;
@@ -67,7 +67,7 @@ class JsonReader {
   }
 
   double number(const NumberRange& range = kAnyNumber) const;
-  /// What was computed may be of any size. JSON has neither NaN nor infinity: null is `missing`.
+  /// Number of any size, for computed values. JSON has neither NaN nor infinity: null is `missing`.
   double number_or(double missing) const;
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;

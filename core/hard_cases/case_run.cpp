@@ -57,7 +57,7 @@ VariantRun begun(const HardCase& hard_case, const StepperType& type, CaseLength 
 
 double step_of(const VariantRun& run) { return run.simulation->scene().method.step; }
 
-/// Of a second of it.
+/// Work for a second of a run.
 double work_rate(const VariantRun& run) {
   const MethodOptions& method = run.simulation->scene().method;
   return method.stepper->substep_cost(method) * run.simulation->substeps() *
@@ -99,7 +99,7 @@ struct EventHandler {
   }
 };
 
-/// Those checks that say something of a run, with what they saw at its beginning.
+/// Starts those checks that say something of a run, with what they saw at its start.
 void begin_checks(const HardCase& hard_case, double duration, VariantRun& run) {
   for (const CaseCheck& check : hard_case.checks) {
     run.figures.push_back(check.figure(*run.simulation, duration));
@@ -138,7 +138,7 @@ const CaseException* exception_of(const HardCase& hard_case, const std::string& 
   return at == hard_case.exceptions.end() ? nullptr : &*at;
 }
 
-/// What the stepper has to keep of a check; nothing where it is not asked.
+/// Bound of a check for the stepper; nothing where it is not asked.
 template <class Check>
 std::optional<double> bound_of(const HardCase& hard_case, const Check& check,
                                const CaseOutcome& outcome) {
@@ -167,7 +167,7 @@ void judge(std::vector<CaseFinding> findings, CaseOutcome& outcome) {
   }
 }
 
-/// What the checks found that the runs have to keep.
+/// Findings of the checks that the runs have to keep.
 std::vector<CaseFinding> findings_of(const HardCase& hard_case, std::vector<VariantRun>& runs,
                                      const CaseOutcome& outcome) {
   std::vector<CaseFinding> findings;
@@ -210,7 +210,7 @@ void refuse(const InputError& error, std::string excuse, CaseOutcome& outcome) {
   outcome.excuse = std::move(excuse);
 }
 
-/// Of bad input that was not refused.
+/// Fails bad input that was not refused.
 void fail_as_accepted(CaseOutcome& outcome) {
   outcome.status = CaseStatus::failed;
   outcome.sentence = "expected to be refused as bad input, and was not";

@@ -5,8 +5,7 @@
 
 namespace pleat {
 
-/// What collapses may not do. Without one of these hierarchies go wrong in its own way; what they
-/// are without it is for showing that.
+/// Guards against faults of collapses; one is switched off only to show its fault.
 struct CollapseGuards {
   /// No triangle turns over or is left without area.
   bool flips = true;

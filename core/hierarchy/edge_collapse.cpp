@@ -11,7 +11,7 @@
 namespace pleat {
 namespace {
 
-/// Of a plane's weight: small enough that any bend outweighs an uneven spread.
+/// Share of a plane's weight: small enough that any bend outweighs an uneven spread.
 constexpr double kPointShare = 1e-3;
 
 /// Costs and lengths that differ by less than this share of their usual size are equal: on a
@@ -34,7 +34,7 @@ bool is_one_fan(const std::vector<Triangle>& around, VertexId centre) {
     const std::size_t k = t[0] == centre ? 0 : t[1] == centre ? 1 : 2;
     sides.push_back({t[(k + 1) % 3], t[(k + 2) % 3]});
   }
-  auto at = sides.begin();  // of an open fan, its first triangle
+  auto at = sides.begin();  // first triangle of an open fan
   for (auto it = sides.begin(); it != sides.end(); ++it)
     if (std::none_of(sides.begin(), sides.end(), [&](auto& s) { return s[1] == (*it)[0]; }))
       at = it;
@@ -162,7 +162,7 @@ void EdgeCollapse::offer_around(VertexId vertex) {
   for (const VertexId other : neighbours(vertex)) {
     offer(vertex, other);
     offer(other, vertex);
-    // What a guard refused may be sound since the triangles there are others.
+    // A refused collapse may be sound now, since the triangles there have changed.
     std::vector<VertexId> again;
     again.swap(refused_[other]);
     for (const VertexId to : again)

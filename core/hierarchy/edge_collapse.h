@@ -39,9 +39,9 @@ class EdgeCollapse {
   bool reach(int n_vertices);
 
   int n_vertices() const { return n_vertices_; }
-  /// Those that are left, by their numbers in the mesh, ascending.
+  /// Vertices left, by their numbers in the mesh, ascending.
   std::vector<VertexId> vertices() const;
-  /// Those that are left, in the mesh's order, between vertices of the mesh.
+  /// Triangles left, in the mesh's order, between vertices of the mesh.
   std::vector<Triangle> triangles() const;
 
  private:
@@ -68,14 +68,14 @@ class EdgeCollapse {
   void collapse(VertexId from, VertexId to);
 
   CollapseGuards guards_;
-  Positions positions_;   ///< about their middle [m]
-  double mean_area_ = 0;  ///< of a vertex [m^2]
+  Positions positions_;   ///< positions relative to their mean [m]
+  double mean_area_ = 0;  ///< mean area of a vertex [m^2]
   std::vector<Triangle> triangles_;
-  std::vector<bool> is_gone_;  ///< of each triangle
+  std::vector<bool> is_gone_;  ///< true for triangles taken out
   std::vector<Numbers> triangles_of_;
   std::vector<Quadric> quadrics_;
   std::vector<bool> is_kept_, is_border_;
-  Numbers versions_;                            ///< of what a vertex's candidates were made of
+  Numbers versions_;  ///< version of a vertex's candidates, -1 once collapsed
   std::vector<std::vector<VertexId>> refused_;  ///< ends for a vertex that guards refused
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates_;
   Numbers mark_;

@@ -39,7 +39,7 @@ std::vector<std::array<VertexId, 2>> sorted_sides(const std::vector<Triangle>& t
 }  // namespace
 
 LevelFaults level_faults(const MeshLevel& level, const TriangleMesh& finest) {
-  constexpr double kSlimmest = 1e-3;  // as of the guard: slimmer ones have no direction
+  constexpr double kSlimmest = 1e-3;  // threshold of the guard: slimmer triangles have no direction
   LevelFaults faults;
   const Positions places = positions_on(level, finest.rest_positions);
   const Positions normals = positions_on(level, vertex_normals(finest));

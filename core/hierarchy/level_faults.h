@@ -15,8 +15,8 @@ struct LevelFaults {
   int strayed_borders = 0;
   /// Edges of more than two triangles.
   int crowded_edges = 0;
-  /// Of the finest mesh's area in space, each triangle that looks against it taken off. Round cloth
-  /// loses some to chords.
+  /// Share of the finest mesh's area in space; a triangle that looks against it is subtracted.
+  /// Round cloth loses some to chords.
   double covered_share = 1;
 };
 

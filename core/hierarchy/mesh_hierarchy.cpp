@@ -41,12 +41,12 @@ void take_edges(MeshLevel& level, const Pairs& pairs, const Positions& finest) {
   }
 }
 
-/// Of all levels, as what is near a vertex is the same on each.
+/// Measures the edges of all levels at once, as what is near a vertex is the same on each.
 void measure_edges(std::vector<MeshLevel>& levels, const TriangleMesh& finest) {
   SurfaceDistances surface(finest);
   std::vector<std::size_t> measured(levels.size(), 0);
   std::vector<LevelEdge*> edges;
-  std::vector<VertexId> ends;  // in the finest mesh
+  std::vector<VertexId> ends;  // ends in the finest mesh
   for (int v = 0; v < finest.n_vertices(); ++v) {
     edges.clear();
     ends.clear();

@@ -11,7 +11,7 @@
 
 namespace pleat {
 
-/// Which vertices a coarser level keeps.
+/// Choice of the vertices that a coarser level keeps.
 enum class LevelSelection {
   quadrics,  ///< half-edge collapses, the cheapest first (EdgeCollapse); levels have triangles
   thinned,   ///< every vertex that is out has two neighbours that stay (thinned_graph.h)
@@ -22,10 +22,11 @@ constexpr std::array<std::string_view, 2> kLevelSelectionNames{"quadrics", "thin
 struct HierarchyOptions {
   int n_coarser = 3;  ///< levels beside the finest, 1 or more
   LevelSelection selection = LevelSelection::quadrics;
-  /// Of a level's vertices that the next coarser one keeps, in (0.1, 0.9); of quadrics alone.
+  /// Share of a level's vertices that the next coarser one keeps, in (0.1, 0.9); for quadrics
+  /// alone.
   double ratio = 0.5;
   TransferWeights weights = TransferWeights::inverse_distance;
-  CollapseGuards guards{};  ///< of quadrics alone
+  CollapseGuards guards{};  ///< rules for quadrics alone
 
   /// Throws InputError at the option's name.
   void validate() const;
@@ -39,7 +40,7 @@ struct LevelEdge {
 
 /// A level of a hierarchy. Its vertices are numbered anew, in the order of the finest mesh.
 struct MeshLevel {
-  std::vector<VertexId> vertices;   ///< by their numbers in the finest mesh, ascending
+  std::vector<VertexId> vertices;   ///< numbers in the finest mesh, ascending
   std::vector<Triangle> triangles;  ///< none on thinned levels
   std::vector<LevelEdge> edges;
   Transfer from_coarser;  ///< empty on the coarsest

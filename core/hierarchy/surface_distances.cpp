@@ -20,8 +20,8 @@ constexpr double kSameAngle = 1e-9;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kAnyAngle = kNever;
 
-/// Of the distance in space, how far away an end is looked for first, and by how much further when
-/// it is not found there.
+/// Radius of the first search over the farthest end's distance in space, and its growth when an end
+/// is not found.
 constexpr double kLikely = 1.03;
 constexpr double kFurther = 1.3;
 
@@ -38,7 +38,7 @@ Vec2 third_corner(const Vec2& begin, const Vec2& end, const Vec2& third) {
   return begin + third.x() * side + third.y() * Vec2(-side.y(), side.x());
 }
 
-/// From the origin to a segment.
+/// Squared distance from the origin to a segment.
 double squared_distance_to(const Vec2& begin, const Vec2& end) {
   const Vec2 side = end - begin;
   const double share = std::clamp(-begin.dot(side) / side.squaredNorm(), 0.0, 1.0);
@@ -139,17 +139,17 @@ void SurfaceDistances::reach(VertexId vertex, const Arrival& arrival) {
 }
 
 void SurfaceDistances::go_along_edges(VertexId vertex) {
-  const double begin = arrivals_[vertex].distance;
+  const double start_distance = arrivals_[vertex].distance;
   for (const std::int32_t out : from_[vertex]) {
     const HalfEdge& beyond = edge(next(out));
     const HalfEdge& in = edge(next(next(out)));
-    reach(beyond.from, {begin + edge(out).length, beyond.angle + beyond.corner});
-    if (in.twin < 0) reach(in.from, {begin + in.length, in.angle});
+    reach(beyond.from, {start_distance + edge(out).length, beyond.angle + beyond.corner});
+    if (in.twin < 0) reach(in.from, {start_distance + in.length, in.angle});
   }
 }
 
-/// From the corner of a triangle through the part of its far side that is seen between two angles
-/// around the corner.
+/// Adds the window from the corner of a triangle through the part of its far side that is seen
+/// between two angles around the corner.
 void SurfaceDistances::look_through(std::int32_t half_edge, double from_angle, double to_angle) {
   const HalfEdge& out = edge(half_edge);
   const double from = std::max(from_angle - out.angle, 0.0);
@@ -185,7 +185,7 @@ void SurfaceDistances::go_on_from(VertexId vertex, double limit) {
   }
 }
 
-void SurfaceDistances::cross(const Window& window, double begin, double limit) {
+void SurfaceDistances::cross(const Window& window, double start_distance, double limit) {
   const std::int32_t twin = edge(window.half_edge).twin;
   if (twin < 0) return;
   const std::int32_t right_side = next(twin), left_side = next(right_side);
@@ -194,13 +194,13 @@ void SurfaceDistances::cross(const Window& window, double begin, double limit) {
   const Vec2 ray = corner / distance;
   const double from_right = cross_product(window.from, ray);
   const double from_left = cross_product(ray, window.to);
-  if (from_right >= -kSameRay && from_left >= -kSameRay && begin + distance <= limit) {
+  if (from_right >= -kSameRay && from_left >= -kSameRay && start_distance + distance <= limit) {
     const HalfEdge& out = edge(left_side);
     const Vec2 side = window.left - corner;
     double angle = 0;
-    if (begin + distance < arrivals_[out.from].distance && can_turn(out.from))
+    if (start_distance + distance < arrivals_[out.from].distance && can_turn(out.from))
       angle = std::atan2(cross_product(side, -corner), side.dot(-corner));
-    reach(out.from, {begin + distance, out.angle + angle});
+    reach(out.from, {start_distance + distance, out.angle + angle});
   }
   if (from_right > kSameRay)
     windows_.push_back(

@@ -24,7 +24,7 @@ class SurfaceDistances {
  public:
   explicit SurfaceDistances(const TriangleMesh& mesh);
 
-  /// From `start` to each of `ends`, all in its connected part [m].
+  /// Distances from `start` to each of `ends`, all in its connected part [m].
   std::vector<double> to(VertexId start, const std::vector<VertexId>& ends);
 
  private:
@@ -33,13 +33,13 @@ class SurfaceDistances {
     VertexId from;
     std::int32_t twin = -1;  ///< -1: border
     double length = 0;       ///< [m]
-    /// Where the third corner of its triangle is, in lengths of this edge along and beside it.
+    /// Third corner of its triangle, in lengths of this edge along and beside it.
     Vec2 third = Vec2::Zero();
     double corner = 0;  ///< angle of the triangle at `from` [rad]
-    double angle = 0;   ///< of this edge around `from`, counter-clockwise from the first [rad]
+    double angle = 0;   ///< direction around `from`, counter-clockwise from its first edge [rad]
   };
-  /// What is seen of an edge from a start at the origin, laid flat: `right` to `left` are its ends,
-  /// the rays to `from` and `to` bound what is seen.
+  /// Visible part of an edge, seen from a start at the origin and laid flat: `right` and `left` are
+  /// the edge's ends, the rays `from` and `to` bound what is seen.
   struct Window {
     std::int32_t half_edge;
     Vec2 right, left, from, to;
@@ -51,7 +51,7 @@ class SurfaceDistances {
   };
   struct Arrival {
     double distance = std::numeric_limits<double>::infinity();  ///< [m]
-    double angle = 0;  ///< around the vertex at which the path comes in [rad]
+    double angle = 0;  ///< direction around the vertex in which the path comes in [rad]
   };
 
   const HalfEdge& edge(std::int32_t h) const { return edges_[static_cast<std::size_t>(h)]; }
@@ -63,7 +63,7 @@ class SurfaceDistances {
   bool search(VertexId start, const std::vector<VertexId>& ends, double limit);
   void go_on_from(VertexId vertex, double limit);
   void look_through(std::int32_t half_edge, double from_angle, double to_angle);
-  void cross(const Window& window, double begin, double limit);
+  void cross(const Window& window, double start_distance, double limit);
   void reach(VertexId vertex, const Arrival& arrival);
   void push(VertexId vertex);
   Reached pop();
@@ -72,9 +72,9 @@ class SurfaceDistances {
   double length_of_all_ = 0;     ///< edges [m]
   std::vector<HalfEdge> edges_;  ///< three of each triangle, from its corners in turn
   std::vector<std::vector<std::int32_t>> from_;  ///< half-edges from each vertex
-  /// Of each vertex: by how much its angles sum to more than a path needs that does not turn [rad].
+  /// Excess of each vertex's angles over what a path needs that does not turn [rad].
   std::vector<double> free_angle_;
-  std::vector<Arrival> arrivals_;  ///< of the search that runs
+  std::vector<Arrival> arrivals_;  ///< arrivals of the current search
   std::vector<VertexId> touched_;
   std::vector<Reached> queue_;  ///< a heap
   std::vector<Window> windows_;

@@ -13,7 +13,7 @@ ThinnedGraph thinned(const Neighbours& neighbours, const Positions& positions,
   PLEAT_CHECK(static_cast<std::size_t>(positions.cols()) == n && is_fixed.size() == n,
               "a position and a flag for each vertex");
   std::vector<bool> is_out(n, false);
-  std::vector<int> n_kept(n);  // beside each vertex
+  std::vector<int> n_kept(n);  // number of kept neighbours of each vertex
   for (std::size_t v = 0; v < n; ++v) n_kept[v] = static_cast<int>(neighbours[v].size());
   const auto may_go = [&](std::size_t v) {
     return !is_fixed[v] && n_kept[v] >= kFewestParents &&
@@ -28,7 +28,7 @@ ThinnedGraph thinned(const Neighbours& neighbours, const Positions& positions,
   }
 
   ThinnedGraph graph;
-  std::vector<VertexId> place(n);  // of each vertex: itself, or its nearest parent
+  std::vector<VertexId> place(n);  // kept vertex for each one: itself, or its nearest parent
   for (std::size_t v = 0; v < n; ++v) {
     const VertexId vertex(static_cast<std::int64_t>(v));
     place[v] = vertex;

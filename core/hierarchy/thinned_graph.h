@@ -11,7 +11,7 @@ namespace pleat {
 /// Neighbours of each vertex.
 using Neighbours = std::vector<std::vector<VertexId>>;
 
-/// What is left of a graph.
+/// Graph after thinning.
 struct ThinnedGraph {
   std::vector<VertexId> kept;  ///< ascending
   /// Edges between vertices that are kept, the lower number first, ascending, each once.

@@ -10,7 +10,7 @@ namespace {
 
 using Terms = std::vector<Transfer::Term>;
 
-/// By the square of the inverse distance from `place` [m].
+/// Weighs parents by the square of the inverse distance from `place` [m].
 void weigh_by_distance(Terms& parents, const Positions& coarse, const Vec3& place) {
   double sum = 0;
   for (Transfer::Term& parent : parents) {
@@ -30,7 +30,7 @@ void weigh_by_distance(Terms& parents, const Positions& coarse, const Vec3& plac
 /// of w has at the place itself the weights w_i (1 - (d_i - m).G^-1 m). Across directions in which
 /// the parents hardly lie apart the function is constant.
 void fit_linear(Terms& parents, const Positions& coarse, const Vec3& place) {
-  constexpr double kFlat = 1e-2;  // of the largest spread squared: a tenth of its length
+  constexpr double kFlat = 1e-2;  // share of the largest spread squared: a tenth of its length
   Vec3 mean = Vec3::Zero();
   for (const auto& [parent, weight] : parents) mean += weight * (coarse.col(parent) - place);
   Mat3 scatter = Mat3::Zero();
@@ -56,7 +56,7 @@ class Parents {
       coarse_of_[kept[i]] = VertexId(static_cast<std::int64_t>(i));
   }
 
-  /// By their numbers among the kept ones, ring by ring.
+  /// Terms of a vertex by the parents' numbers among the kept vertices, ring by ring.
   Terms of(VertexId vertex) {
     if (coarse_of_[vertex].valid()) return {{coarse_of_[vertex], 1}};
     constexpr std::size_t kFewest = 2;
@@ -83,7 +83,7 @@ class Parents {
  private:
   const std::vector<std::vector<VertexId>>& neighbours_;
   std::vector<VertexId> coarse_of_;
-  std::vector<std::int32_t> ring_of_;  ///< of the walk that runs: seen, or -1
+  std::vector<std::int32_t> ring_of_;  ///< state of the current walk: seen, or -1
 };
 
 }  // namespace

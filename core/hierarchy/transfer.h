@@ -12,8 +12,7 @@ namespace pleat {
 
 /// How a vertex takes its correction from the coarser vertices around it.
 enum class TransferWeights {
-  /// By the square of the inverse distance: never negative; constants come exactly, linear fields
-  /// roughly.
+  /// Square of the inverse distance: never negative; constants come exactly, linear fields roughly.
   inverse_distance,
   /// Moving least squares with those weights: linear fields come exactly too along the directions
   /// in which the coarser vertices lie; weights may be negative.
@@ -23,13 +22,14 @@ enum class TransferWeights {
 constexpr std::array<std::string_view, 2> kTransferWeightsNames{"inverse_distance",
                                                                 "moving_least_squares"};
 
-/// From the vertices of a coarser level to those of a finer one, as rows of weights that sum to 1.
+/// Interpolation from the vertices of a coarser level to those of a finer one, as rows of weights
+/// that sum to 1.
 struct Transfer {
   struct Term {
     VertexId coarse;
     double weight;
   };
-  std::vector<std::int32_t> begin{0};  ///< of each finer vertex's terms; one more at the end
+  std::vector<std::int32_t> begin{0};  ///< first term of each finer vertex; one more at the end
   std::vector<Term> terms;
 
   int n_rows() const { return static_cast<int>(begin.size()) - 1; }

@@ -22,8 +22,8 @@ class LinearSolver {
   /// `lower` has the pattern last analysed.
   SolveReport factorize(const SparseMatrix& lower);
 
-  /// Where the vertices are to which the unknowns belong, three each [m]: some solvers are faster
-  /// for it. Of effect from the next factorisation on; sizes that differ count as not known.
+  /// Sets the places of the vertices to which the unknowns belong, three each [m]: some solvers are
+  /// faster for it. Of effect from the next factorisation on; sizes that differ count as not known.
   virtual void set_places(const Eigen::Ref<const Eigen::VectorXd>& /*places*/) {}
 
   /// rhs       n x m right-hand sides
@@ -32,7 +32,7 @@ class LinearSolver {
                     Eigen::Ref<Eigen::MatrixXd> solution);
 
  protected:
-  /// The same, once order and sizes are known to be right, n and m positive, and the entries of
+  /// Do the work once order and sizes are known to be right, n and m positive, and the entries of
   /// matrix and right-hand sides finite.
   virtual void do_analyze(const SparseMatrix& lower) = 0;
   virtual SolveReport do_factorize(const SparseMatrix& lower) = 0;
@@ -52,7 +52,7 @@ bool is_direct(SolverKind kind);
 
 const char* name(SolverKind kind);
 
-/// What cg has for an approximate inverse.
+/// Approximate inverse in cg.
 enum class Preconditioner {
   automatic,          ///< an incomplete factor; multigrid where that turns out to take too long
   incomplete_factor,  ///< cheap, but the finer the mesh the less it helps

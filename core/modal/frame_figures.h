@@ -4,20 +4,20 @@
 
 namespace pleat {
 
-/// What can be told of a frame beside its picture; of all its bodies together.
+/// Measures of a frame, of all its bodies together.
 struct FrameFigures {
   double volume = 0;          ///< [m^3]
-  double strain = 0;          ///< since the first key: root of the mean square of |F - R|
+  double strain = 0;          ///< root of the mean square of |F - R| since the first key
   int n_inverted = 0;         ///< tetrahedra turned inside out
   double unequal_halves = 0;  ///< |D(a -> x) - D(b -> x)| over the larger one
 };
 
-/// Of frames that a completion made.
+/// Measures of frames that a completion made.
 std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
                                         const std::vector<KeyCompletion::Frame>& frames);
 
-/// Of the frames at the same times whose vertices go straight from key to key, as the space has
-/// these.
+/// Measures of frames at the same times whose vertices go straight from key to key, as the space
+/// has these.
 std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
                                          const std::vector<KeyCompletion::Frame>& frames);
 

@@ -48,7 +48,7 @@ class FullBlend : public ArapBlend {
     return solve(pulls);
   }
 
-  ShapeCoordinates answer(const ShapeCoordinates& gradient) const override {
+  ShapeCoordinates preconditioned(const ShapeCoordinates& gradient) const override {
     return solve(gradient) / 4;
   }
 

@@ -9,7 +9,7 @@ namespace pleat {
 namespace {
 
 constexpr int kMostSteps = 1000;
-constexpr double kStillness = 1e-8;  // of the extent
+constexpr double kStillness = 1e-8;  // share of the extent
 
 }  // namespace
 

@@ -39,7 +39,8 @@ void keep_one_diagonal(ClothModel& model) {
     }
 }
 
-/// What takes the time: the run until the step, the rounds, and the time of each number of them.
+/// Parts that take the time: the run until the step, the rounds, and the time of each number of
+/// them.
 constexpr int kRunPart = 0, kRoundsPart = 1, kTimesPart = 2, kParts = 3;
 
 /// So many of a part's pieces are done.
@@ -96,12 +97,12 @@ class Contestant {
  public:
   virtual ~Contestant() = default;
   virtual void solve(int rounds) = 0;
-  virtual ConvergencePoint look(int rounds) = 0;  // after solve
+  virtual ConvergencePoint look(int rounds) = 0;  // requires a solve before
   virtual bool takes_rounds() const = 0;
   virtual bool has_error() const = 0;
 };
 
-/// What a method's own equations come to; no columns where that is not known.
+/// Solution of a method's own equations; no columns where that is not known.
 struct Converged {
   Positions positions;
   double distance_begin = std::nan("");
@@ -222,7 +223,7 @@ std::vector<ConvergencePoint> points_of(Contestant& contestant, const Convergenc
   return points;
 }
 
-/// Of one solve, in a batch of many [ms].
+/// Time of one solve, in a batch of many [ms].
 double timed(Contestant& contestant, int rounds) {
   contestant.solve(rounds);
   int n = 0;
@@ -234,7 +235,7 @@ double timed(Contestant& contestant, int rounds) {
   return 1e3 * watch.elapsed() / n;
 }
 
-/// Of an even number of values, the lower one in the middle.
+/// Median; of an even number of values, the lower one in the middle.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -11,7 +11,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a frame
+constexpr double kRounding = 1e-9;  // share of a frame
 
 std::vector<double> frame_times(const Scene& scene, const PlanRecipe& recipe) {
   std::vector<double> times;

@@ -209,7 +209,7 @@ std::string remarks_on(const BenchRow& row) {
   return remarks;
 }
 
-/// What signs and gaps in the table mean, where there are any.
+/// Meaning of signs and gaps in the table, where there are any.
 std::string meaning_of_signs(std::span<const BenchRow> rows) {
   const auto has = [&](auto&& is) { return std::any_of(rows.begin(), rows.end(), is); };
   std::string text;

@@ -4,7 +4,7 @@
 
 namespace pleat {
 
-/// What frames between keys cost, and what they are worth.
+/// Cost and quality of frames between keys.
 struct CompletionCost {
   int n_bodies = 0;
   int n_volume_vertices = 0;
@@ -14,8 +14,8 @@ struct CompletionCost {
   double middles_ms = 0;     ///< all middles, in the space
   double surfaces_ms = 0;    ///< all frames' surfaces, with detail
   int n_unconverged = 0;
-  std::vector<FrameFigures> figures;         ///< of the frames, keys among them
-  std::vector<FrameFigures> linear_figures;  ///< of those on straight ways, at the same times
+  std::vector<FrameFigures> figures;         ///< measures of the frames, keys among them
+  std::vector<FrameFigures> linear_figures;  ///< measures of frames on straight ways, then
   std::vector<Positions> middles;            ///< surfaces of the frames between keys [m]
   std::vector<Positions> linear_middles;     ///< [m]
 };
@@ -24,7 +24,7 @@ CompletionCost completion_cost(const std::vector<Positions>& keys,
                                const std::vector<Triangle>& triangles, const ModalOptions& options,
                                int n_frames);
 
-/// The same without a space: every vertex of the volumes is free and every tetrahedron turns for
+/// Cost without a space: every vertex of the volumes is free and every tetrahedron turns for
 /// itself.
 struct UnreducedCost {
   double middles_ms = 0;

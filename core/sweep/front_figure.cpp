@@ -20,11 +20,11 @@ constexpr double kLeft = 76;
 constexpr double kRight = 780;
 constexpr double kTop = 72;
 constexpr double kBottom = 464;
-constexpr double kLine = 18;           // from line to line
-constexpr std::size_t kLetters = 118;  // that a line holds
+constexpr double kLine = 18;           // height of a line
+constexpr std::size_t kLetters = 118;  // capacity of a line
 constexpr std::size_t kMostListed = 40;
 
-constexpr const char* kFrontColour = "#111";  // of its line and the borders of its marks
+constexpr const char* kFrontColour = "#111";  // line of the front and borders of its marks
 constexpr const char* kPlainBorder = "#fff";
 
 /// printf into a string.

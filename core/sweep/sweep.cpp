@@ -21,16 +21,15 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
 
-constexpr double kTellingShare = 0.05;  // of a run: less says nothing of how long it takes
+constexpr double kTellingShare = 0.05;  // share of a run: less says nothing of how long it takes
 
 /// A row whose run reached its end and took measurable time.
 bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_frame > 0; }
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// By how much more a vertex costs on a mesh of so many: a system that is solved at once takes
-/// about seven times as long with four times the vertices (81 to 4225 of them, in all three
-/// scenes).
+/// Relative cost of a vertex on a mesh of so many: a system that is solved at once takes about
+/// seven times as long with four times the vertices (81 to 4225 of them, in all three scenes).
 double solving_factor(double n_vertices, const MethodOptions& method) {
   constexpr double kExponent = 0.4;  // log(7)/log(4) - 1
   constexpr double kUsual = 1000;    // vertices, where a substep costs what its row says
@@ -39,7 +38,7 @@ double solving_factor(double n_vertices, const MethodOptions& method) {
 
 /// Substeps times vertices times their cost, per second of motion; for progress and estimates.
 double expected_work(double n_vertices, const MethodOptions& method) {
-  constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
+  constexpr int kStableSubsteps = 100;  // substeps of explicit, where the stability bound chooses
   const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
   return n_vertices / method.step * substeps * method.stepper->substep_cost(method) *
          solving_factor(n_vertices, method);

@@ -14,7 +14,7 @@ namespace pleat {
 namespace {
 
 constexpr int kMaxRepeats = 1000;
-constexpr const char* kDuration = "/duration_s";  // in the scene as in the plan
+constexpr const char* kDuration = "/duration_s";  // key of the scene and of the plan
 constexpr std::array<Word<ReferenceKind>, 4> kReferenceWords = {
     {{"converged", ReferenceKind::converged},
      {"same_mesh", ReferenceKind::same_mesh},

@@ -30,7 +30,7 @@ RestartOptions short_options() {
 }  // namespace
 
 TEST_CASE("restarts: a state that is sampled keeps its linear momentum", "[error]") {
-  // Of a velocity that is linear along the sheet, whose parts at vertices add up to its integral.
+  // The parts of a velocity that is linear along the sheet add up to its integral.
   const bool is_graded = GENERATE(false, true);
   Scene fine = canvas_at_level(2);
   fine.pins.clear();

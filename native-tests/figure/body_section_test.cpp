@@ -20,7 +20,7 @@ TEST_CASE("body section: a ball's section is the circle at that height", "[figur
   const Parts ball = only({{0.1, 1, 0}, {0.1, 1, 0}, 0.5, 0.5, {0, 0, 1}, 0, 0});
   const Outline section = outline(ball, 1.3, 360);
   CHECK(section[0] == Approx(0.5).epsilon(1e-12));    // 0.1 + 0.4 ahead
-  CHECK(section[180] == Approx(0.3).epsilon(1e-12));  // behind
+  CHECK(section[180] == Approx(0.3).epsilon(1e-12));  // 0.4 - 0.1 behind
   CHECK(section[90] == Approx(0.4).epsilon(1e-12));
   CHECK(girth(section) == Approx(2 * kPi * 0.4).epsilon(1e-12));
 }
@@ -54,7 +54,7 @@ TEST_CASE("body section: clearance is the distance from a widened cone", "[figur
   CHECK(clearance(cone, {1, 0.5, 0.1}) == Approx(cosine - 0.2).epsilon(1e-12));
   CHECK(clearance(cone, {0, 1.4, 0.1}) == Approx(0.3).epsilon(1e-12));
   CHECK(clearance(cone, {0, -0.7, 0.4}) == Approx(std::sqrt(0.49 + 0.04) - 0.3).epsilon(1e-12));
-  // On the axis at half height balls of all radii meet; the nearest surface is that of the slope.
+  // Balls of all radii meet on the axis at half height; the nearest surface is that of the slope.
   CHECK(clearance(cone, {0, 0.5, 0}) == Approx(-0.2).margin(0.01));
 }
 

@@ -276,7 +276,7 @@ TEST_CASE("garments: a ring's first coordinate is the mean way down along the th
     double length = 0;
     int n_edges = 0;
   };
-  std::map<double, Ring> rings;  // by first coordinate
+  std::map<double, Ring> rings;  // rings by first coordinate
   for (const auto& quad : patch.quads) {
     const double below = patch.rest_coordinates(0, quad[1].value);
     Ring& ring = rings[std::round(below * 1e9)];

@@ -245,7 +245,7 @@ TEST_CASE("moving body: acceleration does not jump at the start nor where the mo
 
 TEST_CASE("moving body: the way is the integral of the blended speed", "[figure]") {
   const BodyMotion motion = motion_named("walk_normal");
-  BodyMotion standing = motion;  // the same speed without swaying
+  BodyMotion standing = motion;  // has the same speed without swaying
   standing.keys.setZero();
   const MovingBody body(standing, {1.5, 0.8});
   const double speed = 1.5 * motion.forward_speed;

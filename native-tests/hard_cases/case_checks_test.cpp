@@ -45,7 +45,7 @@ Json pulled(const Vec3& offset) {
 
 Scene scene_of(const Json& json) { return read_scene(JsonReader(json), fabric_library()); }
 
-/// What the check's figure is after this time [s].
+/// Value of the check's figure after this time [s].
 double found(const CaseCheck& check, const Json& json, double duration) {
   Simulation simulation(scene_of(json));
   const auto figure = check.figure(simulation, duration);
@@ -57,7 +57,7 @@ double found(const CaseCheck& check, const Json& json, double duration) {
   return figure->value();
 }
 
-/// What the check says of two sheets after this time [s].
+/// Difference of two sheets after this time [s], by the check.
 double difference(const VariantCheck& check, const Json& a, const Json& b, double duration) {
   std::vector<std::unique_ptr<Simulation>> ends;
   for (const Json& json : {a, b}) {

@@ -167,7 +167,7 @@ TEST_CASE("hard cases: what would take too much work is cut, and told so", "[har
   CHECK(cut.status == CaseStatus::ok);
   CHECK(cut.is_cut());
   CHECK(cut.reached < 1e4);
-  REQUIRE(cut.findings.size() == 1);  // what needs the whole run is not asked
+  REQUIRE(cut.findings.size() == 1);  // checks of the whole run are not asked
   CHECK(cut.findings[0].what == stays_within(2).what);
 }
 

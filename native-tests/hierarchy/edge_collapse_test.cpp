@@ -60,7 +60,7 @@ TriangleMesh star() {
                   corners(0, 5, 7), corners(0, 7, 6), corners(0, 6, 1)});
 }
 
-/// What is left, with its vertices numbered anew.
+/// Mesh after collapses, with its vertices numbered anew.
 TriangleMesh left_of(const EdgeCollapse& collapse, const TriangleMesh& mesh) {
   const std::vector<VertexId> vertices = collapse.vertices();
   TriangleMesh left;
@@ -152,7 +152,7 @@ TEST_CASE("collapse: the cheapest goes first, a vertex on a plane before one on 
     mesh.rest_positions(2, v) = -std::abs(mesh.rest_positions(1, v) - 4);
   EdgeCollapse collapse(mesh, {});
   REQUIRE(collapse.reach(40));
-  // Of the nine of the ridge only those between its ends could go, along it, at the cost of points.
+  // Only those of the ridge's nine between its ends could go, along it, at the cost of points.
   const TriangleMesh left = left_of(collapse, mesh);
   CHECK(total_area(left) == Approx(total_area(mesh)).epsilon(1e-9));
 }

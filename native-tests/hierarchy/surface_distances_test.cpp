@@ -45,7 +45,7 @@ TEST_CASE("surface distances: on a flat sheet they are straight", "[multigrid]")
   CAPTURE(static_cast<int>(pattern));
   const TriangleMesh mesh = triangulated_sheet(pattern, 9, 7, 0.1);
   SurfaceDistances surface(mesh);
-  // Between vertices of a moved border a straight line may leave the sheet.
+  // A straight line between vertices of a moved border may leave the sheet.
   const std::vector<VertexId> ends =
       pattern == Triangulation::jittered ? inner_vertices(mesh) : all_vertices(mesh);
   for (const VertexId start : {ends[0], ends[17], ends[40]}) {

@@ -55,7 +55,7 @@ TEST_CASE("adaptive run: cycles of refining and merging leave a resting sheet as
   for (int step = 0; step < 600; ++step) REQUIRE(run.step().ok());
   const int n_base = run.model().n_vertices();
   const double energy = total_energy(run.model(), run.state());
-  REQUIRE(energy < -0.1);  // by its weight [J], from pins at the origin's height
+  REQUIRE(energy < -0.1);  // energy of its weight [J], from pins at the origin's height
   for (const double split_curvature : {1.0, kNever, 2.0, kNever, 0.1, kNever}) {
     run.set_options({split_curvature, 2});
     for (int frame = 0; frame < 6; ++frame) {

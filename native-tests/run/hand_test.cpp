@@ -29,7 +29,7 @@ Scene hanging_scene(const MethodOptions& method) {
 
 TEST_CASE("hand: what it holds is at its target after every step, and keeps its speed on release",
           "[run]") {
-  const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
+  const Vec3 velocity(0.3, 0.1, 0.6);  // velocity of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
     CAPTURE(method.stepper->name);
     Simulation simulation(hanging_scene(method));
@@ -49,7 +49,7 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
 }
 
 TEST_CASE("hand: a vertex that hangs is at its target too, between its parents", "[run]") {
-  const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
+  const Vec3 velocity(0.3, 0.1, 0.6);  // velocity of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
     CAPTURE(method.stepper->name);
     Scene scene = hanging_scene(method);

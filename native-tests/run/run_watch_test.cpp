@@ -63,7 +63,7 @@ TEST_CASE("run_watch: shipped scenes in their own settings raise no warning", "[
   CHECK(warnings_of(scene, scene.figure ? 0.5 : 1).empty());
 }
 
-// What the list holds ends as if all were well: warnings_of checks that.
+// Runs of the list end as if all were well: warnings_of checks that.
 TEST_CASE("run_watch: explosions that end ok are told", "[run][long]") {
   const Json explosions = parse_json(repository_file("native-tests/support/explosions.json"));
   REQUIRE(explosions.size() >= 20);

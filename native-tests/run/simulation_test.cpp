@@ -239,7 +239,7 @@ TEST_CASE("simulation: from a state on the way it goes on as the run that was th
   const double time = whole.time();
   run(whole, 12);
   Simulation later(scene);
-  run(later, 3);  // of which nothing is left
+  run(later, 3);  // nothing of these is left
   later.go_on_from(state, time);
   CHECK(later.time() == time);
   CHECK(later.is_disturbed());

@@ -50,7 +50,7 @@ TEST_CASE("tearing: nothing gives way up to the breaking elongation", "[scene]")
 }
 
 TEST_CASE("tearing: the end gives way whose cloth beyond is stretched more", "[scene]") {
-  // Between columns 1 and 2 it is overloaded; on one side of these the cloth is stretched too.
+  // It is overloaded between columns 1 and 2; on one side of these the cloth is stretched too.
   const bool is_right = GENERATE(false, true);
   const RestCloth cloth = strip(4);
   Positions x = cloth.start;
@@ -93,7 +93,7 @@ TEST_CASE("tearing: what is overloaded together gives way at one place, the wors
   REQUIRE(one);
   REQUIRE(one->origins.size() == 1);
   CHECK((one->origins[0] % 11 == 6 || one->origins[0] % 11 == 7));
-  // In two places that have no face in common.
+  // Two places that have no face in common.
   x = cloth.start;
   for (int v = 0; v < x.cols(); ++v) {
     if (v % 11 > 1) x(0, v) += 0.04;

@@ -119,7 +119,7 @@ TEST_CASE("front figure: each stepper is drawn and named by its row of the table
     const std::string svg = front_figure(std::vector<BenchRow>{point(type, 1, 0.1)});
     const std::string mark =
         std::string("d=\"") + type->mark.path + "\" fill=\"" + type->mark.colour + '"';
-    CHECK(count_of(svg, mark) == 2);  // in the plot and in its legend
+    CHECK(count_of(svg, mark) == 2);  // once in the plot and once in its legend
     CHECK(count_of(svg, std::string(">") + type->name + "</text>") == 1);
     for (const StepperType* other : standard_steppers())
       if (other != type) CHECK(count_of(svg, other->mark.path) == 0);

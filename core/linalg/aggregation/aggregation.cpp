@@ -57,7 +57,7 @@ class Grouping {
   }
 
   void join_small() {
-    std::vector<int> n_edges(members_.size(), 0);  // to each group
+    std::vector<int> n_edges(members_.size(), 0);  // number of edges to each group
     for (std::size_t small = 0; small < members_.size(); ++small) {
       std::vector<int>& own = members_[small];
       if (2 * static_cast<int>(own.size()) >= size_) continue;
@@ -95,8 +95,8 @@ class Grouping {
 
   const LowerPattern& graph_;
   int size_;
-  std::vector<int> groups_;                // of each node, or -1
-  std::vector<std::vector<int>> members_;  // of each group
+  std::vector<int> groups_;                // group of each node, or -1
+  std::vector<std::vector<int>> members_;  // members of each group
   std::vector<int> n_inside_;              // neighbours in the group that grows
   std::vector<int> waiting_;
 };

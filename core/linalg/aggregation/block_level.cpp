@@ -162,7 +162,7 @@ void BlockLevel<B>::sweep_backward() {
 
 // b - L x - x - L'x = b - L x - g, as x = g - L'x after the backward sweep.
 template <int B>
-void BlockLevel<B>::find_rest() {
+void BlockLevel<B>::find_residual() {
   for (int row = 0; row < n_rows(); ++row) {
     Products<B> products;
     for (int k = pattern_.begins[place(row)]; k < pattern_.begins[place(row) + 1]; ++k)

@@ -41,16 +41,16 @@ class BlockLevel {
   const double* root(int row) const { return roots_.data() + row * kSize; }
   const double* inverse_root(int row) const { return inverse_roots_.data() + row * kSize; }
 
-  /// Where the right-hand side goes, and where the solution comes from, of scaled unknowns.
+  /// Right-hand side, and solution, of scaled unknowns.
   float* rhs() { return b_.data(); }
   float* solution() { return x_.data(); }
 
   /// Both sweeps from x = 0, or from the x that is there.
   void smooth_from_zero();
   void smooth();
-  /// What the last sweep has left of the right-hand side.
-  void find_rest();
-  const float* rest() const { return r_.data(); }
+  /// Computes the residual after the last sweep.
+  void find_residual();
+  const float* residual() const { return r_.data(); }
 
  private:
   const float* low(int block) const { return low_.data() + block * kSize; }

@@ -152,15 +152,15 @@ void Coarsening<B>::analyze(const BlockLevel<B>& fine, const Aggregates& groups,
   products_.assign(widest * kSize, 0.0);
 }
 
-/// From the motions of a group's members, in tentative_, to orthonormal ones, by Gram and Schmidt,
-/// twice for all digits. The group's motions are what members' become in the new unknowns.
+/// Turns the motions of a group's members, in tentative_, into orthonormal ones by Gram and
+/// Schmidt, twice for all digits. The group's motions are those of the members in the new unknowns.
 template <int B>
 void Coarsening<B>::orthonormalise(int group, RigidMotions<kRigid>& coarse_motions) {
   double* R = coarse_motions.motions.data() + group * kRigid * kRigid;
   std::fill_n(R, kRigid * kRigid, 0.0);
   const int first = member_begins_[place(group)];
   const int last = member_begins_[place(group) + 1];
-  // Of products of the columns a and b.
+  // Inner product of the columns a and b.
   const auto product = [&](int a, int b) {
     double sum = 0;
     for (int m = first; m < last; ++m) {

@@ -10,16 +10,16 @@ namespace pleat {
 /// How many numbers a coarse row has: three translations and three rotations of a group.
 inline constexpr int kRigid = 6;
 
-/// What rigid motions of space are in the unknowns of a level's rows.
+/// Rigid motions of space in the unknowns of a level's rows.
 template <int B>
 struct RigidMotions {
-  /// Of each row, three numbers [m]; where a row stands in space. Empty: rotations are not known.
+  /// Place of each row in space, three numbers [m]. Empty: rotations are not known.
   std::vector<double> places;
-  /// Of each row, B x 6 by rows: translations along the axes, rotations about the row's place.
+  /// Motions of each row, B x 6 by rows: translations along the axes, rotations about its place.
   std::vector<double> motions;
 };
 
-/// From rows in groups to the groups, each with six unknowns: smoothed aggregation.
+/// Coarsens rows to their groups, each with six unknowns: smoothed aggregation.
 ///
 /// The columns of T are the rigid motions of each group, orthonormal; P = (I - w A) C'T lets
 /// them fade into the neighbourhood, in the scaled unknowns of the fine level (block_level.h), and
@@ -66,16 +66,16 @@ class Coarsening {
   const float* scaled_block(int k) const { return values_.data() + k * kSize; }
 
   int n_groups_ = 0;
-  std::vector<int> groups_;                            // of each row, or -1
-  std::vector<int> member_begins_, members_;           // of each group: its rows
-  std::vector<int> begins_, columns_;                  // of P's rows: groups, ascending
-  std::vector<int> product_begins_, product_columns_;  // of A P's rows
-  std::vector<int> targets_;       // into the coarse values, in the order of multiply_out
+  std::vector<int> groups_;                            // group of each row, or -1
+  std::vector<int> member_begins_, members_;           // rows of each group
+  std::vector<int> begins_, columns_;                  // groups of P's rows, ascending
+  std::vector<int> product_begins_, product_columns_;  // groups of A P's rows
+  std::vector<int> targets_;       // places in the coarse values, in the order of multiply_out
   std::vector<double> tentative_;  // C'T, B x 6 for each row
   std::vector<double> exact_;      // P, to the coarse unknowns as they are
   std::vector<float> values_;      // P, to scaled ones, and room to load beyond its end
-  std::vector<double> products_;   // of one row of A P
-  std::vector<int> slots_;         // of each group, in the row that is worked at
+  std::vector<double> products_;   // one row of A P
+  std::vector<int> slots_;         // place of each group in the row that is worked at
 };
 
 extern template class Coarsening<3>;

@@ -12,11 +12,11 @@ class DenseFactor {
   /// Zeros of a size.
   void resize(int size);
   int size() const { return size_; }
-  /// To be filled in and below the diagonal before `compute`.
+  /// Entry of the matrix, to be filled on and below the diagonal before `compute`.
   double& entry(int row, int column) { return values_[place(row, column)]; }
   void set_zero();
   void compute();
-  /// In place.
+  /// Solves in place.
   void solve(double* x) const;
 
  private:

@@ -8,11 +8,11 @@ namespace pleat {
 /// A number of a row or block as the index into an array of them.
 inline std::size_t place(int number) { return static_cast<std::size_t>(number); }
 
-/// Where a symmetric block matrix has blocks below its diagonal, by rows and by columns: the edges
-/// of a graph of its rows.
+/// Pattern of the blocks of a symmetric block matrix below its diagonal, by rows and by columns:
+/// the edges of a graph of its rows.
 struct LowerPattern {
-  std::vector<int> begins{0};  ///< of each row's blocks; one more than there are rows
-  std::vector<int> columns;    ///< of the blocks, ascending in a row
+  std::vector<int> begins{0};  ///< first block of each row; one more than there are rows
+  std::vector<int> columns;    ///< columns of the blocks, ascending in a row
   /// The blocks of each column, and their rows, ascending.
   std::vector<int> column_begins, column_blocks, column_rows;
 

@@ -124,8 +124,8 @@ void Multigrid::cycle(BlockLevel<B>& level, const Coarsening<B>& to_coarser, std
   level.smooth_from_zero();
   for (int visit = 0; visit < n_visits && coarser < coarse_.size(); ++visit) {
     CoarseLevel& below = *coarse_[coarser];
-    level.find_rest();
-    to_coarser.restrict_to(level.rest(), below.level.rhs());
+    level.find_residual();
+    to_coarser.restrict_to(level.residual(), below.level.rhs());
     if (coarser + 1 == coarse_.size())
       solve_coarsest();
     else

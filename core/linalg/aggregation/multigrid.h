@@ -20,8 +20,8 @@ class Multigrid {
   /// Takes the pattern; the order of its rows is that of all vectors.
   void analyze(const BlockMatrix& A);
 
-  /// Where the vertices are, in the matrix's order of unknowns [m]; without places the coarse
-  /// levels know translations alone. Of effect in the next `compute`.
+  /// Sets the places of the vertices, in the matrix's order of unknowns [m]; without places the
+  /// coarse levels know translations alone. Of effect in the next `compute`.
   void set_places(const BlockMatrix& A, const double* places);
 
   /// Takes the values.
@@ -43,7 +43,7 @@ class Multigrid {
   void take_values(const BlockMatrix& A);
   void compute_coarsest();
   void solve_coarsest();
-  /// From the right-hand side of a level to its solution, from zero.
+  /// Computes the solution of a level from its right-hand side, from zero.
   template <int B>
   void cycle(BlockLevel<B>& level, const Coarsening<B>& to_coarser, std::size_t coarser,
              int n_visits);

@@ -11,7 +11,7 @@
 namespace pleat {
 namespace {
 
-/// The same memory seen as CHOLMOD's matrix. CHOLMOD takes no const, but only reads it.
+/// Views the matrix as CHOLMOD's, without a copy. CHOLMOD takes no const, but only reads it.
 cholmod_sparse view(const SparseMatrix& lower) {
   cholmod_sparse A{};
   A.nrow = static_cast<std::size_t>(lower.rows());

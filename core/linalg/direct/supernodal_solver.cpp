@@ -66,14 +66,14 @@ class SupernodalSolver final : public LinearSolver {
   /// An entry of the matrix, by its place among the values, in a node's front.
   struct Entry {
     int source;
-    int row;     // of the factor
-    int column;  // of the node
+    int row;     // row of the factor
+    int column;  // column of the node
   };
 
-  /// What is left of a front, until its parent takes it.
+  /// Schur complement of a front, until its parent takes it.
   struct Waiting {
     std::size_t node;
-    std::size_t begin;  // in stack_
+    std::size_t begin;  // place in stack_
   };
 
   ConstPanel panel(std::size_t k) const {
@@ -206,10 +206,10 @@ class SupernodalSolver final : public LinearSolver {
     return largest;
   }
 
-  SparseMatrix lower_;  // as last factorised
+  SparseMatrix lower_;  // matrix last factorised
   Supernodes supernodes_;
-  std::vector<std::vector<Entry>> entries_;  // by node
-  std::vector<std::size_t> panel_begins_;    // by node, into panels_
+  std::vector<std::vector<Entry>> entries_;  // entries of each node
+  std::vector<std::size_t> panel_begins_;    // panel of each node, in panels_
   std::vector<double> panels_;               // L
   std::vector<double> front_;
   std::vector<double> stack_;
@@ -217,7 +217,7 @@ class SupernodalSolver final : public LinearSolver {
   std::vector<int> local_;  // row of the factor -> row of the front at hand
   MatrixXd ordered_;        // n x m, in the order of elimination
   int largest_behind_ = 0;
-  MatrixXd behind_;  // of one node, largest_behind_ x m
+  MatrixXd behind_;  // part of one node, largest_behind_ x m
 };
 
 }  // namespace

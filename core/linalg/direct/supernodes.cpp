@@ -111,12 +111,12 @@ EliminationTree elimination_tree(const Variables& variables, const std::vector<i
   return tree;
 }
 
-/// The same order of elimination but for variables that do not meet: each after its descendants,
-/// which stand right before it.
+/// Postorder of the elimination tree: the same elimination, each variable right behind its
+/// descendants.
 std::vector<int> postordered(const std::vector<int>& order, const std::vector<int>& parent) {
   const auto n = static_cast<int>(order.size());
   Lists children(order.size());
-  std::vector<int> open;  // to be visited, the next one last
+  std::vector<int> open;  // variables to be visited, the next one last
   for (int k = n - 1; k >= 0; --k)
     if (parent[k] < 0)
       open.push_back(k);
@@ -160,7 +160,7 @@ struct Group {
   int first, end;  // places in the order
   double n_columns;
   double n_rows;
-  double n_zeros;  // of its trapezium, that the factor does not have
+  double n_zeros;  // zeros of its trapezium that the factor does not have
 
   double area() const { return n_columns * n_rows - n_columns * (n_columns - 1) / 2; }
 };
@@ -169,8 +169,8 @@ struct Group {
 /// bounds are about those of CHOLMOD's supernodes, its columns being a vertex's three.
 bool is_worthwhile(const Group& group) {
   struct Bound {
-    double n_columns;  // up to so many
-    double share;      // of zeros, less than this
+    double n_columns;  // largest number of columns
+    double share;      // limit for the share of zeros
   };
   constexpr std::array<Bound, 3> kBounds = {{{12, 2}, {48, 0.5}, {144, 0.15}}};
   constexpr double kShareOfMany = 0.05;
@@ -229,7 +229,7 @@ Supernodes find_supernodes(const SparseMatrix& lower) {
   const auto n = static_cast<int>(order.size());
 
   Supernodes result;
-  std::vector<int> columns{0};  // of the factor, by place in the order
+  std::vector<int> columns{0};  // first column of the factor for each place in the order
   Lists later(order.size());
   for (int k = 0; k < n; ++k) {
     for (int c = 0; c < variables.size(order[k]); ++c)
@@ -238,7 +238,7 @@ Supernodes find_supernodes(const SparseMatrix& lower) {
     for (const int earlier : tree.earlier[k]) later[earlier].push_back(k);
   }
 
-  std::vector<Lists> of_children(order.size());  // by the place that their next row is at
+  std::vector<Lists> of_children(order.size());  // rows of children, by the next row's place
   for (const Group& group : find_groups(variables, order, tree)) {
     Lists below;
     for (int k = group.first; k < group.end; ++k)

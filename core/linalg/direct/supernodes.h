@@ -18,14 +18,14 @@ struct Supernodes {
   struct Node {
     int first;       ///< column of the factor
     int n_columns;   ///< at least 1
-    int rows_begin;  ///< of its rows in `rows`
+    int rows_begin;  ///< first of its rows in `rows`
     int n_rows;      ///< its own columns are the first of them
-    int n_children;  ///< what is below them is among this node's rows
+    int n_children;  ///< number of children; what is below them is among this node's rows
   };
 
-  std::vector<int> order;   ///< of each row of the factor: the matrix's row
+  std::vector<int> order;   ///< row of the matrix for each row of the factor
   std::vector<Node> nodes;  ///< children before their parent, whose last one is right before it
-  std::vector<int> rows;    ///< of the factor, ascending in each node
+  std::vector<int> rows;    ///< rows of the factor, ascending in each node
 };
 
 /// lower  lower triangle with its diagonal, compressed; only its pattern is read

@@ -12,7 +12,7 @@
 namespace pleat {
 namespace {
 
-/// Above this tolerance the updated residual and b - A x agree to many digits; below it rounding
+/// Tolerance above which the updated residual and b - A x agree to many digits; below it rounding
 /// can part them.
 constexpr double kTrustedTolerance = 1e-8;
 
@@ -82,7 +82,7 @@ class ConjugateGradient final : public BlockIteration {
     active_ = multigrid_.get();
   }
 
-  /// Where its single precision loses a matrix, the incomplete factor goes on.
+  /// Goes on with the incomplete factor where single precision loses a matrix.
   void lose_multigrid() {
     is_multigrid_lost_ = true;
     turns_left_ = 0;
@@ -113,7 +113,7 @@ class ConjugateGradient final : public BlockIteration {
         start();
         continue;
       }
-      const double curvature = active_->turn();
+      const double curvature = active_->next_direction();
       if (!std::isfinite(curvature))
         return report(SolveStatus::not_finite, "a search direction is not finite");
       if (curvature <= 0 && active_ != &incomplete_) {
@@ -142,12 +142,12 @@ class ConjugateGradient final : public BlockIteration {
   }
 
   IncompletePreconditioning incomplete_;
-  std::unique_ptr<MultigridPreconditioning> multigrid_;  // once it is needed
-  Preconditioning* active_ = nullptr;  // of the last factorisation, or which took over since
+  std::unique_ptr<MultigridPreconditioning> multigrid_;  // made once it is needed
+  Preconditioning* active_ = nullptr;  // chosen by the last factorisation, or taken over since
   std::vector<double> places_;
-  bool is_multigrid_lost_ = false;  // since it was not positive definite in single precision
-  int turns_left_ = 0;              // factorisations that are to begin with multigrid
-  int next_turns_ = 0;              // of these, when it has to take over again
+  bool is_multigrid_lost_ = false;  // true once it was not positive definite in single precision
+  int turns_left_ = 0;              // factorisations that are to start with multigrid
+  int next_turns_ = 0;              // their number when it has to take over again
   double residual_ = 0;
 };
 

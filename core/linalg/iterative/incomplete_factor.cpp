@@ -53,7 +53,7 @@ void add_packed(double factor, const double* S, double* B) {
 /// T -= B S B' for packed symmetric S and T.
 void subtract_congruent(const double* B, const double* S, double* T) {
   for (int r = 0; r < 3; ++r) {
-    double row[3];  // of B S
+    double row[3];  // row of B S
     multiply_packed(S, B + 3 * r, row);
     for (int c = 0; c <= r; ++c)
       T[r * (r + 1) / 2 + c] -= row[0] * B[3 * c] + row[1] * B[3 * c + 1] + row[2] * B[3 * c + 2];

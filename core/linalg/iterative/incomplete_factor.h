@@ -67,7 +67,7 @@ class IncompleteFactor {
   BlockMatrix N_;
   std::vector<Lifted> lifted_;      // E
   std::vector<double> pivots_;      // P
-  std::vector<double> inverses_;    // of P
+  std::vector<double> inverses_;    // inverses of P's blocks
   std::vector<double> remainders_;  // D - 2 P
 };
 

@@ -30,7 +30,7 @@ double IncompletePreconditioning::start(const std::vector<double>& b,
   return residual_;
 }
 
-double IncompletePreconditioning::turn() {
+double IncompletePreconditioning::next_direction() {
   for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = z_[k] + beta_ * p_[k];
   return factor_.apply(p_.data(), t_.data(), s_.data());
 }

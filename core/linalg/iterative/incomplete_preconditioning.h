@@ -10,12 +10,12 @@ namespace pleat {
 class IncompletePreconditioning final : public Preconditioning {
  public:
   void analyze(const SparseMatrix& lower);
-  /// As of IncompleteFactor.
+  /// See IncompleteFactor::compute.
   int compute(const SparseMatrix& lower) { return factor_.compute(lower); }
   const IncompleteFactor& factor() const { return factor_; }
 
   double start(const std::vector<double>& b, const std::vector<double>& x) override;
-  double turn() override;
+  double next_direction() override;
   void advance(double curvature, std::vector<double>& x) override;
   double residual(double goal, Look look) override;
 
@@ -28,7 +28,7 @@ class IncompletePreconditioning final : public Preconditioning {
   std::vector<double> s_;  // W p - t
   double residual_ = 0;    // |b - A x|, as far as it is known
   double r_z_ = 0;         // r'z
-  double ratio_ = 0;       // of the residual to the root of r'z, when both were last known
+  double ratio_ = 0;       // ratio of the residual to the root of r'z, when both were last known
   double beta_ = 0;
 };
 

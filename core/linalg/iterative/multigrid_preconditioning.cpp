@@ -38,7 +38,7 @@ double MultigridPreconditioning::start(const std::vector<double>& b, const std::
 }
 
 // z - z_last is judged by r - r_last = -alpha A p.
-double MultigridPreconditioning::turn() {
+double MultigridPreconditioning::next_direction() {
   multigrid_.apply(r_.data(), residual_, z_.data());
   const double last_r_z = r_z_;
   const double beta = last_r_z > 0 ? -alpha_ * dot(z_, image_) / last_r_z : 0;

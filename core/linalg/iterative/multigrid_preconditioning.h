@@ -24,7 +24,7 @@ class MultigridPreconditioning : public Preconditioning {
   virtual void compute(const IncompleteFactor& factor, const std::vector<double>& places);
 
   double start(const std::vector<double>& b, const std::vector<double>& x) override;
-  double turn() override;
+  double next_direction() override;
   void advance(double curvature, std::vector<double>& x) override;
   double residual(double goal, Look look) override;
 
@@ -36,8 +36,8 @@ class MultigridPreconditioning : public Preconditioning {
   std::vector<double> p_;
   std::vector<double> image_;  // A p
   double residual_ = 0;
-  double r_z_ = 0;    // of r and z; 0 before the first
-  double alpha_ = 0;  // of the last step
+  double r_z_ = 0;    // product of r and z; 0 before the first
+  double alpha_ = 0;  // length of the last step
 };
 
 }  // namespace pleat

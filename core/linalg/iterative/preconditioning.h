@@ -10,14 +10,14 @@ class Preconditioning {
  public:
   virtual ~Preconditioning() = default;
 
-  /// Begins at x, without a direction yet. Returns |b - A x|.
+  /// Starts at x, without a direction yet. Returns |b - A x|.
   virtual double start(const std::vector<double>& b, const std::vector<double>& x) = 0;
 
-  /// Finds the next direction p. Returns p'A p, with the sign of the approximate inverse where that
-  /// is not positive.
-  virtual double turn() = 0;
+  /// Finds the next search direction p. Returns p'A p, with the sign of the approximate inverse
+  /// where that is not positive.
+  virtual double next_direction() = 0;
 
-  /// Moves x along the direction as far as is best; `curvature` is what `turn` returned.
+  /// Moves x along the direction as far as is best; `curvature` is what `next_direction` returned.
   virtual void advance(double curvature, std::vector<double>& x) = 0;
 
   enum class Look {

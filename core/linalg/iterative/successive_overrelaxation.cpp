@@ -14,8 +14,8 @@ namespace pleat {
 namespace {
 
 constexpr int kLanczosSteps = 40;
-constexpr double kExhausted = 1e-10;       // of a unit vector: no direction is left
-constexpr double kLargestRadius = 0.9999;  // beyond, so few steps tell little
+constexpr double kExhausted = 1e-10;       // share of a unit vector: no direction is left
+constexpr double kLargestRadius = 0.9999;  // limit beyond which so few steps tell little
 
 /// A 3 x 3 block as three columns of four, the last of which is zero: two pairs of a processor's
 /// lanes each.
@@ -114,7 +114,7 @@ class ColouredRows {
     rows_.clear();
     others_.clear();
     colour_ends_.clear();
-    std::vector<std::size_t> place(neighbours.size());  // of each row in rows_
+    std::vector<std::size_t> place(neighbours.size());  // place of each row in rows_
     for (int colour = 0; colour < n_colours_; ++colour) {
       for (std::size_t row = 0; row < neighbours.size(); ++row) {
         if (colours[row] != colour) continue;
@@ -173,7 +173,7 @@ class ColouredRows {
     return squares;
   }
 
-  /// The same for the first colour where b - A x is known.
+  /// Relaxes the first colour where b - A x is known; returns as relax.
   double relax_first(double omega, const double* rest, double* x) const {
     double squares = 0;
     for (std::size_t k = 0; k < colour_ends_[0]; ++k) {
@@ -249,7 +249,7 @@ class ColouredRows {
 
   struct Row {
     int row;
-    std::size_t blocks_end;  // in others_
+    std::size_t blocks_end;  // end of its blocks in others_
   };
 
   const double* diagonal(std::size_t k) const {
@@ -296,12 +296,12 @@ class ColouredRows {
   }
 
   int n_colours_ = 0;
-  std::vector<Row> rows_;                 // by colour
-  std::vector<std::size_t> colour_ends_;  // in rows_
+  std::vector<Row> rows_;                 // rows ordered by colour
+  std::vector<std::size_t> colour_ends_;  // ends of the colours in rows_
   std::vector<int> others_;               // the column of each block, row by row
   std::vector<double> blocks_;            // padded; then those on the diagonal
-  std::vector<double> inverses_;          // of those on the diagonal, padded
-  // Of each entry of the sparse matrix; half as wide, so that more of the rest stays in the cache.
+  std::vector<double> inverses_;          // padded inverses of those on the diagonal
+  // Places of each entry of the sparse matrix; half as wide, so that more else stays cached.
   std::vector<std::array<std::uint32_t, 2>> destinations_;
 };
 
@@ -390,9 +390,9 @@ class SuccessiveOverrelaxation final : public BlockIteration {
   }
 
   ColouredRows rows_;
-  std::vector<double> rest_;      // b - A x, when last looked at
-  double radius_ = -1;            // of block Jacobi's iteration, -1 while it is not known
-  double residual_per_step_ = 0;  // when both were last known
+  std::vector<double> rest_;  // b - A x, when last looked at
+  double radius_ = -1;  // spectral radius of block Jacobi's iteration, -1 while it is not known
+  double residual_per_step_ = 0;  // ratio when both were last known
 };
 
 }  // namespace

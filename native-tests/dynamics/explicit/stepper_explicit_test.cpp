@@ -32,7 +32,7 @@ double amplification(const ClothModel& model, const Positions& x, double h,
       inverse_mass.asDiagonal() * dense(stiffness_matrix(model, x, ElementHessian::projected));
   const Eigen::MatrixXd C = inverse_mass.asDiagonal() * dense(damping_matrix(model, x));
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
-  Eigen::MatrixXd step(2 * n, 2 * n);  // of (x, v)
+  Eigen::MatrixXd step(2 * n, 2 * n);  // map of (x, v)
   if (rule == EulerRule::symplectic)
     step << I - h * h * K, h * (I - h * C), -h * K, I - h * C;
   else

@@ -48,7 +48,7 @@ void rest_at(const Positions& x, ClothModel& model) {
     spring.rest_length = (x.col(spring.a) - x.col(spring.b)).norm();
 }
 
-/// Of one substep about the places, velocities and positions together:
+/// Spectral radius of one substep about the places, velocities and positions together:
 ///
 ///     dv = A^-1 h (-K x - C_E v - C_I v - h K_I v),  A = M + h C_I + h^2 K_I
 double spectral_radius(const StabilitySplit& parts, const Positions& x, double h) {

@@ -89,7 +89,7 @@ TEST_CASE("newton: the step's own equations hold to rounding", "[dynamics]") {
 
 TEST_CASE("newton: converges quadratically", "[dynamics]") {
   HardProblem problem;
-  problem.start.positions *= 1.05;  // in tension, where the true Hessian serves throughout
+  problem.start.positions *= 1.05;  // puts it in tension, where the true Hessian serves throughout
   for (Pin& pin : problem.model.pins) pin.place *= 1.05;
   const auto after = [&](double tolerance, int& iterations) {
     MethodOptions options = newton(NewtonRule::backward_euler, 1.0 / 120);

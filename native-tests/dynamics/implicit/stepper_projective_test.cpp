@@ -122,7 +122,7 @@ int rounds_to(double residual, const Cloth& cloth, Acceleration acceleration) {
   return kMostRounds;
 }
 
-/// The same without weight, dampers and pins, three times as wide as at rest, of which every vertex
+/// Sheet without weight, dampers and pins, three times as wide as at rest, of which every vertex
 /// flies elsewhere.
 Cloth torn_at_sheet() {
   const QuadMesh mesh = square_sheet(8);

@@ -13,7 +13,7 @@ namespace {
 constexpr int kCells = 5;
 constexpr int kVertices = (kCells + 1) * (kCells + 1);
 
-/// What a solver needs for one substep after another whose velocity changes are `change(step)`.
+/// Iterations of a solver for one substep after another whose velocity changes are `change(step)`.
 std::vector<int> iterations(int n_steps, const std::function<Positions(int)>& change) {
   constexpr double kTolerance = 1e-6;
   const QuadMesh mesh = square_sheet(kCells);

@@ -289,7 +289,7 @@ TEST_CASE("coarse levels: by errors, what has none is left alone, stretched and 
   const std::vector<double> none(edges.ends.size(), 0);
   CHECK((moved(crumpled, none) - crumpled).cwiseAbs().maxCoeff() < 1e-12);
 
-  // Of a sheet that is 1 % too long both ways, a correction mends most where it is asked for.
+  // A correction of a sheet that is 1 % too long both ways mends most where it is asked for.
   const std::vector<double> too_long(edges.ends.size(), 0.01);
   const Positions stretched = 1.01 * mesh.rest_positions;
   const Positions after = moved(stretched, too_long);

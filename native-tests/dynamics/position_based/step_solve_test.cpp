@@ -69,7 +69,7 @@ struct FallingSheet {
 struct ChainAlgebra {
   Eigen::MatrixXd J, W, A;  // C = J y + C_begin, A = J W J^T + compliance
   Eigen::VectorXd b;        // -C at the predicted places
-  std::vector<int> order;   // of springs in a sweep
+  std::vector<int> order;   // order of springs in a sweep
 
   ChainAlgebra(const FallingChain& falling, bool is_rigid) {
     const ClothModel& model = falling.model;
@@ -192,7 +192,7 @@ TEST_CASE("step solve: of two springs a sweep leaves half of the error", "[dynam
 }
 
 TEST_CASE("step solve: smoothers are the iterations of dense algebra", "[dynamics]") {
-  constexpr double kRounding = 2e-4;  // of lengths in single precision, against the error
+  constexpr double kRounding = 2e-4;  // rounding of lengths in single precision, against the error
   const int sweeps = GENERATE(1, 3, 10);
   const FallingChain falling(9, 2e5);
   CAPTURE(sweeps);
@@ -256,7 +256,7 @@ TEST_CASE("step solve: by errors, cycles of levels converge in a fraction of a l
   const Constraints constraints = GENERATE(Constraints::rigid, Constraints::compliant);
   FallingSheet sheet(32);
   sheet.state.velocities.setZero();
-  sheet.model.gravity = {9.81, 0, 0};  // along the sheet, away from its pins
+  sheet.model.gravity = {9.81, 0, 0};  // pulls along the sheet, away from its pins
   sheet.model.bends.clear();
   const PredictedStep step = predicted_step(sheet.model, sheet.state, 1.0 / 60, 1.0 / 60);
   MethodOptions method = steppers::kMultigrid.usual_method();

@@ -287,7 +287,7 @@ TEST_CASE("xpbd: pins are where their motion puts them, to the bit", "[dynamics]
   }
 }
 
-// What holds is placed once a step, what moves in every substep.
+// Fixed vertices are placed once a step, moving ones in every substep.
 TEST_CASE("xpbd: a pin that holds is one that moves nowhere, in air too, to the bit",
           "[dynamics]") {
   const auto after = [](Motion::Kind kind) {
@@ -550,7 +550,7 @@ TEST_CASE("xpbd: friction holds on a slope or slides as Coulomb says", "[dynamic
   for (const double friction : {0.0, 0.2, 0.4}) {
     const double acceleration = weight * (std::sin(angle) - friction * std::cos(angle));
     const double expected = acceleration * kTime * kTime / 2;
-    // To first order in the substep.
+    // Equal to first order in the substep.
     CHECK(slide(plane, friction, plane.point, kTime) == Approx(expected).epsilon(0.003));
   }
   CHECK(slide(plane, 0.7, plane.point, 5) < 1e-6);

@@ -32,8 +32,8 @@ void hold(MatrixXd& A, Index vertex) {
 
 struct SheetOptions {
   double mass = 1e-5;
-  bool is_held = true;  ///< by its first row
-  double grading = 1;   ///< of each row's width to that of the one before
+  bool is_held = true;  ///< true when its first row is held
+  double grading = 1;   ///< ratio of each row's width to that of the one before
 };
 
 /// A wavy sheet of side x side vertices with stiff springs along its edges and diagonals, under a
@@ -111,7 +111,7 @@ struct Spectrum {
   double least, most;
 };
 
-/// Of M^-1 A, once the cycle is known to be symmetric to single precision.
+/// Spectrum of M^-1 A, once the cycle is known to be symmetric to single precision.
 Spectrum spectrum_of(const MatrixXd& inverse, const MatrixXd& A) {
   CHECK((inverse - inverse.transpose()).norm() < 1e-3 * inverse.norm());
   const MatrixXd root = Eigen::LLT<MatrixXd>(A).matrixL();
@@ -120,7 +120,7 @@ Spectrum spectrum_of(const MatrixXd& inverse, const MatrixXd& A) {
   return {values.minCoeff(), values.maxCoeff()};
 }
 
-/// Of the diagonal of a level, in blocks.
+/// Cholesky factors of a level's diagonal, in blocks.
 template <int B>
 MatrixXd roots_of(const BlockLevel<B>& level) {
   MatrixXd roots = MatrixXd::Zero(Index{B} * level.n_rows(), Index{B} * level.n_rows());
@@ -197,7 +197,7 @@ struct TwoLevels {
     return unscaled(T);
   }
 
-  /// From scaled unknowns of the fine level to its own.
+  /// Takes scaled unknowns of the fine level to its own.
   MatrixXd unscaled(const MatrixXd& columns) const {
     return roots_of(fine).transpose().triangularView<Eigen::Upper>().solve(columns);
   }

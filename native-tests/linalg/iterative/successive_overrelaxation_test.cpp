@@ -75,6 +75,6 @@ TEST_CASE("sor: it starts from what it is given, if that is better than zero", "
   CHECK(cold > 1);
   CHECK(solver->solve(rhs, solution).iterations == 0);
   solution *= -1e6;
-  // What the last solve told of residuals lets it look at them a little sooner.
+  // The last solve's residuals let it look at them a little sooner.
   CHECK(solver->solve(rhs, solution).iterations <= cold);
 }

@@ -201,7 +201,7 @@ TEST_CASE("mesh scene: bending of a tube is that of its flat pattern", "[scene]"
         R"({"cloth": {"mesh": {"obj": "any.obj")" + rest + R"(}}, "fabric": {"name": "wool"}})",
         source_of(tube_obj())));
   };
-  // Of the same tube without a pattern, whose lengths are the same.
+  // The tube without a pattern has the same lengths.
   const Simulation cut = tube(R"(, "rest": "texture")");
   const Simulation standing = tube("");
   CHECK(cut.model().masses.isApprox(standing.model().masses, 1e-12));

@@ -38,7 +38,7 @@ std::vector<int> numbers(const std::vector<VertexId>& vertices) {
   return {vertices.begin(), vertices.end()};
 }
 
-/// "where: sentence" of the InputError that it throws.
+/// Gives "where: sentence" of the InputError that is thrown.
 template <class Work>
 std::string error_of(Work&& work) {
   try {
@@ -290,7 +290,7 @@ TEST_CASE("deform scene: without recovery every part has to be held firmly", "[s
   const std::string firm = R"("pins": [{"group": "far"}, {"group": "side"}],
                               "handles": [{"name": "a", "vertices": [3], "move_m": [0, 1, 0]}])";
   CHECK(error(firm) == "no error");
-  // The same where the term is left out, and none of it where it counts.
+  // No error where the term is left out, nor where it counts.
   const std::string recovering = R"("weights": {"recovery": 1e-9, "stretch": 1, "bending": 1})";
   CHECK(error_of([&] { read(kTwoParts, recovering, ""); }) == "no error");
   CHECK(error_of([&] { read(kTwoParts, recovering, R"("terms": ["stretch"])"); }) ==
@@ -327,7 +327,7 @@ TEST_CASE("deform scene: a mesh needs no threads, and keeps groups and both text
     }
   const auto n_double = std::count_if(places.begin(), places.end(),
                                       [](const auto& known) { return known.size() == 2; });
-  CHECK(n_double == 20);  // along the seam at the back
+  CHECK(n_double == 20);  // vertices of the seam at the back
 }
 
 TEST_CASE("deform scene: the experiments have the vertices that they are said to have", "[scene]") {
@@ -410,7 +410,7 @@ TEST_CASE("deform scene: the T-shirt's cuffs are around the figure's elbows, at 
 TEST_CASE("deform scene: cloth with collapsed triangles comes to an end", "[scene]") {
   DeformScene scene = shipped("t_shirt");
   scene.fabric_weights = recomputed_weights(fabric_library().find("silk").normalised);
-  const double stiffer = GENERATE(1.0, 1.1, 1.2);  // than recovery and stretch
+  const double stiffer = GENERATE(1.0, 1.1, 1.2);  // ratio to recovery and stretch
   CAPTURE(stiffer);
   scene.fabric_weights.bending *= stiffer;
   const HeldVertices held = held_vertices(scene);

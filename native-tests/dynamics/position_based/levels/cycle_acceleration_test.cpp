@@ -116,7 +116,7 @@ TEST_CASE("cycle acceleration: a proposal with more error is taken back, and all
   CHECK(accelerated.cycle(images[1], far_more_elsewhere));
   CHECK(accelerated.point() == images[1]);
   CHECK(accelerated.errors[3] == static_cast<float>(images[1][3]));
-  // Of the points on the line from the second to the third: the one next to the origin.
+  // The point next to the origin on the line from the second to the third.
   CHECK(accelerated.cycle(images[2], are_the_point));
   const Eigen::VectorXd way = images[1] - images[2];
   const Eigen::VectorXd nearest = images[2] - images[2].dot(way) / way.squaredNorm() * way;

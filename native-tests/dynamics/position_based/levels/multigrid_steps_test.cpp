@@ -89,7 +89,7 @@ TEST_CASE("multigrid: it stretches a fraction of what as many sweeps of one leve
   multigrid.substeps = 10;
   MethodOptions pbd = steppers::kPbd.usual_method();
   pbd.substeps = 10;
-  pbd.iterations = 3;  // which take longer than a cycle
+  pbd.iterations = 3;  // take longer than a cycle
   const double ours = rms_stretch(sheet.model, after(sheet, multigrid, 20).positions);
   const double plain = rms_stretch(sheet.model, after(sheet, pbd, 20).positions);
   CAPTURE(ours, plain);
@@ -126,7 +126,7 @@ TEST_CASE("multigrid: lines on the finest level leave half the stretch, and need
 
 TEST_CASE("multigrid: corners that are pulled too far apart stretch a sheet without throwing it",
           "[dynamics]") {
-  const double pull = GENERATE(0.3, 1.0);  // of each corner [m], of a metre of cloth
+  const double pull = GENERATE(0.3, 1.0);  // pull on each corner [m], of a metre of cloth
   CAPTURE(pull);
   Held sheet = held_sheet(square_sheet(8), By::corners);
   auto& pins = sheet.model.pins;
@@ -199,7 +199,7 @@ TEST_CASE("multigrid: carried acceleration loses a fraction of a pendulum's ener
   Held sheet = held_sheet(lying_sheet(1), By::edge);
   sheet.model.gravity = {0, 0, -9.81};
   constexpr int kSteps = 60;
-  const auto off = [&](double carried) {  // after one swing [m]
+  const auto off = [&](double carried) {  // error after one swing [m]
     MethodOptions method = steppers::kMultigrid.usual_method();
     method.carried_acceleration = carried;
     const Positions end = after(sheet, method, kSteps).positions;
