@@ -42,7 +42,7 @@ using pleat::view_of;
 pleat::Scene shown_scene(const std::string& scene_text, const std::string& fabrics_json,
                          const pleat::FileSource& files = {}) {
   pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json), files);
-  if (scene.figure)
+  if (scene.body)
     throw pleat::InputError("/figure",
                             "expected no figure, as this view shows none; pleat run takes it");
   return scene;

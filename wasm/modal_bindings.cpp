@@ -12,7 +12,7 @@
 #include "core/files/obj_file.h"
 #include "core/modal/box_surface.h"
 #include "core/modal/cloth_modes.h"
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 #include "core/modal/key_completion.h"
 #include "core/modal/key_faces.h"
 #include "core/modal/shown_modes.h"
@@ -160,8 +160,8 @@ class ModalStudy {
   std::string fill_in(int count) {
     return guarded([&](val& envelope) {
       frames_ = completed().frames(count);
-      const auto figures = pleat::frame_figures(completed(), frames_);
-      const auto straight = pleat::linear_figures(completed(), frames_);
+      const auto measures = pleat::frame_measures(completed(), frames_);
+      const auto straight = pleat::linear_measures(completed(), frames_);
       val frames = val::array();
       filled_.resize(3, shape_.cols() * static_cast<Eigen::Index>(frames_.size()));
       for (std::size_t f = 0; f < frames_.size(); ++f) {
@@ -171,10 +171,10 @@ class ModalStudy {
         frame.set("time", frames_[f].time);
         frame.set("left", frames_[f].left);
         frame.set("share_of_next", frames_[f].share_of_next);
-        frame.set("unequal_halves", figures[f].unequal_halves);
-        frame.set("volume_m3", figures[f].volume);
+        frame.set("unequal_halves", measures[f].unequal_halves);
+        frame.set("volume_m3", measures[f].volume);
         frame.set("straight_volume_m3", straight[f].volume);
-        frame.set("strain", figures[f].strain);
+        frame.set("strain", measures[f].strain);
         frame.set("straight_strain", straight[f].strain);
         frames.call<void>("push", frame);
       }

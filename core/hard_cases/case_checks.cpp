@@ -17,50 +17,50 @@ double largest_distance(const Positions& a, const Positions& b) {
   return (a - b).colwise().norm().maxCoeff();
 }
 
-/// A figure that is the largest of what it saw.
-class LargestFigure : public CaseFigure {
+/// A measure that is the largest of what it saw.
+class LargestMeasure : public CaseMeasure {
  public:
   void look(const Simulation& simulation, const SolveReport&) override {
-    const double seen = figure(simulation);
+    const double seen = measure(simulation);
     if (!(seen <= largest_)) largest_ = seen;  // NaN too, and it stays
   }
   double value() const override { return largest_; }
 
  protected:
-  virtual double figure(const Simulation& simulation) = 0;
+  virtual double measure(const Simulation& simulation) = 0;
 
  private:
   double largest_ = 0;
 };
 
 /// The largest of a plain function of the cloth's state.
-class LargestOf final : public LargestFigure {
+class LargestOf final : public LargestMeasure {
  public:
-  explicit LargestOf(std::function<double(const Simulation&)> figure)
-      : figure_(std::move(figure)) {}
+  explicit LargestOf(std::function<double(const Simulation&)> measure)
+      : measure_(std::move(measure)) {}
 
  private:
-  double figure(const Simulation& simulation) override { return figure_(simulation); }
+  double measure(const Simulation& simulation) override { return measure_(simulation); }
 
-  std::function<double(const Simulation&)> figure_;
+  std::function<double(const Simulation&)> measure_;
 };
 
 /// Value of a function of the state when it was last seen.
-class LastOf final : public CaseFigure {
+class LastOf final : public CaseMeasure {
  public:
-  explicit LastOf(double (*figure)(const Simulation&)) : figure_(figure) {}
+  explicit LastOf(double (*measure)(const Simulation&)) : measure_(measure) {}
   void look(const Simulation& simulation, const SolveReport&) override {
-    last_ = figure_(simulation);
+    last_ = measure_(simulation);
   }
   double value() const override { return last_; }
 
  private:
-  double (*figure_)(const Simulation&);
+  double (*measure_)(const Simulation&);
   double last_ = 0;
 };
 
 /// How many warnings of some kinds a run raises.
-class Warnings final : public CaseFigure {
+class Warnings final : public CaseMeasure {
  public:
   using Selection = bool (*)(const RunWarning&);
 
@@ -90,12 +90,12 @@ CaseCheck no_warnings(const char* what, Warnings::Selection counts) {
           }};
 }
 
-class Unrest final : public LargestFigure {
+class Unrest final : public LargestMeasure {
  public:
   Unrest(double start, double step) : start_(start - step / 2) {}
 
  private:
-  double figure(const Simulation& simulation) override {
+  double measure(const Simulation& simulation) override {
     if (simulation.time() < start_) return 0;
     const Positions& positions = simulation.state().positions;
     if (first_.cols() == 0) first_ = positions;
@@ -106,7 +106,7 @@ class Unrest final : public LargestFigure {
   Positions first_;  // positions at that time [m]
 };
 
-class EnergyGrowth final : public CaseFigure {
+class EnergyGrowth final : public CaseMeasure {
  public:
   explicit EnergyGrowth(double start) : start_(start) {}
   void look(const Simulation& simulation, const SolveReport&) override {
@@ -141,14 +141,14 @@ std::vector<Eigen::Index> mirror_images(const Positions& rest, double diagonal) 
   return images;
 }
 
-class Asymmetry final : public LargestFigure {
+class Asymmetry final : public LargestMeasure {
  public:
   explicit Asymmetry(const Simulation& start)
       : diagonal_(start.scene().cloth->rest_diagonal()),
         images_(mirror_images(start.rest_positions(), diagonal_)) {}
 
  private:
-  double figure(const Simulation& simulation) override {
+  double measure(const Simulation& simulation) override {
     const Positions& x = simulation.state().positions;
     double largest = 0;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -162,9 +162,9 @@ class Asymmetry final : public LargestFigure {
   std::vector<Eigen::Index> images_;
 };
 
-class VelocityJump final : public LargestFigure {
+class VelocityJump final : public LargestMeasure {
  private:
-  double figure(const Simulation& simulation) override {
+  double measure(const Simulation& simulation) override {
     const Positions& now = simulation.state().velocities;
     const Eigen::Index shared = std::min(now.cols(), last_.cols());
     const double jump =
@@ -187,8 +187,8 @@ double depth_in_solids(const Simulation& simulation) {
 }
 
 /// Largest |now - first| / scale of a vector.
-std::unique_ptr<CaseFigure> largest_change(const std::function<Vec3(const Simulation&)>& vector,
-                                           const Simulation& start, double scale) {
+std::unique_ptr<CaseMeasure> largest_change(const std::function<Vec3(const Simulation&)>& vector,
+                                            const Simulation& start, double scale) {
   return std::make_unique<LargestOf>(
       [vector, first = vector(start), scale](const Simulation& simulation) {
         return (vector(simulation) - first).norm() / scale;

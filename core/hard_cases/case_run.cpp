@@ -23,7 +23,7 @@ struct VariantRun {
   std::string label;
   Json json;  // its scene
   std::unique_ptr<Simulation> simulation;
-  std::vector<std::unique_ptr<CaseFigure>> figures;  // one per check
+  std::vector<std::unique_ptr<CaseMeasure>> measures;  // one per check
   VertexId in_hand;
 };
 
@@ -102,8 +102,8 @@ struct EventHandler {
 /// Starts those checks that say something of a run, with what they saw at its start.
 void begin_checks(const HardCase& hard_case, double duration, VariantRun& run) {
   for (const CaseCheck& check : hard_case.checks) {
-    run.figures.push_back(check.figure(*run.simulation, duration));
-    run.figures.back()->look(*run.simulation, {});
+    run.measures.push_back(check.measure(*run.simulation, duration));
+    run.measures.back()->look(*run.simulation, {});
   }
 }
 
@@ -119,7 +119,7 @@ SolveReport run_variant(const HardCase& hard_case, double duration, const CaseFi
       std::visit(EventHandler{run, files}, event->what);
     SolveReport report = run.simulation->step();
     if (report.ends_run()) return report;
-    for (const auto& figure : run.figures) figure->look(*run.simulation, report);
+    for (const auto& measure : run.measures) measure->look(*run.simulation, report);
     if (progress) progress(static_cast<double>(s + 1) / static_cast<double>(n_steps));
   }
   return {};
@@ -175,8 +175,8 @@ std::vector<CaseFinding> findings_of(const HardCase& hard_case, std::vector<Vari
     for (std::size_t c = 0; c < hard_case.checks.size(); ++c) {
       const CaseCheck& check = hard_case.checks[c];
       if (const auto bound = bound_of(hard_case, check, outcome))
-        findings.push_back({labelled(check.what, run.label), run.figures[c]->value(), *bound,
-                            run.figures[c]->detail()});
+        findings.push_back({labelled(check.what, run.label), run.measures[c]->value(), *bound,
+                            run.measures[c]->detail()});
     }
   std::vector<std::unique_ptr<Simulation>> ends;
   ends.reserve(runs.size());

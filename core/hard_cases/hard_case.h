@@ -17,9 +17,9 @@
 namespace pleat {
 
 /// A number of one run that is to stay small.
-class CaseFigure {
+class CaseMeasure {
  public:
-  virtual ~CaseFigure() = default;
+  virtual ~CaseMeasure() = default;
   /// Looks at the start of the run, with an empty report, and after each step.
   virtual void look(const Simulation& simulation, const SolveReport& step) = 0;
   virtual double value() const = 0;
@@ -29,10 +29,10 @@ class CaseFigure {
 
 /// Bound that each run of a case has to keep.
 struct CaseCheck {
-  std::string what;  ///< the figure, with its unit, for people; no two of a case are called alike
+  std::string what;  ///< the measure, with its unit, for people; no two of a case are called alike
   double bound;      ///< the largest value that passes
-  /// Makes the figure from the run at its start and its length [s].
-  std::function<std::unique_ptr<CaseFigure>(const Simulation& start, double duration)> figure;
+  /// Makes the measure from the run at its start and its length [s].
+  std::function<std::unique_ptr<CaseMeasure>(const Simulation& start, double duration)> measure;
   /// True when it says nothing of a run that is cut short.
   bool needs_whole_run = false;
 };
@@ -95,7 +95,7 @@ struct CaseFinding {
   std::string what;  ///< the check, with the variant's label
   double found;
   double bound;
-  std::string detail = {};  ///< see CaseFigure::detail
+  std::string detail = {};  ///< see CaseMeasure::detail
 
   bool is_kept() const { return found <= bound; }
 };

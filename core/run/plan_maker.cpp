@@ -59,8 +59,8 @@ std::vector<Scene> checked(std::vector<Scene> examples) {
 }  // namespace
 
 double settled_time(const Scene& scene) {
-  constexpr double kSettling = 1.0;  // [s] after a figure has begun to move as it will
-  return scene.figure ? scene.figure->playback.blend_time + kSettling : 0;
+  constexpr double kSettling = 1.0;  // [s] after a body has begun to move as it will
+  return scene.body ? scene.body->playback.blend_time + kSettling : 0;
 }
 
 PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)

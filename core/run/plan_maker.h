@@ -37,7 +37,7 @@ class ExampleError : public InputError {
   std::size_t example_;
 };
 
-/// When cloth has settled into the scene's motion [s]: a while after a figure moves as it will.
+/// When cloth has settled into the scene's motion [s]: a while after a body moves as it will.
 double settled_time(const Scene& scene);
 
 /// Runs examples on their fine mesh and plans from what is seen there, in slices.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 
 namespace pleat {
 
@@ -14,10 +14,10 @@ struct CompletionCost {
   double middles_ms = 0;     ///< all middles, in the space
   double surfaces_ms = 0;    ///< all frames' surfaces, with detail
   int n_unconverged = 0;
-  std::vector<FrameFigures> figures;         ///< measures of the frames, keys among them
-  std::vector<FrameFigures> linear_figures;  ///< measures of frames on straight ways, then
-  std::vector<Positions> middles;            ///< surfaces of the frames between keys [m]
-  std::vector<Positions> linear_middles;     ///< [m]
+  std::vector<FrameMeasures> measures;         ///< measures of the frames, keys among them
+  std::vector<FrameMeasures> linear_measures;  ///< measures of frames on straight ways, then
+  std::vector<Positions> middles;              ///< surfaces of the frames between keys [m]
+  std::vector<Positions> linear_middles;       ///< [m]
 };
 
 CompletionCost completion_cost(const std::vector<Positions>& keys,

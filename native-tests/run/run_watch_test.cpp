@@ -60,7 +60,7 @@ TEST_CASE("run_watch: shipped scenes in their own settings raise no warning", "[
   const auto name = GENERATE(from_range(shipped_scenes()));
   CAPTURE(name);
   const Scene scene = changed(name, Json::object());
-  CHECK(warnings_of(scene, scene.figure ? 0.5 : 1).empty());
+  CHECK(warnings_of(scene, scene.body ? 0.5 : 1).empty());
 }
 
 // Runs of the list end as if all were well: warnings_of checks that.

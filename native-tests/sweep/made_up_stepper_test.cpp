@@ -10,7 +10,7 @@
 #include "core/scene/format/scene_file.h"
 #include "core/scene/format/scene_override.h"
 #include "core/scene/scene_schema.h"
-#include "core/sweep/front_figure.h"
+#include "core/sweep/front_chart.h"
 #include "core/sweep/sweep.h"
 #include "core/sweep/usual_settings.h"
 #include "native-tests/support/assets.h"
@@ -149,9 +149,9 @@ TEST_CASE("stepper table: a sweep measures an added stepper and its figure draws
   CHECK(sweep.rows()[1].n_substeps == 7);
   const Json row = json_bench_row(sweep.rows()[0]);
   CHECK(read_bench_row(JsonReader(row), kTable).method.stepper == &kMadeUp);
-  const std::string figure = front_figure(sweep.rows());
-  CHECK(has(figure, "M-1-2L3 4Z\" fill=\"#123456\""));
-  CHECK(has(figure, ">made_up</text>"));
+  const std::string chart = front_chart(sweep.rows());
+  CHECK(has(chart, "M-1-2L3 4Z\" fill=\"#123456\""));
+  CHECK(has(chart, ">made_up</text>"));
 
   Sweep again(read_sweep_plan(JsonReader(plan), read, kTable), store, "test");
   CHECK(again.resume(journal) == journal.size());

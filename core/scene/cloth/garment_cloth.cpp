@@ -99,9 +99,9 @@ std::vector<VertexId> GarmentCloth::base_part(const std::string& name) const {
   return vertices_of(garment.groups, name);
 }
 
-GarmentCloth read_garment(const JsonReader& reader, const Figure* figure) {
-  if (figure == nullptr) reader.fail("no garment, as the scene has no figure to wear it");
-  const BodyBuild build = figure->build;
+GarmentCloth read_garment(const JsonReader& reader, const SceneBody* body) {
+  if (body == nullptr) reader.fail("no garment, as the scene has no figure to wear it");
+  const BodyBuild build = body->build;
   GarmentCloth cloth;
   reader.allow_keys({"skirt", "trousers"});
   if (reader.only_one_of({"skirt", "trousers"}) == 0) {

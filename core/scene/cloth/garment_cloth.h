@@ -2,13 +2,13 @@
 
 #include <variant>
 
-#include "core/figure/garment_patterns.h"
+#include "core/body/garment_patterns.h"
 #include "core/scene/cloth_source.h"
-#include "core/scene/scene_figure.h"
+#include "core/scene/scene_body.h"
 
 namespace pleat {
 
-/// Quads around the standing figure. Its parts are the garment's groups.
+/// Quads around the standing body. Its parts are the garment's groups.
 class GarmentCloth final : public QuadCloth {
  public:
   std::variant<SkirtMeasures, TrouserMeasures> measures;
@@ -27,9 +27,9 @@ class GarmentCloth final : public QuadCloth {
 };
 
 /// The section "garment" of a scene's cloth: measures of a skirt or of trousers for the scene's
-/// figure. Measures that make no garment are InputErrors at their places.
+/// body. Measures that make no garment are InputErrors at their places.
 ///
-/// figure  null when the scene has none; then a garment is refused
-GarmentCloth read_garment(const JsonReader& reader, const Figure* figure);
+/// body  null when the scene has none; then a garment is refused
+GarmentCloth read_garment(const JsonReader& reader, const SceneBody* body);
 
 }  // namespace pleat

@@ -30,7 +30,7 @@ Posing::Posing(const Moment& at_rest, const Moment& posed, Bone pinned, const Ve
       time_at_rest_(at_rest.time),
       time_posed_(posed.time),
       pinned_(pinned) {
-  // The figure looks along x, its right is z.
+  // The body looks along x, its right is z.
   facing_.rotation << facing, Vec3::UnitY(), facing.cross(Vec3::UnitY());
 }
 

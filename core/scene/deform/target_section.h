@@ -9,7 +9,7 @@ namespace pleat {
 /// or turned first and then moved.
 ///
 /// reader   the handle
-/// posing   null without a figure
+/// posing   null without a body
 /// from     where they rest [m]
 Positions read_targets(const JsonReader& reader, const Posing* posing, const Positions& from);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/figure/moving_body.h"
+#include "core/body/moving_body.h"
 #include "core/files/json_reader.h"
 
 namespace pleat {

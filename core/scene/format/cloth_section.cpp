@@ -21,7 +21,7 @@ void read_cloth(const JsonReader& reader, const FileSource& files, std::span<con
   for (const ClothKind& kind : kinds) keys.push_back(kind.key);
   reader.allow_keys(keys);
   const ClothKind& kind = kinds[reader.only_one_of(keys)];
-  scene.cloth = kind.read(reader.at(kind.key), {files, scene.figure.get()});
+  scene.cloth = kind.read(reader.at(kind.key), {files, scene.body.get()});
 }
 
 Json json_cloth(const Scene& scene) {

@@ -65,7 +65,7 @@ Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const Fil
   if (const auto at = root.find("$schema")) at->text();
   if (const auto at = root.find("name")) scene.name = at->text();
   if (const auto at = root.find("caption")) scene.caption = at->text();
-  if (const auto at = root.find("figure")) scene.figure = read_figure(*at, files);
+  if (const auto at = root.find("figure")) scene.body = read_body(*at, files);
   read_cloth(root.at("cloth"), files, tables.cloths, scene);
   if (const auto at = root.find("fabric")) read_fabric(*at, fabrics, scene);
   scene.model = usual_model(scene);
@@ -95,7 +95,7 @@ std::string write_scene(const Scene& scene) {
   json["method"] = json_method(scene.method);
   json["duration_s"] = scene.duration;
   json["record"] = json_record(scene.record);
-  if (scene.figure) json["figure"] = json_figure(*scene.figure);
+  if (scene.body) json["figure"] = json_body(*scene.body);
   if (scene.start) json["start"] = json_start(*scene.start);
   return format_json(json);
 }

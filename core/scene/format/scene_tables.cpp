@@ -23,7 +23,7 @@ constexpr std::array<ClothKind, 5> kCloths{{
      }},
     {"garment",
      [](const JsonReader& at, Around around) -> SceneCloth {
-       return read_garment(at, around.figure);
+       return read_garment(at, around.body);
      }},
 }};
 

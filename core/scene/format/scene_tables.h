@@ -5,14 +5,14 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/files/file_source.h"
 #include "core/scene/cloth_source.h"
-#include "core/scene/scene_figure.h"
+#include "core/scene/scene_body.h"
 
 namespace pleat {
 
 /// The parts of a scene that are read before its cloth.
 struct ClothSurroundings {
   const FileSource& files;
-  const Figure* figure;  ///< or null
+  const SceneBody* body;  ///< or null
 };
 
 /// A kind of cloth that the section "cloth" may name.

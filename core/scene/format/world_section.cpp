@@ -104,7 +104,7 @@ PinRule read_pin(const JsonReader& reader, const Scene& scene) {
   }
   if (const auto at = reader.find("motion")) pin.motion = read_motion(*at);
   if (const auto at = reader.find("bone")) {
-    if (!scene.figure) at->fail("no such key, as the scene has no figure");
+    if (!scene.body) at->fail("no such key, as the scene has no figure");
     if (reader.find("motion")) at->fail("no such key beside a motion");
     pin.bone = read_bone(*at);
   }

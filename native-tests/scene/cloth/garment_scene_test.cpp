@@ -57,7 +57,7 @@ TEST_CASE("garment scene: the waist follows the pelvis and all else is free", "[
   const Scene scene = garment_scene(garment + "_walk");
   Simulation simulation(scene);
   const Positions start = rest_cloth(scene).start;
-  const MovingBody body(scene.figure->motion, scene.figure->playback);
+  const MovingBody body(scene.body->motion, scene.body->playback);
   REQUIRE(!simulation.model().pins.empty());
   for (int n = 0; n < 12; ++n) REQUIRE(simulation.step().ok());
   const Pose pelvis = body.pose(Bone::pelvis, simulation.time());

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "core/base/check.h"
+#include "core/body/moving_body.h"
 #include "core/deform/deform_solver.h"
 #include "core/deform/fabric_weights.h"
-#include "core/figure/moving_body.h"
 #include "core/files/motion_file.h"
 #include "core/scene/vertex_place.h"
 #include "native-tests/support/assets.h"
@@ -388,7 +388,7 @@ TEST_CASE("deform scene: the T-shirt's cuffs are around the figure's elbows, at 
   const MovingBody at_rest = motion("arms_out.json");
   const MovingBody posed = motion("walk_normal.json");
   const double time = 2.087;
-  // The neck stays, so the trunk stands; the figure looks along z.
+  // The neck stays, so the trunk stands; the body looks along z.
   const Pose to_trunk = at_rest.pose(Bone::thorax, 1) * posed.pose(Bone::thorax, time).inverse();
   const auto in_cloth = [](const Vec3& x) { return Vec3(-x.z(), x.y(), x.x()); };
   const DeformScene scene = shipped("t_shirt");

@@ -28,7 +28,7 @@ Moment with_angle(MotionChannel channel, double angle) {
   return moment;
 }
 
-/// A joint of a figure that looks along z, in the cloth's axes [m].
+/// A joint of a body that looks along z, in the cloth's axes [m].
 Vec3 joint(const Moment& moment, Bone bone) {
   const Vec3 x = MovingBody(moment.motion, {}).joint(bone, moment.time);
   return {-x.z(), x.y(), x.x()};

@@ -1,4 +1,4 @@
-#include "core/figure/moving_body.h"
+#include "core/body/moving_body.h"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -54,9 +54,9 @@ std::vector<SolePoint> heels_and_balls() {
 }
 
 /// Joints by the chain of rotations written out, from the raw keys of a motion's file.
-class RawFigure {
+class RawBody {
  public:
-  RawFigure(json motion, int key) : motion_(std::move(motion)), key_(key) {}
+  RawBody(json motion, int key) : motion_(std::move(motion)), key_(key) {}
 
   Vec3 pelvis(double mean_way) const {
     const json& path = motion_["pelvis_path"];
@@ -146,7 +146,7 @@ TEST_CASE("moving body: joints are where the chain of rotations puts the file's 
   CAPTURE(name, key);
   const BodyMotion motion = motion_named(name);
   const MovingBody body(motion, {});
-  const RawFigure raw(json::parse(motion_text(name)), key);
+  const RawBody raw(json::parse(motion_text(name)), key);
   // The time is in the third cycle; half of the first second's way is lost to blending the motion
   // in.
   const double time = (3 + key / 50.0) * motion.cycle_time;

@@ -1,4 +1,4 @@
-#include "core/figure/body_motion.h"
+#include "core/body/body_motion.h"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/figure/mannequin.h"
+#include "core/body/mannequin.h"
 
 namespace pleat {
 

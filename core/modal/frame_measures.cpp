@@ -1,4 +1,4 @@
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@ namespace {
 
 /// places_of(body, frame) tells where the vertices of a body's volume are.
 template <class PlacesOf>
-std::vector<FrameFigures> figures(const KeyCompletion& completion, std::size_t n_frames,
-                                  const PlacesOf& places_of) {
+std::vector<FrameMeasures> measures(const KeyCompletion& completion, std::size_t n_frames,
+                                    const PlacesOf& places_of) {
   double rest_volume = 0;
-  std::vector<FrameFigures> all(n_frames);
+  std::vector<FrameMeasures> all(n_frames);
   for (std::size_t i = 0; i < completion.bodies().size(); ++i) {
     const TetMesh& rest = completion.bodies()[i].carrying().volume;
     const ArapEnergy energy(rest, 1);
@@ -28,16 +28,16 @@ std::vector<FrameFigures> figures(const KeyCompletion& completion, std::size_t n
       }
     }
   }
-  for (FrameFigures& of : all) of.strain = std::sqrt(of.strain / rest_volume);
+  for (FrameMeasures& of : all) of.strain = std::sqrt(of.strain / rest_volume);
   return all;
 }
 
 }  // namespace
 
-std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
-                                        const std::vector<KeyCompletion::Frame>& frames) {
-  std::vector<FrameFigures> all =
-      figures(completion, frames.size(), [&](std::size_t body, std::size_t f) {
+std::vector<FrameMeasures> frame_measures(const KeyCompletion& completion,
+                                          const std::vector<KeyCompletion::Frame>& frames) {
+  std::vector<FrameMeasures> all =
+      measures(completion, frames.size(), [&](std::size_t body, std::size_t f) {
         return completion.bodies()[body].volume_positions(frames[f].bodies[body]);
       });
   for (std::size_t f = 0; f < frames.size(); ++f)
@@ -45,9 +45,9 @@ std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
   return all;
 }
 
-std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
-                                         const std::vector<KeyCompletion::Frame>& frames) {
-  return figures(completion, frames.size(), [&](std::size_t body, std::size_t f) {
+std::vector<FrameMeasures> linear_measures(const KeyCompletion& completion,
+                                           const std::vector<KeyCompletion::Frame>& frames) {
+  return measures(completion, frames.size(), [&](std::size_t body, std::size_t f) {
     const ModalBody& of = completion.bodies()[body];
     const int next = std::min(frames[f].left + 1, completion.n_keys() - 1);
     const double share = frames[f].share_of_next;

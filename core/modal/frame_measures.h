@@ -5,7 +5,7 @@
 namespace pleat {
 
 /// Measures of a frame, of all its bodies together.
-struct FrameFigures {
+struct FrameMeasures {
   double volume = 0;          ///< [m^3]
   double strain = 0;          ///< root of the mean square of |F - R| since the first key
   int n_inverted = 0;         ///< tetrahedra turned inside out
@@ -13,12 +13,12 @@ struct FrameFigures {
 };
 
 /// Measures of frames that a completion made.
-std::vector<FrameFigures> frame_figures(const KeyCompletion& completion,
-                                        const std::vector<KeyCompletion::Frame>& frames);
+std::vector<FrameMeasures> frame_measures(const KeyCompletion& completion,
+                                          const std::vector<KeyCompletion::Frame>& frames);
 
 /// Measures of frames at the same times whose vertices go straight from key to key, as the space
 /// has these.
-std::vector<FrameFigures> linear_figures(const KeyCompletion& completion,
-                                         const std::vector<KeyCompletion::Frame>& frames);
+std::vector<FrameMeasures> linear_measures(const KeyCompletion& completion,
+                                           const std::vector<KeyCompletion::Frame>& frames);
 
 }  // namespace pleat

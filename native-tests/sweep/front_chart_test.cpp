@@ -1,4 +1,4 @@
-#include "core/sweep/front_figure.h"
+#include "core/sweep/front_chart.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -80,7 +80,7 @@ TEST_CASE("front figure: a row with a warning has its place off the front, and a
   std::vector<BenchRow> rows = {point(&steppers::kImplicitEuler, 1, 0.1),
                                 point(&steppers::kXpbd, 2, 0.01)};
   rows[0].warnings = {{RunWarning::Kind::stretch, 0.4, VertexId(12), 5, 1, {}}};
-  const std::string svg = front_figure(rows);
+  const std::string svg = front_chart(rows);
   CHECK(xml_fault(svg).empty());
   CHECK(count_of(svg, "class=\"mark\"") == 2);
   CHECK(front_corners(svg).size() == 2);
@@ -99,7 +99,7 @@ TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]"
   rows.push_back(point(&steppers::kProjective, 1, 1));
   rows.back().status = "refused";
   rows.back().message = "beyond <its> \"bound\" & \x01more";
-  const std::string svg = front_figure(rows);
+  const std::string svg = front_chart(rows);
   CHECK(xml_fault(svg).empty());
   CHECK(count_of(svg, "class=\"mark\"") == 4);
   CHECK(svg.find("Without a place here: 4") != std::string::npos);
@@ -110,13 +110,13 @@ TEST_CASE("front figure: every row has one mark or one line of words", "[sweep]"
   CHECK(svg.find("Reference, not converged: implicit with eigen, level 2 (converged-00ff)<") !=
         std::string::npos);
   CHECK(svg.find("<script") == std::string::npos);
-  CHECK(svg == front_figure(rows));
+  CHECK(svg == front_chart(rows));
 }
 
 TEST_CASE("front figure: each stepper is drawn and named by its row of the table", "[sweep]") {
   for (const StepperType* type : standard_steppers()) {
     CAPTURE(type->name);
-    const std::string svg = front_figure(std::vector<BenchRow>{point(type, 1, 0.1)});
+    const std::string svg = front_chart(std::vector<BenchRow>{point(type, 1, 0.1)});
     const std::string mark =
         std::string("d=\"") + type->mark.path + "\" fill=\"" + type->mark.colour + '"';
     CHECK(count_of(svg, mark) == 2);  // once in the plot and once in its legend
@@ -130,7 +130,7 @@ TEST_CASE("front figure: a decade is as far everywhere, in time as in error", "[
   const std::vector<BenchRow> rows = {point(&steppers::kXpbd, 0.1, 1),
                                       point(&steppers::kXpbd, 1, 0.1),
                                       point(&steppers::kXpbd, 10, 0.01)};
-  const std::vector<double> corners = front_corners(front_figure(rows));
+  const std::vector<double> corners = front_corners(front_chart(rows));
   REQUIRE(corners.size() == 6);
   CHECK(corners[2] - corners[0] == Approx(corners[4] - corners[2]).margin(0.02));
   CHECK(corners[3] - corners[1] == Approx(corners[5] - corners[3]).margin(0.02));
@@ -140,12 +140,12 @@ TEST_CASE("front figure: a decade is as far everywhere, in time as in error", "[
 
 TEST_CASE("front figure: any numbers give a figure of bounded size", "[sweep]") {
   std::vector<BenchRow> rows;
-  CHECK(xml_fault(front_figure(rows)).empty());
+  CHECK(xml_fault(front_chart(rows)).empty());
   const double scale = GENERATE(1e-300, 1.0, 1e300);
   rows.push_back(point(&steppers::kXpbd, scale, 1e-3 * scale));
-  CHECK(xml_fault(front_figure(rows)).empty());
+  CHECK(xml_fault(front_chart(rows)).empty());
   rows.push_back(point(&steppers::kXpbd, 1, 1));
-  const std::string svg = front_figure(rows);
+  const std::string svg = front_chart(rows);
   CHECK(xml_fault(svg).empty());
   CHECK(svg.find("nan") == std::string::npos);
   CHECK(svg.find("inf") == std::string::npos);
@@ -155,7 +155,7 @@ TEST_CASE("front figure: any numbers give a figure of bounded size", "[sweep]") 
 TEST_CASE("front figure: long lists and names are cut, and the cut is told", "[sweep]") {
   std::vector<BenchRow> rows(100, point(&steppers::kXpbd, 1, BenchRow::kUnknown));
   for (BenchRow& row : rows) row.message = row.scene = std::string(5000, 'x');
-  const std::string svg = front_figure(rows);
+  const std::string svg = front_chart(rows);
   CHECK(xml_fault(svg).empty());
   CHECK(svg.find("and 60 more") != std::string::npos);
   CHECK(svg.size() < 30'000);

@@ -1,4 +1,4 @@
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 
 #include <catch2/catch.hpp>
 
@@ -16,8 +16,8 @@ TEST_CASE("frame_figures: the straight way between a bar and its arc loses volum
   options.n_modes = 12;
   const KeyCompletion completion({box.positions, bent(box.positions, kPi)}, box.triangles, options);
   const auto frames = completion.frames(5);
-  const auto ours = frame_figures(completion, frames);
-  const auto straight = linear_figures(completion, frames);
+  const auto ours = frame_measures(completion, frames);
+  const auto straight = linear_measures(completion, frames);
   REQUIRE(ours.size() == 5);
   REQUIRE(straight.size() == 5);
   CHECK(ours[0].volume == Approx(sides.prod()));
@@ -43,7 +43,7 @@ TEST_CASE("frame_figures: the strain is that of the deformation gradients", "[mo
   options.size = 0.1;
   options.n_modes = 4;
   const KeyCompletion completion({box.positions, stretched}, box.triangles, options);
-  const auto figures = frame_figures(completion, completion.frames(2));
-  CHECK(figures[1].strain == Approx(0.1).epsilon(0.01));
-  CHECK(figures[1].volume == Approx(1.1 * figures[0].volume).epsilon(0.01));
+  const auto measures = frame_measures(completion, completion.frames(2));
+  CHECK(measures[1].strain == Approx(0.1).epsilon(0.01));
+  CHECK(measures[1].volume == Approx(1.1 * measures[0].volume).epsilon(0.01));
 }

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/base/pose.h"
-#include "core/figure/body_motion.h"
+#include "core/body/body_motion.h"
 
 namespace pleat {
 
@@ -44,7 +44,7 @@ struct Playback {
 /// a weight that is twice continuously differentiable. The weight also multiplies the forward
 /// speed, whose integral is the way.
 ///
-/// Source: the chain of joints and its signs as docs/methods/figure.md gives them.
+/// Source: the chain of joints and its signs as docs/methods/body.md gives them.
 class MovingBody {
  public:
   /// Throws ContractError as BodyMotion::validate does, and unless both of `playback` are positive.

@@ -1,4 +1,4 @@
-#include "core/sweep/front_figure.h"
+#include "core/sweep/front_chart.h"
 #include "core/dynamics/stepper_table.h"
 
 #include <algorithm>
@@ -108,7 +108,7 @@ class Axis {
   int high_ = 1;
 };
 
-/// A row's coordinates in the figure.
+/// A row's coordinates in the chart.
 struct Place {
   double ms;
   double error;  // [mm]
@@ -267,7 +267,7 @@ std::vector<std::string> notes(std::span<const BenchRow> rows) {
 
 }  // namespace
 
-std::string front_figure(std::span<const BenchRow> rows) {
+std::string front_chart(std::span<const BenchRow> rows) {
   constexpr double kNotesTop = kBottom + 68;
   constexpr std::size_t kTitleLetters = 70;
   std::vector<double> times;

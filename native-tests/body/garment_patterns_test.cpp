@@ -1,4 +1,4 @@
-#include "core/figure/garment_patterns.h"
+#include "core/body/garment_patterns.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/figure/body_section.h"
+#include "core/body/body_section.h"
 #include "core/mesh/quad_mesh.h"
 
 namespace pleat {

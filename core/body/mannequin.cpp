@@ -1,4 +1,4 @@
-#include "core/figure/mannequin.h"
+#include "core/body/mannequin.h"
 
 #include <algorithm>
 #include <initializer_list>

@@ -1,11 +1,11 @@
-#include "core/figure/mannequin.h"
+#include "core/body/mannequin.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "core/figure/body_section.h"
+#include "core/body/body_section.h"
 #include "core/files/motion_file.h"
 #include "native-tests/support/assets.h"
 

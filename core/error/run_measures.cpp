@@ -1,4 +1,4 @@
-#include "core/error/run_figures.h"
+#include "core/error/run_measures.h"
 
 #include <algorithm>
 #include <numeric>
@@ -10,32 +10,32 @@ namespace pleat {
 namespace {
 
 double mean(const std::vector<double>& values) {
-  if (values.empty()) return RunFigures::kUnknown;
+  if (values.empty()) return RunMeasures::kUnknown;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace
 
-RunFigures run_figures(std::span<const RunRecord> runs, std::span<const Positions> reference,
-                       const Eigen::VectorXd& weights) {
+RunMeasures run_measures(std::span<const RunRecord> runs, std::span<const Positions> reference,
+                         const Eigen::VectorXd& weights) {
   PLEAT_CHECK(!runs.empty(), "at least one run");
   const RunRecord& first = runs.front();
   std::vector<double> medians;
   for (const RunRecord& run : runs) medians.push_back(median(run.frame_ms));
-  RunFigures figures;
-  figures.ms_per_frame = median(medians);
+  RunMeasures measures;
+  measures.ms_per_frame = median(medians);
   const auto [quickest, slowest] = std::minmax_element(medians.begin(), medians.end());
-  figures.spread_ms = *slowest - *quickest;
-  figures.rms_stretch = mean(first.rms_stretch);
-  figures.largest_stretch = mean(first.largest_stretch);
+  measures.spread_ms = *slowest - *quickest;
+  measures.rms_stretch = mean(first.rms_stretch);
+  measures.largest_stretch = mean(first.largest_stretch);
   if (!first.rms_stretch.empty())
-    figures.rms_stretch_worst_frame =
+    measures.rms_stretch_worst_frame =
         *std::max_element(first.rms_stretch.begin(), first.rms_stretch.end());
   for (std::size_t t = 0; t < reference.size(); ++t)
-    figures.position_errors.push_back(t < first.samples.size()
-                                          ? position_error(first.samples[t], reference[t], weights)
-                                          : RunFigures::kUnknown);
-  return figures;
+    measures.position_errors.push_back(t < first.samples.size()
+                                           ? position_error(first.samples[t], reference[t], weights)
+                                           : RunMeasures::kUnknown);
+  return measures;
 }
 
 double time_ratio(std::span<const RunRecord> runs, std::span<const RunRecord> others,

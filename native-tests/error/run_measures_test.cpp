@@ -1,4 +1,4 @@
-#include "core/error/run_figures.h"
+#include "core/error/run_measures.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,28 +18,28 @@ const std::vector<Positions> kStill(2, Positions::Zero(3, 1));
 
 TEST_CASE("run_figures: time is the median of the runs' medians, with their spread", "[error]") {
   const std::vector<RunRecord> runs = {timed({30, 40, 500}), timed({20}), timed({60, 60})};
-  const RunFigures figures = run_figures(runs, {}, kOne);
-  CHECK(figures.ms_per_frame == 40);
-  CHECK(figures.spread_ms == 40);
-  CHECK(std::isnan(run_figures(std::vector<RunRecord>{timed({})}, {}, kOne).ms_per_frame));
+  const RunMeasures measures = run_measures(runs, {}, kOne);
+  CHECK(measures.ms_per_frame == 40);
+  CHECK(measures.spread_ms == 40);
+  CHECK(std::isnan(run_measures(std::vector<RunRecord>{timed({})}, {}, kOne).ms_per_frame));
 }
 
 TEST_CASE("run_figures: stretch is of the frames of the first run", "[error]") {
   const std::vector<RunRecord> runs = {{{1}, {1}, {0.1, 0.4, 0.1}, {0.3, 0.6, 0.6}, {}},
                                        {{1}, {1}, {9}, {9}, {}}};
-  const RunFigures figures = run_figures(runs, {}, kOne);
-  CHECK(figures.rms_stretch == Approx(0.2));
-  CHECK(figures.largest_stretch == Approx(0.5));
-  CHECK(figures.rms_stretch_worst_frame == 0.4);
+  const RunMeasures measures = run_measures(runs, {}, kOne);
+  CHECK(measures.rms_stretch == Approx(0.2));
+  CHECK(measures.largest_stretch == Approx(0.5));
+  CHECK(measures.rms_stretch_worst_frame == 0.4);
 }
 
 TEST_CASE("run_figures: a time that the run did not reach has no error", "[error]") {
   RunRecord run = timed({1});
   run.samples = {Vec3(0, 3, 4)};
-  const RunFigures figures = run_figures(std::vector<RunRecord>{run}, kStill, kOne);
-  REQUIRE(figures.position_errors.size() == 2);
-  CHECK(figures.position_errors[0] == 5);
-  CHECK(std::isnan(figures.position_errors[1]));
+  const RunMeasures measures = run_measures(std::vector<RunRecord>{run}, kStill, kOne);
+  REQUIRE(measures.position_errors.size() == 2);
+  CHECK(measures.position_errors[0] == 5);
+  CHECK(std::isnan(measures.position_errors[1]));
 }
 
 // The machine halves its speed after the second turn, and a frame and a turn are interrupted.

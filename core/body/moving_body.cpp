@@ -1,4 +1,4 @@
-#include "core/figure/moving_body.h"
+#include "core/body/moving_body.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/figure/body_section.h"
+#include "core/body/body_section.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

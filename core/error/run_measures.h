@@ -18,7 +18,7 @@ struct RunRecord {
 };
 
 /// Cost and error of one program on one scene. NaN: not measured.
-struct RunFigures {
+struct RunMeasures {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   double ms_per_frame = kUnknown;     ///< median over the runs of the median frame [ms]
@@ -33,8 +33,8 @@ struct RunFigures {
 /// runs       of the same scene, at least one: times are of all, the rest is of the first
 /// reference  positions that are taken for right, at each of the times [m]
 /// weights    of the vertices that both have, as of position_error
-RunFigures run_figures(std::span<const RunRecord> runs, std::span<const Positions> reference,
-                       const Eigen::VectorXd& weights);
+RunMeasures run_measures(std::span<const RunRecord> runs, std::span<const Positions> reference,
+                         const Eigen::VectorXd& weights);
 
 /// How many times as long as `others` the `runs` took that took turns with them, `turn_frames`
 /// frames at a time: the median over the turns of the ratio of the median frames, in processor

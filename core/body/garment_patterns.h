@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/figure/mannequin.h"
+#include "core/body/mannequin.h"
 #include "core/mesh/quad_patch.h"
 #include "core/mesh/vertex_group.h"
 

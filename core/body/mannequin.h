@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/shapes.h"
-#include "core/figure/moving_body.h"
+#include "core/body/moving_body.h"
 
 namespace pleat {
 
@@ -23,7 +23,7 @@ struct BodyPart {
 
 /// The solids of a body, from the pelvis upward, then legs and arms. Neighbours overlap, so that
 /// there are no dents between them. Hands and toes are left out.
-/// Source: girths and breadths as docs/methods/figure.md gives them.
+/// Source: girths and breadths as docs/methods/body.md gives them.
 std::vector<BodyPart> mannequin(BodyBuild build);
 
 /// The hips and legs among `parts`, which garments of the lower body meet. The trunk above turns

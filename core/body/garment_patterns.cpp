@@ -1,4 +1,4 @@
-#include "core/figure/garment_patterns.h"
+#include "core/body/garment_patterns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/figure/body_section.h"
+#include "core/body/body_section.h"
 
 namespace pleat {
 namespace {

@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "core/figure/mannequin.h"
+#include "core/body/mannequin.h"
 #include "core/files/file_source.h"
 #include "core/files/json_reader.h"
 
 namespace pleat {
 
 /// A body in the scene: a solid, and bones that pins may follow. It stands at time 0.
-struct Figure {
+struct SceneBody {
   BodyBuild build = BodyBuild::average;
   BodyMotion motion;
   Playback playback;
@@ -23,9 +23,9 @@ struct Figure {
 };
 
 /// The section "figure" of a scene file: a body, and a motion written out or the name of its file.
-std::shared_ptr<const Figure> read_figure(const JsonReader& reader, const FileSource& files);
+std::shared_ptr<const SceneBody> read_body(const JsonReader& reader, const FileSource& files);
 
 /// The motion is always written out, so that the text is the whole scene.
-Json json_figure(const Figure& figure);
+Json json_body(const SceneBody& body);
 
 }  // namespace pleat
