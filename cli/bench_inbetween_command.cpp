@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/modal_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
@@ -39,8 +39,6 @@ std::vector<Positions> read_frames(const std::string& folder, const ObjMesh& lik
   if (frames.empty()) throw FileError(folder, "expected a run's frames as OBJ files, got none");
   return frames;
 }
-
-}  // namespace
 
 Outcome bench_inbetween(Arguments arguments) {
   const int n_frames = arguments.whole_number("--frames", 2, kMaxFrames).value_or(60);
@@ -86,5 +84,15 @@ Outcome bench_inbetween(Arguments arguments) {
   std::printf("%s\n", json.dump().c_str());
   return Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kBenchInbetween("inbetween", "A.obj B.obj ...",
+                                     "what frames between keys cost", bench_inbetween,
+                                     {kCompletionHelp},
+                                     R"(  --frames N             with the keys (default 60)
+  --against DIR          the distance to the nearest of a run's frames;  --unreduced  also of frames
+                         for which no space was made
+)");
 
 }  // namespace pleat

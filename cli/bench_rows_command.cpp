@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_measures.h"
 #include "core/files/whole_file.h"
@@ -173,8 +173,6 @@ Outcome from_file(Arguments arguments, const char* what, Print&& print) {
   return Outcome::ok;
 }
 
-}  // namespace
-
 Outcome bench_rows(Arguments arguments) {
   return from_file(std::move(arguments), "runs to make rows of, RUNS.json", print_rows);
 }
@@ -182,5 +180,15 @@ Outcome bench_rows(Arguments arguments) {
 Outcome bench_limit(Arguments arguments) {
   return from_file(std::move(arguments), "runs on three meshes, RUNS.json", print_limit);
 }
+
+}  // namespace
+
+extern const Command kBenchRows("rows", "RUNS.json",
+                                "rows with speed and error, of runs as bench run prints them",
+                                bench_rows, {}, "");
+
+extern const Command kBenchLimit("limit", "RUNS.json",
+                                 "where runs on three meshes lead, each with edges half as long",
+                                 bench_limit, {}, "");
 
 }  // namespace pleat

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/modal_input.h"
 #include "cli/overwriting.h"
 #include "core/base/check.h"
@@ -144,8 +144,6 @@ std::vector<std::string> warnings(const Json& json) {
   return all;
 }
 
-}  // namespace
-
 Outcome inbetween_command(Arguments arguments) {
   InbetweenOptions options;
   options.for_machines = arguments.flag("--json");
@@ -176,5 +174,15 @@ Outcome inbetween_command(Arguments arguments) {
   if (options.out) write_frames(completion, frames, keys.mesh.triangles, *options.out);
   return options.checks && !warnings(json).empty() ? Outcome::check_failed : Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kInbetweenCommand(
+    "inbetween", "A.obj B.obj ...", "frames between key shapes with the same vertices and faces",
+    inbetween_command, {kCompletionHelp, kOverwriteHelp, kJsonHelp},
+    R"(  --frames N             with the keys (default 60);  --step D  until no vertex moves farther [m]
+  --out DIR              write the frames as OBJ files
+  --check                exit status 1 when there is a warning
+)");
 
 }  // namespace pleat

@@ -234,7 +234,7 @@ TEST_CASE("command: bad input is one sentence that names the place, and exit sta
       {{"run", "--json", "--json"}, "--json: "},
       {{"run", "--out", "/proc/nowhere"}, "/proc/nowhere: "},
       {{"run", "--duraton", "3"}, "--duraton: unknown option; the nearest is --duration"},
-      {{"run", "--xyzzy", "3"}, "--xyzzy: unknown option; \"pleat help\""},
+      {{"run", "--xyzzy", "3"}, "--xyzzy: unknown option; \"pleat help COMMAND\""},
       {{"run", "--out", ""}, "--out: "},
       {{"run", "--steps", "3", "--duration", "1"}, "--steps: "},
       {{"run", "--stepper", "projective", "--solver", "cg"}, "pleat: --solver: "},
@@ -362,7 +362,7 @@ TEST_CASE("command: a run that diverges stops, says where, and keeps the last fi
 TEST_CASE("command: help and version succeed, no word and unknown words do not hang", "[cli]") {
   const ScratchFolder folder;
   CHECK(pleat_command(folder, {"help"}).status == 0);
-  CHECK(pleat_command(folder, {"run", "--help"}).out == pleat_command(folder, {"--help"}).out);
+  CHECK(pleat_command(folder, {}).out == pleat_command(folder, {"--help"}).out);
   CHECK(pleat_command(folder, {"--version"}).out.rfind("pleat core-", 0) == 0);
   CHECK(pleat_command(folder, {}).status == 0);
   CHECK(pleat_command(folder, {"frob"}).status == 2);
