@@ -21,7 +21,7 @@ double step_of(const MethodOptions& options) { return options.step / options.sub
 
 StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
                          MakeProjections make_projections)
-    : Stepper(model, options, options.substeps, ContactMemory::none),
+    : Stepper(model, options, options.substeps),
       layout_(lane_layout(model)),
       projections_(make_projections(model, options, layout_, spring_law(model, options.constraints),
                                     step_of(options))),
@@ -35,7 +35,6 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
     forces_.resize(3, model.n_vertices());
     air_.resize(kAirArrays * pitch_);
   }
-  if (strain_limit() != nullptr) positions_begin_.resize(3, model.n_vertices());
   if (model.contact) {
     contact_.emplace(layout_);
     vertices_.resize(static_cast<std::size_t>(layout_.n_slots));
@@ -246,9 +245,9 @@ void StepperXpbd::resolve_contacts(double h) {
 }
 
 void StepperXpbd::limit_in_double(State& state, double time_end, double h) {
-  positions_begin_.swap(state.positions);
+  positions_begin_ = state.positions;
   copy_to(state, h);
-  correct(positions_begin_, state, time_end, h);
+  correct(state, time_end, h, model_.masses);
   take_from(state, h);
 }
 

@@ -10,6 +10,7 @@
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_type.h"
 
 namespace pleat {
 
@@ -97,7 +98,6 @@ class StepperXpbd final : public Stepper {
   Positions forces_;                              // of the air [N]
   std::vector<float> air_;  // arrays as those above: to a move v it adds gain - brake v, as x y z
                             // [m] and xx yy zz xy xz yz
-  Positions positions_begin_;  // of a substep whose strain is limited [m]
 };
 
 }  // namespace pleat
