@@ -22,10 +22,10 @@ namespace pleat {
 /// their own: what pulls at one moves its parents.
 ///
 /// Source: Macklin et al., Small steps in physics simulation, SCA 2019; docs/methods/xpbd.md.
-class StepperXpbd final : public Stepper {
+class StepperPositionBased final : public Stepper {
  public:
-  StepperXpbd(ClothModel& model, const MethodOptions& options,
-              MakeProjections make_projections = lane_projections);
+  StepperPositionBased(ClothModel& model, const MethodOptions& options,
+                       MakeProjections make_projections = lane_projections);
 
   void refresh() override;
   void refresh_rest_lengths() override;
