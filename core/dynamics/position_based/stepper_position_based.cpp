@@ -279,7 +279,10 @@ SolveReport StepperPositionBased::substep(State& state, double time_end, double 
     place_pins(time_end, h);
     const LaneView v = view();
     const bool is_last = substeps_left_ == 1;
-    if (is_last) residual_begin_ = std::sqrt(projections_->squared_residual_before(v));
+    if (is_last) {
+      projections_->forget();
+      residual_begin_ = std::sqrt(projections_->squared_residual(v));
+    }
     projections_->solve(v, options().iterations);
     if (carries()) take_gains();
     if (is_last) residual_end_ = std::sqrt(projections_->squared_residual(v));
