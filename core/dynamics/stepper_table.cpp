@@ -23,7 +23,7 @@ std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
 }
 
 std::unique_ptr<Stepper> make_position_based(ClothModel& model, const MethodOptions& options) {
-  return std::make_unique<StepperXpbd>(model, options, options.stepper->make_projections);
+  return std::make_unique<StepperPositionBased>(model, options, options.stepper->make_projections);
 }
 
 constexpr std::array kExplicitSettings = {MethodSetting::substeps, MethodSetting::beyond_bound,

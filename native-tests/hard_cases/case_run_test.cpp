@@ -15,8 +15,7 @@ namespace {
 template <bool is_at_once>
 class WildStepper final : public Stepper {
  public:
-  WildStepper(ClothModel& model, const MethodOptions& options)
-      : Stepper(model, options, 1, ContactMemory::none) {}
+  WildStepper(ClothModel& model, const MethodOptions& options) : Stepper(model, options, 1) {}
   void refresh() override {}
 
  private:

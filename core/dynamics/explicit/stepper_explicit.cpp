@@ -8,9 +8,7 @@
 namespace pleat {
 
 StepperExplicit::StepperExplicit(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, stable_substeps(model, options), ContactMemory::none),
-      forces_(3, model.n_vertices()),
-      positions_begin_(3, model.n_vertices()) {
+    : Stepper(model, options, stable_substeps(model, options)), forces_(3, model.n_vertices()) {
   refuse_jumping_forces(model, "explicit");
 }
 
@@ -34,7 +32,7 @@ SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
     if (options().euler == EulerRule::symplectic) state.positions += h * state.velocities;
     for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
   }
-  correct(positions_begin_, state, time_end, h);
+  correct(state, time_end, h, model_.masses);
   return {};
 }
 

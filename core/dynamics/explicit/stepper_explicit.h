@@ -18,7 +18,6 @@ class StepperExplicit final : public Stepper {
 
  private:
   Positions forces_;
-  Positions positions_begin_;
 };
 
 }  // namespace pleat

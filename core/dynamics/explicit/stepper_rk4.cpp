@@ -7,7 +7,7 @@
 namespace pleat {
 
 StepperRk4::StepperRk4(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, stable_substeps(model, options), ContactMemory::none) {
+    : Stepper(model, options, stable_substeps(model, options)) {
   for (State& rates : rates_) rates.velocities.resize(3, model.n_vertices());
 }
 
@@ -47,7 +47,7 @@ SolveReport StepperRk4::substep(State& state, double time_end, double h) {
     state.positions.col(pin.vertex) = pin.position(time_end);
     state.velocities.col(pin.vertex) = pin.velocity(time_end);
   }
-  correct(positions_begin_, state, time_end, h);
+  correct(state, time_end, h, model_.masses);
   return {};
 }
 

@@ -28,7 +28,6 @@ class StepperRk4 final : public Stepper {
 
   State stage_;
   std::array<State, 4> rates_;  // of positions [m/s], of velocities [m/s^2]
-  Positions positions_begin_;
 };
 
 }  // namespace pleat

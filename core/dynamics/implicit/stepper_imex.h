@@ -1,11 +1,7 @@
 #pragma once
 
-#include <optional>
-
-#include "core/dynamics/implicit/contact_hold.h"
 #include "core/dynamics/implicit/stability_split.h"
-#include "core/dynamics/implicit/velocity_solve.h"
-#include "core/dynamics/stepper.h"
+#include "core/dynamics/implicit/stepper_implicit.h"
 
 namespace pleat {
 
@@ -23,7 +19,7 @@ int imex_substeps(const ClothModel& model, const MethodOptions& options);
 /// its pattern lasts until the set changes.
 ///
 /// Source: docs/methods/imex.md.
-class StepperImex final : public Stepper {
+class StepperImex final : public StepperImplicit {
  public:
   /// Throws InputError when the wanted solver is not available, or no number of substeps makes the
   /// wanted share of springs explicit.
@@ -35,19 +31,11 @@ class StepperImex final : public Stepper {
 
   const StabilitySplit& parts() const { return parts_; }
 
- protected:
-  SolveReport substep(State& state, double time_end, double h) override;
-
  private:
   void choose();
-  void assemble(const State& state, double h);
+  void add_explicit_forces(const State& state, Eigen::Ref<Positions> forces) const override;
 
   StabilitySplit parts_;
-  std::optional<SystemMatrix> matrix_;
-  std::optional<ContactHold> hold_;  // with contact
-  VelocitySolve solve_;
-  Positions forces_;  // right-hand side, in [N s] once scaled by h
-  Positions positions_begin_;
 };
 
 }  // namespace pleat

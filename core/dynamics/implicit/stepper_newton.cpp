@@ -42,7 +42,7 @@ double diagonal_norm(const SparseMatrix& lower) {
 }  // namespace
 
 StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, options.substeps, ContactMemory::last_substep), matrix_(model) {
+    : Stepper(model, options, options.substeps, ContactForces::remembered), matrix_(model) {
   if (is_at_rest() && model.contact)
     throw InputError("/method/rule",
                      "expected backward_euler or midpoint beside solids, got equilibrium");
@@ -88,8 +88,7 @@ double StepperNewton::first_shift() const { return std::max(model_.gravity.norm(
 
 void StepperNewton::set_up(const State& state, double h) {
   const StageScope scope(observer_, Stage::assembly);
-  begin_ = state.positions;
-  extent_ = box_diagonal(begin_);
+  extent_ = box_diagonal(positions_begin_);
   if (extent_ == 0) extent_ = 1;  // vertices in one place: per metre
   set_steady_forces(loads_);
   matrix_.set_zero();
@@ -97,7 +96,7 @@ void StepperNewton::set_up(const State& state, double h) {
     interval_ = options().rule == NewtonRule::midpoint ? h / 2 : h;
     const double rate = 1 / interval_;
     matrix_.add_masses(rate * rate);
-    trial_ = begin_;
+    trial_ = positions_begin_;
     if (options().rule == NewtonRule::midpoint) trial_ += interval_ * state.velocities;
     matrix_.add_elasticity(trial_, 0, rate, ElementHessian::projected);
     loads_ += rate * state.velocities * model_.masses.asDiagonal();
@@ -107,9 +106,9 @@ void StepperNewton::set_up(const State& state, double h) {
 }
 
 void StepperNewton::hold(const State& state, double h) {
-  matrix_.add_elasticity(begin_, 1, 0, ElementHessian::projected);
+  matrix_.add_elasticity(positions_begin_, 1, 0, ElementHessian::projected);
   hold_->set_resistances(matrix_, interval_ * interval_);
-  hold_->choose(touches_, state, h);
+  hold_->choose(contact_memory_.touches(), state, h);
   matrix_.set_values(base_);
   for (const ContactHold::Held& held : hold_->held()) {
     matrix_.add_diagonal(held.vertex, held.resistance / (interval_ * interval_));
@@ -119,12 +118,13 @@ void StepperNewton::hold(const State& state, double h) {
 }
 
 void StepperNewton::place_first_guess(const State& state, double time_end) {
-  positions_ = begin_;
+  positions_ = positions_begin_;
   if (!is_at_rest()) positions_ += interval_ * state.velocities;
   for (const Pin& pin : model_.pins) {
     const Vec3 end = pin.position(time_end);
-    positions_.col(pin.vertex) =
-        options().rule == NewtonRule::midpoint ? Vec3((begin_.col(pin.vertex) + end) / 2) : end;
+    positions_.col(pin.vertex) = options().rule == NewtonRule::midpoint
+                                     ? Vec3((positions_begin_.col(pin.vertex) + end) / 2)
+                                     : end;
   }
   place_between_parents(model_.hanging, positions_);
 }
@@ -132,7 +132,7 @@ void StepperNewton::place_first_guess(const State& state, double time_end) {
 /// The function that a substep minimises, with drag expanded about the present iterate. `magnitude`
 /// (may be null) gets the sum of the terms' sizes.
 double StepperNewton::potential(const Positions& positions, double* magnitude) {
-  change_ = flat(positions) - flat(begin_);
+  change_ = flat(positions) - flat(positions_begin_);
   flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
   const double kinetic = 0.5 * change_.dot(flat(product_));
   const double work = change_.dot(flat(loads_));
@@ -154,13 +154,13 @@ void StepperNewton::evaluate_gradient() {
   gradient_.setZero();
   add_elastic_forces(model_, positions_, gradient_);
   if (model_.air && !is_at_rest()) {
-    velocities_ = (positions_ - begin_) / interval_;
+    velocities_ = (positions_ - positions_begin_) / interval_;
     model_.air->evaluate(positions_, velocities_);
     gradient_ += model_.air->forces();
   }
   pull_to_parents(model_.hanging, gradient_);
   residual_scale_ = loads_.norm() + gradient_.norm();
-  change_ = flat(positions_) - flat(begin_);
+  change_ = flat(positions_) - flat(positions_begin_);
   flat(product_).noalias() = base_.selfadjointView<Eigen::Lower>() * change_;
   pull_to_parents(model_.hanging, product_);
   gradient_ = product_ - loads_ - gradient_;
@@ -348,17 +348,17 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
   SolveReport report = minimise();
   if (report.ends_run()) return report;
   if (hold_) {
-    velocities_ = (positions_ - begin_) / interval_;
-    hold_->add_forces(velocities_, interval_, contact_forces_);
+    velocities_ = (positions_ - positions_begin_) / interval_;
+    hold_->add_forces(velocities_, interval_, contact_memory_.forces());
   }
   switch (options().rule) {
     case NewtonRule::backward_euler:
-      state.velocities = (positions_ - begin_) / interval_;
+      state.velocities = (positions_ - positions_begin_) / interval_;
       state.positions = positions_;
       break;
     case NewtonRule::midpoint:
-      state.velocities = 2 / interval_ * (positions_ - begin_) - state.velocities;
-      state.positions = 2 * positions_ - begin_;
+      state.velocities = 2 / interval_ * (positions_ - positions_begin_) - state.velocities;
+      state.positions = 2 * positions_ - positions_begin_;
       break;
     case NewtonRule::equilibrium:
       state.velocities.setZero();
@@ -370,8 +370,7 @@ SolveReport StepperNewton::substep(State& state, double time_end, double h) {
     state.velocities.col(pin.vertex) = is_at_rest() ? Vec3(Vec3::Zero()) : pin.velocity(time_end);
   }
   const double travel_share = options().rule == NewtonRule::midpoint ? 0.5 : 1;
-  correct(positions_begin_, state, time_end, h, hold_ ? hold_->resistances() : model_.masses,
-          travel_share);
+  correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses, travel_share);
   return report;
 }
 

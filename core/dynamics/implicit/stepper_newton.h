@@ -64,10 +64,9 @@ class StepperNewton final : public Stepper {
   bool is_projected_ = false;       // the matrix at hand
   bool has_factor_ = false;         // of some earlier Hessian with the same pins
   double residual_scale_ = 0;       // [N]
-  Positions begin_;
-  Positions loads_;      // M v/k + f [N]
-  Positions positions_;  // the iterate
-  Positions gradient_;   // of the potential there; 0 where pinned [N]
+  Positions loads_;                 // M v/k + f [N]
+  Positions positions_;             // the iterate
+  Positions gradient_;              // of the potential there; 0 where pinned [N]
   Positions direction_;
   Positions trial_;
   Positions velocities_;    // (x - x_begin)/k, for drag
@@ -79,7 +78,6 @@ class StepperNewton final : public Stepper {
   Eigen::VectorXd preconditioned_;
   Eigen::VectorXd search_;
   Eigen::VectorXd image_;
-  Positions positions_begin_;
 };
 
 }  // namespace pleat

@@ -25,7 +25,7 @@ bool damps_along_spring(const ClothModel& model) {
 }  // namespace
 
 StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, options.substeps, ContactMemory::last_substep),
+    : Stepper(model, options, options.substeps, ContactForces::remembered),
       solver_(make_solver(options)),
       targets_(model.springs.size()),
       forces_(3, model.n_vertices()),
@@ -33,8 +33,7 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
       positions_(3, model.n_vertices()),
       first_change_(3, model.n_vertices()),
       right_side_(model.n_vertices(), 3),
-      solution_(model.n_vertices(), 3),
-      positions_begin_(3, model.n_vertices()) {
+      solution_(model.n_vertices(), 3) {
   if (options.acceleration == Acceleration::anderson) {
     acceleration_.emplace(model.n_vertices());
     start_.resize(model.n_vertices(), 6);
@@ -42,6 +41,7 @@ StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& opt
     proposed_.resize(3, model.n_vertices());
   }
   if (model_.contact) hold_.emplace(model_, kHeldShare);
+  if (model.air && model.air->has_wind()) air_forces_ = Positions::Zero(3, model.n_vertices());
   refresh();
 }
 
@@ -98,8 +98,9 @@ void StepperProjective::hold(const State& state, double h) {
   const StageScope scope(observer_, Stage::contact);
   was_held_ = is_held_;
   std::fill(is_held_.begin(), is_held_.end(), char{0});
-  for (const ContactStage::Touch& touch : touches_) is_held_[touch.vertex] = is_free_[touch.vertex];
-  hold_->choose(touches_, state, h);
+  for (const ContactStage::Touch& touch : contact_memory_.touches())
+    is_held_[touch.vertex] = is_free_[touch.vertex];
+  hold_->choose(contact_memory_.touches(), state, h);
   if (is_held_ == was_held_) return;
   for (int i = 0; i < model_.n_vertices(); ++i)
     matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
@@ -216,10 +217,10 @@ void StepperProjective::accelerate(double h) {
 /// Friction of what slips is nothing that the rounds find, so it stays, as far as it brakes.
 void StepperProjective::place_first_guess(double time_end, double h) {
   positions_ = predicted_;
-  if (contact_forces_.cols() > 0)
+  if (contact_memory_.has_forces())
     for (int i = 0; i < model_.n_vertices(); ++i)
       if (!model_.hangs(VertexId(i)))
-        positions_.col(i) -= h * h / model_.masses[i] * contact_forces_.col(i);
+        positions_.col(i) -= h * h / model_.masses[i] * contact_memory_.forces().col(i);
   for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
   place_between_parents(model_.hanging, positions_);
   first_change_ = positions_;
@@ -228,7 +229,7 @@ void StepperProjective::place_first_guess(double time_end, double h) {
     const VertexId v = held.vertex;
     if (!is_held_[v]) continue;
     const double whole = kHeldShare * hold_->resistances()[v];
-    const Vec3 force = contact_forces_.col(v);
+    const Vec3 force = contact_memory_.forces().col(v);
     const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
     const Vec3 held_way = held.resistance * way / whole;
     const Vec3 brake = h * h / model_.masses[v] * (force - held.resistance * force / whole);
@@ -243,9 +244,12 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   positions_begin_ = state.positions;
   if (hold_) hold(state, h);
   if (!factor_report_.ok()) return factor_report_;
-  set_damped_external_forces(state, h, forces_);
   {
     const StageScope scope(observer_, Stage::forces);
+    set_steady_forces(forces_);
+    if (model_.air)
+      model_.air->add_damped_forces(state.positions, state.velocities, model_.masses,
+                                    model_.hanging, h, air_forces_, forces_);
     for (int i = 0; i < model_.n_vertices(); ++i) {
       if (model_.hangs(VertexId(i))) continue;
       predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
@@ -273,8 +277,8 @@ SolveReport StepperProjective::substep(State& state, double time_end, double h) 
   time_end_ = time_end;
   state.positions = positions_;
   state.velocities = (positions_ - positions_begin_) / h;
-  if (hold_) hold_->add_forces(state.velocities, h, contact_forces_);
-  correct(positions_begin_, state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
+  if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
+  correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
   return report;
 }
 

@@ -76,7 +76,8 @@ class StepperProjective final : public Stepper {
   std::vector<PinnedEntry> pinned_entries_;
   std::vector<Target> targets_;
   Positions forces_;
-  Positions predicted_;  // x + h v + h^2 M^-1 f_external; 0 where vertices hang
+  Positions air_forces_;  // applied in the last substep, in wind [N]
+  Positions predicted_;   // x + h v + h^2 M^-1 f_external; 0 where vertices hang
   Positions positions_;
   Positions first_change_;  // from where neither springs nor solids act to the first round's end
   VertexRows right_side_;
@@ -86,7 +87,6 @@ class StepperProjective final : public Stepper {
   LoadedRows start_;        // of the substep's first round
   VertexRows steady_side_;  // of the right-hand side, what no round changes
   Positions proposed_;
-  Positions positions_begin_;
   double time_end_ = 0;  // of the last substep [s]
 };
 

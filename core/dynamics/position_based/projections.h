@@ -31,10 +31,10 @@ class Projections {
   /// constraints.
   virtual double sweeps_per_round() const = 0;
 
-  /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2], after
-  /// `solve`, or with multipliers of zero, as before it.
+  /// Makes the multipliers zero.
+  virtual void forget() = 0;
+  /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2].
   virtual double squared_residual(const LaneView& view) = 0;
-  virtual double squared_residual_before(const LaneView& view) = 0;
 
   /// What the options ask for and this cloth has not, in a sentence's middle; empty for nothing.
   virtual std::string remark() const { return {}; }

@@ -1,6 +1,7 @@
 #include "core/dynamics/position_based/spring_law.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pleat {
 namespace {
@@ -31,6 +32,29 @@ std::vector<int> active_springs(const ClothModel& model, SpringLaw law) {
       active.push_back(static_cast<int>(s));
   }
   return active;
+}
+
+std::vector<int> free_springs(const ClothModel& model, SpringLaw law) {
+  std::vector<int> springs = active_springs(model, law);
+  std::erase_if(springs, [&model](int s) {
+    const Spring& spring = model.springs[static_cast<std::size_t>(s)];
+    return model.hangs(spring.a) || model.hangs(spring.b);
+  });
+  return springs;
+}
+
+std::vector<BendConstraint> bend_constraints(const ClothModel& model, double h) {
+  const double mean_mass = model.masses.mean();
+  std::vector<BendConstraint> constraints;
+  for (const BendElement& bend : model.bends) {
+    const double middle = std::abs(bend.weights[1]);
+    const double stiffness = bend.stiffness * middle * middle;  // [N/m]
+    if (stiffness == 0) continue;
+    constraints.push_back(
+        {bend.vertices, bend.weights, static_cast<float>(mean_mass / (stiffness * h * h))});
+    for (double& weight : constraints.back().weights) weight /= middle;
+  }
+  return constraints;
 }
 
 void SpringBlock::set_lane(std::size_t lane, const Spring& spring, SpringLaw law, double h,

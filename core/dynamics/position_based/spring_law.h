@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -43,8 +44,26 @@ auto with_law(SpringLaw law, Work&& work) {
   return work(std::integral_constant<SpringLaw, SpringLaw::rigid>());
 }
 
-/// The springs of a model that can pull at all.
+/// The springs of a model that can pull at all, and those of them that join no hanging vertex.
 std::vector<int> active_springs(const ClothModel& model, SpringLaw law);
+std::vector<int> free_springs(const ClothModel& model, SpringLaw law);
+
+/// A bending element as one vector constraint, C = sum of weights times places.
+struct BendConstraint {
+  std::array<VertexId, 3> vertices;  ///< before, middle, after
+  std::array<double, 3> weights;     ///< over the size of the middle one
+  float compliance;                  ///< mean mass / (stiffness h^2)
+};
+
+/// The bending elements of a model that resist, for substeps of h [s].
+std::vector<BendConstraint> bend_constraints(const ClothModel& model, double h);
+
+/// True where one of the vertices hangs.
+template <class Vertices>
+bool any_hangs(const ClothModel& model, const Vertices& vertices) {
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&model](VertexId v) { return model.hangs(v); });
+}
 
 /// Where a length [m] may be zero, its square is held above this [m^2].
 constexpr float kTinySquare = 1e-30f;

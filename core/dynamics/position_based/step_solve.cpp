@@ -46,7 +46,8 @@ StepSolve::StepSolve(const ClothModel& model, const MethodOptions& options,
   first_moves_.assign(array(move), array(inverse_mass));
   projections_->refresh_pins(model, array(inverse_mass));
   projections_->refresh_rest_lengths(model);
-  residual_begin_ = std::sqrt(projections_->squared_residual_before(view()));
+  projections_->forget();
+  residual_begin_ = std::sqrt(projections_->squared_residual(view()));
 }
 
 LaneView StepSolve::view() {

@@ -19,9 +19,9 @@ double step_of(const MethodOptions& options) { return options.step / options.sub
 
 }  // namespace
 
-StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
-                         MakeProjections make_projections)
-    : Stepper(model, options, options.substeps, ContactMemory::none),
+StepperPositionBased::StepperPositionBased(ClothModel& model, const MethodOptions& options,
+                                           MakeProjections make_projections)
+    : Stepper(model, options, options.substeps),
       layout_(lane_layout(model)),
       projections_(make_projections(model, options, layout_, spring_law(model, options.constraints),
                                     step_of(options))),
@@ -35,7 +35,6 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
     forces_.resize(3, model.n_vertices());
     air_.resize(kAirArrays * pitch_);
   }
-  if (strain_limit() != nullptr) positions_begin_.resize(3, model.n_vertices());
   if (model.contact) {
     contact_.emplace(layout_);
     vertices_.resize(static_cast<std::size_t>(layout_.n_slots));
@@ -45,7 +44,7 @@ StepperXpbd::StepperXpbd(ClothModel& model, const MethodOptions& options,
   refresh();
 }
 
-void StepperXpbd::refresh() {
+void StepperPositionBased::refresh() {
   float* const inverse_masses = array(inverse_mass);
   for (int i = 0; i < model_.n_vertices(); ++i)
     inverse_masses[slot_of(VertexId(i))] =
@@ -59,22 +58,22 @@ void StepperXpbd::refresh() {
   refresh_rest_lengths();
 }
 
-void StepperXpbd::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
+void StepperPositionBased::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
 
-LaneView StepperXpbd::view() {
+LaneView StepperPositionBased::view() {
   return {lanes(move), {array(begin), array(begin + 1), array(begin + 2)}, array(inverse_mass)};
 }
 
-int StepperXpbd::slot_of(VertexId vertex) const {
+int StepperPositionBased::slot_of(VertexId vertex) const {
   return layout_.places[static_cast<std::size_t>(vertex)].slot;
 }
 
 // Addresses are taken once, for a step's conversions go through all vertices.
-StepperXpbd::MotionLanes StepperXpbd::motion() {
+StepperPositionBased::MotionLanes StepperPositionBased::motion() {
   return {lanes(begin), lanes(move), lanes(rounded_off)};
 }
 
-Vec3 StepperXpbd::position_of(const MotionLanes& motion, int slot) const {
+Vec3 StepperPositionBased::position_of(const MotionLanes& motion, int slot) const {
   const auto along = [&](std::size_t k) {
     return origin_[static_cast<int>(k)] +
            (static_cast<double>(motion.begins[k][slot]) + motion.moves[k][slot]);
@@ -82,15 +81,15 @@ Vec3 StepperXpbd::position_of(const MotionLanes& motion, int slot) const {
   return {along(0), along(1), along(2)};
 }
 
-Vec3 StepperXpbd::velocity_of(const MotionLanes& motion, int slot, double h) {
+Vec3 StepperPositionBased::velocity_of(const MotionLanes& motion, int slot, double h) {
   const auto along = [&](std::size_t k) {
     return (static_cast<double>(motion.moves[k][slot]) - motion.rounded_off[k][slot]) / h;
   };
   return {along(0), along(1), along(2)};
 }
 
-void StepperXpbd::set_motion(const MotionLanes& motion, int slot, const Vec3& position,
-                             const Vec3& velocity, double h) const {
+void StepperPositionBased::set_motion(const MotionLanes& motion, int slot, const Vec3& position,
+                                      const Vec3& velocity, double h) const {
   const auto set_along = [&](std::size_t k) {
     const double local = position[static_cast<int>(k)] - origin_[static_cast<int>(k)];
     const auto rounded = static_cast<float>(local);
@@ -104,7 +103,7 @@ void StepperXpbd::set_motion(const MotionLanes& motion, int slot, const Vec3& po
   set_along(2);
 }
 
-void StepperXpbd::load(const State& state) {
+void StepperPositionBased::load(const State& state) {
   const StageScope scope(observer_, Stage::convert);
   const double h = step_of(options());
   Vec3 least = state.positions.col(0);
@@ -123,7 +122,7 @@ void StepperXpbd::load(const State& state) {
 // begin' = begin + move is rounded; begin' - begin is not, for the two are near each other. So
 // rounded_off' is exactly what the rounding took away, and goes into the next move.
 template <bool carries>
-void StepperXpbd::predict() {
+void StepperPositionBased::predict() {
   const LaneView v = view();
   const std::array<float*, 3> begins = lanes(begin);
   const std::array<float*, 3> lows = lanes(rounded_off);
@@ -152,7 +151,7 @@ void StepperXpbd::predict() {
   }
 }
 
-void StepperXpbd::take_gains() {
+void StepperPositionBased::take_gains() {
   const std::array<float*, 3> gains = lanes(gained);
   for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
     const Vec3Lanes<Float4> velocity =
@@ -162,7 +161,7 @@ void StepperXpbd::take_gains() {
 }
 
 // What holds is placed once a step, and goes on as it is: a move that is all rounded off.
-void StepperXpbd::place_pins(double time_end, double h) {
+void StepperPositionBased::place_pins(double time_end, double h) {
   const bool is_first = substeps_left_ == substeps();
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
     const Pin& pin = model_.pins[p];
@@ -183,7 +182,7 @@ void StepperXpbd::place_pins(double time_end, double h) {
 // What triangles feel costs more than all constraints, and is asked for now and then. Until the
 // next time the drag of a vertex is f - r D (v' - v), with f and the bound D of its resistance at
 // the velocity v of then, v' that at a substep's end and r the share above.
-void StepperXpbd::find_air_drag(State& state, double h) {
+void StepperPositionBased::find_air_drag(State& state, double h) {
   const StageScope scope(observer_, Stage::forces);
   copy_to(state, h);
   forces_.setZero();
@@ -208,7 +207,7 @@ void StepperXpbd::find_air_drag(State& state, double h) {
   }
 }
 
-void StepperXpbd::add_air_drag() {
+void StepperPositionBased::add_air_drag() {
   const StageScope scope(observer_, Stage::forces);
   const std::array<float*, 3> moves = lanes(move);
   const std::array<float*, 3> lows = lanes(rounded_off);
@@ -230,7 +229,7 @@ void StepperXpbd::add_air_drag() {
 
 // Most vertices are far from solids or meet a single one: only the others are made double
 // precision of.
-void StepperXpbd::resolve_contacts(double h) {
+void StepperPositionBased::resolve_contacts(double h) {
   const StageScope scope(observer_, Stage::contact);
   contact_->place_solids(*model_.contact, origin_, extent_);
   const MotionLanes now = motion();
@@ -245,20 +244,20 @@ void StepperXpbd::resolve_contacts(double h) {
   }
 }
 
-void StepperXpbd::limit_in_double(State& state, double time_end, double h) {
-  positions_begin_.swap(state.positions);
+void StepperPositionBased::limit_in_double(State& state, double time_end, double h) {
+  positions_begin_ = state.positions;
   copy_to(state, h);
-  correct(positions_begin_, state, time_end, h);
+  correct(state, time_end, h, model_.masses);
   take_from(state, h);
 }
 
-void StepperXpbd::take_from(const State& state, double h) {
+void StepperPositionBased::take_from(const State& state, double h) {
   const MotionLanes lanes = motion();
   for (int i = 0; i < model_.n_vertices(); ++i)
     set_motion(lanes, slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
 }
 
-void StepperXpbd::copy_to(State& state, double h) {
+void StepperPositionBased::copy_to(State& state, double h) {
   const MotionLanes lanes = motion();
   for (int i = 0; i < model_.n_vertices(); ++i) {
     const int slot = slot_of(VertexId(i));
@@ -268,7 +267,7 @@ void StepperXpbd::copy_to(State& state, double h) {
   place_between_parents(model_.hanging, state);
 }
 
-SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
+SolveReport StepperPositionBased::substep(State& state, double time_end, double h) {
   if (model_.air) {
     const int every = std::max(1, static_cast<int>(std::lround(kDragPeriod / h)));
     if ((substeps() - substeps_left_) % every == 0) find_air_drag(state, h);
@@ -280,7 +279,10 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
     place_pins(time_end, h);
     const LaneView v = view();
     const bool is_last = substeps_left_ == 1;
-    if (is_last) residual_begin_ = std::sqrt(projections_->squared_residual_before(v));
+    if (is_last) {
+      projections_->forget();
+      residual_begin_ = std::sqrt(projections_->squared_residual(v));
+    }
     projections_->solve(v, options().iterations);
     if (carries()) take_gains();
     if (is_last) residual_end_ = std::sqrt(projections_->squared_residual(v));
@@ -297,7 +299,7 @@ SolveReport StepperXpbd::substep(State& state, double time_end, double h) {
   return report;
 }
 
-void StepperXpbd::store(State& state, SolveReport& report) {
+void StepperPositionBased::store(State& state, SolveReport& report) {
   const StageScope scope(observer_, Stage::convert);
   copy_to(state, step_of(options()));
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {

@@ -10,6 +10,7 @@
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/stepper.h"
+#include "core/dynamics/stepper_type.h"
 
 namespace pleat {
 
@@ -21,10 +22,10 @@ namespace pleat {
 /// their own: what pulls at one moves its parents.
 ///
 /// Source: Macklin et al., Small steps in physics simulation, SCA 2019; docs/methods/xpbd.md.
-class StepperXpbd final : public Stepper {
+class StepperPositionBased final : public Stepper {
  public:
-  StepperXpbd(ClothModel& model, const MethodOptions& options,
-              MakeProjections make_projections = lane_projections);
+  StepperPositionBased(ClothModel& model, const MethodOptions& options,
+                       MakeProjections make_projections = lane_projections);
 
   void refresh() override;
   void refresh_rest_lengths() override;
@@ -97,7 +98,6 @@ class StepperXpbd final : public Stepper {
   Positions forces_;                              // of the air [N]
   std::vector<float> air_;  // arrays as those above: to a move v it adds gain - brake v, as x y z
                             // [m] and xx yy zz xy xz yz
-  Positions positions_begin_;  // of a substep whose strain is limited [m]
 };
 
 }  // namespace pleat

@@ -153,7 +153,7 @@ TEST_CASE("xpbd: a hanging spring sags by m g / k whatever the iterations", "[dy
   CAPTURE(iterations, isotropic);
   System system = hanging_spring(0.5);
   if (isotropic) system.model.damping_direction = DampingDirection::isotropic;
-  StepperXpbd stepper(system.model, xpbd_options(20, iterations));
+  StepperPositionBased stepper(system.model, xpbd_options(20, iterations));
   advance(stepper, system.state, 180);
   const double sag = -1 - system.state.positions(1, 1);
   CHECK(sag == Approx(0.01 * 9.81 / 40).epsilon(1e-3));
@@ -176,7 +176,7 @@ TEST_CASE("xpbd: an oscillating spring tends to the damped oscillator at first o
     if (isotropic) system.model.damping_direction = DampingDirection::isotropic;
     system.model.gravity.setZero();
     system.state.positions(1, 1) -= amplitude;
-    StepperXpbd stepper(system.model, xpbd_options(substeps));
+    StepperPositionBased stepper(system.model, xpbd_options(substeps));
     advance(stepper, system.state, 6);
     errors.push_back(std::abs(-1 - system.state.positions(1, 1) - exact));
   }
@@ -196,7 +196,7 @@ TEST_CASE("xpbd: a bending element holds a load at its closed-form deflection", 
   system.model.bends.push_back(bend_of(0, 1, arm, stiffness));
   pin(system, 0);
   pin(system, 1);
-  StepperXpbd stepper(system.model, xpbd_options(4, iterations));
+  StepperPositionBased stepper(system.model, xpbd_options(4, iterations));
   advance(stepper, system.state, 600);
   const double deflection = 0.01 * 9.81 * std::pow(arm, 4) / stiffness;
   CHECK(-system.state.positions(1, 2) == Approx(deflection).epsilon(1e-3));
@@ -208,7 +208,7 @@ TEST_CASE("xpbd: free fall is exact to rounding however small the substep", "[dy
   CAPTURE(substeps);
   System system = particles(Positions::Constant(3, 2, 0.7));
   system.state.positions.col(1).setConstant(-0.7);
-  StepperXpbd stepper(system.model, rigid_options(substeps));
+  StepperPositionBased stepper(system.model, rigid_options(substeps));
   advance(stepper, system.state, 60);
   const double h = 1.0 / 60 / substeps;
   // g h^2 is added to a move of up to v h, v = g * 1 s, and rounded to its last bit.
@@ -225,7 +225,7 @@ TEST_CASE("xpbd: slow motion is not lost in rounding", "[dynamics]") {
   const double speed = 1e-5;  // [m/s]: a substep's move is a fortieth of the last bit of a position
   system.state.velocities(0, 0) = speed;
   const double start = system.state.positions(0, 0);
-  StepperXpbd stepper(system.model, rigid_options(100));
+  StepperPositionBased stepper(system.model, rigid_options(100));
   advance(stepper, system.state, 60);
   CHECK(system.state.positions(0, 0) - start == Approx(speed).epsilon(1e-3));
 }
@@ -243,7 +243,7 @@ TEST_CASE("xpbd: only the isotropic damper brakes motion across a spring", "[dyn
   const double speed = 1e-3;  // too slow to turn the spring
   system.state.velocities(0, 0) = speed;
   system.state.velocities(0, 1) = -speed;
-  StepperXpbd stepper(system.model, xpbd_options(100));
+  StepperPositionBased stepper(system.model, xpbd_options(100));
   advance(stepper, system.state, 3);
   const double rate = isotropic ? damping / (0.5 * 0.01) : 0;  // c over the reduced mass [1/s]
   CHECK(system.state.velocities(0, 0) == Approx(speed * std::exp(-rate * 3 / 60)).epsilon(5e-3));
@@ -261,7 +261,7 @@ TEST_CASE("xpbd: projections keep momentum", "[dynamics]") {
   for (double& x : system.state.velocities.reshaped()) x = random.uniform(-1, 1);
   for (double& mass : system.model.masses) mass *= random.uniform(0.5, 2);
   const Vec3 before = momentum(system.model, system.state);
-  StepperXpbd stepper(system.model, rigid ? rigid_options(20) : xpbd_options(20));
+  StepperPositionBased stepper(system.model, rigid ? rigid_options(20) : xpbd_options(20));
   advance(stepper, system.state, 30);
   // Each substep rounds every position off by at most 2^-25 m, which h = 1/1200 s turns into
   // velocity; over 600 substeps and 12 constraints each the errors of 81 vertices add up like a
@@ -278,7 +278,7 @@ TEST_CASE("xpbd: pins are where their motion puts them, to the bit", "[dynamics]
     held.motion.offset = {0.1, 0.2, 0.3};
     held.motion.frequency = 1.7;
   }
-  StepperXpbd stepper(system.model, rigid_options(10));
+  StepperPositionBased stepper(system.model, rigid_options(10));
   advance(stepper, system.state, 7);
   const double time = 6 * stepper.options().step + stepper.options().step;
   for (const Pin& held : system.model.pins) {
@@ -300,7 +300,7 @@ TEST_CASE("xpbd: a pin that holds is one that moves nowhere, in air too, to the 
     system.model.air.emplace(triangles, thick, system.model.n_vertices());
     pin(system, 0);
     system.model.pins[0].motion.kind = kind;
-    StepperXpbd stepper(system.model, xpbd_options(20));
+    StepperPositionBased stepper(system.model, xpbd_options(20));
     advance(stepper, system.state, 30);
     return system.state.positions;
   };
@@ -317,7 +317,7 @@ double falls(double density, double speed, int substeps) {
   system.model.air.emplace(std::vector<Triangle>{{VertexId(0), VertexId(1), VertexId(2)}}, air,
                            system.model.n_vertices());
   system.state.velocities.row(1).setConstant(-speed);
-  StepperXpbd stepper(system.model, xpbd_options(substeps));
+  StepperPositionBased stepper(system.model, xpbd_options(substeps));
   advance(stepper, system.state, 30);
   return -system.state.velocities(1, 1);
 }
@@ -341,7 +341,7 @@ TEST_CASE("xpbd: the same input gives the same bits", "[dynamics]") {
   for (State& end : ends) {
     System system = swinging_sheet(n);
     add_bends(system, n, 1e-7);
-    StepperXpbd stepper(system.model, xpbd_options(20, 2));
+    StepperPositionBased stepper(system.model, xpbd_options(20, 2));
     advance(stepper, system.state, 20);
     end = system.state;
   }
@@ -358,7 +358,7 @@ TEST_CASE("xpbd: nothing is allocated after the first step", "[dynamics]") {
   system.model.air.emplace(triangles, AirOptions{}, system.model.n_vertices());
   system.model.contact.emplace(std::vector<Collider>{{Plane{{0, -0.3, 0}, {0, 1, 0}}, {}, 0.3}},
                                ContactOptions{});
-  StepperXpbd stepper(system.model, rigid ? rigid_options(10) : xpbd_options(10, 2));
+  StepperPositionBased stepper(system.model, rigid ? rigid_options(10) : xpbd_options(10, 2));
   stepper.advance(system.state, 0);
   CHECK(allocations_in([&] {
           for (int step = 1; step < 5; ++step) stepper.advance(system.state, step / 60.0);
@@ -402,13 +402,12 @@ TEST_CASE("xpbd: four lanes together give what they give one by one, to the bit"
     const LaneView view{{&data[0], &data[size], &data[2 * size]},
                         {&data[3 * size], &data[4 * size], &data[5 * size]},
                         &data[6 * size]};
-    const double before =
-        springs.squared_residual_before_sweeps(view) + bends.squared_residual_before_sweeps(view);
-    bends.first_sweep(view);
-    springs.first_sweep(view);
-    for (int sweep = 0; sweep < 20; ++sweep) {
-      bends.next_sweep(view);
-      springs.next_sweep(view);
+    springs.forget();
+    bends.forget();
+    const double before = springs.squared_residual(view) + bends.squared_residual(view);
+    for (int sweep = 0; sweep <= 20; ++sweep) {
+      bends.sweep(view, sweep == 0);
+      springs.sweep(view, sweep == 0);
     }
     CHECK(springs.squared_residual(view) + bends.squared_residual(view) < before);
     end.assign(data.begin(), data.begin() + static_cast<std::ptrdiff_t>(3 * size));
@@ -447,7 +446,7 @@ TEST_CASE("xpbd: a hanging sheet at rest stays at rest in any order", "[dynamics
   for (int column = 0; column < c.n; ++column)
     pin(system, numbers[static_cast<std::size_t>(column)]);
   const Positions start = system.state.positions;
-  StepperXpbd stepper(system.model, rigid_options(c.substeps));
+  StepperPositionBased stepper(system.model, rigid_options(c.substeps));
   const double h = 1.0 / 60 / c.substeps;
   // Each of n - 1 links is placed to 2^-24 of its length, in the worst case all to the same side,
   // and the substep before likewise.
@@ -466,7 +465,7 @@ TEST_CASE("xpbd: a swinging sheet keeps its lengths at every resolution", "[dyna
   const int n = GENERATE(17, 33, 65);
   CAPTURE(n);
   System system = swinging_sheet(n);
-  StepperXpbd stepper(system.model, rigid_options(20));
+  StepperPositionBased stepper(system.model, rigid_options(20));
   advance(stepper, system.state, 20);
   double largest = 0;
   for (const Spring& spring : system.model.springs) {
@@ -489,7 +488,7 @@ TEST_CASE("xpbd: a sheet pulled beyond its size by both edges stays bounded", "[
     motion.offset = {0, 0, 0.3};
     motion.time_end = 0.5;
   }
-  StepperXpbd stepper(system.model, rigid ? rigid_options(20) : xpbd_options(20));
+  StepperPositionBased stepper(system.model, rigid ? rigid_options(20) : xpbd_options(20));
   advance(stepper, system.state, 120);
   CHECK(system.state.positions.cwiseAbs().maxCoeff() < 2);
 }
@@ -513,7 +512,7 @@ TEST_CASE("xpbd: any graph of springs stays finite", "[dynamics]") {
     if (s % 3 == 0) system.model.springs.back().rest_length *= random.uniform(0, 2);
   }
   pin(system, 0);
-  StepperXpbd stepper(system.model, rigid ? rigid_options(5) : xpbd_options(5));
+  StepperPositionBased stepper(system.model, rigid ? rigid_options(5) : xpbd_options(5));
   advance(stepper, system.state, 120);
   CHECK(system.state.positions.cwiseAbs().maxCoeff() < 100);
 }
@@ -524,7 +523,7 @@ TEST_CASE("xpbd: a vertex falling on a plane comes to lie on it", "[dynamics]") 
   System system = particles(positions);
   system.model.springs.push_back(spring_between(positions, 0, 1, 100, 0.1));
   system.model.contact.emplace(std::vector<Collider>{{Plane{}, {}, 0.3}}, ContactOptions{});
-  StepperXpbd stepper(system.model, rigid_options(10));
+  StepperPositionBased stepper(system.model, rigid_options(10));
   for (int step = 0; step < 60; ++step) {
     stepper.advance(system.state, step / 60.0);
     REQUIRE(system.state.positions.row(1).minCoeff() > -1e-12);
@@ -536,7 +535,7 @@ TEST_CASE("xpbd: a vertex falling on a plane comes to lie on it", "[dynamics]") 
 double slide(const SolidShape& slope, double friction, const Vec3& place, double seconds) {
   System system = particles(place);
   system.model.contact.emplace(std::vector<Collider>{{slope, {}, friction}}, ContactOptions{});
-  StepperXpbd stepper(system.model, rigid_options(30));
+  StepperPositionBased stepper(system.model, rigid_options(30));
   advance(stepper, system.state, static_cast<int>(std::lround(60 * seconds)));
   return (system.state.positions.col(0) - place).norm();
 }
@@ -579,7 +578,7 @@ TEST_CASE("xpbd: nothing that is thrown at moving solids gets into them", "[dyna
   system.model.contact.emplace(
       std::vector<Collider>{{Plane{middle - Vec3(0, 0.8, 0)}, {}, 0.3}, limb, ball},
       ContactOptions{0.001, {}});
-  StepperXpbd stepper(system.model, rigid_options(3));
+  StepperPositionBased stepper(system.model, rigid_options(3));
   std::vector<char> was_stopped(kParticles, 0);
   for (int step = 0; step < 30; ++step) {
     const Positions before = system.state.velocities;

@@ -1,21 +1,19 @@
 #include "core/dynamics/position_based/lanes/bend_program.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pleat {
 namespace {
 
 constexpr int kMultiplierFloats = 12;
 
-std::vector<LaneCandidate> candidates_of(const ClothModel& model, const LaneLayout& layout) {
+std::vector<LaneCandidate> candidates_of(const ClothModel& model,
+                                         const std::vector<BendConstraint>& bends,
+                                         const LaneLayout& layout) {
   std::vector<LaneCandidate> candidates;
-  for (std::size_t e = 0; e < model.bends.size(); ++e) {
-    const BendElement& bend = model.bends[e];
-    if (bend.stiffness == 0 || bend.weights[1] == 0) continue;
-    if (std::any_of(bend.vertices.begin(), bend.vertices.end(),
-                    [&model](VertexId v) { return model.hangs(v); }))
-      continue;
+  for (std::size_t e = 0; e < bends.size(); ++e) {
+    const BendConstraint& bend = bends[e];
+    if (any_hangs(model, bend.vertices)) continue;
     const auto place = [&](std::size_t k) {
       return layout.places[static_cast<std::size_t>(bend.vertices[k])];
     };
@@ -36,8 +34,8 @@ std::vector<LaneCandidate> candidates_of(const ClothModel& model, const LaneLayo
 }  // namespace
 
 BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, double h) {
-  const double mean_mass = model.masses.mean();
-  for (const LaneOperation& operation : compile_operations(candidates_of(model, layout))) {
+  const std::vector<BendConstraint> bends = bend_constraints(model, h);
+  for (const LaneOperation& operation : compile_operations(candidates_of(model, bends, layout))) {
     append_to_stretches(stretches_, static_cast<int>(operations_.size()), operation.first_slots, 3);
     operations_.push_back(
         {operation.first_slots[0], operation.first_slots[1], operation.first_slots[2]});
@@ -46,12 +44,10 @@ BendProgram::BendProgram(const ClothModel& model, const LaneLayout& layout, doub
     block.denominator_share.fill(kEmptyLane);
     for (std::size_t lane = 0; lane < operation.members.size(); ++lane) {
       if (operation.members[lane] < 0) continue;
-      const BendElement& bend = model.bends[static_cast<std::size_t>(operation.members[lane])];
-      const double middle = std::abs(bend.weights[1]);
-      const double stiffness = bend.stiffness * middle * middle;  // [N/m]
-      block.before[lane] = static_cast<float>(bend.weights[0] / middle);
-      block.after[lane] = static_cast<float>(bend.weights[2] / middle);
-      block.compliance[lane] = static_cast<float>(mean_mass / (stiffness * h * h));
+      const BendConstraint& bend = bends[static_cast<std::size_t>(operation.members[lane])];
+      block.before[lane] = static_cast<float>(bend.weights[0]);
+      block.after[lane] = static_cast<float>(bend.weights[2]);
+      block.compliance[lane] = bend.compliance;
       block.denominator_share[lane] = block.compliance[lane] + kRigidCompliance;
     }
     blocks_.push_back(block);
@@ -105,11 +101,13 @@ void BendProgram::sweep(const LaneView& view) {
   });
 }
 
-void BendProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
-void BendProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
+void BendProgram::sweep(const LaneView& view, bool is_first) {
+  is_first ? sweep<true>(view) : sweep<false>(view);
+}
 
-template <bool with_multipliers>
-double BendProgram::sum_of_squares(const LaneView& v) const {
+void BendProgram::forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
+
+double BendProgram::squared_residual(const LaneView& v) const {
   Float4 sum = Float4::all(0);
   for (std::size_t i = 0; i < operations_.size(); ++i) {
     const Operation& operation = operations_[i];
@@ -118,24 +116,16 @@ double BendProgram::sum_of_squares(const LaneView& v) const {
       return load<Float4>(v.begins, slot) - load<Float4>(v.begins, operation.middle) +
              (load<Float4>(v.moves, slot) - load<Float4>(v.moves, operation.middle));
     };
-    Vec3Lanes<Float4> error = Float4::load(block.before.data()) * place(operation.before) +
-                              Float4::load(block.after.data()) * place(operation.after);
-    if constexpr (with_multipliers) {
-      const float* const multiplier = multipliers_.data() + kMultiplierFloats * i;
-      error = error + Float4::load(block.compliance.data()) *
-                          Vec3Lanes<Float4>{Float4::load(multiplier), Float4::load(multiplier + 4),
-                                            Float4::load(multiplier + 8)};
-    }
+    const float* const multiplier = multipliers_.data() + kMultiplierFloats * i;
+    const Vec3Lanes<Float4> error =
+        Float4::load(block.before.data()) * place(operation.before) +
+        Float4::load(block.after.data()) * place(operation.after) +
+        Float4::load(block.compliance.data()) *
+            Vec3Lanes<Float4>{Float4::load(multiplier), Float4::load(multiplier + 4),
+                              Float4::load(multiplier + 8)};
     sum = sum + dot(error, error);  // empty lanes have zero weights
   }
   return sum_of_lanes(sum);
-}
-
-double BendProgram::squared_residual(const LaneView& view) const {
-  return sum_of_squares<true>(view);
-}
-double BendProgram::squared_residual_before_sweeps(const LaneView& view) const {
-  return sum_of_squares<false>(view);
 }
 
 }  // namespace pleat

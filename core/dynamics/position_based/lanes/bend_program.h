@@ -3,8 +3,7 @@
 #include <vector>
 
 #include "core/dynamics/position_based/lane_layout.h"
-#include "core/dynamics/position_based/lane_operations.h"
-#include "core/model/cloth_model.h"
+#include "core/dynamics/position_based/spring_law.h"
 
 namespace pleat {
 
@@ -15,14 +14,13 @@ class BendProgram {
   /// h  substep [s]
   BendProgram(const ClothModel& model, const LaneLayout& layout, double h);
 
-  /// Projects each element once. The first sweep of a substep starts from multipliers of zero.
-  void first_sweep(const LaneView& view);
-  void next_sweep(const LaneView& view);
+  /// Projects each element once; the first sweep of a substep starts from multipliers of zero.
+  void sweep(const LaneView& view, bool is_first);
+  /// Makes the multipliers zero.
+  void forget();
 
-  /// Sum of |C + compliance/h^2 lambda|^2 [m^2], with the multipliers of the last sweep, or with
-  /// none.
+  /// Sum of |C + compliance/h^2 lambda|^2 [m^2].
   double squared_residual(const LaneView& view) const;
-  double squared_residual_before_sweeps(const LaneView& view) const;
 
   /// Works on the lanes one after the other: same result, to hold the two against each other.
   void compute_lane_by_lane();
@@ -39,8 +37,6 @@ class BendProgram {
 
   template <bool first>
   void sweep(const LaneView& view);
-  template <bool with_multipliers>
-  double sum_of_squares(const LaneView& view) const;
 
   std::vector<Operation> operations_;
   std::vector<LaneMembers> members_;

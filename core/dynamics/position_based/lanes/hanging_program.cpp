@@ -1,16 +1,9 @@
 #include "core/dynamics/position_based/lanes/hanging_program.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pleat {
 namespace {
-
-template <class Vertices>
-bool any_hangs(const ClothModel& model, const Vertices& vertices) {
-  return std::any_of(vertices.begin(), vertices.end(),
-                     [&model](VertexId v) { return model.hangs(v); });
-}
 
 SlotSum sum_in_slots(const Combination& sum, const LaneLayout& layout) {
   SlotSum in_slots;
@@ -48,12 +41,13 @@ void move_by(const SlotSum& sum, const Vec3Lanes<Float1>& pull, const LaneView& 
   }
 }
 
-template <bool with_multipliers>
+Vec3Lanes<Float1> bend_error(const SlotSum& sum, const LaneView& view) {
+  return value(sum, view.begins) + value(sum, view.moves);
+}
+
 Vec3Lanes<Float1> bend_error(const SlotSum& sum, float compliance, const float* multiplier,
                              const LaneView& view) {
-  const Vec3Lanes<Float1> error = value(sum, view.begins) + value(sum, view.moves);
-  if constexpr (!with_multipliers) return error;
-  return error +
+  return bend_error(sum, view) +
          Float1{compliance} * Vec3Lanes<Float1>{{multiplier[0]}, {multiplier[1]}, {multiplier[2]}};
 }
 
@@ -71,15 +65,10 @@ HangingProgram::HangingProgram(const ClothModel& model, const LaneLayout& layout
     if (any_hangs(model, ends))
       springs_.push_back({sum_in_slots(in_free_vertices(ends, kDifference), layout), s, {}});
   }
-  for (const BendElement& bend : model.bends) {
-    if (!any_hangs(model, bend.vertices) || bend.stiffness == 0 || bend.weights[1] == 0) continue;
-    const double middle = std::abs(bend.weights[1]);
-    std::array<double, 3> weights = bend.weights;
-    for (double& weight : weights) weight /= middle;
-    const double stiffness = bend.stiffness * middle * middle;  // [N/m]
-    bends_.push_back({sum_in_slots(in_free_vertices(bend.vertices, weights), layout),
-                      static_cast<float>(mean_mass_ / (stiffness * h * h))});
-  }
+  for (const BendConstraint& bend : bend_constraints(model, h))
+    if (any_hangs(model, bend.vertices))
+      bends_.push_back({sum_in_slots(in_free_vertices(bend.vertices, bend.weights), layout),
+                        bend.compliance});
   spring_multipliers_.resize(springs_.size() * static_cast<std::size_t>(multiplier_floats(law)));
   bend_multipliers_.resize(3 * bends_.size());
   refresh_rest_lengths(model);
@@ -96,7 +85,8 @@ void HangingProgram::project_bends(const LaneView& view) {
   for (std::size_t i = 0; i < bends_.size(); ++i) {
     const auto& [sum, compliance] = bends_[i];
     float* const multiplier = bend_multipliers_.data() + 3 * i;
-    const Vec3Lanes<Float1> error = bend_error<!first>(sum, compliance, multiplier, view);
+    const Vec3Lanes<Float1> error =
+        first ? bend_error(sum, view) : bend_error(sum, compliance, multiplier, view);
     const Float1 gain =
         Float1{-1} / (inverse_mass_of(sum, view) + Float1{compliance + kRigidCompliance});
     const Vec3Lanes<Float1> change = gain * error;
@@ -126,15 +116,21 @@ void HangingProgram::sweep(const LaneView& view) {
   with_law(law_, [&](auto law) { project_springs<decltype(law)::value, first>(view); });
 }
 
-void HangingProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
-void HangingProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
+void HangingProgram::sweep(const LaneView& view, bool is_first) {
+  is_first ? sweep<true>(view) : sweep<false>(view);
+}
+
+void HangingProgram::forget() {
+  std::fill(spring_multipliers_.begin(), spring_multipliers_.end(), 0.0f);
+  std::fill(bend_multipliers_.begin(), bend_multipliers_.end(), 0.0f);
+}
 
 double HangingProgram::squared_residual(const LaneView& view) const {
   double total = 0;
   for (std::size_t i = 0; i < bends_.size(); ++i) {
     const auto& [sum, compliance] = bends_[i];
     const float* const multiplier = bend_multipliers_.data() + 3 * i;
-    const Vec3Lanes<Float1> error = bend_error<true>(sum, compliance, multiplier, view);
+    const Vec3Lanes<Float1> error = bend_error(sum, compliance, multiplier, view);
     total += dot(error, error).value;
   }
   with_law(law_, [&](auto law) {
@@ -148,12 +144,6 @@ double HangingProgram::squared_residual(const LaneView& view) const {
     }
   });
   return total;
-}
-
-double HangingProgram::squared_residual_before_sweeps(const LaneView& view) {
-  std::fill(spring_multipliers_.begin(), spring_multipliers_.end(), 0.0f);
-  std::fill(bend_multipliers_.begin(), bend_multipliers_.end(), 0.0f);
-  return squared_residual(view);
 }
 
 }  // namespace pleat

@@ -27,17 +27,15 @@ class HangingProgram {
   /// Takes over changed rest lengths. Allocates nothing.
   void refresh_rest_lengths(const ClothModel& model);
 
-  int size() const { return static_cast<int>(springs_.size() + bends_.size()); }  ///< elements
   bool empty() const { return springs_.empty() && bends_.empty(); }
 
-  /// Projects each element once. The first sweep of a substep starts from multipliers of zero.
-  void first_sweep(const LaneView& view);
-  void next_sweep(const LaneView& view);
+  /// Projects each element once; the first sweep of a substep starts from multipliers of zero.
+  void sweep(const LaneView& view, bool is_first);
+  /// Makes the multipliers zero.
+  void forget();
 
-  /// Sum of |C + compliance/h^2 lambda|^2 [m^2], with the multipliers of the last sweep, or with
-  /// none, which then are zero.
+  /// Sum of |C + compliance/h^2 lambda|^2 [m^2].
   double squared_residual(const LaneView& view) const;
-  double squared_residual_before_sweeps(const LaneView& view);
 
  private:
   struct JoinedSpring {

@@ -6,10 +6,7 @@ LaneProjections::LaneProjections(const ClothModel& model, const LaneLayout& layo
                                  double h)
     : springs_(model, layout, law, h),
       bends_(model, layout, h),
-      hanging_(model, layout, law, h),
-      n_constraints_(static_cast<int>(active_springs(model, law).size())) {
-  for (const BendElement& bend : model.bends) n_constraints_ += bend.stiffness != 0 ? 1 : 0;
-}
+      hanging_(model, layout, law, h) {}
 
 void LaneProjections::refresh_rest_lengths(const ClothModel& model) {
   springs_.refresh_rest_lengths(model);
@@ -21,26 +18,20 @@ void LaneProjections::solve(const LaneView& view, int rounds) {
 }
 
 void LaneProjections::sweep(const LaneView& view, bool is_first) {
-  if (is_first) {
-    bends_.first_sweep(view);
-    springs_.first_sweep(view);
-    hanging_.first_sweep(view);
-  } else {
-    bends_.next_sweep(view);
-    springs_.next_sweep(view);
-    hanging_.next_sweep(view);
-  }
+  bends_.sweep(view, is_first);
+  springs_.sweep(view, is_first);
+  hanging_.sweep(view, is_first);
+}
+
+void LaneProjections::forget() {
+  springs_.forget();
+  bends_.forget();
+  hanging_.forget();
 }
 
 double LaneProjections::squared_residual(const LaneView& view) {
   return springs_.squared_residual(view) + bends_.squared_residual(view) +
          hanging_.squared_residual(view);
-}
-
-double LaneProjections::squared_residual_before(const LaneView& view) {
-  return springs_.squared_residual_before_sweeps(view) +
-         bends_.squared_residual_before_sweeps(view) +
-         hanging_.squared_residual_before_sweeps(view);
 }
 
 std::unique_ptr<Projections> lane_projections(const ClothModel& model, const MethodOptions&,

@@ -21,17 +21,15 @@ class LaneProjections final : public Projections {
   /// One round; the first of a substep starts from multipliers of zero.
   void sweep(const LaneView& view, bool is_first);
 
-  int size() const { return n_constraints_; }
   double sweeps_per_round() const override { return 1; }
 
   double squared_residual(const LaneView& view) override;
-  double squared_residual_before(const LaneView& view) override;
+  void forget() override;
 
  private:
   SpringProgram springs_;
   BendProgram bends_;
   HangingProgram hanging_;
-  int n_constraints_;
 };
 
 /// Makes them for `xpbd`.

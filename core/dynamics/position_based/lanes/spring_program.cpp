@@ -25,15 +25,6 @@ constexpr int kLanes = Float4::kLanes;
 
 using Block = SpringBlock;
 
-std::vector<int> springs_apart_from_hanging(const ClothModel& model, SpringLaw law) {
-  std::vector<int> springs = active_springs(model, law);
-  std::erase_if(springs, [&model](int s) {
-    const Spring& spring = model.springs[static_cast<std::size_t>(s)];
-    return model.hangs(spring.a) || model.hangs(spring.b);
-  });
-  return springs;
-}
-
 /// Source: Fowler, Noll & Vo, hash FNV-1a.
 std::uint32_t hash_of(const Block& block) {
   std::uint32_t hash = 2166136261u;
@@ -52,7 +43,7 @@ std::uint32_t hash_of(const Block& block) {
 SpringProgram::SpringProgram(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
                              double h)
     : law_(law), h_(h), mean_mass_(model.masses.mean()) {
-  SpringOrder order = order_springs(model, layout, springs_apart_from_hanging(model, law_));
+  SpringOrder order = order_springs(model, layout, free_springs(model, law_));
   // The damper across a spring is not part of a line's equations.
   if (law_ != SpringLaw::damped_isotropic) lines_ = std::move(order.lines);
   int n_in_lines = 0;
@@ -236,13 +227,14 @@ void SpringProgram::sweep(const LaneView& view) {
   project<law, first>(view);
 }
 
-template <bool first>
-void SpringProgram::sweep(const LaneView& view) {
-  with_law(law_, [&](auto law) { sweep<decltype(law)::value, first>(view); });
+void SpringProgram::sweep(const LaneView& view, bool is_first) {
+  with_law(law_, [&](auto law) {
+    constexpr SpringLaw kLaw = decltype(law)::value;
+    is_first ? sweep<kLaw, true>(view) : sweep<kLaw, false>(view);
+  });
 }
 
-void SpringProgram::first_sweep(const LaneView& view) { sweep<true>(view); }
-void SpringProgram::next_sweep(const LaneView& view) { sweep<false>(view); }
+void SpringProgram::forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
 
 double SpringProgram::squared_residual(const LaneView& v) const {
   return with_law(law_, [&](auto constant) {
@@ -258,12 +250,6 @@ double SpringProgram::squared_residual(const LaneView& v) const {
     }
     return sum_of_lanes(sum);
   });
-}
-
-double SpringProgram::squared_residual_before_sweeps(const LaneView& view) {
-  // Rigid springs ask for none.
-  if (!is_rigid(law_)) std::fill(multipliers_.begin(), multipliers_.end(), 0.0f);
-  return squared_residual(view);
 }
 
 }  // namespace pleat

@@ -19,14 +19,13 @@ class SpringProgram {
   /// Takes over changed rest lengths. Allocates nothing.
   void refresh_rest_lengths(const ClothModel& model);
 
-  /// Projects each spring once. The first sweep of a substep starts from multipliers of zero.
-  void first_sweep(const LaneView& view);
-  void next_sweep(const LaneView& view);
+  /// Projects each spring once; the first sweep of a substep starts from multipliers of zero.
+  void sweep(const LaneView& view, bool is_first);
+  /// Makes the multipliers zero.
+  void forget();
 
-  /// Sum of (C + compliance/h^2 lambda)^2 [m^2], with the multipliers of the last sweep, or with
-  /// none, which then are zero.
+  /// Sum of (C + compliance/h^2 lambda)^2 [m^2].
   double squared_residual(const LaneView& view) const;
-  double squared_residual_before_sweeps(const LaneView& view);
 
   /// Works on the lanes of what is in no line one after the other: same result, to hold the two
   /// against each other.
@@ -46,8 +45,6 @@ class SpringProgram {
   Block block_of(const ClothModel& model, const LaneMembers& members) const;
   void fill_blocks(const ClothModel& model);
 
-  template <bool first>
-  void sweep(const LaneView& view);
   template <SpringLaw law, bool first>
   void sweep(const LaneView& view);
   template <SpringLaw law, bool first>

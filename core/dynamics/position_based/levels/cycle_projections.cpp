@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/levels/attachments.h"
 #include "core/dynamics/position_based/levels/coarse_levels.h"
 #include "core/dynamics/position_based/levels/cycle_acceleration.h"
 #include "core/dynamics/position_based/levels/error_correction.h"
-#include "core/dynamics/position_based/levels/mesh_sweeps.h"
+#include "core/dynamics/position_based/levels/gathered_sweeps.h"
 
 namespace pleat {
 namespace {
@@ -81,21 +83,24 @@ class CycleProjections final : public Projections {
         smoothing_{relaxation(options.smoother_before, options.omega),
                    relaxation(options.smoother_after, options.omega)},
         vertices_(layout.n_slots),
-        sweeps_(
-            (sweeps_lines(options, layout) ? line_sweeps : gathered_sweeps)(model, layout, law, h)),
+        n_constraints_(active_springs(model, law).size() + bend_constraints(model, h).size()),
         hierarchy_(hierarchy_of(model, options)),
         lines_remark_(lines_remark(options, layout)) {
+    if (sweeps_lines(options, layout))
+      lines_.emplace(model, layout, law, h);
+    else
+      gathered_.emplace(model, layout, law, h);
     for (const LaneLayout::Place& place : layout.places) slots_.push_back(place.slot);
   }
 
   void refresh_pins(const ClothModel& model, const float* inverse_masses) override {
-    sweeps_->refresh_pins(inverse_masses);
+    if (gathered_) gathered_->refresh_pins(inverse_masses);
     std::vector<double> of_vertices;
     for (const int slot : slots_) of_vertices.push_back(inverse_masses[slot]);
     if (options_.level_lengths == LevelLengths::error && hierarchy_.levels.size() > 1) {
-      by_error_ = {{hierarchy_, slots_, of_vertices, sweeps_->springs()->strained_edges(model),
+      by_error_ = {{hierarchy_, slots_, of_vertices, gathered_->springs.strained_edges(model),
                     model.surface.rest_positions},
-                   *sweeps_->springs()};
+                   gathered_->springs};
     } else {
       levels_ = {hierarchy_, slots_, of_vertices, options_.level_lengths};
     }
@@ -104,7 +109,7 @@ class CycleProjections final : public Projections {
   }
 
   void refresh_rest_lengths(const ClothModel& model) override {
-    sweeps_->refresh_rest_lengths(model);
+    lines_ ? lines_->refresh_rest_lengths(model) : gathered_->refresh_rest_lengths(model);
     if (options_.level_lengths != LevelLengths::error || model.springs.empty()) return;
     double sum = 0;
     for (const Spring& spring : model.springs) sum += spring.rest_length;
@@ -124,18 +129,16 @@ class CycleProjections final : public Projections {
     const double n_sweeps = (smoothing_.before.smoother != Smoother::none ? 1 : 0) +
                             (smoothing_.after.smoother != Smoother::none ? n_after : 0);
     const CoarseLevels<Float4>& levels = by_error_.empty() ? levels_ : by_error_.levels();
-    return n_sweeps + static_cast<double>(levels.n_projections(smoothing_)) / sweeps_->size();
+    return n_sweeps + levels.n_projections(smoothing_) / static_cast<double>(n_constraints_);
   }
 
   double squared_residual(const LaneView& view) override {
+    if (lines_) return lines_->squared_residual(view);
     vertices_.begin(view);
-    return sweeps_->squared_residual(vertices_);
+    return gathered_->squared_residual(vertices_);
   }
 
-  double squared_residual_before(const LaneView& view) override {
-    vertices_.begin(view);
-    return sweeps_->squared_residual_before(vertices_);
-  }
+  void forget() override { lines_ ? lines_->forget() : gathered_->forget(); }
 
   std::string remark() const override {
     const bool says_both = !hierarchy_.shortage.empty() && !lines_remark_.empty();
@@ -145,8 +148,12 @@ class CycleProjections final : public Projections {
  private:
   void sweep(const Relaxation& relaxation) {
     if (relaxation.smoother == Smoother::none) return;
-    sweeps_->sweep(vertices_, relaxation, !is_swept_);
+    const bool is_first = !is_swept_;
     is_swept_ = true;
+    if (lines_)
+      lines_->sweep(vertices_.lanes(), is_first);
+    else
+      gathered_->sweep(vertices_, relaxation, is_first);
   }
 
   /// growth  of the coarser levels' lengths: else they throw cloth that pins stretch
@@ -160,8 +167,7 @@ class CycleProjections final : public Projections {
   }
 
   void solve_by_errors(int rounds) {
-    GatheredSprings& springs = *sweeps_->springs();
-    GatheredBends& bends = *sweeps_->bends();
+    auto& [springs, bends, hanging] = *gathered_;
     by_error_.begin();
     acceleration_.begin();
     springs.forget();
@@ -186,8 +192,8 @@ class CycleProjections final : public Projections {
 
   /// Where errors are: of springs, and of bending beside the springs' mean length.
   void look() {
-    const GatheredSprings& springs = *sweeps_->springs();
-    const GatheredBends& bends = *sweeps_->bends();
+    const GatheredSprings& springs = gathered_->springs;
+    const GatheredBends& bends = gathered_->bends;
     errors_.resize(springs.n_strains() + bends.n_errors());
     springs.strains(vertices_.begins(), vertices_.moves(), errors_.data());
     bends.errors(vertices_.begins(), vertices_.moves(), mean_length_,
@@ -197,7 +203,9 @@ class CycleProjections final : public Projections {
   MethodOptions options_;
   CycleSmoothing smoothing_;
   GatheredVertices vertices_;
-  std::unique_ptr<MeshSweeps> sweeps_;
+  std::optional<LaneProjections> lines_;    // where the cloth's own mesh is swept in lines, else
+  std::optional<GatheredSweeps> gathered_;
+  std::size_t n_constraints_;  // of that mesh
   MeshHierarchy hierarchy_;
   std::string lines_remark_;  // see lines_remark
   std::vector<int> slots_;    // of each vertex

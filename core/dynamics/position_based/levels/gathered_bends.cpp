@@ -1,31 +1,22 @@
 #include "core/dynamics/position_based/levels/gathered_bends.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "core/dynamics/position_based/lane_operations.h"
+#include "core/dynamics/position_based/spring_law.h"
 
 namespace pleat {
 
 GatheredBends::GatheredBends(const ClothModel& model, const LaneLayout& layout, double h) {
-  const double mean_mass = model.masses.mean();
-  for (const BendElement& bend : model.bends) {
-    if (bend.stiffness == 0 || bend.weights[1] == 0) continue;
-    if (std::any_of(bend.vertices.begin(), bend.vertices.end(),
-                    [&model](VertexId v) { return model.hangs(v); }))
-      continue;
+  for (const BendConstraint& bend : bend_constraints(model, h)) {
+    if (any_hangs(model, bend.vertices)) continue;
     const auto first = [&](std::size_t k) {
       return 4 * layout.places[static_cast<std::size_t>(bend.vertices[k])].slot;
     };
-    const double middle = std::abs(bend.weights[1]);
-    const double stiffness = bend.stiffness * middle * middle;  // [N/m]
     Element element{};
     element.before = first(0);
     element.middle = first(1);
     element.after = first(2);
-    element.b_0 = static_cast<float>(bend.weights[0] / middle);
-    element.b_2 = static_cast<float>(bend.weights[2] / middle);
-    element.compliance = static_cast<float>(mean_mass / (stiffness * h * h));
+    element.b_0 = static_cast<float>(bend.weights[0]);
+    element.b_2 = static_cast<float>(bend.weights[2]);
+    element.compliance = bend.compliance;
     elements_.push_back(element);
   }
   multipliers_.resize(4 * elements_.size());
@@ -61,7 +52,7 @@ void add(float* to, float factor, Float4 change) {
 
 }  // namespace
 
-void GatheredBends::next_sweep(const float* begins, float* moves, float omega) {
+void GatheredBends::sweep(const float* begins, float* moves, float omega) {
   float* multiplier = multipliers_.data();
   for (const Element& e : elements_) {
     const Float4 error =
@@ -73,11 +64,6 @@ void GatheredBends::next_sweep(const float* begins, float* moves, float omega) {
     add(moves + e.after, e.w_2, change);
     multiplier += Float4::kLanes;
   }
-}
-
-void GatheredBends::first_sweep(const float* begins, float* moves, float omega) {
-  forget();
-  next_sweep(begins, moves, omega);
 }
 
 void GatheredBends::errors(const float* begins, const float* moves, float unit,
@@ -105,11 +91,6 @@ double GatheredBends::squared_residual(const float* begins, const float* moves) 
   float lanes[Float4::kLanes];
   sum.store(lanes);
   return (static_cast<double>(lanes[0]) + lanes[1]) + lanes[2];  // the fourth is unused
-}
-
-double GatheredBends::squared_residual_before_sweeps(const float* begins, const float* moves) {
-  forget();
-  return squared_residual(begins, moves);
 }
 
 }  // namespace pleat

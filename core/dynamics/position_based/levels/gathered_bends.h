@@ -19,13 +19,10 @@ class GatheredBends {
   /// Takes over changed inverse masses, of each slot, see LaneView. Allocates nothing.
   void refresh_pins(const float* inverse_masses);
 
-  int size() const { return static_cast<int>(elements_.size()); }  ///< elements
-
-  /// Projects each element once; the first sweep of a substep starts from multipliers of zero.
+  /// Projects each element once.
   ///
   /// omega  times what a projection alone would correct
-  void first_sweep(const float* begins, float* moves, float omega);
-  void next_sweep(const float* begins, float* moves, float omega);
+  void sweep(const float* begins, float* moves, float omega);
 
   /// Makes the multipliers zero.
   void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
@@ -36,10 +33,8 @@ class GatheredBends {
   /// unit  [m]
   void errors(const float* begins, const float* moves, float unit, float* errors) const;
 
-  /// Sum of |C + compliance/h^2 lambda|^2 [m^2], with the multipliers of the last sweep, or with
-  /// none.
+  /// Sum of |C + compliance/h^2 lambda|^2 [m^2].
   double squared_residual(const float* begins, const float* moves) const;
-  double squared_residual_before_sweeps(const float* begins, const float* moves);
 
  private:
   struct Element {

@@ -13,16 +13,13 @@ GatheredSprings::GatheredSprings(const ClothModel& model, const LaneLayout& layo
       h_(h),
       mean_mass_(model.masses.mean()),
       mean_(static_cast<std::size_t>(layout.n_slots)) {
-  std::vector<int> springs;
+  const std::vector<int> springs = free_springs(model, law);
   std::vector<PlacePair> ends;
-  for (const int s : active_springs(model, law)) {
+  for (const int s : springs) {
     const Spring& spring = model.springs[static_cast<std::size_t>(s)];
-    if (model.hangs(spring.a) || model.hangs(spring.b)) continue;
-    springs.push_back(s);
     ends.push_back({layout.places[static_cast<std::size_t>(spring.a)].slot,
                     layout.places[static_cast<std::size_t>(spring.b)].slot});
   }
-  n_springs_ = static_cast<int>(springs.size());
   // Pins come and go, so every vertex is taken for one that moves.
   const std::vector<bool> moves(static_cast<std::size_t>(layout.n_slots), true);
   for (const std::vector<int>& set : independent_sets(ends, moves)) {
@@ -78,8 +75,7 @@ void GatheredSprings::project(const float* begins, const float* moves, float* to
   }
 }
 
-void GatheredSprings::next_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
-  if (relaxation.smoother == Smoother::none) return;
+void GatheredSprings::sweep(const float* begins, float* moves, const Relaxation& relaxation) {
   const auto omega = static_cast<float>(relaxation.omega);
   const bool is_averaged = relaxation.smoother == Smoother::jacobi;
   float* const to = is_averaged ? mean_.begin() : moves;
@@ -88,11 +84,6 @@ void GatheredSprings::next_sweep(const float* begins, float* moves, const Relaxa
                                   relaxation.smoother == Smoother::sor ? omega : 1);
   });
   if (is_averaged) mean_.add_to(moves, omega);
-}
-
-void GatheredSprings::first_sweep(const float* begins, float* moves, const Relaxation& relaxation) {
-  forget();
-  next_sweep(begins, moves, relaxation);
 }
 
 std::span<float> GatheredSprings::multipliers() {
@@ -150,11 +141,6 @@ double GatheredSprings::squared_residual(const float* begins, const float* moves
     }
     return sum_of_lanes(sum);
   });
-}
-
-double GatheredSprings::squared_residual_before_sweeps(const float* begins, const float* moves) {
-  forget();
-  return squared_residual(begins, moves);
 }
 
 }  // namespace pleat

@@ -20,17 +20,13 @@ class GatheredSprings {
   /// h  substep [s]
   GatheredSprings(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h);
 
-  int size() const { return n_springs_; }  ///< springs
-
   /// Take over changed inverse masses, of each slot (see LaneView), and rest lengths. Allocate
   /// nothing.
   void refresh_pins(const float* inverse_masses);
   void refresh_rest_lengths(const ClothModel& model);
 
-  /// Projects each spring once, unless the smoother is none; the first sweep of a substep starts
-  /// from multipliers of zero.
-  void first_sweep(const float* begins, float* moves, const Relaxation& relaxation);
-  void next_sweep(const float* begins, float* moves, const Relaxation& relaxation);
+  /// Projects each spring once.
+  void sweep(const float* begins, float* moves, const Relaxation& relaxation);
 
   /// Makes the multipliers zero.
   void forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
@@ -42,10 +38,8 @@ class GatheredSprings {
   /// Those that this projects, and where their strains stand.
   StrainedEdges strained_edges(const ClothModel& model) const;
 
-  /// Sum of (C + compliance/h^2 lambda)^2 [m^2], with the multipliers of the last sweep, or with
-  /// none.
+  /// Sum of (C + compliance/h^2 lambda)^2 [m^2].
   double squared_residual(const float* begins, const float* moves) const;
-  double squared_residual_before_sweeps(const float* begins, const float* moves);
 
  private:
   struct Group {
@@ -59,7 +53,6 @@ class GatheredSprings {
   void project(const float* begins, const float* moves, float* to, float omega);
 
   SpringLaw law_;
-  int n_springs_ = 0;
   double h_;          // [s]
   double mean_mass_;  // [kg]
   std::vector<Group> groups_;
