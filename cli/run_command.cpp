@@ -266,7 +266,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 /// There may be so many that the first step, and so the first sign of progress, takes minutes.
 bool chooses_substeps(const Scene& scene) {
-  return scene.method.substeps == 0 || scene.method.explicit_share > 0;
+  return scene.method.substeps == kStableSubsteps || scene.method.explicit_share > 0;
 }
 
 /// Says what a long run is of.

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/dynamics/stepper.h"
 #include "core/dynamics/stepper_type.h"
@@ -18,6 +19,9 @@ StepperTable standard_steppers();
 
 /// Null when the table has none of this name.
 const StepperType* find_stepper(StepperTable table, std::string_view name);
+
+/// Pleat's own settings, and then what else steppers of the table read.
+std::vector<const MethodSetting*> all_settings(StepperTable table);
 
 /// "implicit, projective, ...".
 std::string stepper_names(StepperTable table);

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "core/dynamics/method_options.h"
 #include "core/mesh/quad_mesh.h"
@@ -13,6 +12,7 @@ namespace pleat {
 
 class Projections;
 class Stepper;
+struct MethodSetting;
 enum class SpringLaw;
 struct LaneLayout;
 
@@ -22,59 +22,9 @@ using MakeProjections = std::unique_ptr<Projections> (*)(const ClothModel& model
                                                          const LaneLayout& layout, SpringLaw law,
                                                          double h);
 
-/// The settings of a scene's section "method" beside stepper and step.
-enum class MethodSetting {
-  substeps,
-  iterations,
-  solver,
-  tolerance,
-  omega,
-  preconditioner,
-  split,
-  constraints,
-  rule,
-  acceleration,
-  explicit_share,
-  euler,
-  beyond_bound,
-  first_contact,
-  levels,
-  ratio,
-  level_lengths,
-  smoother_before,
-  smoother,
-  attachments,
-  carried_acceleration
-};
-
-constexpr std::array<MethodSetting, 21> kMethodSettings = {MethodSetting::substeps,
-                                                           MethodSetting::iterations,
-                                                           MethodSetting::solver,
-                                                           MethodSetting::tolerance,
-                                                           MethodSetting::omega,
-                                                           MethodSetting::preconditioner,
-                                                           MethodSetting::split,
-                                                           MethodSetting::constraints,
-                                                           MethodSetting::rule,
-                                                           MethodSetting::acceleration,
-                                                           MethodSetting::explicit_share,
-                                                           MethodSetting::euler,
-                                                           MethodSetting::beyond_bound,
-                                                           MethodSetting::first_contact,
-                                                           MethodSetting::levels,
-                                                           MethodSetting::ratio,
-                                                           MethodSetting::level_lengths,
-                                                           MethodSetting::smoother_before,
-                                                           MethodSetting::smoother,
-                                                           MethodSetting::attachments,
-                                                           MethodSetting::carried_acceleration};
-
-/// Spelled as in scenes.
-const char* key(MethodSetting setting);
-
 /// How often a stepper works in a step.
 struct MethodCounts {
-  int substeps = 1;  ///< 0: as many as the stability bound asks for
+  int substeps = 1;  ///< or kStableSubsteps
   int iterations = 1;
 };
 
@@ -92,7 +42,7 @@ struct StepperType {
   const char* title;    ///< for people
   const char* meaning;  ///< for people, a sentence
   /// The settings that it reads; others are refused in a scene.
-  std::span<const MethodSetting> settings;
+  std::span<const MethodSetting* const> settings;
   const char* substeps_meaning = "";    ///< what more substeps do, a sentence
   const char* iterations_meaning = "";  ///< the same of iterations, where it reads them
   /// Used where a scene says nothing.
@@ -103,7 +53,7 @@ struct StepperType {
   /// What else it starts from; null: from the defaults of MethodOptions.
   void (*set_start)(MethodOptions& method) = nullptr;
 
-  bool has_stability_bound = false;    ///< takes 0 substeps, refuses too few
+  bool has_stability_bound = false;    ///< takes kStableSubsteps, refuses too few
   bool needs_surface = false;          ///< makes coarser levels of the cloth's triangles
   bool needs_springs = false;          ///< works on springs with quadratic bending alone
   bool takes_bend_friction = false;    ///< asks it for each substep
@@ -127,9 +77,9 @@ struct StepperType {
   /// Throws InputError when the method cannot run on this model.
   std::unique_ptr<Stepper> (*make)(ClothModel& model, const MethodOptions& options);
 
-  bool reads(MethodSetting setting) const {
-    return std::find(settings.begin(), settings.end(), setting) != settings.end();
-  }
+  /// The setting of this key; null where it does not read it.
+  const MethodSetting* setting(std::string_view key) const;
+  bool reads(std::string_view key) const { return setting(key) != nullptr; }
   /// The options of a scene that names this stepper and nothing else.
   MethodOptions usual_method() const;
 };

@@ -44,32 +44,10 @@ SolveReport LinearSolver::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
   return do_solve(rhs, solution);
 }
 
-const char* name(SolverKind kind) {
-  switch (kind) {
-    case SolverKind::cholmod:
-      return "cholmod";
-    case SolverKind::supernodal:
-      return "supernodal";
-    case SolverKind::eigen:
-      return "eigen";
-    case SolverKind::cg:
-      return "cg";
-    case SolverKind::sor:
-      return "sor";
-  }
-  return "";
-}
+const char* name(SolverKind kind) { return kSolverNames[static_cast<std::size_t>(kind)]; }
 
 const char* name(Preconditioner preconditioner) {
-  switch (preconditioner) {
-    case Preconditioner::automatic:
-      return "automatic";
-    case Preconditioner::incomplete_factor:
-      return "incomplete_factor";
-    case Preconditioner::multigrid:
-      return "multigrid";
-  }
-  return "";
+  return kPreconditionerNames[static_cast<std::size_t>(preconditioner)];
 }
 
 bool is_direct(SolverKind kind) { return kind != SolverKind::cg && kind != SolverKind::sor; }

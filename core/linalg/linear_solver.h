@@ -46,6 +46,7 @@ class LinearSolver {
 };
 
 enum class SolverKind { cholmod, supernodal, eigen, cg, sor };
+inline constexpr const char* kSolverNames[] = {"cholmod", "supernodal", "eigen", "cg", "sor"};
 
 /// False for those that come nearer to the solution step by step.
 bool is_direct(SolverKind kind);
@@ -58,6 +59,8 @@ enum class Preconditioner {
   incomplete_factor,  ///< cheap, but the finer the mesh the less it helps
   multigrid,          ///< dear, and equally good on all meshes
 };
+inline constexpr const char* kPreconditionerNames[] = {"automatic", "incomplete_factor",
+                                                       "multigrid"};
 
 const char* name(Preconditioner preconditioner);
 

@@ -153,7 +153,7 @@ class WholeStep final : public Contestant {
         rms_distance(model_, state_.positions, converged_.positions) / converged_.distance_begin;
     return point;
   }
-  bool takes_rounds() const override { return method_.stepper->reads(MethodSetting::iterations); }
+  bool takes_rounds() const override { return method_.stepper->reads("iterations"); }
   bool has_error() const override { return false; }
 
  private:
@@ -265,12 +265,6 @@ void add_times(std::vector<ConvergenceSeries>& series,
 }
 
 }  // namespace
-
-const ConvergencePoint* ConvergenceSeries::first_below(double relative_error) const {
-  for (const ConvergencePoint& point : points)
-    if (point.relative_error <= relative_error) return &point;
-  return nullptr;
-}
 
 ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions& options) {
   PLEAT_CHECK(options.time >= 0 && options.most_rounds >= 1 && options.repeat >= 1,

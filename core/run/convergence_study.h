@@ -47,9 +47,6 @@ struct ConvergenceSeries {
   std::vector<ConvergencePoint> points;  ///< points ordered by rounds
   double distance_begin = 0;    ///< RMS, of the predicted places from the converged ones [m]
   double distance_unknown = 0;  ///< how far those may be off [m]; NaN where none were found
-
-  /// The first point with no more relative error; null without one.
-  const ConvergencePoint* first_below(double relative_error) const;
 };
 
 struct ConvergenceStudy {

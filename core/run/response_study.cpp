@@ -30,7 +30,7 @@ void check_scene(const Scene& scene) {
     if (scene.colliders[k].motion.kind != Motion::Kind::hold)
       throw InputError("/world/colliders/" + std::to_string(k) + "/motion",
                        "expected hold, as responses are compared on solids at rest");
-  if (!scene.method.stepper->reads(MethodSetting::first_contact))
+  if (!scene.method.stepper->reads("first_contact_m"))
     throw InputError("/method/stepper", std::string("expected one that parts a substep at first "
                                                     "contact, got ") +
                                             scene.method.stepper->name);

@@ -146,12 +146,11 @@ std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   std::vector<SettingHint> hints;
   const bool is_unsolved =
       kind == RunWarning::Kind::unsolved || kind == RunWarning::Kind::not_converged;
-  if (is_unsolved && method.stepper->reads(MethodSetting::solver) &&
-      method.solver == SolverKind::cg)
+  if (is_unsolved && method.stepper->reads("solver") && method.solver == SolverKind::cg)
     hints.push_back({"/method/solver", name(SolverKind::supernodal)});
-  if (method.stepper->reads(MethodSetting::iterations) && method.iterations < 10)
+  if (method.stepper->reads("iterations") && method.iterations < 10)
     hints.push_back({"/method/iterations", 4 * method.iterations});
-  if (method.stepper->reads(MethodSetting::substeps) && method.substeps > 0)
+  if (method.stepper->reads("substeps") && method.substeps != kStableSubsteps)
     hints.push_back({"/method/substeps", 4 * method.substeps});
   if (hints.empty()) hints.push_back({"/method/step_s", method.step / 4});
   return hints;

@@ -98,7 +98,7 @@ std::string short_number(double value) {
 std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;
   std::string text = method.stepper->name;
-  if (method.stepper->reads(MethodSetting::solver)) text += std::string(" ") + name(method.solver);
+  if (method.stepper->reads("solver")) text += std::string(" ") + name(method.solver);
   if (method.preconditioner != Preconditioner::automatic)
     text += std::string(" with ") + name(method.preconditioner);
   text += ", " + step_phrase(method.step);

@@ -5,20 +5,21 @@
 #include <string>
 
 #include "core/base/check.h"
+#include "core/dynamics/method_settings.h"
 #include "core/run/simulation.h"
 #include "core/scene/format/method_section.h"
 #include "core/scene/format/scene_file.h"
 #include "core/scene/format/scene_override.h"
-#include "core/scene/scene_schema.h"
 #include "core/sweep/front_chart.h"
 #include "core/sweep/sweep.h"
 #include "core/sweep/usual_settings.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/scene_schema.h"
 
 namespace pleat {
 namespace {
 
-constexpr std::array kSettings = {MethodSetting::substeps, MethodSetting::iterations};
+constexpr auto kSettings = method_settings("substeps", "iterations");
 constexpr std::array<MethodCounts, 2> kCounts = {{{3, 2}, {7, 2}}};
 
 StepperType made_up() {
@@ -84,19 +85,20 @@ TEST_CASE("stepper table: settings that a stepper does not read are refused with
           "[sweep]") {
   for (const StepperType* type : standard_steppers()) {
     const Json usual = json_method(type->usual_method());
-    for (const MethodSetting setting : kMethodSettings) {
-      CAPTURE(type->name, key(setting));
+    for (const MethodSetting& setting : kMethodSettings) {
+      const char* key = setting.key;
+      CAPTURE(type->name, key);
       const bool is_beside_a_factor =
-          setting == MethodSetting::preconditioner && is_direct(type->usual_method().solver);
-      CHECK(usual.contains(key(setting)) == (type->reads(setting) && !is_beside_a_factor));
-      if (type->reads(setting)) continue;
+          key == std::string("preconditioner") && is_direct(type->usual_method().solver);
+      CHECK(usual.contains(key) == (type->reads(key) && !is_beside_a_factor));
+      if (type->reads(key)) continue;
       Json scene = parse_json(kScene);
-      scene["method"] = {{"stepper", type->name}, {key(setting), 1}};
+      scene["method"] = {{"stepper", type->name}, {key, 1}};
       try {
         read_scene(scene.dump(), fabric_library());
         FAIL("accepted");
       } catch (const InputError& error) {
-        CHECK(error.where() == std::string("/method/") + key(setting));
+        CHECK(error.where() == std::string("/method/") + key);
         CHECK(has(error.what(), std::string(type->name) + " does not read it"));
       }
     }

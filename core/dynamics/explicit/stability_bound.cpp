@@ -68,12 +68,12 @@ int stable_substeps(const ClothModel& model, const MethodOptions& options) {
                                            options.stepper->name + ", got hinge");
   const bool goes_on = options.beyond_bound == BeyondBound::go_on;
   const double bound = stability_bound(model, options);
-  if (bound == 0 && !(goes_on && options.substeps > 0))
+  if (bound == 0 && !(goes_on && options.substeps != kStableSubsteps))
     throw InputError("/method/euler",
                      "expected symplectic, as no substep is stable with forward unless the cloth "
                      "is of springs alone, each damped, with \"damping\": \"isotropic\"");
   const double enough = std::max(1.0, std::ceil(options.step / (kStepShare * bound)));
-  if (options.substeps > 0) {
+  if (options.substeps != kStableSubsteps) {
     const double h = options.step / options.substeps;
     if (h <= bound || goes_on) return options.substeps;
     refuse(

@@ -1,229 +1,93 @@
 #include "core/scene/format/method_section.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/method_settings.h"
+
 namespace pleat {
 namespace {
-
-constexpr std::int64_t kMaxIterations = 100000;
-
-constexpr std::array<Word<SolverKind>, 5> kSolvers{{{"cholmod", SolverKind::cholmod},
-                                                    {"supernodal", SolverKind::supernodal},
-                                                    {"eigen", SolverKind::eigen},
-                                                    {"cg", SolverKind::cg},
-                                                    {"sor", SolverKind::sor}}};
-
-constexpr std::array<Word<Preconditioner>, 3> kPreconditioners{
-    {{"automatic", Preconditioner::automatic},
-     {"incomplete_factor", Preconditioner::incomplete_factor},
-     {"multigrid", Preconditioner::multigrid}}};
-
-constexpr std::array<Word<Constraints>, 2> kConstraints{
-    {{"compliant", Constraints::compliant}, {"rigid", Constraints::rigid}}};
-
-constexpr std::array<Word<ImplicitSplit>, 2> kSplits{
-    {{"by_stability", ImplicitSplit::by_stability}, {"structural", ImplicitSplit::structural}}};
-
-constexpr std::array<Word<NewtonRule>, 3> kNewtonRules{
-    {{"backward_euler", NewtonRule::backward_euler},
-     {"midpoint", NewtonRule::midpoint},
-     {"equilibrium", NewtonRule::equilibrium}}};
-
-constexpr std::array<Word<Acceleration>, 2> kAccelerations{
-    {{"none", Acceleration::none}, {"anderson", Acceleration::anderson}}};
-
-constexpr std::array<Word<EulerRule>, 2> kEulerRules{
-    {{"symplectic", EulerRule::symplectic}, {"forward", EulerRule::forward}}};
-
-constexpr std::array<Word<BeyondBound>, 2> kBeyondBound{
-    {{"refuse", BeyondBound::refuse}, {"go_on", BeyondBound::go_on}}};
-
-constexpr std::array<Word<Smoother>, 5> kSmoothers{{{"none", Smoother::none},
-                                                    {"jacobi", Smoother::jacobi},
-                                                    {"gauss_seidel", Smoother::gauss_seidel},
-                                                    {"lines", Smoother::lines},
-                                                    {"sor", Smoother::sor}}};
-
-constexpr std::array<Word<LevelLengths>, 3> kLevelLengths{{{"surface", LevelLengths::surface},
-                                                           {"chord", LevelLengths::chord},
-                                                           {"error", LevelLengths::error}}};
-
-constexpr std::array<Word<Attachments>, 2> kAttachments{
-    {{"none", Attachments::none}, {"long_range", Attachments::long_range}}};
 
 constexpr std::array<Word<FrameFormat>, 4> kFrameFormats{{{"obj", FrameFormat::obj},
                                                           {"ply", FrameFormat::ply},
                                                           {"binary", FrameFormat::binary},
                                                           {"none", FrameFormat::none}}};
 
-constexpr const char* kStableSubsteps =
-    "stable";  // as many as the explicit stability bound asks for
-
-/// Of any mesh, a level of one vertex is reached before.
-constexpr std::int64_t kMaxCoarserLevels = 30;
-
-constexpr const char* kEstimatedOmega = "estimated";
-
-int read_substeps(const JsonReader& reader, const StepperType& type) {
-  if (!reader.is_text()) return static_cast<int>(reader.integer(1, kMaxSubsteps));
-  if (!type.has_stability_bound)
-    reader.fail("a whole number, as " + std::string(type.name) + " has no bound to be stable at");
-  if (reader.text() != kStableSubsteps) reader.fail("a whole number or \"stable\"");
-  return 0;
-}
-
-double read_omega(const JsonReader& reader) {
-  if (!reader.is_text()) return reader.number({0, 2, NumberRange::Ends::excluded});
-  if (reader.text() != kEstimatedOmega) reader.fail("a number or \"estimated\"");
-  return 0;
-}
-
-NumberRange tolerances(const StepperType& type) {
-  using Ends = NumberRange::Ends;
-  return {0, type.largest_tolerance,
-          type.largest_tolerance < 1 ? Ends::low_excluded : Ends::excluded};
-}
-
 const StepperType& read_stepper(const JsonReader& reader, StepperTable steppers) {
-  const StepperType* type = reader.is_text() ? find_stepper(steppers, reader.text()) : nullptr;
-  if (type != nullptr) return *type;
-  std::string names;
-  for (const StepperType* known : steppers)
-    names += (names.empty() ? "\"" : ", \"") + std::string(known->name) + '"';
-  reader.fail("one of " + names);
+  std::vector<const char*> names;
+  for (const StepperType* type : steppers) names.push_back(type->name);
+  return *steppers[reader.one_of(names)];
 }
 
 /// Refuses keys that are no setting, and settings that this stepper does not read.
-void check_settings(const JsonReader& reader, const StepperType& type) {
+void check_settings(const JsonReader& reader, const StepperType& type, StepperTable steppers) {
+  const std::vector<const MethodSetting*> all = all_settings(steppers);
   std::vector<const char*> known = {"stepper", "step_s"};
-  for (const MethodSetting setting : kMethodSettings) known.push_back(key(setting));
+  for (const MethodSetting* setting : all) known.push_back(setting->key);
   reader.allow_keys(known);
-  for (const MethodSetting setting : kMethodSettings)
-    if (const auto at = reader.find(key(setting)); at && !type.reads(setting))
+  for (const MethodSetting* setting : all)
+    if (const auto at = reader.find(setting->key); at && !type.reads(setting->key))
       at->fail("no such key, as " + std::string(type.name) + " does not read it");
 }
 
-void read_setting(MethodSetting setting, const JsonReader& reader, MethodOptions& method) {
-  switch (setting) {
-    case MethodSetting::substeps:
-      method.substeps = read_substeps(reader, *method.stepper);
-      return;
-    case MethodSetting::iterations:
-      method.iterations = static_cast<int>(reader.integer(1, kMaxIterations));
-      return;
-    case MethodSetting::solver:
-      method.solver = reader.word(kSolvers);
-      return;
-    case MethodSetting::tolerance:
-      method.tolerance = reader.number(tolerances(*method.stepper));
-      return;
-    case MethodSetting::omega:
-      method.omega = read_omega(reader);
-      return;
-    case MethodSetting::preconditioner:
-      method.preconditioner = reader.word(kPreconditioners);
-      return;
-    case MethodSetting::split:
-      method.split = reader.word(kSplits);
-      return;
-    case MethodSetting::constraints:
-      method.constraints = reader.word(kConstraints);
-      return;
-    case MethodSetting::rule:
-      method.rule = reader.word(kNewtonRules);
-      return;
-    case MethodSetting::acceleration:
-      method.acceleration = reader.word(kAccelerations);
-      return;
-    case MethodSetting::explicit_share:
-      method.explicit_share = reader.number({0, 1});
-      return;
-    case MethodSetting::euler:
-      method.euler = reader.word(kEulerRules);
-      return;
-    case MethodSetting::beyond_bound:
-      method.beyond_bound = reader.word(kBeyondBound);
-      return;
-    case MethodSetting::first_contact:
-      method.first_contact = reader.number(kNotNegative);
-      return;
-    case MethodSetting::levels:
-      method.levels = static_cast<int>(reader.integer(0, kMaxCoarserLevels));
-      return;
-    case MethodSetting::ratio:
-      method.ratio = reader.number({0.1, 0.9, NumberRange::Ends::excluded});
-      return;
-    case MethodSetting::level_lengths:
-      method.level_lengths = reader.word(kLevelLengths);
-      return;
-    case MethodSetting::smoother_before:
-      method.smoother_before = reader.word(kSmoothers);
-      return;
-    case MethodSetting::smoother:
-      method.smoother_after = reader.word(kSmoothers);
-      return;
-    case MethodSetting::attachments:
-      method.attachments = reader.word(kAttachments);
-      return;
-    case MethodSetting::carried_acceleration:
-      method.carried_acceleration = reader.number({0, kMostCarried});
-      return;
-  }
+/// True where the word for 0 stands. Refuses other texts.
+bool is_zero(const ZeroWord& zero, const std::string& number, const JsonReader& reader,
+             const StepperType& type) {
+  if (zero.text == nullptr || !reader.is_text()) return false;
+  if (!zero.is_for(type)) reader.fail(number + ", as " + type.name + " " + zero.refusal);
+  if (reader.text() != zero.text) reader.fail(number + " or \"" + zero.text + '"');
+  return true;
 }
 
-/// True where a smoother of the method reads omega.
-bool relaxes(const MethodOptions& method) {
-  for (const Smoother smoother : {method.smoother_before, method.smoother_after})
-    if (smoother == Smoother::sor || smoother == Smoother::jacobi) return true;
-  return false;
+template <class Number>
+void read_field(const NumberField<Number>& field, const JsonReader& reader, MethodOptions& method) {
+  constexpr bool is_count = std::is_same_v<Number, int>;
+  const StepperType& type = *method.stepper;
+  auto [low, high, ends] = field.range;
+  if (field.most != nullptr && type.*field.most < high) {
+    high = type.*field.most;
+    ends = NumberRange::Ends::low_excluded;
+  }
+  Number& value = method.*field.member;
+  if (is_zero(field.zero, is_count ? "a whole number" : "a number", reader, type))
+    value = 0;
+  else if constexpr (is_count)
+    value = static_cast<int>(reader.integer(std::lround(low), std::lround(high)));
+  else
+    value = reader.number({low, high, ends});
 }
 
-Json json_substeps(int substeps) { return substeps == 0 ? Json(kStableSubsteps) : Json(substeps); }
+void read_field(const WordField& field, const JsonReader& reader, MethodOptions& method) {
+  field.set(method, reader.one_of(field.words));
+}
 
-Json json_setting(MethodSetting setting, const MethodOptions& method) {
-  switch (setting) {
-    case MethodSetting::substeps:
-      return json_substeps(method.substeps);
-    case MethodSetting::iterations:
-      return method.iterations;
-    case MethodSetting::solver:
-      return word_for(kSolvers, method.solver);
-    case MethodSetting::tolerance:
-      return method.tolerance;
-    case MethodSetting::omega:
-      return method.omega > 0 ? Json(method.omega) : Json(kEstimatedOmega);
-    case MethodSetting::preconditioner:
-      return word_for(kPreconditioners, method.preconditioner);
-    case MethodSetting::split:
-      return word_for(kSplits, method.split);
-    case MethodSetting::constraints:
-      return word_for(kConstraints, method.constraints);
-    case MethodSetting::rule:
-      return word_for(kNewtonRules, method.rule);
-    case MethodSetting::acceleration:
-      return word_for(kAccelerations, method.acceleration);
-    case MethodSetting::explicit_share:
-      return method.explicit_share;
-    case MethodSetting::euler:
-      return word_for(kEulerRules, method.euler);
-    case MethodSetting::beyond_bound:
-      return word_for(kBeyondBound, method.beyond_bound);
-    case MethodSetting::first_contact:
-      return method.first_contact;
-    case MethodSetting::levels:
-      return method.levels;
-    case MethodSetting::ratio:
-      return method.ratio;
-    case MethodSetting::level_lengths:
-      return word_for(kLevelLengths, method.level_lengths);
-    case MethodSetting::smoother_before:
-      return word_for(kSmoothers, method.smoother_before);
-    case MethodSetting::smoother:
-      return word_for(kSmoothers, method.smoother_after);
-    case MethodSetting::attachments:
-      return word_for(kAttachments, method.attachments);
-    case MethodSetting::carried_acceleration:
-      return method.carried_acceleration;
+template <class Number>
+Json json_field(const NumberField<Number>& field, const MethodOptions& method) {
+  const Number number = method.*field.member;
+  return number == 0 && field.zero.text != nullptr ? Json(field.zero.text) : Json(number);
+}
+
+Json json_field(const WordField& field, const MethodOptions& method) { return field.word(method); }
+
+Json json_setting(const MethodSetting& setting, const MethodOptions& method) {
+  return std::visit([&](const auto& field) { return json_field(field, method); }, setting.field);
+}
+
+/// Refuses a value of no effect: "beside a smoother other than sor and jacobi".
+[[noreturn]] void refuse_idle(const JsonReader& reader, const MethodSetting& setting,
+                              const MethodOptions& method) {
+  const MethodSetting* other = nullptr;
+  std::vector<std::string> words;
+  for (const Beside& known : setting.beside) {
+    if (other == nullptr) other = method.stepper->setting(known.key);
+    if (other != nullptr && other->key == std::string_view(known.key)) words.push_back(known.word);
   }
-  return nullptr;
+  const std::string key = other->key;
+  reader.fail("no such key beside " +
+              (words.size() > 1
+                   ? "a " + key + " other than " + words[0] + " and " + words[1]
+                   : "the " + key + " " + json_setting(*other, method).get<std::string>() +
+                         ", but beside " + words[0]));
 }
 
 /// Rough cost of a substep of one iteration, see StepperType::substep_cost.
@@ -233,133 +97,67 @@ double substep_work(const StepperType& type) {
   return type.substep_cost(method);
 }
 
-struct MethodDetail {
-  MethodSetting setting;
-  const char* title;
-  const char* meaning;
-};
-
-constexpr std::array<MethodDetail, 9> kMethodDetails{{
-    {MethodSetting::levels, "Coarser levels, number",
-     "Meshes of fewer vertices that carry a pull far at once. 0: the cloth's own mesh alone."},
-    {MethodSetting::ratio, "Kept by a level, share of vertices",
-     "The less a level keeps of the finer one, the cheaper it is, and the rougher."},
-    {MethodSetting::level_lengths, "Lengths of levels",
-     "Along the surface they act only when exceeded; straight ones act both ways, and iron folds; "
-     "by errors they ask for what is still wrong on the finer level."},
-    {MethodSetting::smoother_before, "Smoother before",
-     "How each level is swept on the way to coarser ones."},
-    {MethodSetting::smoother, "Smoother",
-     "How springs are gone over once; where there are levels, on the way back. Lines solve "
-     "all springs of a thread at once."},
-    {MethodSetting::omega, "Omega, factor of corrections",
-     "Of SOR, usually 1.1, and Jacobi, usually 1. Above 1 it reaches farther and smooths less."},
-    {MethodSetting::attachments, "Attachments",
-     "Long range: no vertex further from a pin than unstretched cloth allows."},
-    {MethodSetting::carried_acceleration, "Carried acceleration, share",
-     "With 0.3 cloth that swings loses as little energy as in several times as many substeps."},
-    {MethodSetting::constraints, "Constraints",
-     "Rigid ones do not give; compliant ones give as the fabric does."},
-}};
-
-struct WordTitle {
-  std::string_view word;
-  const char* title;
-};
-
-constexpr std::array<WordTitle, 11> kWordTitles{{{"none", "None"},
-                                                 {"jacobi", "Jacobi"},
-                                                 {"gauss_seidel", "Gauss-Seidel"},
-                                                 {"lines", "Lines: whole threads"},
-                                                 {"sor", "SOR"},
-                                                 {"surface", "Along the surface"},
-                                                 {"chord", "Straight"},
-                                                 {"error", "By errors of the finer level"},
-                                                 {"long_range", "Long range"},
-                                                 {"rigid", "Rigid"},
-                                                 {"compliant", "Compliant"}}};
-
-const char* title_of(const char* word) {
-  for (const WordTitle& known : kWordTitles)
-    if (known.word == word) return known.title;
-  return word;
+/// True where the page offers what the setting goes with, too: omega is one of smoothers, but not
+/// of imex, whose solver is not offered.
+bool offers(const StepperType& type, const MethodSetting& setting) {
+  if (setting.title == nullptr || !type.reads(setting.key)) return false;
+  return setting.beside.empty() ||
+         std::any_of(setting.beside.begin(), setting.beside.end(), [&](const Beside& known) {
+           const MethodSetting* other = type.setting(known.key);
+           return other != nullptr && other->title != nullptr;
+         });
 }
 
-/// Omega is offered of smoothers alone: as a setting of imex it goes with its solver, which is not.
-bool offers(const StepperType& type, MethodSetting setting) {
-  return type.reads(setting) &&
-         (setting != MethodSetting::omega || type.reads(MethodSetting::smoother));
+/// The numbers between which a setting lies, and by which steps it is usually changed.
+template <class Number>
+void put_values(const NumberField<Number>& field, Json& json) {
+  const auto [low, high, ends] = field.range;
+  const int inside = ends == NumberRange::Ends::excluded ? 1 : 0;
+  json["least"] = (std::round(low * field.steps_per_unit) + inside) / field.steps_per_unit;
+  json["most"] = (std::round(high * field.steps_per_unit) - inside) / field.steps_per_unit;
+  json["step"] = 1.0 / field.steps_per_unit;
 }
 
-template <class Words>
-Json json_words(const Words& words) {
-  Json list = Json::array();
-  for (const auto& [word, value] : words)
-    list.push_back({{"value", word}, {"title", title_of(word)}});
-  return list;
-}
-
-/// "words", or the numbers between which a detail lies, and by which steps it is usually changed.
-void put_values(MethodSetting setting, Json& json) {
-  const auto put_numbers = [&](double least, double most, double step) {
-    json["least"] = least;
-    json["most"] = most;
-    json["step"] = step;
-  };
-  switch (setting) {
-    case MethodSetting::levels:
-      return put_numbers(0, kMaxCoarserLevels, 1);
-    case MethodSetting::ratio:
-      return put_numbers(0.15, 0.85, 0.05);
-    case MethodSetting::omega:
-      return put_numbers(0.05, 1.95, 0.05);
-    case MethodSetting::carried_acceleration:
-      return put_numbers(0, kMostCarried, 0.05);
-    case MethodSetting::level_lengths:
-      json["words"] = json_words(kLevelLengths);
-      return;
-    case MethodSetting::attachments:
-      json["words"] = json_words(kAttachments);
-      return;
-    case MethodSetting::constraints:
-      json["words"] = json_words(kConstraints);
-      return;
-    default:
-      json["words"] = json_words(kSmoothers);
-  }
+void put_values(const WordField& field, Json& json) {
+  for (std::size_t i = 0; i < field.titles.size(); ++i)
+    json["words"].push_back({{"value", field.words[i]}, {"title", field.titles[i]}});
 }
 
 /// A count with what it starts from and what more of it does.
-Json json_count(int start, int least, const char* meaning) {
+Json json_count(const StepperType& type, const char* key, const char* meaning) {
+  const MethodSetting& setting = *type.setting(key);
+  const auto& field = std::get<CountField>(setting.field);
   Json json;
-  json["start"] = start;
-  json["least"] = least;
+  json["start"] = json_setting(setting, type.usual_method());
+  json["least"] =
+      field.zero.is_for(type) ? Json(field.zero.text) : Json(std::lround(field.range.low));
   json["meaning"] = meaning;
   return json;
 }
 
-Json json_stepper(const StepperType& type) {
-  const bool counts_rounds = type.reads(MethodSetting::iterations);
+Json json_stepper(const StepperType& type, StepperTable steppers) {
+  const bool counts_rounds = type.reads("iterations");
+  const MethodOptions usual = type.usual_method();
   Json json;
   json["name"] = type.name;
   json["title"] = type.title;
   json["meaning"] = type.meaning;
   json["needs_springs"] = type.needs_springs;
   json["solves"] = type.solves_equations;
-  json["settings"]["substeps"] =
-      json_count(type.start.substeps, type.has_stability_bound ? 0 : 1, type.substeps_meaning);
+  json["settings"]["substeps"] = json_count(type, "substeps", type.substeps_meaning);
   if (counts_rounds)
-    json["settings"]["iterations"] = json_count(type.start.iterations, 1, type.iterations_meaning);
+    json["settings"]["iterations"] = json_count(type, "iterations", type.iterations_meaning);
   json["details"] = Json::object();
-  for (const MethodDetail& detail : kMethodDetails)
-    if (offers(type, detail.setting))
-      json["details"][key(detail.setting)] = json_setting(detail.setting, type.usual_method());
+  for (const MethodSetting* setting : all_settings(steppers))
+    if (offers(type, *setting)) json["details"][setting->key] = json_setting(*setting, usual);
   json["sweep"] = Json::array();
   for (const MethodCounts& counts : type.usual_counts) {
-    Json usual;
-    usual["substeps"] = json_substeps(counts.substeps);
-    if (counts_rounds) usual["iterations"] = counts.iterations;
-    json["sweep"].push_back(usual);
+    MethodOptions method = usual;
+    method.substeps = counts.substeps;
+    Json swept;
+    swept["substeps"] = json_setting(*type.setting("substeps"), method);
+    if (counts_rounds) swept["iterations"] = counts.iterations;
+    json["sweep"].push_back(swept);
   }
   json["solves_whole_substeps"] = type.solves_whole_substeps;
   json["substep_work"] = substep_work(type);
@@ -373,32 +171,21 @@ Json json_stepper(const StepperType& type) {
   return json;
 }
 
-/// Refuses a choice for another solver.
-void expect_solver(SolverKind solver, const JsonReader& reader, MethodSetting setting,
-                   const MethodOptions& method) {
-  if (method.solver == solver) return;
-  reader.at(key(setting))
-      .fail(std::string("no such key beside the solver ") + word_for(kSolvers, method.solver) +
-            ", but beside " + word_for(kSolvers, solver));
-}
-
 }  // namespace
 
 MethodOptions read_method(const JsonReader& reader, StepperTable steppers) {
   const auto named = reader.find("stepper");
   const StepperType& type = named ? read_stepper(*named, steppers) : *MethodOptions{}.stepper;
-  check_settings(reader, type);
-  MethodOptions method = type.usual_method();
+  check_settings(reader, type, steppers);
+  const MethodOptions usual = type.usual_method();
+  MethodOptions method = usual;
   if (const auto at = reader.find("step_s")) method.step = at->number(kPositive);
-  for (const MethodSetting setting : type.settings)
-    if (const auto at = reader.find(key(setting))) read_setting(setting, *at, method);
-  if (method.omega > 0 && type.reads(MethodSetting::smoother) && !relaxes(method))
-    reader.at(key(MethodSetting::omega))
-        .fail("no such key beside a smoother other than sor and jacobi");
-  if (method.omega > 0 && type.reads(MethodSetting::solver))
-    expect_solver(SolverKind::sor, reader, MethodSetting::omega, method);
-  if (method.preconditioner != Preconditioner::automatic)
-    expect_solver(SolverKind::cg, reader, MethodSetting::preconditioner, method);
+  for (const MethodSetting* setting : type.settings)
+    if (const auto at = reader.find(setting->key))
+      std::visit([&](const auto& field) { read_field(field, *at, method); }, setting->field);
+  for (const MethodSetting* setting : type.settings)
+    if (setting->is_idle(method) && json_setting(*setting, method) != json_setting(*setting, usual))
+      refuse_idle(reader.at(setting->key), *setting, method);
   return method;
 }
 
@@ -406,26 +193,28 @@ Json json_method(const MethodOptions& method) {
   Json json;
   json["stepper"] = method.stepper->name;
   json["step_s"] = method.step;
-  for (const MethodSetting setting : method.stepper->settings)
-    if (setting != MethodSetting::preconditioner || method.solver == SolverKind::cg)
-      json[key(setting)] = json_setting(setting, method);
+  for (const MethodSetting* setting : method.stepper->settings)
+    if (!std::holds_alternative<WordField>(setting->field) || !setting->is_idle(method))
+      json[setting->key] = json_setting(*setting, method);
   return json;
 }
 
 Json json_steppers(StepperTable steppers) {
   Json rows = Json::array();
-  for (const StepperType* type : steppers) rows.push_back(json_stepper(*type));
+  for (const StepperType* type : steppers) rows.push_back(json_stepper(*type, steppers));
   return rows;
 }
 
-Json json_method_details() {
+Json json_method_details(StepperTable steppers) {
   Json details = Json::array();
-  for (const MethodDetail& detail : kMethodDetails) {
+  for (const MethodSetting* setting : all_settings(steppers)) {
+    if (setting->title == nullptr) continue;
     Json json;
-    json["key"] = key(detail.setting);
-    json["title"] = detail.title;
-    json["meaning"] = detail.meaning;
-    put_values(detail.setting, json);
+    json["key"] = setting->key;
+    json["title"] = setting->title;
+    json["meaning"] = setting->meaning;
+    std::visit([&](const auto& field) { put_values(field, json); }, setting->field);
+    for (const Beside& known : setting->beside) json["beside"][known.key].push_back(known.word);
     details.push_back(json);
   }
   return details;

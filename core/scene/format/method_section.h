@@ -17,7 +17,7 @@ Json json_steppers(StepperTable steppers);
 /// What people may choose of a method beside its counts, in the order in which a page shows it:
 /// words or bounds, titles, meanings. A row of json_steppers has the values that its stepper starts
 /// from.
-Json json_method_details();
+Json json_method_details(StepperTable steppers = standard_steppers());
 
 /// The section "record": which frames are kept, and how.
 void read_record(const JsonReader& reader, RecordOptions& record);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_table.h"
+#include "core/dynamics/method_settings.h"
 
 namespace pleat {
 namespace {
@@ -85,8 +85,8 @@ void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
     return;
   const StepperType* type = find_stepper(steppers, stepper.get<std::string>());
   if (type == nullptr) return;
-  for (const MethodSetting setting : kMethodSettings)
-    if (!type->reads(setting)) method.erase(key(setting));
+  for (const MethodSetting* setting : all_settings(steppers))
+    if (!type->reads(setting->key)) method.erase(setting->key);
   if (type->has_stability_bound || method.value("substeps", Json()).is_string())
     method.erase("substeps");
   if ((type->needs_factor || type->prefers_factor) && method.value("solver", Json()) == "cg")

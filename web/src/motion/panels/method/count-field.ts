@@ -1,6 +1,6 @@
 // A count of the method: a field, and a slider that tells where it is dragged to.
 import { element, field } from '../../../shared/panels/element';
-import { type Count, stepperRow } from '../../../shared/steppers/steppers';
+import { type Count, numberOf, stepperRow } from '../../../shared/steppers/steppers';
 import { MOST_ITERATIONS, MOST_SUBSTEPS, type Setting, sliderCounts } from '../../state/setting';
 
 const COUNT_TITLES: Record<Count, { title: string; most: number }> = {
@@ -70,9 +70,10 @@ export function countField(count: Count, actions: CountActions) {
       const trait = stepperRow(setting.stepper).settings[count];
       box.hidden = !trait;
       if (!trait) return;
-      input.min = String(trait.least);
+      const least = numberOf(trait.least);
+      input.min = String(least);
       input.value = String(setting[count]);
-      slider.show(setting[count], trait.least);
+      slider.show(setting[count], least);
       box.title = trait.meaning;
     },
   };

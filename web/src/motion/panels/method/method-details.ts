@@ -4,7 +4,7 @@ import { choice, element, field } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { type DetailValue, stepperRow } from '../../../shared/steppers/steppers';
 import type { MotionState } from '../../state/motion-state';
-import { detailOf, relaxes, type Setting, withDetail, withStepper } from '../../state/setting';
+import { detailOf, isRead, type Setting, withDetail, withStepper } from '../../state/setting';
 
 interface Detail {
   key: string;
@@ -37,11 +37,6 @@ function numberControl({ least = 0, most = 0, step = 1 }: Detail, choose: Choose
     control.value = typeof value === 'number' ? String(value) : '';
   };
   return { control, select };
-}
-
-/** Whether the method makes use of it: only some smoothers relax. */
-function isRead(setting: Setting, key: string): boolean {
-  return detailOf(setting, key) !== undefined && (key !== 'omega' || relaxes(setting));
 }
 
 function detailField(detail: Detail, choose: Choose) {
