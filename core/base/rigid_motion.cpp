@@ -16,7 +16,7 @@ Mat3 half_turn(const Mat3& rotation) {
   return Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(rotation)).toRotationMatrix();
 }
 
-/// With S = sum a b^T of the places about their means, a before and b after, and the rotation R of
+/// Let S = sum a b^T of the places about their means, a before and b after, and R the rotation of
 /// a unit quaternion q = (w, v), sum b.(R a) = q^T N q is to be greatest: q is an eigenvector of
 ///
 ///     N = (tr S  d^T; d  S + S^T - tr S I),   d = (S_yz - S_zy, S_zx - S_xz, S_xy - S_yx).

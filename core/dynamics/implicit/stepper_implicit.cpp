@@ -1,7 +1,6 @@
 #include "core/dynamics/implicit/stepper_implicit.h"
 
 #include "core/base/check.h"
-#include "core/dynamics/jumping_forces.h"
 #include "core/model/elasticity.h"
 
 namespace pleat {
@@ -12,7 +11,6 @@ StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options
       solve_(model, make_solver(options, kMaxSolverIterations)),
       forces_(3, model.n_vertices()),
       positions_begin_(3, model.n_vertices()) {
-  refuse_jumping_forces(model, "implicit");
   if (model_.contact) hold_.emplace(model_);
   solve_.analyze(matrix_);
   solve_.choose_pins(matrix_);

@@ -128,7 +128,7 @@ double BendProgram::sum_of_squares(const LaneView& v) const {
     }
     sum = sum + dot(error, error);  // empty lanes have zero weights
   }
-  return sum_of_lanes(sum);
+  return sum_of_lanes<double>(sum);
 }
 
 double BendProgram::squared_residual(const LaneView& view) const {
