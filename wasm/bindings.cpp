@@ -24,6 +24,7 @@
 #include "core/scene/cloth/mesh_cloth.h"
 #include "core/scene/format/method_section.h"
 #include "core/scene/format/scene_file.h"
+#include "core/scene/format/solid_section.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
 #include "wasm/page_run.h"
@@ -243,16 +244,8 @@ class Simulation {
       val list = val::array();
       for (const pleat::Collider& collider : running().scene().colliders) {
         const auto shape = pleat::ContactStage::placed(collider, running().time());
-        val entry = val::object();
-        if (const auto* sphere = std::get_if<pleat::Sphere>(&shape)) {
-          entry.set("shape", std::string("sphere"));
-          entry.set("centre", json_triple(sphere->centre));
-          entry.set("radius_m", sphere->radius);
-        } else if (const auto* plane = std::get_if<pleat::Plane>(&shape)) {
-          entry.set("shape", std::string("plane"));
-          entry.set("point", json_triple(plane->point));
-          entry.set("normal", json_triple(plane->normal));
-        }
+        val entry = json_value(pleat::json_solid(shape).dump());
+        entry.set("shape", std::string(pleat::word_for(shape)));
         list.call<void>("push", entry);
       }
       envelope.set("colliders", list);

@@ -220,8 +220,8 @@ class GarmentRun {
     return guarded([&](val& envelope) {
       val list = val::array();
       for (const pleat::BodyPart& part : parts_) {
-        const auto shape = pleat::placed(part.shape, body_->pose(part.bone, time_));
-        list.call<void>("push", json_cone(std::get<pleat::RoundedCone>(shape)));
+        const pleat::Pose pose = body_->pose(part.bone, time_);
+        list.call<void>("push", json_cone(pleat::placed(part.shape, pose)));
       }
       envelope.set("cones", list);
       envelope.set("pelvis_m",

@@ -20,7 +20,7 @@ struct Pose {
 class MovingFrame {
  public:
   virtual ~MovingFrame() = default;
-  /// How it has moved since time 0 [s]; the identity there.
+  /// Its displacement since time 0 [s]; the identity there.
   virtual Pose pose(double time) const = 0;
 };
 

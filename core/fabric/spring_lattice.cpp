@@ -45,9 +45,7 @@ void append_bends(const QuadMesh& mesh, const ThreadEdges& edges, const FabricCo
       continue;
     }
     const double arm = 0.5 * (chord.arm_before + chord.arm_after);
-    lattice.chord_bends.push_back(
-        chord_bend(chord.before, chord.after, arm, B * chord.width,
-                   law == BendingLaw::arc ? ChordLaw::arc : ChordLaw::linear));
+    lattice.chord_bends.push_back(chord_bend(chord.before, chord.after, arm, B * chord.width));
   }
 }
 

@@ -41,14 +41,13 @@ struct BendElement {
 enum class BendingLaw {
   none,
   quadratic,  ///< BendElement
-  arc,        ///< ChordBend of that law
-  linear,     ///< ChordBend of that law
+  linear,     ///< ChordBend
 };
 
 struct SpringLattice {
   std::vector<Spring> springs;         ///< warp, then weft, then shear
   std::vector<BendElement> bends;      ///< elements of the quadratic law
-  std::vector<ChordBend> chord_bends;  ///< elements of the other laws
+  std::vector<ChordBend> chord_bends;  ///< elements of the linear law
   Eigen::VectorXd masses;  ///< a quarter of each face per corner, none where one hangs [kg]
 };
 

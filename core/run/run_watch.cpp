@@ -120,20 +120,14 @@ double stretch_between_pins(const Simulation& simulation) {
   return largest;
 }
 
-Vec3 middle_of(const SolidShape& shape) {
-  if (const auto* plane = std::get_if<Plane>(&shape)) return plane->point;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->centre;
-  const auto& cone = std::get<RoundedCone>(shape);
-  return (cone.centre_a + cone.centre_b) / 2;
-}
-
 double driven_speed(const Simulation& simulation) {
   double speed = 0;
   for (const Pin& pin : simulation.model().pins)
     speed = std::max(speed, pin.velocity(simulation.time()).norm());
   for (const Collider& collider : simulation.scene().colliders)
     if (collider.motion.kind != Motion::Kind::hold) {
-      const Vec3 velocity = collider.motion.velocity(middle_of(collider.shape), simulation.time());
+      const Vec3 middle = ball_around(collider.shape).centre;
+      const Vec3 velocity = collider.motion.velocity(middle, simulation.time());
       speed = std::max(speed, velocity.norm());
     }
   return speed;

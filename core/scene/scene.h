@@ -43,8 +43,7 @@ enum class Elasticity {
 enum class BendingModel {
   none,
   quadratic,  ///< of mesh lines, with springs
-  arc,        ///< of mesh lines, by their chords
-  linear,     ///< of mesh lines, exact at one curvature
+  linear,     ///< of mesh lines by their chords, exact at one curvature
   fitted,     ///< of triangles, with a membrane (docs/methods/fitted_bending.md)
   hinge,      ///< of edges, with a membrane: for comparison
 };

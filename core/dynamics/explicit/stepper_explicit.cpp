@@ -1,16 +1,13 @@
 #include "core/dynamics/explicit/stepper_explicit.h"
 
 #include "core/dynamics/explicit/stability_bound.h"
-#include "core/dynamics/jumping_forces.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
 namespace pleat {
 
 StepperExplicit::StepperExplicit(ClothModel& model, const MethodOptions& options)
-    : Stepper(model, options, stable_substeps(model, options)), forces_(3, model.n_vertices()) {
-  refuse_jumping_forces(model, "explicit");
-}
+    : Stepper(model, options, stable_substeps(model, options)), forces_(3, model.n_vertices()) {}
 
 SolveReport StepperExplicit::substep(State& state, double time_end, double h) {
   positions_begin_ = state.positions;

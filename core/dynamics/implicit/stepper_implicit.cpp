@@ -1,13 +1,11 @@
 #include "core/dynamics/implicit/stepper_implicit.h"
 
-#include "core/dynamics/jumping_forces.h"
 #include "core/model/elasticity.h"
 
 namespace pleat {
 
 StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
     : StepperImplicit(model, options, options.substeps) {
-  refuse_jumping_forces(model, "implicit");
   take_implicitly(model);
 }
 

@@ -6,7 +6,6 @@
 
 #include "core/base/check.h"
 #include "core/base/random.h"
-#include "core/dynamics/jumping_forces.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
 
@@ -61,7 +60,6 @@ StepperNewton::StepperNewton(ClothModel& model, const MethodOptions& options)
                      "from a saddle, got cg");
   if (is_at_rest() && model.pins.empty() && !model.gravity.isZero(0))
     throw InputError("/pins", "expected something held, as weight alone has no rest, got nothing");
-  refuse_jumping_forces(model, "newton");
   if (model_.contact && options.rule == NewtonRule::backward_euler) hold_.emplace(model_);
   MethodOptions linear = options;
   linear.tolerance = kIterativeTolerance;

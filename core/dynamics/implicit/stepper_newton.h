@@ -24,8 +24,8 @@ namespace pleat {
 /// docs/methods/newton.md.
 class StepperNewton final : public Stepper {
  public:
-  /// Throws InputError when the wanted solver is cg or not available, for `arc` bending, whose
-  /// force jumps, and for an equilibrium beside solids or of cloth that nothing holds.
+  /// Throws InputError when the wanted solver is cg or not available, and for an equilibrium
+  /// beside solids or of cloth that nothing holds.
   StepperNewton(ClothModel& model, const MethodOptions& options);
 
   void refresh() override;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 #include "core/dynamics/position_based/thread_grid.h"
 
 namespace pleat {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 #include "core/model/hanging_vertices.h"
 
 namespace pleat {

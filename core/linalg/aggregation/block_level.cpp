@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/linalg/aggregation/four_floats.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 namespace {
@@ -72,34 +72,35 @@ inline void scale_block(const double* V, const double* W, double* A) {
 template <int B>
 struct Row {
   static constexpr int kFours = kLanes<B> / 4;
-  FourFloats fours[kFours];
+  Float4 fours[kFours];
 
   static Row zero() { return Row{}; }
   static Row load(const float* from) {
     Row row;
-    for (int h = 0; h < kFours; ++h) row.fours[h] = load4(from + 4 * h);
+    for (int h = 0; h < kFours; ++h) row.fours[h] = Float4::load(from + 4 * h);
     return row;
   }
   void store(float* to) const {
-    for (int h = 0; h < kFours; ++h) store4(to + 4 * h, fours[h]);
+    for (int h = 0; h < kFours; ++h) fours[h].store(to + 4 * h);
   }
   void add_multiple(float factor, const float* from) {
-    for (int h = 0; h < kFours; ++h) fours[h] += factor * load4(from + 4 * h);
+    for (int h = 0; h < kFours; ++h)
+      fours[h] = fours[h] + Float4::all(factor) * Float4::load(from + 4 * h);
   }
 };
 
 /// Sums of B x B blocks times rows. Blocks are loaded beyond their end: x is zero there.
 template <int B>
 struct Products {
-  FourFloats sums[B] = {};
+  Float4 sums[B] = {};
 
   void add(const float* block, const float* x) {
     const Row<B> row = Row<B>::load(x);
     for (int r = 0; r < B; ++r)
       for (int h = 0; h < Row<B>::kFours; ++h)
-        sums[r] += load4(block + r * B + 4 * h) * row.fours[h];
+        sums[r] = sums[r] + Float4::load(block + r * B + 4 * h) * row.fours[h];
   }
-  float sum(int r) const { return (sums[r][0] + sums[r][1]) + (sums[r][2] + sums[r][3]); }
+  float sum(int r) const { return sum_of_lanes<float>(sums[r]); }
 };
 
 }  // namespace

@@ -10,6 +10,9 @@ namespace pleat {
 template <int B>
 inline constexpr int kLanes = (B + 3) / 4 * 4;
 
+/// Numbers that arrays of blocks hold beyond their end, where four are loaded across it.
+constexpr int kLoadRoom = 4;
+
 /// A symmetric positive definite matrix in B x B blocks as a level of a multigrid cycle sees it:
 /// its values in double precision, and in single precision what smooths.
 ///

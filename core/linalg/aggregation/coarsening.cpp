@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/linalg/aggregation/four_floats.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 namespace {
@@ -326,15 +326,15 @@ void Coarsening<B>::restrict_to(const float* r, float* b) const {
   for (int row = 0; row < n; ++row) {
     for (int p = begin(row); p < begin(row + 1); ++p) {
       float* sum = b + column(p) * kLanes<kRigid>;
-      FourFloats low = load4(sum);
-      FourFloats high = load4(sum + 4);
+      Float4 low = Float4::load(sum);
+      Float4 high = Float4::load(sum + 4);
       for (int k = 0; k < B; ++k) {
-        const float factor = r[row * kLanes<B> + k];
-        low += factor * load4(scaled_block(p) + k * kRigid);
-        high += factor * load4(scaled_block(p) + k * kRigid + 4);
+        const Float4 factor = Float4::all(r[row * kLanes<B> + k]);
+        low = low + factor * Float4::load(scaled_block(p) + k * kRigid);
+        high = high + factor * Float4::load(scaled_block(p) + k * kRigid + 4);
       }
-      store4(sum, low);
-      store4(sum + 4, high);
+      low.store(sum);
+      high.store(sum + 4);
     }
   }
 }
@@ -344,16 +344,15 @@ template <int B>
 void Coarsening<B>::add_prolonged(const float* e, float* x) const {
   const int n = static_cast<int>(begins_.size()) - 1;
   for (int row = 0; row < n; ++row) {
-    FourFloats sums[B] = {};
+    Float4 sums[B] = {};
     for (int p = begin(row); p < begin(row + 1); ++p) {
-      const FourFloats low = load4(e + column(p) * kLanes<kRigid>);
-      const FourFloats high = load4(e + column(p) * kLanes<kRigid> + 4);
+      const Float4 low = Float4::load(e + column(p) * kLanes<kRigid>);
+      const Float4 high = Float4::load(e + column(p) * kLanes<kRigid> + 4);
       for (int k = 0; k < B; ++k)
-        sums[k] += load4(scaled_block(p) + k * kRigid) * low +
-                   load4(scaled_block(p) + k * kRigid + 4) * high;
+        sums[k] = sums[k] + (Float4::load(scaled_block(p) + k * kRigid) * low +
+                             Float4::load(scaled_block(p) + k * kRigid + 4) * high);
     }
-    for (int k = 0; k < B; ++k)
-      x[row * kLanes<B> + k] += (sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3]);
+    for (int k = 0; k < B; ++k) x[row * kLanes<B> + k] += sum_of_lanes<float>(sums[k]);
   }
 }
 

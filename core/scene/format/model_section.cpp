@@ -10,8 +10,7 @@ namespace {
 constexpr std::array<Word<Elasticity>, 2> kElasticities{
     {{"springs", Elasticity::springs}, {"membrane", Elasticity::membrane}}};
 
-constexpr std::array<Word<BendingModel>, 6> kBendingModels{{{"quadratic", BendingModel::quadratic},
-                                                            {"arc", BendingModel::arc},
+constexpr std::array<Word<BendingModel>, 5> kBendingModels{{{"quadratic", BendingModel::quadratic},
                                                             {"linear", BendingModel::linear},
                                                             {"fitted", BendingModel::fitted},
                                                             {"hinge", BendingModel::hinge},
@@ -36,7 +35,7 @@ std::vector<BendingModel> possible_bending(const Scene& scene) {
   if (scene.model.elasticity == Elasticity::membrane)
     return {BendingModel::fitted, BendingModel::hinge, BendingModel::none};
   if (!is_quads(scene)) return {BendingModel::quadratic, BendingModel::none};
-  return {BendingModel::quadratic, BendingModel::arc, BendingModel::linear, BendingModel::none};
+  return {BendingModel::quadratic, BendingModel::linear, BendingModel::none};
 }
 
 void check_elasticity(const JsonReader& reader, const Scene& scene) {

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/scene/format/bone_word.h"
+#include "core/scene/format/solid_section.h"
 #include "core/scene/rest_cloth.h"
 #include "core/scene/vertex_arrays.h"
 #include "core/scene/vertex_place.h"
@@ -112,23 +113,11 @@ PinRule read_pin(const JsonReader& reader, const Scene& scene) {
 }
 
 Collider read_collider(const JsonReader& reader, double default_friction) {
-  reader.allow_keys({"plane", "sphere", "motion", "friction"});
+  std::vector<const char*> keys = solid_words();
+  keys.insert(keys.end(), {"motion", "friction"});
+  reader.allow_keys(keys);
   Collider collider;
-  if (reader.only_one_of({"plane", "sphere"}) == 0) {
-    const JsonReader at = reader.at("plane");
-    at.allow_keys({"point_m", "normal"});
-    Plane plane;
-    if (const auto point = at.find("point_m")) plane.point = point->vec3();
-    if (const auto normal = at.find("normal")) plane.normal = normal->direction();
-    collider.shape = plane;
-  } else {
-    const JsonReader at = reader.at("sphere");
-    at.allow_keys({"centre_m", "radius_m"});
-    Sphere sphere;
-    if (const auto centre = at.find("centre_m")) sphere.centre = centre->vec3();
-    if (const auto radius = at.find("radius_m")) sphere.radius = radius->number(kPositive);
-    collider.shape = sphere;
-  }
+  collider.shape = read_solid(reader);
   if (const auto at = reader.find("motion")) collider.motion = read_motion(*at);
   collider.friction = default_friction;
   if (const auto at = reader.find("friction")) collider.friction = at->number(kNotNegative);
@@ -137,14 +126,7 @@ Collider read_collider(const JsonReader& reader, double default_friction) {
 
 Json json_collider(const Collider& collider) {
   Json json;
-  if (const auto* plane = std::get_if<Plane>(&collider.shape)) {
-    json["plane"]["point_m"] = json_vec3(plane->point);
-    json["plane"]["normal"] = json_vec3(plane->normal);
-  } else {
-    const auto& sphere = std::get<Sphere>(collider.shape);
-    json["sphere"]["centre_m"] = json_vec3(sphere.centre);
-    json["sphere"]["radius_m"] = sphere.radius;
-  }
+  json[word_for(collider.shape)] = json_solid(collider.shape);
   json["motion"] = json_motion(collider.motion);
   json["friction"] = collider.friction;
   return json;

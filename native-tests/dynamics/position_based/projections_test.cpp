@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/base/simd.h"
 #include "core/dynamics/position_based/levels/attachments.h"
 #include "core/dynamics/position_based/levels/coarse_levels.h"
-#include "core/dynamics/position_based/levels/double4.h"
 #include "native-tests/support/meshes.h"
 #include "native-tests/support/models.h"
 

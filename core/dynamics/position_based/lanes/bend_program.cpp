@@ -120,12 +120,12 @@ double BendProgram::squared_residual(const LaneView& v) const {
     const Vec3Lanes<Float4> error =
         Float4::load(block.before.data()) * place(operation.before) +
         Float4::load(block.after.data()) * place(operation.after) +
-        Float4::load(block.compliance.data()) *
-            Vec3Lanes<Float4>{Float4::load(multiplier), Float4::load(multiplier + 4),
-                              Float4::load(multiplier + 8)};
+        Float4::load(block.compliance.data()) * Vec3Lanes<Float4>{Float4::load(multiplier),
+                                                                  Float4::load(multiplier + 4),
+                                                                  Float4::load(multiplier + 8)};
     sum = sum + dot(error, error);  // empty lanes have zero weights
   }
-  return sum_of_lanes(sum);
+  return sum_of_lanes<double>(sum);
 }
 
 }  // namespace pleat

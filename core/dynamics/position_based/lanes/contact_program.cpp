@@ -5,7 +5,7 @@
 #include <limits>
 #include <variant>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 namespace {
@@ -111,6 +111,33 @@ void ContactProgram::begin_step(const ContactStage& contact, const LaneLayout& l
   knows_groups_ = false;
 }
 
+void ContactProgram::place(const SweptPlane& plane, const Vec3& origin, double extent,
+                           Solid& solid) {
+  const double level = plane.level - plane.normal.dot(origin);
+  const double rounding = kRounding * (extent + std::abs(level));
+  solid.kind = Kind::plane;
+  solid.place = solid.middle = to_floats(plane.normal);
+  solid.rounding = static_cast<float>(rounding);
+  solid.size = static_cast<float>(level + rounding);
+  solid.size_low = static_cast<float>(level + rounding - solid.size);
+  solid.reach = static_cast<float>(level + 4 * rounding);
+  solid.shift = to_floats(plane.shift);
+}
+
+void ContactProgram::place(const SweptSphere& ball, const Vec3& origin, double extent,
+                           Solid& solid) {
+  const Vec3 centre = ball.centre - origin;
+  const double rounding = kRounding * (ball.radius + (solid.is_exact ? 0 : extent));
+  solid.kind = Kind::ball;
+  solid.place = to_floats(centre);
+  solid.place_low = rounded_off_floats(centre);
+  solid.middle = to_floats(centre - ball.shift / 2);
+  solid.rounding = static_cast<float>(rounding);
+  solid.size = static_cast<float>(ball.radius + rounding);
+  solid.reach = static_cast<float>(ball.radius + 4 * kRounding * (extent + centre.norm()));
+  solid.shift = to_floats(ball.shift);
+}
+
 // A vertex that begins at b and goes a straight way of length d meets a solid only where
 // |b - c| <= r + d, with c the middle of the centre's own way of length s and r larger by s/2. What
 // one solid makes of the way ends within d + 2 s of where it began. So no other one is met where
@@ -126,28 +153,7 @@ void ContactProgram::place_solids(const ContactStage& contact, const Vec3& origi
     Solid solid{};
     solid.is_exact = outline.is_exact;
     solid.friction = static_cast<float>(outline.friction);
-    if (const auto* ball = std::get_if<SweptSphere>(&outline.shape)) {
-      const Vec3 centre = ball->centre - origin;
-      const double rounding = kRounding * (ball->radius + (solid.is_exact ? 0 : extent));
-      solid.kind = Kind::ball;
-      solid.place = to_floats(centre);
-      solid.place_low = rounded_off_floats(centre);
-      solid.middle = to_floats(centre - ball->shift / 2);
-      solid.rounding = static_cast<float>(rounding);
-      solid.size = static_cast<float>(ball->radius + rounding);
-      solid.reach = static_cast<float>(ball->radius + 4 * kRounding * (extent + centre.norm()));
-      solid.shift = to_floats(ball->shift);
-    } else {
-      const auto& plane = std::get<SweptPlane>(outline.shape);
-      const double level = plane.level - plane.normal.dot(origin);
-      const double rounding = kRounding * (extent + std::abs(level));
-      solid.place = solid.middle = to_floats(plane.normal);
-      solid.rounding = static_cast<float>(rounding);
-      solid.size = static_cast<float>(level + rounding);
-      solid.size_low = static_cast<float>(level + rounding - solid.size);
-      solid.reach = static_cast<float>(level + 4 * rounding);
-      solid.shift = to_floats(plane.shift);
-    }
+    std::visit([&](const auto& shape) { place(shape, origin, extent, solid); }, outline.shape);
     if (outline.cone != nullptr) {
       solid.is_exact = outline.is_exact && LaneCone::is_regular(*outline.cone, outline.radii);
       if (solid.is_exact) place_cone(contact, outline, origin, solid);

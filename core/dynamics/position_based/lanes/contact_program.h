@@ -78,6 +78,8 @@ class ContactProgram {
   };
 
   static Float4 gap_of(const Solid& solid, const Vec3Lanes<Float4>& place);
+  static void place(const SweptPlane& plane, const Vec3& origin, double extent, Solid& solid);
+  static void place(const SweptSphere& ball, const Vec3& origin, double extent, Solid& solid);
   static void place_cone(const ContactStage& contact, const ContactStage::Outline& outline,
                          const Vec3& origin, Solid& solid);
   void list_cones(const ContactStage& contact);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 

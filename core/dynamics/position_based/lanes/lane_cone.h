@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "core/base/simd.h"
 #include "core/base/vec.h"
 #include "core/contact/swept_cone.h"
-#include "core/dynamics/position_based/simd4.h"
 
 namespace pleat {
 

@@ -248,7 +248,7 @@ double SpringProgram::squared_residual(const LaneView& v) const {
                                               multiplier);
       multiplier += multiplier_floats(kLaw);
     }
-    return sum_of_lanes(sum);
+    return sum_of_lanes<double>(sum);
   });
 }
 

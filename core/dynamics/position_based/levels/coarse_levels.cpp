@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/dynamics/position_based/levels/double4.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 namespace {

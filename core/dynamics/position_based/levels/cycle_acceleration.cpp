@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 namespace {
@@ -19,7 +19,7 @@ double squared_norm(std::span<const float> numbers) {
       const Float4 number = Float4::load(&numbers[i]);
       strip = strip + number * number;
     }
-    sum += sum_of_lanes(strip);
+    sum += sum_of_lanes<double>(strip);
   }
   return sum;
 }
@@ -46,7 +46,7 @@ Products products(const KnownArrays& known, std::span<const float> last) {
     }
     for (std::size_t i = 0; i < kCount; ++i)
       for (std::size_t j = i; j <= kCount; ++j)
-        sums(static_cast<int>(i), static_cast<int>(j)) += sum_of_lanes(strip[i][j]);
+        sums(static_cast<int>(i), static_cast<int>(j)) += sum_of_lanes<double>(strip[i][j]);
   }
   return sums;
 }

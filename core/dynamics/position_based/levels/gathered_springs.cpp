@@ -139,7 +139,7 @@ double GatheredSprings::squared_residual(const float* begins, const float* moves
                                               multiplier);
       multiplier += multiplier_floats(kLaw);
     }
-    return sum_of_lanes(sum);
+    return sum_of_lanes<double>(sum);
   });
 }
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/base/check.h"
-#include "core/dynamics/position_based/levels/double4.h"
+#include "core/base/simd.h"
 #include "core/dynamics/position_based/levels/quad_vectors.h"
 #include "core/dynamics/position_based/spring_law.h"
 

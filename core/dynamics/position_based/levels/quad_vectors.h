@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/dynamics/position_based/simd4.h"
+#include "core/base/simd.h"
 
 namespace pleat {
 

@@ -79,7 +79,7 @@ function experimentFrom(id: string, title: string): Experiment | null {
   const file = JSON.parse(text) as DeformFile;
   const mesh = file.cloth.mesh?.obj.replace(/^.*\//, '');
   const bodies = (file.handles ?? []).flatMap(({ onto_sphere: ball }): Collider[] =>
-    ball ? [{ shape: 'sphere', centre: ball.centre_m, radius_m: ball.radius_m }] : [],
+    ball ? [{ shape: 'sphere', centre_m: ball.centre_m, radius_m: ball.radius_m }] : [],
   );
   const meshUrl = mesh ? (MESHES[`../../../../assets/meshes/${mesh}`] ?? null) : null;
   return {
