@@ -14,12 +14,12 @@ constexpr std::array<Word<BendSource>, 3> kBendSources{{{"at_rest", BendSource::
 
 constexpr const char* kHysteresisKey = "bend_hysteresis_2hb_n";
 
-struct NumberField {
+struct FabricNumber {
   const char* key;
   double FabricConstants::*field;
   NumberRange range;
 };
-constexpr std::array<NumberField, 10> kNumberFields{
+constexpr std::array<FabricNumber, 10> kNumberFields{
     {{"areal_density_kg_per_m2", &FabricConstants::areal_density, kPositive},
      {"thickness_m", &FabricConstants::thickness, kNotNegative},
      {"stretch_warp_n_per_m", &FabricConstants::stretch_warp, kPositive},
@@ -35,10 +35,10 @@ constexpr std::array<NumberField, 10> kNumberFields{
 std::vector<std::string> read_numbers(const JsonReader& reader, FabricConstants& fabric) {
   std::vector<const char*> known;
   known.reserve(kNumberFields.size());
-  for (const NumberField& number : kNumberFields) known.push_back(number.key);
+  for (const FabricNumber& number : kNumberFields) known.push_back(number.key);
   reader.allow_keys(known);
   std::vector<std::string> keys;
-  for (const NumberField& number : kNumberFields) {
+  for (const FabricNumber& number : kNumberFields) {
     const auto at = reader.find(number.key);
     if (!at) continue;
     fabric.*number.field = at->number(number.range);
@@ -77,7 +77,7 @@ void read_fabric(const JsonReader& reader, const FabricLibrary& fabrics, Scene& 
 
 Json json_fabric(const Scene& scene) {
   Json numbers = Json::object();
-  for (const NumberField& number : kNumberFields) {
+  for (const FabricNumber& number : kNumberFields) {
     const auto& keys = scene.fabric_overrides;
     const bool is_own = !scene.fabric_is_named &&
                         (number.key != kHysteresisKey || scene.fabric.bend_hysteresis > 0);
