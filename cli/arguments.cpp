@@ -33,6 +33,13 @@ double parsed_number(const std::string& text) {
 
 }  // namespace
 
+std::string either(const std::vector<const char*>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < words.size() ? ", " : " or ") + std::string(words[k]);
+  return text;
+}
+
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high) {
   int value = 0;
   const char* end = text.data() + text.size();
@@ -121,7 +128,7 @@ void Arguments::refuse_options() const {
   const std::string_view near =
       nearest_word(option.substr(std::min(option.size(), std::size_t{2})), known);
   throw InputError(cut(option), near.empty()
-                                    ? "unknown option; \"pleat help\" lists what each command takes"
+                                    ? "unknown option; \"pleat help COMMAND\" lists what it takes"
                                     : "unknown option; the nearest is --" + std::string(near));
 }
 
@@ -149,7 +156,7 @@ void Arguments::finish() const {
   refuse_options();
   if (words_.empty()) return;
   throw InputError(cut(words_.front()),
-                   "one word too many; \"pleat help\" lists what each command takes");
+                   "one word too many; \"pleat help COMMAND\" lists what it takes");
 }
 
 }  // namespace pleat

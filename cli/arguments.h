@@ -44,6 +44,9 @@ class Arguments {
   std::vector<const char*> asked_;  // options
 };
 
+/// "one, two or three".
+std::string either(const std::vector<const char*>& words);
+
 /// The number that a whole text says. Throws InputError{where} unless it is in [low, high].
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high);
 double parse_positive_number(const std::string& text, const std::string& where);

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/deform_input.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
@@ -58,8 +58,6 @@ Json distance_json(const DeformScene& scene, const DeformScene& other) {
           {"largest_m", distance.largest}};
 }
 
-}  // namespace
-
 Outcome bench_deform(Arguments arguments) {
   const auto n_moves = arguments.whole_number("--drag", 1, 10'000);
   const auto against = arguments.text("--against");
@@ -86,5 +84,15 @@ Outcome bench_deform(Arguments arguments) {
   std::printf("%s\n", json.dump().c_str());
   return cost.report.ok() ? Outcome::ok : Outcome::check_failed;
 }
+
+}  // namespace
+
+extern const Command kBenchDeform(
+    "deform", "SCENE.json | MESH.obj", "what the shape of least energy costs", bench_deform,
+    {kDeformHelp},
+    R"(  --drag N               then of a hand that takes the handles there in N moves
+  --against OTHER.json   the distance to that shape, with the same fabric and form
+  --vertices             how much each vertex has of the bending
+)");
 
 }  // namespace pleat

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/modal_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
@@ -15,11 +15,11 @@ namespace pleat {
 namespace {
 
 /// Of all frames, the largest and the sums.
-Json figures_json(const std::vector<FrameFigures>& figures) {
+Json measures_json(const std::vector<FrameMeasures>& measures) {
   double change = 0, unequal = 0;
   int n_inverted = 0;
-  for (const FrameFigures& of : figures) {
-    change = std::max(change, std::abs(of.volume / figures.front().volume - 1));
+  for (const FrameMeasures& of : measures) {
+    change = std::max(change, std::abs(of.volume / measures.front().volume - 1));
     unequal = std::max(unequal, of.unequal_halves);
     n_inverted += of.n_inverted;
   }
@@ -40,8 +40,6 @@ std::vector<Positions> read_frames(const std::string& folder, const ObjMesh& lik
   return frames;
 }
 
-}  // namespace
-
 Outcome bench_inbetween(Arguments arguments) {
   const int n_frames = arguments.whole_number("--frames", 2, kMaxFrames).value_or(60);
   const auto against = arguments.text("--against");
@@ -55,14 +53,14 @@ Outcome bench_inbetween(Arguments arguments) {
                {"n_volume_vertices", cost.n_volume_vertices},
                {"n_tets", cost.n_tets},
                {"n_keys", keys.positions.size()},
-               {"n_frames", cost.figures.size()},
+               {"n_frames", cost.measures.size()},
                {"precompute_ms", cost.precompute_ms},
                {"middles_ms", cost.middles_ms},
                {"middle_ms", cost.middles_ms / std::max(1, cost.n_middles)},
                {"surfaces_ms", cost.surfaces_ms},
                {"unconverged", cost.n_unconverged},
-               {"figures", figures_json(cost.figures)},
-               {"linear", figures_json(cost.linear_figures)},
+               {"figures", measures_json(cost.measures)},
+               {"linear", measures_json(cost.linear_measures)},
                {"target", build_target()},
                {"core", core_version()}};
   std::optional<UnreducedCost> unreduced;
@@ -71,7 +69,7 @@ Outcome bench_inbetween(Arguments arguments) {
                      "expected a surface in one part, got " + std::to_string(cost.n_bodies));
   if (against && cost.middles.empty())
     throw InputError("--against",
-                     "expected more frames than keys, got " + std::to_string(cost.figures.size()));
+                     "expected more frames than keys, got " + std::to_string(cost.measures.size()));
   if (wants_unreduced) {
     unreduced = unreduced_cost(keys.positions, keys.mesh.triangles, options, n_frames);
     json["unreduced"] = {{"middles_ms", unreduced->middles_ms}};
@@ -86,5 +84,15 @@ Outcome bench_inbetween(Arguments arguments) {
   std::printf("%s\n", json.dump().c_str());
   return Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kBenchInbetween("inbetween", "A.obj B.obj ...",
+                                     "what frames between keys cost", bench_inbetween,
+                                     {kCompletionHelp},
+                                     R"(  --frames N             with the keys (default 60)
+  --against DIR          the distance to the nearest of a run's frames;  --unreduced  also of frames
+                         for which no space was made
+)");
 
 }  // namespace pleat

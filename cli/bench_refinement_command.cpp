@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
@@ -14,7 +14,7 @@
 #include "core/files/plan_file.h"
 #include "core/reference/reference.h"
 #include "core/run/plan_maker.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 #include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 
@@ -37,7 +37,6 @@ std::vector<PlanOptions> take_plan_options(Arguments& arguments) {
   for (const std::string& count : arguments.list("--vertices"))
     all.emplace_back(options).max_vertices =
         parse_whole_number(count, "--vertices", 1, static_cast<int>(kMaxVertices));
-  if (all.empty()) throw InputError("--demand", "expected this or --vertices, got neither");
   return all;
 }
 
@@ -207,17 +206,16 @@ std::vector<SceneInput> take_scenes(Arguments& arguments) {
   return inputs;
 }
 
-}  // namespace
-
 Outcome bench_plans(Arguments arguments) {
   const std::vector<PlanOptions> options = take_plan_options(arguments);
   PlanRecipe recipe;
-  recipe.plan = options.front();
   if (const auto n = arguments.whole_number("--patterns", 1, kMaxPatterns))
     recipe.patterns.n_patterns = *n;
   const auto begin = take_number(arguments, "--from");
   const SceneInput input = take_scene(arguments);
   arguments.finish();
+  if (options.empty()) throw InputError("--demand", "expected this or --vertices, got neither");
+  recipe.plan = options.front();
   recipe.begin = begin.value_or(settled_time(input.scene));
   return with_source_named(input, [&] { return print_plans(input.scene, recipe, options); });
 }
@@ -248,5 +246,32 @@ Outcome bench_restarts(Arguments arguments) {
   options.duration = inputs.front().scene.duration;
   return with_source_named(inputs.front(), [&] { return print_restarts(inputs, options); });
 }
+
+}  // namespace
+
+extern const Command kBenchPlans("plans", "SCENE.json",
+                                 "plans that one example run leads to, and what they cost",
+                                 bench_plans, {kFabricHelp, kMethodHelp, kTimeHelp},
+                                 R"(  --demand X,Y --vertices N,M  a plan each
+  --criterion C  --patterns N  --cap N  --from S    as of refine
+)");
+
+extern const Command kBenchTogether(
+    "together", "SCENE.json", "runs of one cloth, frame of 1/30 s by frame in turn", bench_together,
+    {kFabricHelp, kMethodHelp, kTimeHelp},
+    R"(  --with A.json,B.json   the others, whose errors are against the first
+  --adaptive K           one more, split anew in every frame where the first's base cloth bends more
+                         than K [1/m]
+  --from S               of what is timed and compared (default: half);  --every N  frames compared
+)");
+
+extern const Command kBenchRestarts(
+    "restarts", "SCENE.json", "what meshes make wrong before chance does", bench_restarts,
+    {kFabricHelp, kMethodHelp, kTimeHelp},
+    R"(  --with A.json,B.json   the meshes, which start anew from the scene's state, sampled, and are held
+                         against it a while later
+  --every S              from one restart to the next (default 1)
+  --after S              how long each runs (default 0.25)
+)");
 
 }  // namespace pleat

@@ -1,9 +1,9 @@
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/scene_input.h"
 #include "core/run/response_study.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 
 namespace pleat {
 namespace {
@@ -22,8 +22,6 @@ Json response_json(const ResponseRun& run) {
   }
   return json;
 }
-
-}  // namespace
 
 Outcome bench_response(Arguments arguments) {
   double window = kWindow;
@@ -44,5 +42,14 @@ Outcome bench_response(Arguments arguments) {
     return Outcome::ok;
   });
 }
+
+}  // namespace
+
+extern const Command kBenchResponse(
+    "response", "SCENE.json", "how touched vertices move along the normal after first contact",
+    bench_response, {kFabricHelp, kMethodHelp, kTimeHelp},
+    R"(  --window S             after first contact (default: 0.05)
+  Once with cloth that rests on solids and once with cloth that bounces.
+)");
 
 }  // namespace pleat

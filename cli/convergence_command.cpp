@@ -1,13 +1,13 @@
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/files/whole_file.h"
 #include "core/run/convergence_json.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 
 namespace pleat {
 namespace {
@@ -84,8 +84,6 @@ void print_study(const SceneInput& input, const ConvergenceStudy& study) {
   }
 }
 
-}  // namespace
-
 Outcome convergence_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const ConvergenceOptions options = take_convergence_options(arguments);
@@ -107,5 +105,18 @@ Outcome convergence_command(Arguments arguments) {
   }
   return Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kConvergenceCommand(
+    "convergence", "SCENE.json", "error of one step after 1, 2, 3, 5, 9, ... rounds of each method",
+    convergence_command, {kFabricHelp, kMethodHelp, kTimeHelp, kJsonHelp},
+    R"(  --at S                 when the step begins (default 0); until then the scene's method runs
+  --methods A,B,M.json   steppers, or files with a "method" (default: pbd,hpbd,multigrid,xpbd)
+  --constraints rigid|compliant    of position-based methods (default: rigid)
+  --diagonals one|both   of quads, as springs (default: one, as rigid ones contradict each other)
+  --rounds N             at most (default 1025);  --repeat N  timed batches of each (default 1)
+  All start from the same predicted places.
+)");
 
 }  // namespace pleat

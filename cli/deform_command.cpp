@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/deform_input.h"
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
@@ -131,8 +131,6 @@ void print_deformation(const DeformScene& scene, const Deformation& result,
   if (!result.report.message.empty()) std::printf("%s\n", result.report.message.c_str());
 }
 
-}  // namespace
-
 Outcome deform_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const bool checks = arguments.flag("--check");
@@ -159,5 +157,15 @@ Outcome deform_command(Arguments arguments) {
         write_obj({result.positions, scene.mesh.triangles, scene.textures, scene.groups, {}, {}}));
   return checks && !result.report.ok() ? Outcome::check_failed : Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kDeformCommand(
+    "deform", "SCENE.json | MESH.obj",
+    "the shape of least energy of cloth that is pinned and pulled", deform_command,
+    {kDeformHelp, kOverwriteHelp, kJsonHelp},
+    R"(  --out FILE.obj         write the shape with the mesh's texture coordinates and groups
+  --check                exit status 1 when there is a warning: it stopped short of the least energy
+)");
 
 }  // namespace pleat

@@ -8,9 +8,22 @@
 #include "cli/arguments.h"
 #include "core/base/check.h"
 #include "core/files/json_text.h"
-#include "core/scene/deform_scene.h"
+#include "core/scene/deform/deform_scene.h"
 
 namespace pleat {
+
+constexpr const char* kDeformHelp =
+    R"(  --pin PLACE            hold what is there; --handle PLACE:X,Y,Z  move it so far [m]. Each may come
+                         several times, beside the scene's own. A place is vertex numbers from 0
+                         (3 or 3,4), a group's name, box:X,Y,Z,X,Y,Z (two corners) or near:X,Y,Z
+                         (a twentieth of the cloth's longest side around it) or near:X,Y,Z,R;
+                         a handle's place may be the name of the scene's, which then goes there
+  --fabric NAME          of the library; --measure R,S,B  own measurements of recovery, stretch and
+                         bending; --weights R,S,B  the three terms' weights themselves
+  --fabrics FILE         read the fabrics from here
+  --form published       sums over vertices and edges; consistent (default): integrals over cloth
+  --terms A,B            leave out those of recovery, stretch and bending that are not named
+)";
 
 /// A deformation and where its values came from.
 struct DeformInput {

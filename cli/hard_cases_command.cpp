@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
@@ -97,8 +97,6 @@ std::string json_lines(const std::vector<CaseOutcome>& outcomes) {
   return text;
 }
 
-}  // namespace
-
 Outcome hard_cases_command(Arguments arguments) {
   const std::string call = call_of(arguments.words());
   const bool is_short = arguments.flag("--short");
@@ -131,5 +129,17 @@ Outcome hard_cases_command(Arguments arguments) {
               static_cast<long long>(n_unexpected));
   return n_unexpected == 0 ? Outcome::ok : Outcome::check_failed;
 }
+
+}  // namespace
+
+extern const Command kHardCasesCommand(
+    "hard-cases", "[NAME ...]", "what breaks cloth systems, run with every stepper: ok, or why not",
+    hard_cases_command, {kOverwriteHelp, "  Exit status 1 when something is unexpected.\n"},
+    R"(  --stepper NAME         with this one alone
+  --short                the lengths that are tests
+  --scenes DIR           of the cases' scenes (default: assets/hard_cases)
+  --fabrics FILE         read the fabrics from here
+  --markdown FILE  --json FILE   write the tables, or each outcome on a line
+)");
 
 }  // namespace pleat

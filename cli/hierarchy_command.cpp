@@ -2,16 +2,16 @@
 #include <array>
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/mesh_input.h"
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
 #include "core/base/core_version.h"
 #include "core/files/frame_file.h"
+#include "core/hierarchy/level_faults.h"
+#include "core/hierarchy/mesh_hierarchy.h"
 #include "core/mesh/mesh_fault.h"
-#include "core/multigrid/level_faults.h"
-#include "core/multigrid/mesh_hierarchy.h"
 #include "core/scene/rest_cloth.h"
 #include "core/sweep/platform.h"
 
@@ -185,8 +185,6 @@ void write_levels(const MeshHierarchy& hierarchy, const Positions& finest,
   writer.finish();
 }
 
-}  // namespace
-
 Outcome hierarchy_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const auto folder = arguments.text("--out");
@@ -208,5 +206,17 @@ Outcome hierarchy_command(Arguments arguments) {
   if (folder) write_levels(hierarchy, input.mesh.rest_positions, *folder);
   return Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kHierarchyCommand(
+    "hierarchy", "MESH.obj | SCENE.json", "ever coarser meshes of vertices of a mesh, by quadrics",
+    hierarchy_command,
+    {kOverwriteHelp, kJsonHelp, "  Of a scene's cloth:\n", kFabricHelp, kMethodHelp},
+    R"(  --levels N             beside the finest (default 3);  --ratio R  of vertices kept (default 0.5)
+  --weights NAME         of corrections: inverse_distance (default) or moving_least_squares
+  --without A,B          of the guards flips, borders and links, to see what goes wrong
+  --out DIR              write each level as an OBJ file
+)");
 
 }  // namespace pleat

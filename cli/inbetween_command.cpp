@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/modal_input.h"
 #include "cli/overwriting.h"
 #include "core/base/check.h"
@@ -10,7 +10,7 @@
 #include "core/files/frame_file.h"
 #include "core/files/json_text.h"
 #include "core/files/whole_file.h"
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 
 namespace pleat {
 namespace {
@@ -60,19 +60,19 @@ void write_frames(const KeyCompletion& completion, const std::vector<KeyCompleti
 }
 
 Json json_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames) {
-  const std::vector<FrameFigures> figures = frame_figures(completion, frames);
-  const std::vector<FrameFigures> linear = linear_figures(completion, frames);
+  const std::vector<FrameMeasures> measures = frame_measures(completion, frames);
+  const std::vector<FrameMeasures> linear = linear_measures(completion, frames);
   Json json = Json::array();
   for (std::size_t f = 0; f < frames.size(); ++f)
     json.push_back({{"time", frames[f].time},
                     {"is_key", frames[f].is_key()},
-                    {"volume_m3", figures[f].volume},
+                    {"volume_m3", measures[f].volume},
                     {"linear_volume_m3", linear[f].volume},
-                    {"strain", figures[f].strain},
+                    {"strain", measures[f].strain},
                     {"linear_strain", linear[f].strain},
-                    {"inverted", figures[f].n_inverted},
+                    {"inverted", measures[f].n_inverted},
                     {"linear_inverted", linear[f].n_inverted},
-                    {"unequal_halves", figures[f].unequal_halves},
+                    {"unequal_halves", measures[f].unequal_halves},
                     {"converged", has_converged(frames[f])}});
   return json;
 }
@@ -144,8 +144,6 @@ std::vector<std::string> warnings(const Json& json) {
   return all;
 }
 
-}  // namespace
-
 Outcome inbetween_command(Arguments arguments) {
   InbetweenOptions options;
   options.for_machines = arguments.flag("--json");
@@ -176,5 +174,15 @@ Outcome inbetween_command(Arguments arguments) {
   if (options.out) write_frames(completion, frames, keys.mesh.triangles, *options.out);
   return options.checks && !warnings(json).empty() ? Outcome::check_failed : Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kInbetweenCommand(
+    "inbetween", "A.obj B.obj ...", "frames between key shapes with the same vertices and faces",
+    inbetween_command, {kCompletionHelp, kOverwriteHelp, kJsonHelp},
+    R"(  --frames N             with the keys (default 60);  --step D  until no vertex moves farther [m]
+  --out DIR              write the frames as OBJ files
+  --check                exit status 1 when there is a warning
+)");
 
 }  // namespace pleat

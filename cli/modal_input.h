@@ -11,6 +11,15 @@
 
 namespace pleat {
 
+constexpr const char* kCompletionHelp =
+    R"(  --volume lattice|shell that carries the surface (default: a lattice in a closed one, else a shell)
+  --size S               edge of the lattice or thickness of the shell [m]
+  --modes N              of each key, beside the rigid motions (default 40)
+  --functions N --clusters N   of the space of shapes (default 64 and 64)
+  --exact-keys           the keys themselves are in the space
+  --detail-beyond D      patches that the space meets to D [m] have no detail of their own
+)";
+
 /// Surfaces with the same vertices and triangles, each from an OBJ file.
 struct KeySurfaces {
   std::vector<std::filesystem::path> files;

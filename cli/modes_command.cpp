@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/modal_input.h"
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
@@ -193,8 +193,6 @@ ModeTable table_of_mesh(Arguments& arguments, FrameFolder& out) {
   return of_surface ? surface_table(mesh, options.n_modes) : volume_table(mesh, options, material);
 }
 
-}  // namespace
-
 Outcome modes_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   const auto folder = arguments.text("--out");
@@ -211,5 +209,21 @@ Outcome modes_command(Arguments arguments) {
   if (folder) write_shapes(table, *folder);
   return Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kModesCommand(
+    "modes", "MESH.obj | SCENE.json", "the softest ways in which a body or a cloth swings",
+    modes_command, {kFabricHelp, kMethodHelp, kTimeHelp, kOverwriteHelp, kJsonHelp},
+    R"(  --modes N              how many beside the rigid motions (default 20)
+  --out DIR              write the modes as OBJ files, the farthest vertex moved by a tenth
+  Of a mesh:
+  --volume lattice|shell that carries the surface (default: a lattice in a closed one, else a shell)
+  --size S               edge of the lattice or thickness of the shell [m]
+  --young E --density D  of the lattice (default 1e6 Pa and 1000 kg/m3); shells have no frequencies
+  --surface              of the surface's own energy instead
+  Of a scene's cloth, about the shape it has come to at its end, with how much of the motion until
+  then they span:
+)");
 
 }  // namespace pleat

@@ -9,6 +9,9 @@
 
 namespace pleat {
 
+constexpr const char* kOverwriteHelp =
+    "  --overwrite            write where a file stands; what is read is never written over\n";
+
 /// What a command may write over: nothing that stands there unless --overwrite says so, and never a
 /// file that the command reads.
 class Overwriting {

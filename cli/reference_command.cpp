@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/check.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep_reference.h"
 
 namespace pleat {
@@ -83,8 +83,6 @@ void keep_level(Reference& reference, const Scene& scene, int level) {
   thin(reference, scene.cloth->n_vertices(level));
 }
 
-}  // namespace
-
 Outcome reference_command(Arguments arguments) {
   const ReferenceKind kind = take_kind(arguments);
   const auto out = arguments.text("--out");
@@ -114,5 +112,16 @@ Outcome reference_command(Arguments arguments) {
   if (out) write_file(*out, write_reference(reference, Precision::float32));
   return Outcome::ok;
 }
+
+}  // namespace
+
+extern const Command kReferenceCommand(
+    "reference", "SCENE.json", "make a reference by newton and tell how well it is known",
+    reference_command, {kFabricHelp, kTimeHelp, kOverwriteHelp},
+    R"(  --kind KIND            same_mesh (default): halve its step; converged: halve its step and its mesh
+  --step S               of it (default 1/960 s);  --every S  of its samples (default 1/60 s)
+  --level N              of its mesh;  --keep-level N  keep the vertices of this coarser one alone
+  --out FILE             keep it, with 32-bit positions
+)");
 
 }  // namespace pleat

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/plan_options.h"
 #include "cli/progress.h"
@@ -72,8 +72,6 @@ void print_plan(const RefinementPlan& plan, const PlanCost& cost, const Scene& s
               cost.frame_time, cost.example_seconds, cost.planning_seconds, cost.megabytes);
 }
 
-}  // namespace
-
 Outcome refine_command(Arguments arguments) {
   const auto out = arguments.text("--out");
   const auto begin = arguments.text("--from");
@@ -108,5 +106,23 @@ Outcome refine_command(Arguments arguments) {
     return Outcome::ok;
   });
 }
+
+}  // namespace
+
+extern const Command kRefineCommand(
+    "refine", "EXAMPLE.json", "run it on a fine mesh and plan where its cloth needs one",
+    refine_command, {kFabricHelp, kMethodHelp, kTimeHelp, kOverwriteHelp},
+    R"(  --level N              of the fine mesh (default 2);  --cap N  finest level of the plan
+  --patterns N           kinds of bending to tell apart (default 3)
+  --criterion shape      (default) split faces for what they lose of the example's shapes;
+                         curvature: for the patterns at their corners
+  --demand X             until at most so much is lost, RMS [m] (default 0.002); of curvature:
+                         faces whose corners' patterns sum to more (default 3);
+  --vertices N           or as many vertices as possible up to this number
+  --from S               look from here on (default: when a figure has walked in for 1 s)
+  --merge OTHER.json,... further examples of the same cloth
+  --raw-features         cluster curvatures as they are, not from 0 to 1
+  --out PLAN.json        write the plan, for a scene's "refinement": {"plan": "PLAN.json"}
+)");
 
 }  // namespace pleat

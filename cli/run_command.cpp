@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/run_warnings.h"
@@ -21,8 +21,8 @@
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
-#include "core/scene/method_section.h"
-#include "core/scene/start_section.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/start_section.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
@@ -266,7 +266,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 /// There may be so many that the first step, and so the first sign of progress, takes minutes.
 bool chooses_substeps(const Scene& scene) {
-  return scene.method.substeps == 0 || scene.method.explicit_share > 0;
+  return scene.method.substeps == kStableSubsteps || scene.method.explicit_share > 0;
 }
 
 /// Says what a long run is of.
@@ -394,8 +394,6 @@ Outcome run_scene(const Scene& scene, const RunOptions& options, const Overwriti
   return Outcome::check_failed;
 }
 
-}  // namespace
-
 Outcome run_command(Arguments arguments) {
   RunOptions options;
   options.for_machines = arguments.flag("--json");
@@ -411,5 +409,20 @@ Outcome run_command(Arguments arguments) {
   overwriting.spare(input.files_read);
   return with_source_named(input, [&] { return run_scene(input.scene, options, overwriting); });
 }
+
+}  // namespace
+
+extern const Command kRunCommand(
+    "run", "SCENE.json", "compute a scene", run_command,
+    {kFabricHelp, kMethodHelp, kTimeHelp, kJsonHelp},
+    R"(  --out DIR              write frames and metrics.json into this folder, which holds none yet
+  --dump DIR             write mass.mtx, stiffness_begin.mtx and stiffness_end.mtx (Matrix Market)
+                         into this folder, which holds none yet
+  --state FILE           write where the cloth is and how fast at the end, for a scene's "start"
+  --check                exit status 1 when there is a warning: the run shows nonsense, or a step
+                         did not converge
+  --overwrite            remove or replace those of an earlier run
+  --drift                account for the energy: what no force explains is the method's own
+)");
 
 }  // namespace pleat

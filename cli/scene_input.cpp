@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/files/json_reader.h"
-#include "core/scene/cloth_section.h"
+#include "core/scene/format/cloth_section.h"
 
 namespace pleat {
 namespace {

@@ -9,10 +9,21 @@
 
 #include "cli/arguments.h"
 #include "core/files/whole_file.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/scene_override.h"
 
 namespace pleat {
+
+constexpr const char* kFabricHelp =
+    R"(  --fabric NAME          in place of the scene's, with none of its own numbers
+  --fabrics FILE         read the fabrics from here
+)";
+constexpr const char* kMethodHelp =
+    R"(  --stepper NAME         in place of the scene's; settings that it does not take are left out
+  --level N  --step S  --substeps N  --iterations N  --solver NAME  --tolerance X    likewise
+)";
+constexpr const char* kTimeHelp =
+    "  --steps N | --duration S    the latter rounded to whole steps\n";
 
 /// The text of assets/fabrics/fabrics.json as it was when the command was built.
 std::string_view embedded_fabrics();

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/commands.h"
+#include "cli/command_table.h"
 #include "cli/overwriting.h"
 #include "cli/progress.h"
 #include "cli/reference_folder.h"
@@ -71,8 +71,6 @@ void tell_first_warned(const std::vector<BenchRow>& rows) {
                  static_cast<long long>(n_more));
 }
 
-}  // namespace
-
 Outcome sweep_command(Arguments arguments) {
   const bool for_machines = arguments.flag("--json");
   Overwriting overwriting(arguments);
@@ -109,5 +107,37 @@ Outcome sweep_command(Arguments arguments) {
   tell_first_warned(sweep.rows());
   return judged(sweep.rows());
 }
+
+}  // namespace
+
+extern const Command kSweepCommand("sweep", "SCENE.json | PLAN.json",
+                                   "compute a scene with many settings: milliseconds against error",
+                                   sweep_command,
+                                   {kFabricHelp, kTimeHelp, R"(  Of both:
+  --out DIR              write rows.jsonl, table.md and front.svg into this folder; started again, a
+                         sweep that was stopped goes on
+  --overwrite            remove those of another sweep from it first
+  --cache DIR            keep references here (default: in the folder after --out)
+  --ship-references DIR  no rows: make what they are compared with and keep it here, with 32-bit
+                         positions; --keep-level N  of finer meshes the vertices of this one alone
+  --commit TEXT          what the rows say was measured (default: a hash of the core's sources)
+  A row marked ! shows nonsense and is on no front. A residual is that of a stepper's own equations;
+  of direct solvers it is not measured, "-" or null.
+)",
+                                    kJsonHelp},
+                                   R"(  A plan lists its settings itself. Of a scene:
+  --set POINTER=V1,V2    values in the scene, such as /method/substeps=1,4; with several of these
+                         every value of one with every value of the others
+  --levels 0,1,2         values of /refinement/level (default: the scene's)
+  --steppers A,B         usual settings of these (default: those that suit the model; with --set the
+                         scene's own method)
+  --reference KIND       converged (default): newton with its step checked and, where levels are
+                         compared, on the next finer mesh, checked too; same_mesh: what steps alone
+                         do wrong; closed_form: a shape at rest; rigid_chain: a sheet swinging from
+                         its edge
+  --reference-level N    of the mesh of converged, at least the finest compared
+  --repeat N             timed runs of each setting (default 5)
+  --step S  --solver NAME  --tolerance X    in place of the scene's
+)");
 
 }  // namespace pleat

@@ -5,7 +5,7 @@
 
 #include "core/files/json_text.h"
 #include "core/files/whole_file.h"
-#include "core/sweep/front_figure.h"
+#include "core/sweep/front_chart.h"
 
 namespace pleat {
 namespace {
@@ -16,9 +16,9 @@ constexpr const char* kPlan = "plan.json";
 constexpr const char* kJournal = "runs.jsonl";
 constexpr const char* kRows = "rows.jsonl";
 constexpr const char* kTable = "table.md";
-constexpr const char* kFigure = "front.svg";
+constexpr const char* kChart = "front.svg";
 /// The plan's last: without the others it is a sweep that has just begun.
-constexpr std::array kFiles = {kJournal, kRows, kTable, kFigure, kPlan};
+constexpr std::array kFiles = {kJournal, kRows, kTable, kChart, kPlan};
 
 std::string core_of(const std::string& identity) {
   try {
@@ -97,7 +97,7 @@ void SweepFolder::record(const std::string& line) {
 void SweepFolder::write_results(const Sweep& sweep) const {
   write_file(file(kRows), json_lines(sweep.rows()));
   write_file(file(kTable), sweep_table(sweep));
-  write_file(file(kFigure), front_figure(sweep.rows()));
+  write_file(file(kChart), front_chart(sweep.rows()));
 }
 
 }  // namespace pleat

@@ -16,7 +16,7 @@ struct Pose {
   Pose inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
 };
 
-/// Something rigid that moves in a prescribed way, as a bone of a figure does.
+/// Something rigid that moves in a prescribed way, as a bone of a body does.
 class MovingFrame {
  public:
   virtual ~MovingFrame() = default;

@@ -43,7 +43,7 @@ DistanceBudget::DistanceBudget(std::vector<Hull> hulls)
       spent_(hulls_.size(), 0) {}
 
 // All is seen from a frame that drifts along with the solids' mean, so that nothing is spent while
-// a figure and its clothes walk on. Let F be the distance of a vertex from a solid at the begin of
+// a body and its clothes walk on. Let F be the distance of a vertex from a solid at the begin of
 // a substep, a the way it goes, m the most that any of the solid's points goes, and theta = |R - 1|
 // for the solid's turn R. F changes by at most a + m from begin to end, hence, with the sums of a
 // and m, path and moved, since F was F',

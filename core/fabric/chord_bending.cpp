@@ -15,12 +15,12 @@ struct ChordEnergy {
 /// (1 - phi r/s)/s^2 with r = cos phi and s = sin phi; its series 1/3 + 2/15 s^2 where the
 /// difference cancels.
 double arc_softening(double phi, double r, double s) {
-  constexpr double kSeries = 1e-5;  // of s^2: both forms are good to 1e-10 here
+  constexpr double kSeries = 1e-5;  // limit of s^2: both forms are good to 1e-10 here
   const double square = s * s;
   return square < kSeries ? 1.0 / 3 + 2.0 / 15 * square : (1 - phi * r / s) / square;
 }
 
-/// With r = c/2L = cos phi and kappa = 2 phi/L:
+/// Energy of a chord bent to an arc, with r = c/2L = cos phi and kappa = 2 phi/L:
 ///
 ///     E = 2 B w phi^2/L,   E' = -2 B w/L^2 (phi/sin phi),   E'' = B w/L^3 (1 - phi r/s)/s^2.
 ChordEnergy arc_energy(double stiffness, double length, double chord) {

@@ -37,7 +37,7 @@ void append_bends(const QuadMesh& mesh, const ThreadEdges& edges, const FabricCo
     return thread == Thread::warp ? fabric.bend_warp : fabric.bend_weft;
   };
   for (const LineChord& chord : line_chords(mesh, edges)) {
-    // Where a line turns from one thread into the other it bends like both.
+    // A line that turns from one thread into the other bends like both.
     const double B = (rigidity(chord.thread_before) + rigidity(chord.thread_after)) / 2;
     if (B == 0) continue;
     if (law == BendingLaw::quadratic) {

@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// For several steppers and cases the same.
+/// Exception that several steppers and cases share.
 struct SharedException {
   std::vector<std::string> steppers, cases;
   std::string check;

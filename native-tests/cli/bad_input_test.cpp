@@ -73,8 +73,8 @@ struct Desk {
 
 struct Bad {
   Words words;
-  std::string sentence;  // how what is told begins, after "pleat: "
-  Files files;           // beside those of any desk
+  std::string sentence;  // start of what is told, after "pleat: "
+  Files files;           // files beside those of any desk
 };
 
 void check_refused(const Bad& bad) {
@@ -103,7 +103,9 @@ TEST_CASE("bad input: words that are no options, options or values too many", "[
        {}},
       {{"run", "scene.json", "--json=1"}, "--json: expected no value, got \"--json=1\"", {}},
       {{"run", "scene.json", "--stp=0.1"}, "--stp: unknown option; the nearest is --step", {}},
-      {{"run", "scene.json", "--colour=1"}, "--colour: unknown option; \"pleat help\" lists", {}},
+      {{"run", "scene.json", "--colour=1"},
+       "--colour: unknown option; \"pleat help COMMAND\" lists",
+       {}},
       {{"run", "scene.json", "--"}, "--: unknown option", {}},
       {{"run", "scene.json", "--level=9"}, "--level: expected a whole number from 0 to 8", {}},
       {{"run", "scene.json", "mesh.json"}, "mesh.json: one word too many", {}},

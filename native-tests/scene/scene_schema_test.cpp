@@ -5,10 +5,10 @@
 #include "core/base/check.h"
 #include "core/files/plan_file.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_schema.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/scene_schema.h"
 
 namespace pleat {
 namespace {
@@ -90,7 +90,7 @@ std::string plan_of_unit_sheet() {
   return plan_text(plan);
 }
 
-json schema() { return json::parse(scene_schema_file()); }
+json schema() { return json::parse(repository_file("core/scene/scene_schema.json")); }
 
 json written(const std::string& text) {
   const FileSource files = [](const std::string& name) -> std::string {

@@ -4,14 +4,13 @@ import type { StartShape, View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './fabrics.css';
 import './panel.css';
-import { inputFailure } from '../shared/bindings/answers';
 import type { Collider } from '../shared/bindings/geometry';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
-import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createStageCanvas, openStage } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createEnergyCurve } from './panels/energy-curve';
@@ -101,11 +100,9 @@ class Picture {
   /** Opens the stage where the browser can draw it, and follows the store from then on. */
   open(canvas: HTMLCanvasElement, deformer: Deformer): void {
     const { store, box } = this;
-    try {
-      this.stage = createFabricsStage(box, canvas, this.events(deformer));
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+    this.stage = openStage(canvas, store, (pictureLost) =>
+      createFabricsStage(box, canvas, { ...this.events(deformer), pictureLost }),
+    );
     new ResizeObserver(() => this.layOut()).observe(box);
     watch(store, ['panes', 'ownFabric'], () => this.dress());
     watch(store, ['pins', 'handles', 'chosenHold'], (state) =>
@@ -119,7 +116,7 @@ class Picture {
     );
   }
 
-  private events(deformer: Deformer): FabricsStageEvents {
+  private events(deformer: Deformer): Omit<FabricsStageEvents, 'pictureLost'> {
     const { store } = this;
     return {
       press: (vertex, pane) => {
@@ -132,10 +129,6 @@ class Picture {
       releaseGrab: () => deformer.releaseGrab(),
       key: (name) => this.key(name),
       drawn: ({ x, y }) => this.invitation.place(x, y),
-      pictureLost(isLost) {
-        if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-        else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-      },
     };
   }
 
@@ -277,8 +270,7 @@ export function createFabricsView(
     showFrame: (pane, buffer) => picture.showFrame(pane, buffer),
   });
   picture.open(canvas, deformer);
-  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
-  watch(store, ['problem', 'phase'], showProblem);
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, fabricsSentence);
   createTools(toolBox, store, deformer, () => picture.stage?.homeView(), actions);
   createPanels(panel, store, deformer, picture);

@@ -3,16 +3,15 @@
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './failures.css';
-import { inputFailure } from '../shared/bindings/answers';
 import { frameViews } from '../shared/bindings/frame';
 import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createKeyList } from '../shared/panels/keys-panel';
-import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createStageCanvas, openStage } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
-import { createStore, type Store, watch } from '../shared/state/store';
+import { createStore, type Store } from '../shared/state/store';
 import { createCaseList } from './panels/case-list';
 import { createCaseStory } from './panels/case-story';
 import { createDuelTools } from './panels/duel-tools';
@@ -72,24 +71,17 @@ class Picture implements DuelView {
     store: Store<FailuresState>,
     key: (name: string) => boolean,
   ): void {
-    try {
-      const stage = createDuelStage(stageBox, canvas, {
-        key,
-        pictureLost(isLost) {
-          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-        },
-      });
-      stage.setFabric(fabricNamed(SHOWN_FABRIC).id);
-      new ResizeObserver(() => {
-        const nColumns = stageBox.clientWidth < 2 * LEAST_PANE_WIDTH ? 1 : 2;
-        badges.style.setProperty('--columns', String(nColumns));
-        stage.setColumns(nColumns);
-      }).observe(stageBox);
-      this.stage = stage;
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+    const stage = openStage(canvas, store, (pictureLost) =>
+      createDuelStage(stageBox, canvas, { key, pictureLost }),
+    );
+    this.stage = stage;
+    if (!stage) return;
+    stage.setFabric(fabricNamed(SHOWN_FABRIC).id);
+    new ResizeObserver(() => {
+      const nColumns = stageBox.clientWidth < 2 * LEAST_PANE_WIDTH ? 1 : 2;
+      badges.style.setProperty('--columns', String(nColumns));
+      stage.setColumns(nColumns);
+    }).observe(stageBox);
   }
 
   showMesh: DuelView['showMesh'] = (pane, mesh) => {
@@ -136,11 +128,7 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
     keys[name]?.();
     return name in keys;
   });
-  watch(
-    store,
-    ['problem', 'phase'],
-    createFailureBanner(messages, () => store.set({ problem: null })),
-  );
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, sentenceFor);
   createSideBadges(badges, store);
   createDuelTools(toolBox, store, {

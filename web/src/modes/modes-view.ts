@@ -10,7 +10,7 @@ import { createFailureBanner } from '../shared/panels/failure-banner';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
-import { createStore, type Store, watch } from '../shared/state/store';
+import { createStore, type Store } from '../shared/state/store';
 import { frame, Picture } from './modes-picture';
 import { createCompletionCurves } from './panels/completion-curves';
 import { createModeList } from './panels/mode-list';
@@ -119,11 +119,7 @@ export function createModesView(root: HTMLElement, hash: string): View {
   const hands = new Hands(store, run);
   picture.open(canvas, hands);
   createWorkingBar(stageBox, store, () => run.cancel());
-  watch(
-    store,
-    ['problem', 'phase'],
-    createFailureBanner(messages, () => store.set({ problem: null })),
-  );
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, modesSentence);
   createModesNumbers(numbers, store, () => hands.move());
   createModesTools(toolBox, store, {

@@ -4,14 +4,13 @@ import firstFigure from 'virtual:pleat-figure';
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './refinement.css';
-import { inputFailure } from '../shared/bindings/answers';
 import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createKeyList } from '../shared/panels/keys-panel';
 import { objText, save } from '../shared/panels/saving';
-import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createStageCanvas, openStage } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import type { SolidsAnswer } from './bindings/refinement-module';
@@ -76,22 +75,17 @@ class Picture {
   /** Opens the stage where the browser can draw it. */
   open(box: HTMLElement, canvas: HTMLCanvasElement, key: (name: string) => boolean): void {
     const { store } = this;
-    try {
-      this.stage = createGarmentStage(box, canvas, {
+    this.stage = openStage(canvas, store, (pictureLost) =>
+      createGarmentStage(box, canvas, {
         press(pane, face) {
           if (PANES[pane] === 'planned') store.set({ face });
         },
         key,
-        pictureLost(isLost) {
-          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-        },
-      });
-      // Somebody stands there until the clothes have come.
-      this.stage.setSolids(firstFigure as SolidsAnswer);
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+        pictureLost,
+      }),
+    );
+    // Somebody stands there until the clothes have come.
+    this.stage?.setSolids(firstFigure as SolidsAnswer);
   }
 
   /** Follows the store from now on. */
@@ -196,8 +190,7 @@ function createPanels(
   }).observe(pictureBox);
   createGarmentLegend(legendBox, store);
   picture.follow();
-  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
-  watch(store, ['problem', 'phase'], showProblem);
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, garmentSentence);
   createGarmentToolbar(toolBox, store, {
     ...run,

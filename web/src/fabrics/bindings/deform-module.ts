@@ -35,15 +35,15 @@ export interface DeformReport {
   terms: TermNumbers;
   converged: boolean;
   /** Since something was last moved, held or weighted otherwise. */
-  steps: { energy: number; terms: TermNumbers; relativeStep: number; linearised: boolean }[];
+  steps: { energy: number; terms: TermNumbers; relative_step: number; linearised: boolean }[];
 }
 
 /** What the measured fabrics make likely for a visitor's own measurements. */
 export interface FitAnswer {
   weights: TermNumbers;
   normalised: TermNumbers;
-  leaveOneOutError: TermNumbers;
-  measuredRange: Record<keyof TermNumbers, [number, number]>;
+  leave_one_out_error: TermNumbers;
+  measured_range: Record<keyof TermNumbers, [number, number]>;
   clamped: (keyof TermNumbers)[];
   nearest: string;
 }

@@ -38,7 +38,7 @@ const MOST_LABELS = 8;
 export interface WeightedStep {
   energy: number;
   terms: Record<Term, number>;
-  relativeStep: number;
+  relative_step: number;
   linearised: boolean;
 }
 
@@ -153,7 +153,7 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
 }
 
 function tableRow(step: WeightedStep, index: number): HTMLElement {
-  const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relativeStep];
+  const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relative_step];
   return element(
     'tr',
     {},

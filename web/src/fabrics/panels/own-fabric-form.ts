@@ -44,7 +44,7 @@ export function readMeasure(term: Term, text: string): number | string {
 
 /** "Your stretch of 1.3000 is outside …"; one sentence for each that was clamped. */
 export function clampedWords(
-  { clamped, measuredRange: ranges }: OwnFabric,
+  { clamped, measured_range: ranges }: OwnFabric,
   measures: Triple,
 ): string[] {
   return clamped.map((term) => {
@@ -58,12 +58,14 @@ export function clampedWords(
 const SAME_ERROR = 1e-3;
 
 /** How far each weight is to be trusted. */
-export function trustWords({ leaveOneOutError }: Pick<OwnFabric, 'leaveOneOutError'>): string[] {
+export function trustWords({
+  leave_one_out_error,
+}: Pick<OwnFabric, 'leave_one_out_error'>): string[] {
   return TERMS.map((term) => {
     const title = TERM_TITLES[term];
-    const error = digits(leaveOneOutError[term], 2);
+    const error = digits(leave_one_out_error[term], 2);
     const ofMean = errorOfMean(term);
-    if (leaveOneOutError[term] > ofMean - SAME_ERROR) {
+    if (leave_one_out_error[term] > ofMean - SAME_ERROR) {
       return `${title}: by ${error}, no better than the mean of all, so what you measure does not change it.`;
     }
     return `${title}: by ${error}; the mean of all misses it by ${digits(ofMean, 2)}.`;

@@ -1,17 +1,13 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  inputFailure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import type { StartShape } from '../../shared/page/view';
+import { Clock } from '../../shared/state/clock';
+import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
   type ObjUnit,
@@ -99,10 +95,10 @@ export class Deformer {
   private readonly held: HeldCloth;
   private readonly hand: Hand;
   private readonly granted = new LastGranted<Shown | null>(null);
-  private nOpened = 0; // counts what is to be opened: what belongs to an earlier one is dropped
+  private readonly latest = new Latest(); // opening
   private cloth = -1; // the one that is shown
   private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
-  private lastNumbersMs = 0;
+  private readonly clock = new Clock();
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
 
   constructor(
@@ -232,7 +228,7 @@ export class Deformer {
   }
 
   private breakDown(reason: string): void {
-    const problem = internalFailure(brokenSentence('The shapes', reason));
+    const problem = brokenFailure('The shapes', reason);
     this.store.set({ phase: 'broken', problem });
   }
 
@@ -259,9 +255,8 @@ export class Deformer {
   }
 
   private async open(wanted: Opening): Promise<void> {
-    this.nOpened += 1;
-    const cloth = this.nOpened;
-    const isCurrent = () => cloth === this.nOpened;
+    const isCurrent = this.latest.start();
+    const cloth = this.latest.nStarted;
     this.store.set({ phase: 'loading' });
     let reason = '';
     const objText = await meshText(wanted).catch((error) => {
@@ -315,9 +310,7 @@ export class Deformer {
     if (old) this.client.tell({ type: 'return', cloth, pane, buffer: old }, [old]);
     if (!panes[pane]) return;
     this.view.showFrame(pane, buffer);
-    const nowMs = performance.now();
-    if (status === 'dragging' && nowMs - this.lastNumbersMs < NUMBERS_EVERY_MS) return;
-    this.lastNumbersMs = nowMs;
+    if (!this.clock.areNumbersDue(NUMBERS_EVERY_MS, status !== 'dragging')) return;
     const { energy, terms, steps } = report;
     const numbers = { energy, terms, steps, status, updateMs };
     this.store.set({

@@ -16,17 +16,17 @@ export interface OwnFabric {
   weights: Triple;
   normalised: Triple;
   /** RMS, in normalised measures. */
-  leaveOneOutError: Triple;
+  leave_one_out_error: Triple;
   /** Those outside the measured range, which were clamped to it. */
   clamped: Term[];
-  measuredRange: Record<Term, [number, number]>;
+  measured_range: Record<Term, [number, number]>;
   nearest: string;
 }
 
 export interface DeformStep {
   energy: number;
   terms: Triple;
-  relativeStep: number;
+  relative_step: number;
   linearised: boolean;
 }
 

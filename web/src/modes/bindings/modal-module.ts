@@ -59,13 +59,13 @@ export interface FilledFrame {
   time: number;
   /** The key at its time or the last one before. */
   left: number;
-  shareOfNext: number;
-  unequalHalves: number;
+  share_of_next: number;
+  unequal_halves: number;
   volume_m3: number;
-  straightVolume_m3: number;
+  straight_volume_m3: number;
   /** Root of the mean square of how far each piece is from a turned copy of itself; a ratio. */
   strain: number;
-  straightStrain: number;
+  straight_strain: number;
 }
 
 /** One surface, or one cloth of a scene, its modes and its key shapes. */

@@ -1,13 +1,8 @@
 // Runs the view of modes: turns what a visitor does into questions to the worker, and answers into state.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  inputFailure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
+import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
   type ObjUnit,
@@ -68,7 +63,7 @@ export class ModesRun {
   private body: Body | null = null;
   private own: OwnMesh | null = null;
   private last: Wanted | null = null; // that had its modes
-  private nOpened = 0; // counts what is to be opened: answers to an earlier one are dropped
+  private readonly latest = new Latest(); // opening
 
   constructor(
     readonly store: Store<ModesState>,
@@ -168,10 +163,7 @@ export class ModesRun {
   private startClient(): ModalClient {
     return this.start({
       broken: (reason) =>
-        this.store.set({
-          phase: 'broken',
-          problem: internalFailure(brokenSentence('Modes', reason)),
-        }),
+        this.store.set({ phase: 'broken', problem: brokenFailure('Modes', reason) }),
     });
   }
 
@@ -211,9 +203,7 @@ export class ModesRun {
 
   private async open(wanted: Wanted): Promise<void> {
     const { link, own } = wanted;
-    this.nOpened += 1;
-    const mark = this.nOpened;
-    const isCurrent = () => mark === this.nOpened;
+    const isCurrent = this.latest.start();
     const before = this.now();
     const isOther = !this.body || before.link.model !== link.model || before.own !== own;
     if (this.store.get().found) this.last = before;

@@ -2,26 +2,24 @@
 // simulation, and draws only when something changed.
 import { Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
-import type { Collider, Triple } from '../../shared/bindings/geometry';
+import type { Collider } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { Print } from '../../shared/stage/fabric-material';
 import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
+import {
+  HeldStage,
+  type HeldStageEvents,
+  type HeldStageParts,
+} from '../../shared/stage/held-stage';
 import { createOverlays, type Overlay } from '../../shared/stage/overlay';
-import { createPaneStage, createStageHand } from '../../shared/stage/pane-stage';
 import { invitingVertex } from './inviting';
 
-export interface MotionStageEvents {
-  grab(vertex: number): void;
-  moveGrab(target: Triple): void;
-  releaseGrab(): void;
-  /** Keys that are neither the camera's nor the hand's. True when used. */
-  key(name: string): boolean;
+export interface MotionStageEvents extends HeldStageEvents {
   /** Hears of each drawn frame. */
   drawn(picture: DrawnPicture): void;
-  pictureLost(isLost: boolean): void;
 }
 
 export interface DrawnPicture {
@@ -91,46 +89,29 @@ export function createMotionStage(
   const overlays = createOverlays();
   let awaitsFraming = false;
   let isFreshMesh = false;
-  let inviting = 0;
   let wantedPose: Pose | null = null;
-  let floor = 0; // height of what is drawn as the floor [m]
 
-  const stage = createPaneStage(parent, canvas, {
+  const parts: HeldStageParts = {
     fov: 32,
     objects: [cloth.object],
     isReady: () => cloth.positions().length > 0,
     prepare() {
       cloth.update();
       overlays.update(cloth.positions(), stage.camera.position);
-      hand.mark(cloth.positions());
     },
-    drawn() {
-      const camera = stage.control.pose();
-      events.drawn({ heatScale: cloth.heatScale(), invitation: project(inviting), camera });
-    },
-    themed(colour) {
-      hand.setColour(colour('--stage-hand'));
-      overlays.themed(colour);
-    },
-    handKey: (name) => hand.key(name),
-    key: events.key,
-    pictureLost: events.pictureLost,
-  });
-  const { grid, redraw } = stage;
-  const hand = createStageHand(stage, {
-    grab: events.grab,
-    move: events.moveGrab,
-    release: events.releaseGrab,
-    fallbackVertex: () => inviting,
-    picture: () => () => grid.boxOf(0),
-    cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
-    floor: () => floor,
-  });
-  const project = (vertex: number) => grid.project(cloth.positions(), vertex, 0);
+    positions: () => cloth.positions(),
+    triangles: () => cloth.triangles(),
+    drawn: (invitation) =>
+      events.drawn({ heatScale: cloth.heatScale(), invitation, camera: stage.control.pose() }),
+    themed: (colour) => overlays.themed(colour),
+  };
+  const held = new HeldStage(parent, canvas, parts, events);
+  const { stage } = held;
+  const { redraw } = stage;
 
   function chooseInviting(): void {
     const towards = stage.camera.getWorldDirection(new Vector3()).negate();
-    inviting = invitingVertex(cloth.positions(), cloth.triangles(), towards);
+    held.inviting = invitingVertex(cloth.positions(), cloth.triangles(), towards);
   }
 
   stage.open();
@@ -142,7 +123,7 @@ export function createMotionStage(
       if (change === 'tear') return;
       awaitsFraming = change === 'scene';
       isFreshMesh = true;
-      hand.drop();
+      held.drop();
     },
     showFrame(buffer, scalar) {
       cloth.setFrame(buffer, scalar);
@@ -155,8 +136,8 @@ export function createMotionStage(
       if (awaitsFraming) {
         awaitsFraming = false;
         const sphere = framedSphere(cloth.positions(), colliders);
-        floor = floorHeight(sphere, colliders);
-        frame(stage, sphere, floor);
+        held.floor = floorHeight(sphere, colliders);
+        frame(stage, sphere, held.floor);
         stage.control.setPose(wantedPose);
         chooseInviting();
       }
@@ -172,7 +153,7 @@ export function createMotionStage(
         stage.control.setPose(pose);
     },
     positions: () => cloth.positions(),
-    project,
-    inviting: () => inviting,
+    project: (vertex) => held.project(vertex, 0),
+    inviting: () => held.inviting,
   };
 }

@@ -10,6 +10,7 @@ import {
   type DetailValue,
   METHOD_DETAILS,
   type MethodDetail,
+  numberOf,
   STEPPER_NAMES,
   stepperRow,
 } from '../../shared/steppers/steppers';
@@ -197,7 +198,7 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const stepper = take('stepper', usual.stepper, steppers.join(', '), oneOf(steppers));
   const start = withStepper(usual, stepper);
   const takeCount = (count: Count, most: number) => {
-    const least = stepperRow(stepper).settings[count]?.least ?? 1;
+    const least = numberOf(stepperRow(stepper).settings[count]?.least ?? 1);
     return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
   };
   const responses = ['resting', 'uniform'] as const;

@@ -1,7 +1,7 @@
 // The plan that one press of the sweep button measures, and how its rows map back to settings.
 import {
   type Model,
-  STABLE_SUBSTEPS,
+  numberOf,
   STEPPER_NAMES,
   STEPPERS,
   type StepperRow,
@@ -146,7 +146,7 @@ export function settingOf(
     stepper,
     details: detailsOf(stepper, { ...method }),
     stepS: step_s,
-    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
+    substeps: numberOf(substeps ?? present.substeps),
     iterations: iterations ?? present.iterations,
     explicitShare: 0,
   };

@@ -1,6 +1,7 @@
 // One pane of a garment: its worker, what that has loaded, and the buffers of its frames.
 import { describe } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
+import { Latest } from '../../shared/state/latest';
 import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
 import { FRAME_S, SETTLED_S } from '../state/garment-frames';
 import type { GarmentId } from '../state/garments';
@@ -10,7 +11,7 @@ import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 import { type FetchBytes, sceneFiles } from './scene-files';
 
-type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 'buffer'>;
+type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'buffer'>;
 
 export interface GarmentContent {
   garment: GarmentId;
@@ -43,7 +44,7 @@ export interface PaneRun {
 }
 
 export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: FetchBytes): PaneRun {
-  let request = 0;
+  const loads = new Latest();
   let loadedContent = '';
   let recording: RecordingHead | null = null;
   let missed: string | null = null;
@@ -59,8 +60,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
     isLoaded: () => loadedContent !== '',
     async load({ garment, sceneText, fineText, isEven, recordUrl }) {
       const content = `${recordUrl} ${sceneText}`;
-      request += 1;
-      const own = request;
+      const isCurrent = loads.start();
       if (loadedContent === content) return null;
       loadedContent = '';
       let reason: string | null = null;
@@ -74,7 +74,6 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       const answer = await client.ask(
         {
           type: 'load',
-          request: own,
           fabricsText,
           sceneText,
           fineText,
@@ -85,7 +84,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
         },
         bytes ? [bytes] : [],
       );
-      if (own !== request) return null; // another one follows
+      if (!isCurrent()) return null; // another one follows
       loadedContent = content;
       recording = answer.recording;
       missed = bytes && !recording ? 'they are of another mesh' : reason;
@@ -95,13 +94,13 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       return answer;
     },
     async reset() {
-      await client.ask({ type: 'reset', request });
+      await client.ask({ type: 'reset' });
     },
-    advance: (frame, how) => client.ask({ type: 'advance', request, frame, how }),
+    advance: (frame, how) => client.ask({ type: 'advance', frame, how }),
     describe(wish) {
       const buffer = spare;
       spare = null;
-      return client.ask({ type: 'describe', request, ...wish, buffer }, buffer ? [buffer] : []);
+      return client.ask({ type: 'describe', ...wish, buffer }, buffer ? [buffer] : []);
     },
     keep({ buffer }) {
       spare = shown;

@@ -1,5 +1,6 @@
 // The three panes of a garment, which show one time: what each loads, how it gets to a frame, and its numbers.
 import { frameViews } from '../../shared/bindings/frame';
+import type { IsCurrent } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import type { SolidsAnswer } from '../bindings/refinement-module';
 import { FRAME_S } from '../state/garment-frames';
@@ -40,9 +41,6 @@ export interface PaneParts {
   start(): GarmentClient;
   fetchBytes: FetchBytes;
 }
-
-/** False when something else is wanted by now: then nothing is shown any more. */
-export type IsCurrent = () => boolean;
 
 function scalarOf({ colour }: RefinementState): GarmentScalar | null {
   return colour === 'curvature' || colour === 'distance' ? colour : null;

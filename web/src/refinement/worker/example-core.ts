@@ -37,8 +37,8 @@ export class ExampleCore {
   private study: ExampleStudyHandle | null = null;
   private running: Running | null = null;
 
-  private refuse(request: number, failure: Failure): void {
-    this.post({ type: 'refused', request, failure }, []);
+  private refuse(failure: Failure): void {
+    this.post({ type: 'refused', failure }, []);
   }
 
   private async open(message: Message<'open'>): Promise<void> {
@@ -46,17 +46,17 @@ export class ExampleCore {
     const answer = read<{ n_base_vertices: number; n_vertices: number }>(
       this.study.open(message.sceneText, message.files),
     );
-    if (!answer.ok) return this.refuse(0, answer);
+    if (!answer.ok) return this.refuse(answer);
     const parents = this.study.parents().slice();
     const features = await readRecording(new Uint8Array(message.features), parents);
     const frames = await readRecording(new Uint8Array(message.frames), parents);
     if (!features?.frames[0] || !frames)
-      return this.refuse(0, internalFailure('the example is a record of another cloth'));
+      return this.refuse(internalFailure('the example is a record of another cloth'));
     for (const frame of frames.frames) this.study.addFrame(frame);
     const sorted = read<object>(
       this.study.sort(message.name, features.frames[0], message.nPatterns),
     );
-    if (!sorted.ok) return this.refuse(0, sorted);
+    if (!sorted.ok) return this.refuse(sorted);
     const { n_vertices: nFineVertices, n_base_vertices: nBaseVertices } = answer;
     this.post({ type: 'opened', nFineVertices, nBaseVertices }, []);
   }
@@ -64,9 +64,8 @@ export class ExampleCore {
   private plan(owner: ExampleStudyHandle, message: Message<'plan'>): void {
     const beginMs = this.nowMs();
     const answer = read<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
-    if (!answer.ok) return this.refuse(message.request, answer);
-    const { request } = message;
-    this.post({ type: 'planned', request, plan: answer.plan, ms: this.nowMs() - beginMs }, []);
+    if (!answer.ok) return this.refuse(answer);
+    this.post({ type: 'planned', plan: answer.plan, ms: this.nowMs() - beginMs }, []);
   }
 
   private endRun(): void {
@@ -77,19 +76,19 @@ export class ExampleCore {
 
   private begin(wish: Message<'begin'>): void {
     this.endRun();
-    const { request, fabricsText, sceneText, files } = wish;
+    const { fabricsText, sceneText, files } = wish;
     const run = new this.module.GarmentRun(fabricsText);
     const seen = new this.module.ExampleStudy(fabricsText);
     this.running = { wish, run, seen, stepsPerFrame: 1, frame: 0 };
     const loaded = read<GarmentSummary>(run.load(sceneText, files));
-    if (!loaded.ok) return this.refuse(request, loaded);
+    if (!loaded.ok) return this.refuse(loaded);
     const opened = read<object>(seen.open(sceneText, files));
-    if (!opened.ok) return this.refuse(request, opened);
+    if (!opened.ok) return this.refuse(opened);
     this.running.stepsPerFrame = Math.max(1, Math.round(wish.frameS / loaded.step_s));
-    this.post({ type: 'wentOn', request, share: 0 }, []);
+    this.post({ type: 'wentOn', share: 0 }, []);
   }
 
-  private goOn(owner: ExampleStudyHandle, now: Running, request: number): void {
+  private goOn(owner: ExampleStudyHandle, now: Running): void {
     const { wish, run, seen } = now;
     const first = Math.round(wish.fromS / wish.frameS);
     const last = Math.round(wish.toS / wish.frameS);
@@ -97,7 +96,7 @@ export class ExampleCore {
       const status = read<RunStatus>(run.status());
       const why = status.ok ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : '';
       const what = `The example "${wish.name}" stopped at ${run.time().toFixed(2)} s. ${why}`;
-      return this.refuse(request, inputFailure(what));
+      return this.refuse(inputFailure(what));
     }
     now.frame += 1;
     if (now.frame > first) {
@@ -108,9 +107,9 @@ export class ExampleCore {
     if (now.frame === last) {
       const sorted = read<object>(owner.sort(wish.name, seen.features().slice(), wish.nPatterns));
       this.endRun();
-      if (!sorted.ok) return this.refuse(request, sorted);
+      if (!sorted.ok) return this.refuse(sorted);
     }
-    this.post({ type: 'wentOn', request, share: now.frame / last }, []);
+    this.post({ type: 'wentOn', share: now.frame / last }, []);
   }
 
   private handle(message: Exclude<ToExample, { type: 'open' }>): void {
@@ -120,7 +119,7 @@ export class ExampleCore {
         return this.begin(message);
       case 'goOn':
         if (!this.running) throw new Error('goOn before begin');
-        return this.goOn(this.study, this.running, message.request);
+        return this.goOn(this.study, this.running);
       case 'plan':
         return this.plan(this.study, message);
     }
@@ -137,8 +136,7 @@ export class ExampleCore {
       if (message.type === 'open') return await this.open(message);
       this.handle(message);
     } catch (error) {
-      const request = message.type === 'open' ? 0 : message.request;
-      this.refuse(request, internalFailure(describe(error)));
+      this.refuse(internalFailure(describe(error)));
     }
   }
 

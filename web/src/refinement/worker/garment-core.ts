@@ -45,17 +45,17 @@ export class GarmentCore {
   private settledS = 0;
   private stepsPerFrame = 1;
 
-  private refuse(request: number, failure: Failure): void {
-    this.post({ type: 'refused', request, failure }, []);
+  private refuse(failure: Failure): void {
+    this.post({ type: 'refused', failure }, []);
   }
 
   private async load(message: Message<'load'>): Promise<void> {
-    const { request, fabricsText, sceneText, fineText, files, frameS, settledS } = message;
+    const { fabricsText, sceneText, fineText, files, frameS, settledS } = message;
     this.run ??= new this.module.GarmentRun(fabricsText);
     const answer = read<GarmentSummary>(this.run.load(sceneText, files));
-    if (!answer.ok) return this.refuse(request, answer);
+    if (!answer.ok) return this.refuse(answer);
     const held = read<object>(this.run.holdAgainst(fineText, files));
-    if (!held.ok) return this.refuse(request, held);
+    if (!held.ok) return this.refuse(held);
     this.summary = answer;
     this.settledS = settledS;
     this.nFolded = 0;
@@ -73,7 +73,7 @@ export class GarmentCore {
       : null;
     const head = this.recording?.head ?? null;
     this.recordedFolds = this.recording && this.foldsOf(this.run, this.recording);
-    this.post({ type: 'loaded', request, summary: answer, mesh, recording: head }, [
+    this.post({ type: 'loaded', summary: answer, mesh, recording: head }, [
       mesh.triangles.buffer,
       mesh.triangleFaces.buffer,
       mesh.edges.buffer,
@@ -98,7 +98,7 @@ export class GarmentCore {
     return status ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : 'no report';
   }
 
-  private advance(owner: GarmentRunHandle, { request, frame, how }: Message<'advance'>): void {
+  private advance(owner: GarmentRunHandle, { frame, how }: Message<'advance'>): void {
     let reason: string | null = null;
     if (how === 'stepped') {
       if (owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
@@ -107,22 +107,21 @@ export class GarmentCore {
     }
     if (how === 'recorded') {
       const places = this.recording?.frames[frame];
-      if (!places || !this.recording)
-        return this.refuse(request, internalFailure(`no frame ${frame}`));
+      if (!places || !this.recording) return this.refuse(internalFailure(`no frame ${frame}`));
       const { first_s: firstS, every_s: everyS } = this.recording.head;
       const put = read<object>(owner.put(places, firstS + frame * everyS));
-      if (!put.ok) return this.refuse(request, put);
+      if (!put.ok) return this.refuse(put);
     }
     const isWatched = this.summary?.has_monitor === true && how !== 'still';
     const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
-    this.post({ type: 'advanced', request, frame, fit, ended: reason }, []);
+    this.post({ type: 'advanced', frame, fit, ended: reason }, []);
   }
 
-  private reset(owner: GarmentRunHandle, { request }: Message<'reset'>): void {
+  private reset(owner: GarmentRunHandle): void {
     const answer = read<object>(owner.reset());
-    if (!answer.ok) return this.refuse(request, answer);
+    if (!answer.ok) return this.refuse(answer);
     this.nFolded = 0;
-    this.post({ type: 'wasReset', request }, []);
+    this.post({ type: 'wasReset' }, []);
   }
 
   /** False when there is no such number. */
@@ -154,11 +153,11 @@ export class GarmentCore {
   }
 
   private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
-    const { request, reference, timeS } = message;
+    const { reference, timeS } = message;
     const own = message.takesSample ? owner.positions().slice() : null;
     if (own && reference) {
       const answer = read<object>(owner.putSample(reference, timeS));
-      if (!answer.ok) return this.refuse(request, answer);
+      if (!answer.ok) return this.refuse(answer);
     }
     const compared = reference && payloadOf<ComparedAnswer>(owner.compare(reference));
     const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
@@ -174,7 +173,6 @@ export class GarmentCore {
     if (own) owner.put(own, timeS);
     const answer: Described = {
       type: 'described',
-      request,
       buffer,
       isKnown,
       compared,
@@ -196,7 +194,7 @@ export class GarmentCore {
       case 'advance':
         return this.advance(this.run, message);
       case 'reset':
-        return this.reset(this.run, message);
+        return this.reset(this.run);
       case 'describe':
         return this.describeFrame(this.run, message);
     }
@@ -211,7 +209,7 @@ export class GarmentCore {
     try {
       await this.handle(message);
     } catch (error) {
-      this.refuse(message.request, internalFailure(describe(error)));
+      this.refuse(internalFailure(describe(error)));
     }
   }
 

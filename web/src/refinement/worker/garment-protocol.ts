@@ -23,7 +23,6 @@ export type Advance = 'recorded' | 'stepped' | 'still';
 export type ToGarment =
   | {
       type: 'load';
-      request: number;
       fabricsText: string;
       sceneText: string;
       /** A scene of the fine mesh that frames are held against. */
@@ -36,11 +35,10 @@ export type ToGarment =
       /** From when on folds count. */
       settledS: number;
     }
-  | { type: 'advance'; request: number; frame: number; how: Advance }
-  | { type: 'reset'; request: number }
+  | { type: 'advance'; frame: number; how: Advance }
+  | { type: 'reset' }
   | {
       type: 'describe';
-      request: number;
       scalar: GarmentScalar | null;
       /** The fine pane's places at the same time, if they are there. */
       reference: Float32Array | null;
@@ -67,7 +65,6 @@ export interface GarmentMesh {
 
 export interface Described {
   type: 'described';
-  request: number;
   /** Laid out as any frame is (frame.ts). */
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
@@ -88,7 +85,6 @@ export interface Described {
 
 export interface Loaded {
   type: 'loaded';
-  request: number;
   summary: GarmentSummary;
   mesh: GarmentMesh;
   /** Head of the record; null when there is none, or one of another mesh. */
@@ -97,7 +93,6 @@ export interface Loaded {
 
 export interface Advanced {
   type: 'advanced';
-  request: number;
   frame: number;
   fit: FitAnswer | null;
   /** Why the run ended, or null. */
@@ -106,7 +101,6 @@ export interface Advanced {
 
 export interface WasReset {
   type: 'wasReset';
-  request: number;
 }
 
 export type FromGarment =
@@ -114,7 +108,7 @@ export type FromGarment =
   | Advanced
   | WasReset
   | Described
-  | { type: 'refused'; request: number; failure: Failure };
+  | { type: 'refused'; failure: Failure };
 
 /** The answer to each question. */
 export interface GarmentAnswers {
@@ -142,7 +136,6 @@ export type ToExample =
   | {
       /** An example more: the scene on the fine mesh, from its beginning. */
       type: 'begin';
-      request: number;
       fabricsText: string;
       sceneText: string;
       files: HandedFiles;
@@ -156,8 +149,8 @@ export type ToExample =
       keptOf: number;
     }
   /** A frame of it. */
-  | { type: 'goOn'; request: number }
-  | { type: 'plan'; request: number; wish: PlanWish };
+  | { type: 'goOn' }
+  | { type: 'plan'; wish: PlanWish };
 
 export interface ExampleOpened {
   type: 'opened';
@@ -168,22 +161,16 @@ export interface ExampleOpened {
 /** The share of the example that has run; at 1 plans are made of it too. */
 export interface WentOn {
   type: 'wentOn';
-  request: number;
   share: number;
 }
 
 export interface Planned {
   type: 'planned';
-  request: number;
   plan: PlanFile;
   ms: number;
 }
 
-export type FromExample =
-  | ExampleOpened
-  | WentOn
-  | Planned
-  | { type: 'refused'; request: number; failure: Failure };
+export type FromExample = ExampleOpened | WentOn | Planned | { type: 'refused'; failure: Failure };
 
 /** The answer to each question. */
 export interface ExampleAnswers {

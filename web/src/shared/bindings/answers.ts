@@ -53,6 +53,11 @@ export function brokenSentence(subject: string, reason: string): string {
   return `${subject} cannot be computed: the WebAssembly part did not start (${quoted(reason)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
 }
 
+/** A worker's end as the failure that it is for what `subject` names. */
+export function brokenFailure(subject: string, reason: string): Failure {
+  return internalFailure(brokenSentence(subject, reason));
+}
+
 export function describe(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }

@@ -8,6 +8,11 @@ export type Model = 'springs' | 'membrane';
 export const STABLE_SUBSTEPS = 'stable';
 export type Substeps = number | typeof STABLE_SUBSTEPS;
 
+/** The page's number for it, in fields and links, is 0. */
+export function numberOf(count: Substeps): number {
+  return count === STABLE_SUBSTEPS ? 0 : count;
+}
+
 export type Count = 'substeps' | 'iterations';
 
 export type DetailValue = string | number;
@@ -19,6 +24,8 @@ export interface MethodDetail {
   words?: readonly string[];
   least?: number;
   most?: number;
+  /** It is of effect beside one of these words of other details; without it, always. */
+  beside?: Readonly<Record<string, readonly string[]>>;
 }
 
 export interface StepperRow {
@@ -30,8 +37,8 @@ export interface StepperRow {
   needs_springs: boolean;
   /** Each substep has equations, which may be left unsolved in part. */
   solves: boolean;
-  /** The counts the stepper reads, each with what it starts from; 0 substeps: as many as are stable. */
-  settings: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
+  /** The counts the stepper reads, each with what it starts from. */
+  settings: Partial<Record<Count, { start: Substeps; least: Substeps; meaning: string }>>;
   /** What the details that it reads start from. */
   details: Readonly<Record<string, DetailValue>>;
   /** The counts with which a sweep measures it at every level. */

@@ -72,18 +72,18 @@ export class MotionCore {
   private hasLedger = false;
   private nBytes = 0; // of the buffers of frames
 
-  private refuse(request: number, failure: Failure): void {
-    this.post({ type: 'refused', request, failure }, []);
+  private refuse(failure: Failure): void {
+    this.post({ type: 'refused', failure }, []);
   }
 
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
   private postLoaded(
-    { request, scalar = 'stretch' }: { request: number; scalar?: Scalar },
+    { scalar = 'stretch' }: { scalar?: Scalar },
     run: SimulationHandle,
     summary: SceneSummary,
   ): void {
     const numbers = readNumbers(run);
-    if (!numbers) return this.refuse(request, internalFailure('no numbers after a load'));
+    if (!numbers) return this.refuse(internalFailure('no numbers after a load'));
     this.nBytes = frameBytes(run);
     const buffers: [ArrayBuffer, ArrayBuffer] = [
       new ArrayBuffer(this.nBytes),
@@ -92,27 +92,27 @@ export class MotionCore {
     fill(run, buffers[0], scalar);
     const triangles = run.triangles().slice();
     const colliders = readColliders(run);
-    this.post(
-      { type: 'loaded', request, summary, triangles, buffers, scalar, numbers, colliders },
-      [triangles.buffer, ...buffers],
-    );
+    this.post({ type: 'loaded', summary, triangles, buffers, scalar, numbers, colliders }, [
+      triangles.buffer,
+      ...buffers,
+    ]);
   }
 
   private load(run: SimulationHandle, message: LoadMessage): void {
-    const { sceneText, keepMotion, request, start } = message;
+    const { sceneText, keepMotion, start } = message;
     const text = keepMotion && this.loaded ? run.carryOver(sceneText) : run.load(sceneText);
     const answer = read<{ summary: SceneSummary }>(text);
-    if (!answer.ok) return this.refuse(request, answer);
+    if (!answer.ok) return this.refuse(answer);
     const started = read<object>(start ? run.startFrom(start) : '{"ok": true}');
-    if (!started.ok) return this.refuse(request, started);
+    if (!started.ok) return this.refuse(started);
     this.loaded = answer.summary;
     this.postLoaded(message, run, this.loaded);
   }
 
   private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
-    if (!this.loaded) return this.refuse(message.request, internalFailure('reset before load'));
+    if (!this.loaded) return this.refuse(internalFailure('reset before load'));
     const answer = read<object>(run.reset());
-    if (!answer.ok) return this.refuse(message.request, answer);
+    if (!answer.ok) return this.refuse(answer);
     this.postLoaded(message, run, this.loaded);
   }
 
@@ -133,7 +133,7 @@ export class MotionCore {
   }
 
   private step(run: SimulationHandle, message: StepMessage): void {
-    const { count, request, scalar = 'stretch', wantsEnergy = false } = message;
+    const { count, scalar = 'stretch', wantsEnergy = false } = message;
     // A buffer of another size belongs to the mesh before the last load: nothing to fill.
     if (!this.loaded || message.buffer.byteLength !== this.nBytes) return;
     if (wantsEnergy && !this.hasLedger) run.openLedger();
@@ -147,31 +147,31 @@ export class MotionCore {
     const energy = readEnergy(run);
     const colliders = readColliders(run);
     this.post(
-      { type: 'frame', request, count, buffer, torn, scalar, hasEnded, report, energy, colliders },
+      { type: 'frame', count, buffer, torn, scalar, hasEnded, report, energy, colliders },
       torn ? [buffer, torn.spare, torn.triangles.buffer] : [buffer],
     );
   }
 
-  private readSprings(run: SimulationHandle, request: number): void {
+  private readSprings(run: SimulationHandle): void {
     const ends = run.springEnds().slice();
     const isImplicit = run.implicitSprings().slice();
-    this.post({ type: 'springs', request, ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
+    this.post({ type: 'springs', ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
   }
 
   private readImplicitShare(run: SimulationHandle, message: ImplicitShareQuestion): void {
-    const { stepS, substeps, explicitShare, request } = message;
+    const { stepS, substeps, explicitShare } = message;
     const answer = read<ImexShare>(run.implicitShare(stepS, substeps, explicitShare));
-    if (!answer.ok) return this.refuse(request, answer);
+    if (!answer.ok) return this.refuse(answer);
     const { substeps: taken, share } = answer;
-    this.post({ type: 'implicitShare', request, substeps: taken, share }, []);
+    this.post({ type: 'implicitShare', substeps: taken, share }, []);
   }
 
   private readLevels(run: SimulationHandle, message: LevelsQuestion): void {
-    const { selection, nCoarser, ratio, request } = message;
+    const { selection, nCoarser, ratio } = message;
     const answer = read<{ n_coarser: number; shortage: string }>(
       run.makeLevels(selection, nCoarser, ratio),
     );
-    if (!answer.ok && answer.kind === 'internal') return this.refuse(request, answer);
+    if (!answer.ok && answer.kind === 'internal') return this.refuse(answer);
     const levels: MeshLevel[] = [];
     for (let level = 1; answer.ok && level <= answer.n_coarser; ++level) {
       const vertices = run.levelVertices(level).slice();
@@ -179,7 +179,7 @@ export class MotionCore {
     }
     const shortage = answer.ok ? answer.shortage : answer.what;
     const transfer = levels.flatMap(({ vertices, edges }) => [vertices.buffer, edges.buffer]);
-    this.post({ type: 'levels', request, levels, shortage }, transfer);
+    this.post({ type: 'levels', levels, shortage }, transfer);
   }
 
   private open(text: string): void {
@@ -205,7 +205,7 @@ export class MotionCore {
       case 'step':
         return this.step(this.simulation, message);
       case 'readSprings':
-        return this.readSprings(this.simulation, message.request);
+        return this.readSprings(this.simulation);
       case 'readImplicitShare':
         return this.readImplicitShare(this.simulation, message);
       case 'readLevels':
@@ -232,8 +232,7 @@ export class MotionCore {
     try {
       this.handle(message);
     } catch (error) {
-      const request = 'request' in message ? message.request : -1;
-      this.refuse(request, internalFailure(describe(error)));
+      this.refuse(internalFailure(describe(error)));
     }
   }
 

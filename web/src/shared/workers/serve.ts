@@ -1,6 +1,7 @@
 // The worker's end of the page: takes one message after the other to the core, and sends back what comes of it.
 import { describe } from '../bindings/answers';
 import type { Done, Letter, Message, Reply } from './asked';
+import type { CoreLetter } from './compiled-core';
 import { holdLife } from './life';
 
 /** The part of a worker's scope that is used. */
@@ -44,7 +45,9 @@ export function serve<Question, Answer extends Message>(
   const core = start(post);
   let turn: Promise<unknown> = core;
   turn.catch(breakDown);
-  scope.onmessage = ({ data: { id, message } }: MessageEvent<Letter<Question>>) => {
+  scope.onmessage = ({ data }: MessageEvent<Letter<Question> | CoreLetter>) => {
+    if ('core' in data) return; // givenCore takes it
+    const { id, message } = data;
     turn = turn.then(async () => {
       asked = id;
       await (await core).receive(message);
