@@ -10,7 +10,7 @@ namespace pleat {
 namespace {
 
 const VertexId kVertex{0};
-constexpr double kHalfThickness = 0.01;  // of the cloth [m]
+constexpr double kHalfThickness = 0.01;  // half of the cloth's thickness [m]
 
 /// A quarter turn about x in a second, of what keeps its height.
 struct Turning : MovingFrame {
@@ -76,7 +76,7 @@ TEST_CASE("made-up solid: penetration, support and outline are known of it", "[c
   std::vector<ContactStage::Outline> outlines;
   stage.outlines(outlines);
   REQUIRE(outlines.size() == 2);
-  // What no lane knows is left to the stage wherever it may be met: here everywhere.
+  // The stage takes what no lane knows, wherever it may be met: here everywhere.
   CHECK_FALSE(outlines[0].is_exact);
   CHECK(std::isinf(std::get<SweptSphere>(outlines[0].shape).radius));
 }

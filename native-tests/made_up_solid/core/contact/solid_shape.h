@@ -16,7 +16,7 @@ namespace pleat {
 
 /// A shelf without end, which keeps level.
 struct Shelf {
-  double height = 0;          ///< of its middle [m]
+  double height = 0;          ///< height of its middle [m]
   double half_thickness = 1;  ///< [m], positive
 };
 
