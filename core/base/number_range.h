@@ -5,7 +5,7 @@ namespace pleat {
 /// No quantity of a scene is larger in SI units; squares and products of two stay finite.
 constexpr double kLargestNumber = 1e12;
 
-/// Which numbers something takes.
+/// Range of numbers that something takes.
 struct NumberRange {
   enum class Ends { included, low_excluded, excluded };
   double low = -kLargestNumber;
