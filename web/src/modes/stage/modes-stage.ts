@@ -16,25 +16,6 @@ export interface ModesStageEvents extends HeldStageEvents {
   drawn: HeldStageParts['drawn'];
 }
 
-export interface ModesStage {
-  /** Another body in all panes, with a fabric's look. */
-  showMesh(triangles: Uint32Array, nVertices: number, lookId: number): void;
-  setPanes(count: number, nColumns: number): void;
-  showShape(pane: number, positions: Float32Array): void;
-  /** Null hides it. */
-  showGhost(positions: Float32Array | null): void;
-  setEdges(isShown: boolean): void;
-  invite(vertex: number): void;
-  /**
-   * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
-   * take up.
-   */
-  frame(keys: readonly number[], swings: readonly number[]): void;
-  homeView(): void;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
-}
-
 /** Direction of the first view [rad]. */
 const AZIMUTH = 0.42;
 const POLAR = 1.12;
@@ -147,7 +128,7 @@ export function createModesStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: ModesStageEvents,
-): ModesStage {
+) {
   const shapes = new Shapes();
   const { all, ghost } = shapes;
   const parts: HeldStageParts = {
@@ -166,36 +147,45 @@ export function createModesStage(
   stage.open();
 
   return {
-    showMesh(triangles, nVertices, lookId) {
+    /** Another body in all panes, with a fabric's look. */
+    showMesh(triangles: Uint32Array, nVertices: number, lookId: number) {
       shapes.setTopology(triangles, nVertices);
       for (const { mesh } of all) mesh.setLook(lookOf(lookId));
       held.drop();
       redraw();
     },
-    setPanes(count, nColumns) {
+    setPanes(count: number, nColumns: number) {
       stage.grid.set(count, nColumns);
       stage.refit();
       redraw();
     },
-    showShape(pane, positions) {
+    showShape(pane: number, positions: Float32Array) {
       all[pane]?.set(positions);
       redraw();
     },
-    showGhost(positions) {
+    /** Null hides it. */
+    showGhost(positions: Float32Array | null) {
       shapes.hasGhost = positions !== null;
       if (positions) ghost.set(positions);
       redraw();
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       for (const { mesh } of all) mesh.setEdges(isShown);
       redraw();
     },
-    invite: (vertex) => held.invite(vertex),
-    frame(keys, swings) {
+    invite: (vertex: number) => held.invite(vertex),
+    /**
+     * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
+     * take up.
+     */
+    frame(keys: readonly number[], swings: readonly number[]) {
       held.floor = frame(stage, ghost, keys, swings);
       redraw();
     },
     homeView: stage.control.home,
-    project: (vertex, pane) => held.project(vertex, pane),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: (vertex: number, pane: number) => held.project(vertex, pane),
   };
 }
+
+export type ModesStage = ReturnType<typeof createModesStage>;

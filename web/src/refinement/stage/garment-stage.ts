@@ -18,30 +18,6 @@ export interface GarmentStageEvents {
   pictureLost(isLost: boolean): void;
 }
 
-export interface GarmentStage {
-  setMesh(pane: number, mesh: GarmentMesh): void;
-  showFrame(pane: number, buffer: ArrayBuffer): void;
-  setSolids(solids: SolidsAnswer): void;
-  /** The panes that have a place, from left to right. */
-  setPanes(panes: readonly number[]): void;
-  setPaint(pane: number, paint: Paint): void;
-  setEdges(isShown: boolean): void;
-  setHanging(isShown: boolean): void;
-  setFabric(fabricId: number): void;
-  setChosen(pane: number, face: number | null): void;
-  homeView(): void;
-  /** Close to the lower edge of a pane's cloth, as it is now. */
-  hemView(pane: number): void;
-  redraw(): void;
-  positions(pane: number): Float32Array;
-  triangles(pane: number): Uint32Array;
-  scalars(pane: number): Float32Array;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
-  /** The picture as it is, as a PNG. */
-  picture(): Promise<Blob | null>;
-}
-
 const N_PANES = 4; // three are seen at a time
 
 /** Direction of the first view: the front, and a little of the nearer side [rad]. */
@@ -216,57 +192,63 @@ export function createGarmentStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: GarmentStageEvents,
-): GarmentStage {
+) {
   const own = new Stage(parent, canvas, events);
   const { clothes, stage } = own;
   const { redraw } = stage;
   return {
-    setMesh(pane, mesh) {
+    setMesh(pane: number, mesh: GarmentMesh) {
       clothes[pane]?.setMesh(mesh);
       redraw();
     },
-    showFrame(pane, buffer) {
+    showFrame(pane: number, buffer: ArrayBuffer) {
       clothes[pane]?.setFrame(buffer);
       redraw();
     },
-    setSolids({ cones, pelvis_m: pelvis }) {
+    setSolids({ cones, pelvis_m: pelvis }: SolidsAnswer) {
       own.mannequin.setCones(cones);
       if (pelvis) own.follow(new Vector3(...pelvis));
       redraw();
     },
-    setPanes: (panes) => own.setPanes(panes),
-    setPaint(pane, paint) {
+    /** The panes that have a place, from left to right. */
+    setPanes: (panes: readonly number[]) => own.setPanes(panes),
+    setPaint(pane: number, paint: Paint) {
       clothes[pane]?.setPaint(paint);
       redraw();
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       own.areEdgesShown = isShown;
       own.showLines();
     },
-    setHanging(isShown) {
+    setHanging(isShown: boolean) {
       own.areHangingShown = isShown;
       own.showLines();
     },
-    setFabric(fabricId) {
+    setFabric(fabricId: number) {
       for (const cloth of clothes) cloth.setLook(lookOf(fabricId));
       redraw();
     },
-    setChosen(pane, face) {
+    setChosen(pane: number, face: number | null) {
       clothes[pane]?.setChosen(face);
       redraw();
     },
     homeView: stage.control.home,
-    hemView: (pane) => own.lookAtHem(pane),
+    /** Close to the lower edge of a pane's cloth, as it is now. */
+    hemView: (pane: number) => own.lookAtHem(pane),
     redraw,
-    positions: (pane) => own.positions(pane),
-    triangles: (pane) => clothes[pane]?.triangles() ?? new Uint32Array(0),
-    scalars: (pane) => clothes[pane]?.scalars() ?? new Float32Array(0),
-    project: (vertex, pane) => own.project(vertex, pane),
+    positions: (pane: number) => own.positions(pane),
+    triangles: (pane: number) => clothes[pane]?.triangles() ?? new Uint32Array(0),
+    scalars: (pane: number) => clothes[pane]?.scalars() ?? new Float32Array(0),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: (vertex: number, pane: number) => own.project(vertex, pane),
+    /** The picture as it is, as a PNG. */
     picture() {
-      return new Promise((resolve) => {
+      return new Promise<Blob | null>((resolve) => {
         own.onPicture = resolve;
         redraw();
       });
     },
   };
 }
+
+export type GarmentStage = ReturnType<typeof createGarmentStage>;
