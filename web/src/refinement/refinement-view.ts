@@ -1,6 +1,6 @@
-// The view of refinement: one garment on a walking figure, on a coarse, a planned and a fine mesh. Its
+// The view of refinement: one garment on a walking body, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
-import firstFigure from 'virtual:pleat-figure';
+import firstBody from 'virtual:pleat-figure';
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './refinement.css';
@@ -85,7 +85,7 @@ class Picture {
       }),
     );
     // Somebody stands there until the clothes have come.
-    this.stage?.setSolids(firstFigure as SolidsAnswer);
+    this.stage?.setSolids(firstBody as SolidsAnswer);
   }
 
   /** Follows the store from now on. */

@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { contactChart, contactWords } from '../../src/motion/panels/contact/contact-figure';
+import { contactChart, contactWords } from '../../src/motion/panels/contact/contact-chart';
 import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { ResponseSource } from '../../src/motion/run/response-source';
 import { decodeMotionLink, encodeMotionLink } from '../../src/motion/state/motion-link';

@@ -54,7 +54,7 @@ export interface ComparedAnswer {
 }
 
 export interface FaultsAnswer {
-  /** Vertices inside of the figure's solids, and the deepest of them [m]. */
+  /** Vertices inside of the body's solids, and the deepest of them [m]. */
   n_inside: number;
   deepest_m: number;
   /** Edges that go through faces of the same cloth. */

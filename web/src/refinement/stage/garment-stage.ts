@@ -1,4 +1,4 @@
-// One garment in up to three panes, each on a mesh of its own, on the same figure: one renderer, one camera
+// One garment in up to three panes, each on a mesh of its own, on the same body: one renderer, one camera
 // that goes along. It gets frames and settings, never the workers, and draws only when something changed.
 import { type PerspectiveCamera, Vector3 } from 'three';
 import { lookOf } from '../../shared/fabric/fabric-look';
@@ -7,8 +7,8 @@ import { createPaneStage, type PaneStage } from '../../shared/stage/pane-stage';
 import { pick } from '../../shared/stage/pick';
 import type { SolidsAnswer } from '../bindings/refinement-module';
 import type { GarmentMesh } from '../worker/garment-protocol';
+import { createBody } from './body';
 import { createGradedCloth, type GradedCloth, type Paint } from './graded-cloth';
-import { createMannequin } from './mannequin';
 
 export interface GarmentStageEvents {
   /** A press that was no drag: the face of that pane, or null beside the cloth. */
@@ -78,10 +78,10 @@ function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
   control.frame({ ...view, upright: SEEN_UP_M / SEEN_ACROSS_M });
 }
 
-/** The clothes on their figure, and what is drawn of them. */
+/** The clothes on their body, and what is drawn of them. */
 class Stage {
   readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
-  readonly mannequin = createMannequin();
+  readonly body = createBody();
   readonly stage: PaneStage;
   areEdgesShown = false;
   areHangingShown = false;
@@ -97,7 +97,7 @@ class Stage {
   ) {
     this.stage = createPaneStage(parent, canvas, {
       fov: 30,
-      objects: [this.mannequin.object, ...this.clothes.map(({ object }) => object)],
+      objects: [this.body.object, ...this.clothes.map(({ object }) => object)],
       isReady: () => this.isFramed,
       prepare: (place) => this.prepare(this.paneIn(place)),
       drawn: () => this.drawn(),
@@ -181,7 +181,7 @@ class Stage {
   }
 
   private setTheme(colour: (name: string) => string): void {
-    this.mannequin.setColour(colour('--stage-body'));
+    this.body.setColour(colour('--stage-body'));
     this.colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
     this.showLines();
   }
@@ -206,7 +206,7 @@ export function createGarmentStage(
       redraw();
     },
     setSolids({ cones, pelvis_m: pelvis }: SolidsAnswer) {
-      own.mannequin.setCones(cones);
+      own.body.setCones(cones);
       if (pelvis) own.follow(new Vector3(...pelvis));
       redraw();
     },

@@ -12,8 +12,8 @@ export function createContactPanel(section: HTMLElement, store: Store<MotionStat
   );
   section.append(box);
   const bring = later(store, 'The figure of contact', async () => {
-    const { createContactFigure } = await import('./contact-figure');
-    return createContactFigure(box, store);
+    const { createContactChart } = await import('./contact-chart');
+    return createContactChart(box, store);
   });
   async function open(): Promise<void> {
     if (box.open) (await bring())?.follow();

@@ -66,7 +66,7 @@ function createSwitch(store: Store<MotionState>): HTMLElement {
 }
 
 /** Returns what studies the shown scene if that is due. */
-export function createContactFigure(
+export function createContactChart(
   parent: HTMLDetailsElement,
   store: Store<MotionState>,
 ): ResponseSource {

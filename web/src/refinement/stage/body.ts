@@ -1,4 +1,4 @@
-// The solids of a figure: hulls of two balls, widened across their axis, closed and smooth.
+// The solids of a body: hulls of two balls, widened across their axis, closed and smooth.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -71,7 +71,7 @@ function shapeOf(cone: RoundedCone): string {
   return numbers.map((number) => number.toFixed(5)).join();
 }
 
-export function createMannequin() {
+export function createBody() {
   const object = new Group();
   const material = new MeshStandardMaterial({ roughness: 0.8 });
   let shapes = '';

@@ -111,7 +111,7 @@ function createWish(motion: Store<MotionState>, store: Store<ConvergenceState>):
   return element('div', {}, pair, words);
 }
 
-export function createConvergenceFigure(
+export function createConvergenceChart(
   parent: HTMLElement,
   motion: Store<MotionState>,
   shown: Pick<MotionRun, 'rest'>,

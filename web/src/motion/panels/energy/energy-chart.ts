@@ -39,7 +39,7 @@ function fillTable(
   table.rows.replaceChildren(...spread(samples).map(row));
 }
 
-export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState>): () => void {
+export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): () => void {
   const plot = createTimePlot('energy-over-time');
   const legend = element('ul', { class: 'marks energy-keys' });
   const words = element('figcaption');
