@@ -44,7 +44,7 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
   };
 }
 
-/** What contact does is told where there are solids. */
+/** Tells what contact does where there are solids. */
 function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
   const section = element('section', { 'aria-label': 'Contact' });
   parent.append(section);

@@ -154,7 +154,7 @@ function drawKnit(store: Store<MotionState>, stage: MotionStage): void {
   });
 }
 
-/** What is drawn over the cloth comes when it is first asked for. */
+/** Brings drawings over the cloth when they are first asked for. */
 function drawOverlays(
   box: HTMLElement,
   store: Store<MotionState>,

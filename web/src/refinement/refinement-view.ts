@@ -50,7 +50,7 @@ const KEYS: readonly [string, string][] = [
   ['Home', 'first view'],
 ];
 
-/** In a narrower pane a person is too small to compare folds [CSS pixels]. */
+/** Least width of a pane: in a narrower one a person is too small to compare folds [CSS pixels]. */
 const LEAST_PANE_WIDTH = 180;
 
 /** The picture of the three panes, all of one store. */
@@ -239,7 +239,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
     return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
   };
-  /** Of a mesh that is in step, from left to right. */
+  /** Pane of a mesh that is in step, from left to right. */
   const paneAt = (place: number) => {
     const id = comparedPanes(store.get())[place];
     return id ? PANES.indexOf(id) : -1;

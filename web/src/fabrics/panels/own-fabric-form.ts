@@ -103,7 +103,7 @@ function headCell(title: string, kind = ''): HTMLElement {
   return element('th', kind === '' ? { scope: 'col' } : { scope: 'col', class: kind }, title);
 }
 
-/** What the measured fabrics make of the measures: weights, and how far they are to be trusted. */
+/** Weights that the measured fabrics suggest for the measures, and how far they are to be trusted. */
 function createResult(showIt: () => void) {
   const { bar, show: showWeights } = createWeightBar();
   const summary = element('p', { role: 'status' });

@@ -1,4 +1,4 @@
-// What each pane shows: fabric, energy, time; a press on it chooses the pane.
+// Badges of what each pane shows: fabric, energy, time; a press on it chooses the pane.
 
 import { fabricNamed } from '../../shared/fabric/fabric-data';
 import { element, setText } from '../../shared/panels/element';
@@ -25,7 +25,7 @@ const ENERGY_MEANING =
 const QUANTITY_MEANING =
   'What the fabrics are ordered by; the shape is of the weights and does not show it';
 
-/** What the list is ordered by, or the energy; and what that is. */
+/** The number that the list is ordered by, or the energy, with its name. */
 export function paneNumber(
   { fabric, energy }: Pick<Pane, 'fabric' | 'energy'>,
   order: FabricOrder,

@@ -53,7 +53,7 @@ export interface DeformerView {
   showFrame(pane: number, buffer: ArrayBuffer): void;
 }
 
-/** What is on its way to be shown. */
+/** A cloth on its way to be shown. */
 interface Opening {
   experiment: Experiment;
   link: FabricsLink | null;

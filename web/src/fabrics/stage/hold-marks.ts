@@ -18,7 +18,7 @@ export interface HoldMark {
   isChosen: boolean;
 }
 
-/** As a part of the distance: some 5 pixels on a screen. */
+/** A part of the distance: some 5 pixels on a screen. */
 const RADIUS = 0.0055;
 
 /** Stands on its tip. */

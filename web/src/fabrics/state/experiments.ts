@@ -45,7 +45,7 @@ export interface Experiment {
   text: string;
   /** Where the mesh is that it names. */
   meshUrl: string | null;
-  /** What the cloth is drawn onto. */
+  /** The bodies that the cloth is drawn onto. */
   bodies: Collider[];
 }
 

@@ -1,4 +1,4 @@
-// What was measured of the shapes that each fabric takes, and the weights that follow from it.
+// Measurements of the shapes that each fabric takes, and the weights that follow from it.
 import { type FabricRecord, fabrics, type SpelledTerm } from '../../shared/fabric/fabric-data';
 import { TERMS, type Term, type Triple } from './deform-state';
 

@@ -17,7 +17,7 @@ import { type FailuresState, freshSides, type SideState } from '../state/failure
 import { type StartSide, startSideWorker } from './failures-client';
 import { SideRun, type SideStart } from './side-run';
 
-/** What is drawn of a duel. */
+/** The picture of a duel. */
 export interface DuelView {
   showMesh(pane: number, mesh: SideStart): void;
   /** The frame's buffer belongs to the picture until the next; returns the one before. */

@@ -97,7 +97,7 @@ function createKeyMarks(store: Store<ModesState>) {
         ),
       );
     },
-    /** Without new buttons, so that one keeps the focus. */
+    /** Renames the buttons that are there, so that one keeps the focus. */
     choose({ chosenKey }: ModesState) {
       [...marks.children].forEach((mark, index) => {
         mark.setAttribute('aria-pressed', String(index === chosenKey));

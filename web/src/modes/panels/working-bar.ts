@@ -1,4 +1,4 @@
-// What takes long, on the stage, and the way out of it.
+// Work that takes long, told on the stage, and the way out of it.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState } from '../state/modes-state';

@@ -48,7 +48,7 @@ class Shape {
   }
 }
 
-/** What is seen through: it throws no shadow, and hides nothing behind it. */
+/** Makes a shape that is seen through: it throws no shadow, and hides nothing behind it. */
 function makeGhost({ mesh }: Shape, colour: string): void {
   mesh.setLook({
     front: colour,

@@ -9,11 +9,11 @@ import type {
   VolumeWish,
 } from '../bindings/modal-module';
 
-/** What a surface is made from; `text` is of the box, of the OBJ file or of the scene. */
+/** Text that a surface is made from; `text` is of the box, of the OBJ file or of the scene. */
 export type Opened =
   | { kind: 'box'; text: string }
   | { kind: 'obj'; text: string }
-  /** With frames, a cloth is draped: so many are kept, one for `stepsEach` steps, and it comes to rest. */
+  /** A cloth with frames is draped: so many are kept, one for `stepsEach` steps, and it comes to rest. */
   | { kind: 'scene'; text: string; frames: number; stepsEach: number };
 
 export type ToModal =

@@ -1,4 +1,4 @@
-// What takes long, on the stage: how far it is or how long it took by now, and a way to stop it.
+// Work that takes long, told on the stage: how far it is or how long it took by now, and a way to stop it.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { workWords } from '../run/run-words';

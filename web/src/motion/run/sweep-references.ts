@@ -15,7 +15,7 @@ async function plan(worker: Worker, planned: SweepPlan): Promise<string[]> {
   return (await worker.ask(message)).references;
 }
 
-/** The same of a plan that may be none for this cloth: so much finer, it may have too many vertices. */
+/** Plans what may be no plan for this cloth: so much finer, it may have too many vertices. */
 async function planIfPossible(worker: Worker, planned: SweepPlan): Promise<string[]> {
   try {
     return await plan(worker, planned);

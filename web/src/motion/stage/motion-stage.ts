@@ -26,18 +26,18 @@ export interface DrawnPicture {
   heatScale: HeatScale;
   /** Where the invitation belongs, in pixels. */
   invitation: { x: number; y: number };
-  /** From where it is seen; null from where the scene is seen at first. */
+  /** Pose from which it is seen; null for that of the scene's first view. */
   camera: Pose | null;
 }
 
-/** What is set of how the cloth is drawn. */
+/** Settings of how the cloth is drawn. */
 function drawingOf(cloth: ClothMesh, redraw: () => void) {
   return {
     setFabric(id: number) {
       cloth.setLook(lookOf(id));
       redraw();
     },
-    /** What is painted on the cloth, once its mesh has as many vertices. */
+    /** Paints the cloth, once its mesh has as many vertices. */
     setPrint(print: Print | null) {
       cloth.setPrint(print);
       redraw();
@@ -120,10 +120,10 @@ export function createMotionStage(
     ...drawingOf(cloth, redraw),
     /** Draws it too, from now on. */
     addOverlay: (overlay: Overlay) => overlays.add(overlay, stage.scene),
-    /** What an overlay draws is another. */
+    /** Draws anew, as an overlay has changed. */
     redraw,
     homeView: stage.control.home,
-    /** From where the scene is seen, also once it is another one. */
+    /** Sets from where the scene is seen, also once it is another one. */
     setCamera(pose: Pose | null) {
       wantedPose = pose;
       if (JSON.stringify(pose) !== JSON.stringify(stage.control.pose()))

@@ -11,7 +11,7 @@ export interface ToConvergence {
 }
 
 export type FromConvergence =
-  /** From 0 to 1. */
+  /** Share that is done, 0 to 1. */
   | { type: 'progress'; done: number }
   | { type: 'studied'; study: ConvergenceStudy }
   | { type: 'refused'; failure: Failure };

@@ -14,7 +14,7 @@ export interface ToStudy {
   type: 'studyResponse';
   fabricsText: string;
   sceneText: string;
-  /** After first contact [s]. */
+  /** Time that is studied after first contact [s]. */
   windowS: number;
 }
 

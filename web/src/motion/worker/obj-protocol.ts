@@ -9,7 +9,7 @@ export interface ToObj {
   fabricsText: string;
   /** Vertices in metres. */
   objText: string;
-  /** What is known of the file; its ends in any unit. */
+  /** The file as far as it is known; its ends in any unit. */
   file: Pick<ObjMesh, 'name' | 'isOwn' | 'unit' | 'odd'> & { low: Triple; high: Triple };
 }
 

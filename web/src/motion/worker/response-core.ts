@@ -1,4 +1,4 @@
-// What a cloth does after its first contact, as a function of the module. Deletes what it makes.
+// Studies what a cloth does after its first contact, as a function of the module. Deletes what it makes.
 import { describe, internalFailure, read } from '../../shared/bindings/answers';
 import type { PleatModule, ResponseStudy } from '../../shared/bindings/pleat-module';
 import type { MeasuringRefused, StudiedMessage, ToStudy } from './measuring-protocol';

@@ -30,7 +30,7 @@ function check(title: string, change: (isOn: boolean) => void) {
   return { input, label: element('label', { class: 'check' }, input, title) };
 }
 
-/** What of the cloth is shown, and how. */
+/** Controls of what is shown of the cloth, and how. */
 function createLook(store: Store<RefinementState>) {
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
   const fineCloth = check('The fine cloth on every mesh', (isOn) => store.set({ fineCloth: isOn }));

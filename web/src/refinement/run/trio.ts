@@ -48,7 +48,7 @@ function failureOf(error: unknown): Failure {
   return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
-/** What is computed for want of the frames that come with the page. */
+/** Says what is computed for want of the frames that come with the page. */
 function missedFailure({ panes, reason }: { panes: readonly PaneId[]; reason: string }): Failure {
   const names = new Intl.ListFormat('en-GB').format(
     panes.map((id) => PANE_TITLES[id].toLowerCase()),

@@ -29,7 +29,7 @@ const MIDDLE_M = 0.78;
 const SEEN_ACROSS_M = 0.5;
 const SEEN_UP_M = 0.86;
 
-/** What is seen around a hem, of what is seen of a person, and its middle above the edge [m]. */
+/** Share of a person's picture that is seen around a hem, and its middle above the edge [m]. */
 const HEM_ZOOM = 0.42;
 const ABOVE_HEM_M = 0.09;
 const HEM_POLAR = 1.45;

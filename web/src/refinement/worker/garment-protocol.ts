@@ -32,7 +32,7 @@ export type ToGarment =
       recording: ArrayBuffer | null;
       /** Time of a frame. */
       frameS: number;
-      /** From when on folds count. */
+      /** Time from which on folds count. */
       settledS: number;
     }
   | { type: 'advance'; frame: number; how: Advance }
@@ -69,7 +69,7 @@ export interface Described {
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
   isKnown: boolean;
-  /** Against the reference, and RMS between the surfaces. */
+  /** Distances from the reference, and RMS between the surfaces. */
   compared: ComparedAnswer | null;
   surfaceM: number | null;
   /** How far folds stand out, over all that were seen; null until that is enough to tell. */
@@ -78,7 +78,7 @@ export interface Described {
   foldsM: number | null;
   faults: FaultsAnswer | null;
   costs: GarmentCosts | null;
-  /** What the steps of this pane show that its scene cannot explain. */
+  /** Signs in the steps of this pane that its scene cannot explain. */
   warnings: RunWarning[];
   solids: SolidsAnswer | null;
 }

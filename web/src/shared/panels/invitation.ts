@@ -25,7 +25,7 @@ export function createInvitation(parent: HTMLElement) {
     setShown(isShown: boolean) {
       ring.hidden = !isShown;
     },
-    /** For a stage without a picture. */
+    /** Takes it away, for a stage without a picture. */
     remove: () => ring.remove(),
   };
 }

@@ -1,4 +1,4 @@
-// In which unit an OBJ file is, as it does not say that itself.
+// Choice of the unit of an OBJ file, which does not say that itself.
 import { OBJ_UNITS, type ObjUnit } from '../state/obj-file';
 import { choice, field } from './element';
 

@@ -22,7 +22,7 @@ export interface View {
   upright?: number;
 }
 
-/** From where the framed scene is seen, when that is not from where it is seen at first. */
+/** The place from which the framed scene is seen, when that is not the first one. */
 export interface Pose {
   /** [rad] */
   azimuth: number;

@@ -71,7 +71,7 @@ class Grip {
     return true;
   }
 
-  /** Whether a press at this point of the page would take something. */
+  /** True when a press at this point of the page would take something. */
   reaches(x: number, y: number): boolean {
     this.box = this.events.picture({ x, y });
     return this.vertexNear(x, y) !== null || this.hitAt(x, y) !== null;

@@ -5,7 +5,7 @@ import { type Box, createHand, type Hand } from './grab';
 import { createHandMark } from './hand-mark';
 import { createPaneStage, type PaneStage, type PaneStageParts } from './pane-stage';
 
-/** What a visitor does on a stage. */
+/** Actions of a visitor on a stage. */
 export interface HeldStageEvents {
   /** True when a press on this vertex is used up otherwise. */
   press?(vertex: number, pane: number): boolean;

@@ -28,7 +28,7 @@ export interface Letter<Question> {
 }
 
 /**
- * What the worker sends: an answer with the id of its question, news without one, why it cannot go on, or
+ * A message of the worker: an answer with the id of its question, news without one, why it cannot go on, or
  * the lock that it holds for life.
  */
 export type Reply = { id: number | null; message: Message } | { broken: string } | { life: string };

@@ -59,7 +59,7 @@ function readColliders(simulation: SimulationHandle): Collider[] {
   return answer.ok ? answer.colliders : [];
 }
 
-/** Of a buffer for the frames of the present mesh. */
+/** Size of a buffer for the frames of the present mesh. */
 function frameBytes(simulation: SimulationHandle): number {
   return (4 * FLOATS_PER_VERTEX * simulation.positions().length) / 3;
 }

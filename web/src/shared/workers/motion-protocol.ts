@@ -38,7 +38,7 @@ export interface ImplicitShareQuestion {
   type: 'readImplicitShare';
   stepS: number;
   substeps: number;
-  /** Of the springs, that shall be explicit at least. */
+  /** Share of the springs that shall be explicit at least. */
   explicitShare: number;
 }
 
@@ -46,7 +46,7 @@ export interface LevelsQuestion {
   type: 'readLevels';
   selection: LevelSelection;
   nCoarser: number;
-  /** Of a level's vertices that the next one keeps. */
+  /** Share of a level's vertices that the next one keeps. */
   ratio: number;
 }
 

@@ -50,7 +50,7 @@ export function contactChart({ substep_s, resting, uniform }: ResponseStudy): Ti
   };
 }
 
-/** Whether the shown cloth bounces too. */
+/** A switch that lets the shown cloth bounce too. */
 function createSwitch(store: Store<MotionState>): HTMLElement {
   const box = element('input', {
     type: 'checkbox',

@@ -1,4 +1,4 @@
-// What contact makes of cloth that comes down: shown where there are solids, studied while it is open.
+// Panel of what contact makes of cloth that comes down: shown where there are solids, studied while it is open.
 import { element } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';

@@ -28,7 +28,7 @@ const MEASURE_WORDS: Record<Constraints, string> = {
     'Compliant springs give as the fabric does: what is left is the distance to where the method’s own equations would end, 1 before the first round. Methods that solve a step as a whole take part.',
 };
 
-/** What times and "never" mean. */
+/** Words on what times and "never" mean. */
 const HOW =
   'Measured on this device, each time the better of two batches of 50 ms. A method that never gets there had up to 513 rounds, fewer where one solve takes longer than 30 ms.';
 
@@ -37,7 +37,7 @@ const NEWTON =
 
 const DISTURBED = 'The cloth was playing meanwhile: the times are too long.';
 
-/** As choices have them: no number stands for now. */
+/** Times as choices have them: no number stands for now. */
 const NOW = -1;
 const BEGINS = [
   { value: NOW, title: 'Shown now' },

@@ -5,7 +5,7 @@ import { energyUnit } from '../../../shared/panels/quantity';
 import type { TimeChart } from '../chart/time-plot';
 import type { EnergyLine } from './energy-lines';
 
-/** What a line looks like, in the chart and in its legend. */
+/** Look of a line, in the chart and in its legend. */
 export function lineClass(kind: EnergyLine['kind']): string {
   return `time-line energy-${kind}`;
 }

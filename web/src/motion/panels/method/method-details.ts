@@ -1,4 +1,4 @@
-// What may be chosen of a method beside its counts, as the core's table tells it.
+// Choices of a method beside its counts, as the core's table tells it.
 import details from 'virtual:pleat-details';
 import { choice, element, field } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
@@ -39,7 +39,7 @@ function numberControl({ least = 0, most = 0, step = 1 }: Detail, choose: Choose
   return { control, select };
 }
 
-/** Whether the method makes use of it: only some smoothers relax. */
+/** True when the method makes use of it: only some smoothers relax. */
 function isRead(setting: Setting, key: string): boolean {
   return detailOf(setting, key) !== undefined && (key !== 'omega' || relaxes(setting));
 }

@@ -107,7 +107,7 @@ function modelPicker(onChoice: (model: Model) => void) {
 
 export const STEPPER_CHOICES = STEPPERS.map(({ name, title }) => ({ value: name, title }));
 
-/** What imex saves is told from the first imex on. */
+/** Tells what imex saves, from the first imex on. */
 function createImexTray(store: Store<MotionState>, run: MotionRun) {
   const tray = element('div');
   const bring = later(store, 'What imex saves', async () => {
@@ -127,7 +127,7 @@ function createImexTray(store: Store<MotionState>, run: MotionRun) {
   };
 }
 
-/** What else may be chosen comes with the first stepper that reads it. */
+/** Further choices come with the first stepper that reads it. */
 function createDetailsTray(store: Store<MotionState>) {
   const tray = element('div');
   const bring = later(store, 'The details of the method', async () => {

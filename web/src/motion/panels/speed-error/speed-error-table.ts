@@ -11,7 +11,7 @@ import { boundOf } from './mesh-floors';
 import { errorName, meshText } from './mesh-words';
 import { type PlotContent, titleOf } from './speed-error-plot';
 
-/** What the two lines of a cell say. */
+/** The two lines of a cell. */
 type Cell = [string, string];
 
 /** Each column's title, and what its second line is. */

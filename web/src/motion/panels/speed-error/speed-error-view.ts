@@ -16,7 +16,7 @@ import { createSpeedErrorTable } from './speed-error-table';
 
 const NONSENSE = 'crossed out: not how cloth moves';
 
-/** What the front is: rows of different references have one each. */
+/** Words on the front: rows of different references have one each. */
 function frontWords({ rows, meshError }: PlotContent): string {
   const isOfLevel = meshError !== 'known' && new Set(rows.map(({ level }) => level)).size > 1;
   return `front: no other setting${isOfLevel ? ' of its level' : ''} is both faster and nearer`;
@@ -49,7 +49,7 @@ function createLegend() {
   };
 }
 
-/** What was measured, how far that is, and whose errors no mesh mends. */
+/** Caption: what was measured, how far that is, and whose errors no mesh mends. */
 function besideHeadline({ scene, phase, progress, rows, meshError }: SweepState): string {
   const cloth = scene ? `${scene.mesh?.name ?? PRESETS[scene.preset].title}, ${scene.fabric}.` : '';
   const soFar = phase === 'running' ? `Measured so far: ${Math.floor(100 * progress)} %.` : '';

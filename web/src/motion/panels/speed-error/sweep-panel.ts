@@ -20,7 +20,7 @@ const FINEST = [
   { value: FINEST_SWEEP, title: `0 to ${FINEST_SWEEP}` },
 ];
 
-/** What takes part only when it is asked for. */
+/** Choices that take part only when they are asked for. */
 function slowPicker(onChange: (withSlow: boolean) => void) {
   const input = element('input', { type: 'checkbox', change: () => onChange(input.checked) });
   const title = element('span');
@@ -42,7 +42,7 @@ function timeLeft({ phase, leftS }: SweepState): string {
   return `, about ${shortTime(1000 * Math.ceil(leftS))} left`;
 }
 
-/** What a sweep would take, as far as steps that were timed tell. */
+/** Words on what a sweep would take, as far as steps that were timed tell. */
 export function expectation(
   { costs, setting }: Pick<MotionState, 'costs' | 'setting'>,
   wish: SweepWish,
