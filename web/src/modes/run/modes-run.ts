@@ -100,8 +100,8 @@ export class ModesRun {
   }
 
   /**
-   * Opens the present body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where that cannot
-   * be, it is as it was.
+   * Opens the present body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where
+   * that cannot be, it is as it was.
    */
   async reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): Promise<void> {
     const { link, own } = this.now();

@@ -15,8 +15,8 @@ export interface ModeNumbers {
 }
 
 /**
- * Numbers of modes from squared angular frequencies, under 1 Pa and 1 kg/m³ where it is a volume's: E / rho times as large under
- * Young's modulus E and density rho.
+ * Numbers of modes from squared angular frequencies, under 1 Pa and 1 kg/m³ where it is a volume's: E / rho
+ * times as large under Young's modulus E and density rho.
  */
 export function modeNumbers(
   stiffness: readonly number[],

@@ -21,7 +21,7 @@ export interface PlannedMethod {
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
 const DURATION_S = 1;
 
-/** Time until the motion is another on every mesh: the free end of the sheet whips round, the cloth over the ball folds [s]. */
+/** Time until meshes move differently: the free end of the sheet whips round, the cloth over the ball folds [s]. */
 const BEFORE_CHANCE_S: Partial<Record<PresetId, number>> = {
   'swinging-sheet': 0.4,
   tablecloth: 0.4,
