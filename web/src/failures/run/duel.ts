@@ -1,16 +1,11 @@
 // Plays both sides of a case in step.
-import {
-  brokenFailure,
-  describe,
-  type Failure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { brokenFailure, failureOf } from '../../shared/bindings/answers';
 import type { Collider } from '../../shared/bindings/geometry';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { affordable, Clock, DISPLAY, type Display } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import type { FrameMessage } from '../../shared/workers/motion-protocol';
 import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
 import { type FailuresState, freshSides, type SideState } from '../state/failures-state';
@@ -191,9 +186,7 @@ export class Duel {
 
   private giveUp(error: unknown): void {
     if (error instanceof BrokenWorker) return; // its listener hears
-    const problem: Failure =
-      error instanceof Refused ? error.failure : internalFailure(describe(error));
-    this.store.set({ playing: false, problem });
+    this.store.set({ playing: false, problem: failureOf(error) });
   }
 
   private breakDown(reason: string): void {

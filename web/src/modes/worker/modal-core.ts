@@ -1,12 +1,6 @@
 // Answers each question to the worker of modes, as a function of the module and of where answers go. The only
 // file that calls delete() on its objects.
-import {
-  type Answer,
-  describe,
-  type Failure,
-  internalFailure,
-  read,
-} from '../../shared/bindings/answers';
+import { granted, refusalOf } from '../../shared/bindings/answers';
 import type { Post } from '../../shared/workers/serve';
 import type {
   CompletionAnswer,
@@ -23,19 +17,6 @@ import type { FromModal, Opened, ToModal } from './modal-protocol';
 const REST_S = 12;
 
 type Question<Type extends ToModal['type']> = Extract<ToModal, { type: Type }>;
-
-/** Ends a question whose answer was a refusal. */
-class Refusal extends Error {
-  constructor(readonly failure: Failure) {
-    super(failure.what);
-  }
-}
-
-function granted<Payload>(text: string): Payload {
-  const answer: Answer<Payload> = read<Payload>(text);
-  if (answer.ok) return answer;
-  throw new Refusal(answer);
-}
 
 function opened(study: ModalStudyHandle, { kind, text }: Opened): SurfaceAnswer {
   const open = { box: study.openBox, obj: study.openObj, scene: study.openScene }[kind];
@@ -56,8 +37,7 @@ export class ModalCore {
     try {
       this.handle(message);
     } catch (error) {
-      const failure = error instanceof Refusal ? error.failure : internalFailure(describe(error));
-      this.post({ type: 'refused', failure }, []);
+      this.post(refusalOf(error), []);
     }
   }
 

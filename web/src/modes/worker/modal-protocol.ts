@@ -1,5 +1,5 @@
 // Messages between the page and the worker that finds modes and in-betweens. Lengths in metres.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/answers';
 import type {
   CompletionAnswer,
   Energy,
@@ -72,7 +72,7 @@ export type FromModal =
   | CompletedMessage
   | KeyMessage
   | SharesMessage
-  | { type: 'refused'; failure: Failure };
+  | Refusal;
 
 /** The answer to each question. */
 export interface ModalAnswers {

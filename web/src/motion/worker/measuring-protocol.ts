@@ -1,6 +1,6 @@
 // Messages between the page and a worker that measures a scene beside the shown cloth, both ways. It
 // runs to its end; to cancel, terminate the worker.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/answers';
 import type { ResponseStudy } from '../../shared/bindings/pleat-module';
 
 export interface ToRace {
@@ -31,9 +31,4 @@ export interface StudiedMessage {
   study: ResponseStudy;
 }
 
-export interface MeasuringRefused {
-  type: 'refused';
-  failure: Failure;
-}
-
-export type FromMeasuring = RacedMessage | StudiedMessage | MeasuringRefused;
+export type FromMeasuring = RacedMessage | StudiedMessage | Refusal;

@@ -1,5 +1,5 @@
 // Messages between the page and the worker that reads a mesh, both ways.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/answers';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { ObjMesh } from '../state/obj-mesh';
 
@@ -18,4 +18,4 @@ export interface ObjReadMessage {
   mesh: ObjMesh;
 }
 
-export type FromObj = ObjReadMessage | { type: 'refused'; failure: Failure };
+export type FromObj = ObjReadMessage | Refusal;

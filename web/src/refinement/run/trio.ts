@@ -5,11 +5,12 @@ import {
   type Failure,
   inputFailure,
   quoted,
+  Refused,
 } from '../../shared/bindings/answers';
 import { Clock, DISPLAY, type Display } from '../../shared/state/clock';
 import { type IsCurrent, Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import { FRAME_S } from '../state/garment-frames';
 import type { MotionId } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';

@@ -1,6 +1,6 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import type {
   ComparedAnswer,
@@ -103,12 +103,7 @@ export interface WasReset {
   type: 'wasReset';
 }
 
-export type FromGarment =
-  | Loaded
-  | Advanced
-  | WasReset
-  | Described
-  | { type: 'refused'; failure: Failure };
+export type FromGarment = Loaded | Advanced | WasReset | Described | Refusal;
 
 /** The answer to each question. */
 export interface GarmentAnswers {
@@ -170,7 +165,7 @@ export interface Planned {
   ms: number;
 }
 
-export type FromExample = ExampleOpened | WentOn | Planned | { type: 'refused'; failure: Failure };
+export type FromExample = ExampleOpened | WentOn | Planned | Refusal;
 
 /** The answer to each question. */
 export interface ExampleAnswers {

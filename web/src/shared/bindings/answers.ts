@@ -34,6 +34,35 @@ export function internalFailure(what: string): Failure {
   return { ok: false, kind: 'internal', where: '', what };
 }
 
+/** The error of what was refused. */
+export class Refused extends Error {
+  constructor(readonly failure: Failure) {
+    super(failure.what);
+  }
+}
+
+/** The payload of an answer; throws Refused where there is none. */
+export function granted<Payload>(text: string): Payload {
+  const answer = read<Payload>(text);
+  if (answer.ok) return answer;
+  throw new Refused(answer);
+}
+
+/** A worker's word that it cannot do what it was asked. */
+export interface Refusal {
+  type: 'refused';
+  failure: Failure;
+}
+
+/** The failure that an error is of. */
+export function failureOf(error: unknown): Failure {
+  return error instanceof Refused ? error.failure : internalFailure(describe(error));
+}
+
+export function refusalOf(error: unknown): Refusal {
+  return { type: 'refused', failure: failureOf(error) };
+}
+
 /** Letters of a technical reason that are quoted at most. */
 const MOST_REASON = 100;
 

@@ -1,16 +1,9 @@
 // The page's end of a worker. A question has exactly one answer; what the worker says unasked is news.
-import type { Failure } from '../bindings/answers';
+import { type Failure, type Refusal, Refused } from '../bindings/answers';
 import { watchLife } from './life';
 
 /** A worker that will not answer any more. */
 export class BrokenWorker extends Error {}
-
-/** The error of a question that was refused. */
-export class Refused extends Error {
-  constructor(readonly failure: Failure) {
-    super(failure.what);
-  }
-}
 
 export interface Message {
   type: string;
@@ -71,7 +64,7 @@ interface Waiting {
   reject(reason: Error): void;
 }
 
-function isRefusal(message: Message): message is Message & { failure: Failure } {
+function isRefusal(message: Message): message is Refusal {
   return message.type === 'refused';
 }
 

@@ -1,7 +1,7 @@
 // Answers each message to the worker of cloth in motion, as a function of the module and of where
 // answers go. The only file that calls delete() on its objects.
 
-import { describe, type Failure, internalFailure, type RunStatus, read } from '../bindings/answers';
+import { granted, Refused, type RunStatus, read, refusalOf } from '../bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import {
@@ -72,10 +72,6 @@ export class MotionCore {
   private hasLedger = false;
   private nBytes = 0; // of the buffers of frames
 
-  private refuse(failure: Failure): void {
-    this.post({ type: 'refused', failure }, []);
-  }
-
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
   private postLoaded(
     { scalar = 'stretch' }: { scalar?: Scalar },
@@ -83,7 +79,7 @@ export class MotionCore {
     summary: SceneSummary,
   ): void {
     const numbers = readNumbers(run);
-    if (!numbers) return this.refuse(internalFailure('no numbers after a load'));
+    if (!numbers) throw new Error('no numbers after a load');
     this.nBytes = frameBytes(run);
     const buffers: [ArrayBuffer, ArrayBuffer] = [
       new ArrayBuffer(this.nBytes),
@@ -101,18 +97,15 @@ export class MotionCore {
   private load(run: SimulationHandle, message: LoadMessage): void {
     const { sceneText, keepMotion, start } = message;
     const text = keepMotion && this.loaded ? run.carryOver(sceneText) : run.load(sceneText);
-    const answer = read<{ summary: SceneSummary }>(text);
-    if (!answer.ok) return this.refuse(answer);
-    const started = read<object>(start ? run.startFrom(start) : '{"ok": true}');
-    if (!started.ok) return this.refuse(started);
-    this.loaded = answer.summary;
+    const { summary } = granted<{ summary: SceneSummary }>(text);
+    if (start) granted(run.startFrom(start));
+    this.loaded = summary;
     this.postLoaded(message, run, this.loaded);
   }
 
   private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
-    if (!this.loaded) return this.refuse(internalFailure('reset before load'));
-    const answer = read<object>(run.reset());
-    if (!answer.ok) return this.refuse(answer);
+    if (!this.loaded) throw new Error('reset before load');
+    granted(run.reset());
     this.postLoaded(message, run, this.loaded);
   }
 
@@ -160,9 +153,8 @@ export class MotionCore {
 
   private readImplicitShare(run: SimulationHandle, message: ImplicitShareQuestion): void {
     const { stepS, substeps, explicitShare } = message;
-    const answer = read<ImexShare>(run.implicitShare(stepS, substeps, explicitShare));
-    if (!answer.ok) return this.refuse(answer);
-    const { substeps: taken, share } = answer;
+    const text = run.implicitShare(stepS, substeps, explicitShare);
+    const { substeps: taken, share } = granted<ImexShare>(text);
     this.post({ type: 'implicitShare', substeps: taken, share }, []);
   }
 
@@ -171,7 +163,7 @@ export class MotionCore {
     const answer = read<{ n_coarser: number; shortage: string }>(
       run.makeLevels(selection, nCoarser, ratio),
     );
-    if (!answer.ok && answer.kind === 'internal') return this.refuse(answer);
+    if (!answer.ok && answer.kind === 'internal') throw new Refused(answer);
     const levels: MeshLevel[] = [];
     for (let level = 1; answer.ok && level <= answer.n_coarser; ++level) {
       const vertices = run.levelVertices(level).slice();
@@ -232,7 +224,7 @@ export class MotionCore {
     try {
       this.handle(message);
     } catch (error) {
-      this.refuse(internalFailure(describe(error)));
+      this.post(refusalOf(error), []);
     }
   }
 

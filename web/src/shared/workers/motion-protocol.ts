@@ -1,6 +1,6 @@
 // Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
 
-import type { Failure } from '../bindings/answers';
+import type { Refusal } from '../bindings/answers';
 import type { Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import type {
@@ -138,7 +138,7 @@ export type FromMotion =
   | ImplicitShareMessage
   | LevelsMessage
   | ReferenceSetMessage
-  | { type: 'refused'; failure: Failure };
+  | Refusal;
 
 /** The answer to each message that is a question; `done`: there was nothing to answer. */
 export interface MotionAnswers {
