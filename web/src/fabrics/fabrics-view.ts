@@ -10,6 +10,7 @@ import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
+import { createKeyList } from '../shared/panels/keys-panel';
 import { createStageCanvas, openStage } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
@@ -17,7 +18,6 @@ import { createEnergyCurve } from './panels/energy-curve';
 import { createExperimentPanel } from './panels/experiment-panel';
 import { createFabricCard } from './panels/fabric-card';
 import { createFabricGallery } from './panels/fabric-gallery';
-import { createFabricsKeys } from './panels/fabrics-keys';
 import { fabricsSentence } from './panels/fabrics-sentence';
 import { createHoldList } from './panels/hold-list';
 import { createOwnFabricForm } from './panels/own-fabric-form';
@@ -36,6 +36,16 @@ import { withShown, withToggled } from './state/fabric-choice';
 import { decodeFabricsLink, encodeFabricsLink } from './state/fabrics-link';
 import { type FabricsState, initialFabricsState, recordOf } from './state/fabrics-state';
 import { joined, middleOf } from './state/holds';
+
+const KEYS: readonly [string, string][] = [
+  ['G', 'take the cloth at the middle of the chosen picture; then arrows, Page Up and Page Down'],
+  ['G or Escape', 'let go: the handle stays'],
+  ['P', 'change between pulling and pinning'],
+  ['1 to 4', 'choose a picture'],
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
 
 export type FabricsView = View;
 
@@ -217,7 +227,7 @@ function createPanels(
     release: (name) => deformer.release(name),
     resetHolds: () => deformer.resetHolds(),
   });
-  createFabricsKeys(panel);
+  createKeyList(panel, KEYS);
 }
 
 function createTools(

@@ -1,5 +1,6 @@
 // The row under the stage: what a press does, the view, and what takes this fabric or this shape into motion.
 import { element } from '../../shared/panels/element';
+import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState, Tool } from '../state/fabrics-state';
 
@@ -9,41 +10,24 @@ export interface StageToolActions {
   start(): void;
 }
 
-const TOOLS: readonly { value: Tool; title: string; meaning: string }[] = [
+const TOOLS: readonly Segment<Tool>[] = [
   { value: 'pull', title: 'Pull', meaning: 'A press takes the cloth at any point' },
   { value: 'pin', title: 'Pin', meaning: 'A press puts a pin into the cloth, or takes it out (P)' },
 ];
 
 const NO_MOTION = 'Three ratios say neither weight nor stiffness: choose a fabric of the list';
 
-function createToolSwitch(choose: (tool: Tool) => void) {
-  const inputs = TOOLS.map(({ value }) =>
-    element('input', { type: 'radio', name: 'tool', change: () => choose(value) }),
-  );
-  const labels = TOOLS.map(({ title, meaning }, index) =>
-    element('label', { title: meaning }, inputs[index] ?? '', element('span', {}, title)),
-  );
-  return {
-    control: element(
-      'div',
-      { class: 'segments tool-switch', role: 'radiogroup', 'aria-label': 'A press on the cloth' },
-      ...labels,
-    ),
-    select(tool: Tool) {
-      TOOLS.forEach(({ value }, index) => {
-        const input = inputs[index];
-        if (input) input.checked = value === tool;
-      });
-    },
-  };
-}
-
 export function createStageTools(
   parent: HTMLElement,
   store: Store<FabricsState>,
   actions: StageToolActions,
 ): () => void {
-  const tools = createToolSwitch((tool) => store.set({ tool }));
+  const tools = createSegments(
+    'tool',
+    { class: 'segments tool-switch', 'aria-label': 'A press on the cloth' },
+    (tool: Tool) => store.set({ tool }),
+    TOOLS,
+  );
   const edges = element('input', {
     type: 'checkbox',
     change: () => store.set({ edges: edges.checked }),

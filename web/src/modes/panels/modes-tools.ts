@@ -1,7 +1,8 @@
 // The row under the stage: what is shown, play, speed, view, ghost, edges, and the shape as a file.
-import { choice, element } from '../../shared/panels/element';
+import { element } from '../../shared/panels/element';
+import { speedChoice } from '../../shared/panels/run-tools';
+import { createSegments, type Segment } from '../../shared/panels/segments';
 import { toolButton } from '../../shared/panels/tool-button';
-import { SPEEDS } from '../../shared/state/speeds';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState, Showing } from '../state/modes-state';
 
@@ -11,34 +12,10 @@ export interface ModesToolActions {
   saveObj(): void;
 }
 
-const SHOWINGS: readonly { value: Showing; title: string; meaning: string }[] = [
+const SHOWINGS: readonly Segment<Showing>[] = [
   { value: 'modes', title: 'Modes', meaning: 'The mix of modes, as the sliders have it (M)' },
   { value: 'keys', title: 'Key frames', meaning: 'The motion through the key shapes (M)' },
 ];
-
-const SPEED_TITLES: Record<number, string> = { 1: '1 ×', 0.5: '1/2 ×', 0.25: '1/4 ×' };
-
-function createShowingSwitch(choose: (showing: Showing) => void) {
-  const inputs = SHOWINGS.map(({ value }) =>
-    element('input', { type: 'radio', name: 'showing', change: () => choose(value) }),
-  );
-  const labels = SHOWINGS.map(({ title, meaning }, index) =>
-    element('label', { title: meaning }, inputs[index] ?? '', element('span', {}, title)),
-  );
-  return {
-    control: element(
-      'div',
-      { class: 'segments showing-switch', role: 'radiogroup', 'aria-label': 'What is shown' },
-      ...labels,
-    ),
-    select(showing: Showing) {
-      SHOWINGS.forEach(({ value }, index) => {
-        const input = inputs[index];
-        if (input) input.checked = value === showing;
-      });
-    },
-  };
-}
 
 function checkBox(title: string, change: (isOn: boolean) => void) {
   const box = element('input', { type: 'checkbox', change: () => change(box.checked) });
@@ -52,11 +29,13 @@ export function createModesTools(
 ): void {
   const play = toolButton('play', 'Play', 'Play or pause (space)', actions.togglePlaying);
   play.made.classList.add('primary');
-  const showing = createShowingSwitch((value) => store.set({ showing: value }));
-  const speed = choice(
-    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
-    (value) => store.set({ speed: value }),
+  const showing = createSegments(
+    'showing',
+    { class: 'segments showing-switch', 'aria-label': 'What is shown' },
+    (value: Showing) => store.set({ showing: value }),
+    SHOWINGS,
   );
+  const speed = speedChoice((value) => store.set({ speed: value }));
   speed.control.setAttribute('aria-label', 'Speed');
   const view = toolButton(
     'view',

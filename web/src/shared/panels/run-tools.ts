@@ -6,6 +6,14 @@ import { toolButton } from './tool-button';
 
 const SPEED_TITLES: Record<number, string> = { 1: '1 ×', 0.5: '1/2 ×', 0.25: '1/4 ×' };
 
+/** The choice of a speed. */
+export function speedChoice(onChoice: (speed: number) => void) {
+  return choice(
+    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
+    onChoice,
+  );
+}
+
 export interface RunState {
   playing: boolean;
   phase: string;
@@ -44,10 +52,7 @@ export function createRunTools<State extends RunState>(
   const step = toolButton('step', 'Step', words.step, actions.step);
   const reset = toolButton('reset', 'Reset', words.reset, actions.reset);
   const view = toolButton('view', 'View', words.view, actions.homeView);
-  const speed = choice(
-    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
-    (value) => store.set({ speed: value } as Partial<State>),
-  );
+  const speed = speedChoice((value) => store.set({ speed: value } as Partial<State>));
   speed.control.setAttribute('aria-label', `Speed: ${words.speed}`);
   speed.control.title = words.speed.charAt(0).toUpperCase() + words.speed.slice(1);
   parent.append(play.made, step.made, reset.made, speed.control, view.made);
