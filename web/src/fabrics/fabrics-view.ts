@@ -131,12 +131,12 @@ class Picture {
     return {
       press: (vertex, pane) => {
         this.choose(pane);
-        if (store.get().tool === 'pin') deformer.togglePin(vertex, pane);
+        if (store.get().tool === 'pin') deformer.hand.togglePin(vertex, pane);
         return store.get().tool === 'pin';
       },
-      grab: (vertex, pane) => deformer.grab(vertex, pane),
-      moveGrab: (target) => deformer.moveGrab(target),
-      releaseGrab: () => deformer.releaseGrab(),
+      grab: (vertex, pane) => deformer.hand.grab(vertex, pane),
+      moveGrab: (target) => deformer.hand.move(target),
+      releaseGrab: () => deformer.hand.release(),
       key: (name) => this.key(name),
       drawn: ({ x, y }) => this.invitation.place(x, y),
     };
@@ -195,12 +195,7 @@ function createPanels(
   deformer: Deformer,
   picture: Picture,
 ): void {
-  createExperimentPanel(panel, store, {
-    openExperiment: (id) => deformer.openExperiment(id),
-    openObj: (file) => void deformer.openObj(file),
-    setUnit: (unit) => deformer.setUnit(unit),
-    cancel: () => deformer.cancel(),
-  });
+  createExperimentPanel(panel, store, deformer);
   createFabricGallery(panel, store, {
     compare: (comparison) => deformer.compare(comparison),
     choose: (pane) => picture.choose(pane),

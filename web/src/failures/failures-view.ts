@@ -122,13 +122,7 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
   createFailureBanner(messages, store);
   createAnnouncer(messages, store, sentenceFor);
   createSideBadges(badges, store);
-  createDuelTools(toolBox, store, {
-    play: () => duel.play(),
-    pause: () => duel.pause(),
-    step: () => duel.step(),
-    reset: () => void duel.reset(),
-    homeView: () => picture.homeView(),
-  });
+  createDuelTools(toolBox, store, duel, picture.homeView);
   createCaseList(panel, store);
   createCaseStory(panel, store);
   createKeyList(panel, RUN_KEYS);

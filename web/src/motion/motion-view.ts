@@ -109,19 +109,12 @@ function createPanels(
   run: MotionRun,
   { homeView, link }: { homeView(): void; link(): string },
 ): void {
-  const actions = {
-    play: () => run.play(),
-    pause: () => run.pause(),
-    step: () => run.step(),
-    reset: () => run.reset(),
-    homeView,
-  };
   createProblemBanner(place('messages'), store, run);
   createCaption(place('messages'), store);
   createAnnouncer(place('messages'), store, motionSentence);
   createWorkBar(place('stage'), store, run);
   createNumbersStrip(place('strip'), store, run);
-  createRunTools(place('toolbar'), store, actions, TOOL_WORDS, (phase) => phase !== 'broken');
+  createRunTools(place('toolbar'), store, run, homeView, TOOL_WORDS, (phase) => phase !== 'broken');
   createLinkTool(place('toolbar'), store, { rest: () => run.rest(), link });
   createScenePanel(place('panel'), store, run.obj);
   createFabricPanel(place('panel'), store);

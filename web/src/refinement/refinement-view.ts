@@ -140,16 +140,6 @@ class Picture {
   }
 }
 
-function runActions(trio: Trio) {
-  return {
-    play: () => trio.play(),
-    pause: () => trio.pause(),
-    step: () => trio.step(),
-    reset: () => trio.reset(),
-    cancel: () => trio.cancel(),
-  };
-}
-
 /** The boxes of the view, and its canvas. */
 function createBoxes(root: HTMLElement) {
   const messages = element('div');
@@ -176,13 +166,13 @@ function createBoxes(root: HTMLElement) {
 function createPanels(
   { messages, badgeBox, pictureBox, legendBox, toolBox, panel }: ReturnType<typeof createBoxes>,
   store: Store<RefinementState>,
-  run: ReturnType<typeof runActions>,
+  trio: Trio,
   picture: Picture,
 ): void {
   createGarmentBadges(badgeBox, store);
   const stageWork = element('div', { class: 'stage-work' });
   pictureBox.append(stageWork);
-  createWork(stageWork, store, { ...run, isOwn: ({ canCancel }) => !canCancel });
+  createWork(stageWork, store, trio, ({ canCancel }) => !canCancel);
   new ResizeObserver(() => {
     const { clientWidth: width } = pictureBox;
     const nPanes = comparedPanes(store.get()).length;
@@ -192,8 +182,7 @@ function createPanels(
   picture.follow();
   createFailureBanner(messages, store);
   createAnnouncer(messages, store, garmentSentence);
-  createGarmentToolbar(toolBox, store, {
-    ...run,
+  createGarmentToolbar(toolBox, store, trio, {
     homeView: () => picture.stage?.homeView(),
     hemView: () => picture.hemView(),
     savePicture: () => picture.savePicture(),
@@ -201,8 +190,8 @@ function createPanels(
   });
   createGarmentPanel(panel, store);
   createNumbersPanel(panel, store);
-  createFitPanel(panel, store, run);
-  createDetailPanel(panel, store, run);
+  createFitPanel(panel, store, trio);
+  createDetailPanel(panel, store, trio);
   createStoryPanel(panel, store, () => picture.meshes.planned ?? null);
   createKeyList(panel, KEYS);
 }
@@ -217,13 +206,12 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     showMesh: (id, mesh) => picture.showMesh(id, mesh),
     showFrames: (frames, solids) => picture.showFrames(frames, solids),
   });
-  const run = runActions(trio);
   picture.open(boxes.pictureBox, boxes.canvas, (name) => {
     const { playing, edges, hanging } = store.get();
     const actions: Record<string, () => void> = {
-      ' ': playing ? run.pause : run.play,
-      '.': run.step,
-      r: run.reset,
+      ' ': () => (playing ? trio.pause() : trio.play()),
+      '.': () => trio.step(),
+      r: () => trio.reset(),
       e: () => store.set({ edges: !edges }),
       h: () => store.set({ hanging: !hanging }),
       m: () => picture.hemView(),
@@ -231,7 +219,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     actions[name]?.();
     return name in actions;
   });
-  createPanels(boxes, store, run, picture);
+  createPanels(boxes, store, trio, picture);
 
   /** The link starts at the shown time, while that rests. */
   const link = () => {
@@ -255,7 +243,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
     setShown(value) {
       isShown = value;
-      if (!value) run.pause();
+      if (!value) trio.pause();
       writeLink();
     },
     probe: {

@@ -38,7 +38,7 @@ export function createExperimentPanel(
     ...EXPERIMENTS.map(({ id, title }) => ({ value: id, title })),
     { value: OWN, title: 'Your OBJ' },
   ];
-  const chosen = choice(options, actions.openExperiment);
+  const chosen = choice(options, (id) => actions.openExperiment(id));
   const caption = element('p', { class: 'caption' });
   const size = element('p', { class: 'note' });
   const section = element(
@@ -48,8 +48,8 @@ export function createExperimentPanel(
     caption,
     size,
   );
-  const unit = createObjUnit(actions.setUnit);
-  const reading = createReading(actions.cancel);
+  const unit = createObjUnit((value) => actions.setUnit(value));
+  const reading = createReading(() => actions.cancel());
   section.append(unit.box);
   const closePicker = createObjPicker(section, actions);
   section.append(reading.box);

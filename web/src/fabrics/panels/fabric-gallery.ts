@@ -1,7 +1,13 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
 import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { choice as choiceOf, element, field, setText } from '../../shared/panels/element';
+import {
+  button as buttonOf,
+  choice as choiceOf,
+  element,
+  field,
+  setText,
+} from '../../shared/panels/element';
 import { quantityText } from '../../shared/panels/fabric-quantities';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type FabricChoice, TERMS } from '../state/deform-state';
@@ -233,15 +239,9 @@ export function createFabricGallery(
     { class: 'marks', 'aria-label': 'Bars' },
     ...TERMS.map((term) => element('li', {}, termKey(term), TERM_TITLES[term])),
   );
-  const all = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      click: () => actions.showAll(!store.get().gallery),
-    },
-    'All fifteen at once',
-  );
+  const all = buttonOf('All fifteen at once', () => actions.showAll(!store.get().gallery), {
+    class: 'wide',
+  });
   const hint = element('p', { class: 'note' });
   const refusal = element('p', { class: 'note', role: 'status' });
   parent.append(

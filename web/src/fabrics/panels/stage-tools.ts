@@ -1,5 +1,5 @@
 // The row under the stage: what a press does, the view, and what takes this fabric or this shape into motion.
-import { element } from '../../shared/panels/element';
+import { button, checkBox } from '../../shared/panels/element';
 import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState, Tool } from '../state/fabrics-state';
@@ -28,25 +28,16 @@ export function createStageTools(
     (tool: Tool) => store.set({ tool }),
     TOOLS,
   );
-  const edges = element('input', {
-    type: 'checkbox',
-    change: () => store.set({ edges: edges.checked }),
+  const edges = checkBox('Edges', (isOn) => store.set({ edges: isOn }));
+  const view = button('View', actions.homeView, {
+    title: 'Look from the first direction again (Home)',
   });
-  const button = (title: string, meaning: string, click: () => void) =>
-    element('button', { type: 'button', title: meaning, click }, title);
-  const view = button('View', 'Look from the first direction again (Home)', actions.homeView);
-  const wear = button('Carry this fabric over to motion', '', actions.wear);
-  const start = button('Start moving from this shape', '', actions.start);
-  parent.append(
-    tools.control,
-    view,
-    element('label', { class: 'check' }, edges, 'Edges'),
-    wear,
-    start,
-  );
+  const wear = button('Carry this fabric over to motion', actions.wear);
+  const start = button('Start moving from this shape', actions.start);
+  parent.append(tools.control, view, edges.label, wear, start);
   return watch(store, ['tool', 'edges', 'panes', 'chosen', 'phase'], (state) => {
     tools.select(state.tool);
-    edges.checked = state.edges;
+    edges.input.checked = state.edges;
     const isOwn = state.panes[state.chosen]?.fabric.kind === 'own';
     for (const to of [wear, start]) to.disabled = isOwn || state.phase !== 'ready';
     wear.title = isOwn ? NO_MOTION : 'The scene of the other view in this fabric';

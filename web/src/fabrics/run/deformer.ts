@@ -93,7 +93,7 @@ function ownState({ file, unit }: OwnMesh) {
 export class Deformer {
   private client: DeformClient;
   private readonly held: HeldCloth;
-  private readonly hand: Hand;
+  readonly hand: Hand;
   private readonly granted = new LastGranted<Shown | null>(null);
   private readonly latest = new Latest(); // opening
   private cloth = -1; // the one that is shown
@@ -150,24 +150,6 @@ export class Deformer {
     this.store.set({ reading: null });
     const state = this.store.get();
     this.openExperiment(state.experiment, decodeFabricsLink(encodeFabricsLink(state)).link);
-  }
-
-  grab(vertex: number, pane: number): void {
-    this.hand.grab(vertex, pane);
-  }
-
-  /** Where the taken vertex is wanted [m]. */
-  moveGrab(target: Triple): void {
-    this.hand.move(target);
-  }
-
-  releaseGrab(): void {
-    this.hand.release();
-  }
-
-  /** Puts a pin around a vertex, or takes out the hold that has it. */
-  togglePin(vertex: number, pane: number): void {
-    this.hand.togglePin(vertex, pane);
   }
 
   release(name: string): void {

@@ -1,5 +1,5 @@
 // The lowest modes: each alone by its button, any mix by the sliders.
-import { choice, element, field, setText } from '../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../shared/panels/element';
 import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';
@@ -87,11 +87,7 @@ export function createModeList(
     COUNTS.map((value) => ({ value, title: String(value) })),
     actions.setCount,
   );
-  const rest = element(
-    'button',
-    { type: 'button', class: 'wide', click: () => store.set({ amplitudes: [] }) },
-    'All to zero',
-  );
+  const rest = button('All to zero', () => store.set({ amplitudes: [] }), { class: 'wide' });
   parent.append(
     element(
       'section',

@@ -1,5 +1,5 @@
 // The row under the stage: what is shown, play, speed, view, ghost, edges, and the shape as a file.
-import { element } from '../../shared/panels/element';
+import { button, checkBox } from '../../shared/panels/element';
 import { speedChoice } from '../../shared/panels/run-tools';
 import { createSegments, type Segment } from '../../shared/panels/segments';
 import { toolButton } from '../../shared/panels/tool-button';
@@ -16,11 +16,6 @@ const SHOWINGS: readonly Segment<Showing>[] = [
   { value: 'modes', title: 'Modes', meaning: 'The mix of modes, as the sliders have it (M)' },
   { value: 'keys', title: 'Key frames', meaning: 'The motion through the key shapes (M)' },
 ];
-
-function checkBox(title: string, change: (isOn: boolean) => void) {
-  const box = element('input', { type: 'checkbox', change: () => change(box.checked) });
-  return { box, label: element('label', { class: 'check' }, box, title) };
-}
 
 export function createModesTools(
   parent: HTMLElement,
@@ -45,11 +40,7 @@ export function createModesTools(
   );
   const ghost = checkBox('Straight ghost', (isOn) => store.set({ ghost: isOn }));
   const edges = checkBox('Edges', (isOn) => store.set({ edges: isOn }));
-  const save = element(
-    'button',
-    { type: 'button', title: 'Saves the shape that is shown', click: actions.saveObj },
-    'OBJ',
-  );
+  const save = button('OBJ', actions.saveObj, { title: 'Saves the shape that is shown' });
   parent.append(
     play.made,
     showing.control,
@@ -68,8 +59,8 @@ export function createModesTools(
     save.disabled = !isReady;
     showing.select(state.showing);
     speed.select(state.speed);
-    ghost.box.checked = state.ghost;
-    ghost.box.disabled = state.showing !== 'keys';
-    edges.box.checked = state.edges;
+    ghost.input.checked = state.ghost;
+    ghost.input.disabled = state.showing !== 'keys';
+    edges.input.checked = state.edges;
   });
 }

@@ -1,5 +1,5 @@
 // Work that takes long, told on the stage, and the way out of it.
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState } from '../state/modes-state';
 
@@ -14,7 +14,7 @@ export function createWorkingBar(
     { class: 'modes-working' },
     what,
     element('progress', { 'aria-label': 'Computing' }),
-    element('button', { type: 'button', click: cancel }, 'Cancel'),
+    button('Cancel', cancel),
   );
   parent.append(bar);
   watch(store, ['working'], ({ working }) => {

@@ -33,10 +33,6 @@ export class Body {
     this.moves.set(energy, moves);
   }
 
-  hasMoves(energy: Energy): boolean {
-    return this.moves.has(energy);
-  }
-
   dropMoves(): void {
     this.moves.clear();
   }

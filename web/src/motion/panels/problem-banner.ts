@@ -1,5 +1,5 @@
 // A banner that says what went wrong in a sentence, with what can be done about it.
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
@@ -20,12 +20,8 @@ export function createProblemBanner(
       else store.set({ setting });
     },
   });
-  const reset = element('button', { type: 'button', click: () => actions.reset() }, 'Reset');
-  const dismiss = element(
-    'button',
-    { type: 'button', click: () => store.set({ problem: null }) },
-    'Dismiss',
-  );
+  const reset = button('Reset', () => actions.reset());
+  const dismiss = button('Dismiss', () => store.set({ problem: null }));
   const banner = element(
     'div',
     { class: 'problem', role: 'alert' },

@@ -20,12 +20,12 @@ export interface RunState {
   speed: number;
 }
 
-export interface RunActions {
+/** A run that can be played. */
+export interface Playable {
   play(): void;
   pause(): void;
   step(): void;
   reset(): void;
-  homeView(): void;
 }
 
 export interface RunWords {
@@ -40,18 +40,19 @@ export interface RunWords {
 export function createRunTools<State extends RunState>(
   parent: HTMLElement,
   store: Store<State>,
-  actions: RunActions,
+  run: Playable,
+  homeView: () => void,
   words: RunWords,
   canReset: (phase: string) => boolean,
 ): () => void {
   const play = toolButton('play', 'Play', 'Play or pause (space)', () => {
-    if (store.get().playing) actions.pause();
-    else actions.play();
+    if (store.get().playing) run.pause();
+    else run.play();
   });
   play.made.classList.add('primary');
-  const step = toolButton('step', 'Step', words.step, actions.step);
-  const reset = toolButton('reset', 'Reset', words.reset, actions.reset);
-  const view = toolButton('view', 'View', words.view, actions.homeView);
+  const step = toolButton('step', 'Step', words.step, () => run.step());
+  const reset = toolButton('reset', 'Reset', words.reset, () => run.reset());
+  const view = toolButton('view', 'View', words.view, homeView);
   const speed = speedChoice((value) => store.set({ speed: value } as Partial<State>));
   speed.control.setAttribute('aria-label', `Speed: ${words.speed}`);
   speed.control.title = words.speed.charAt(0).toUpperCase() + words.speed.slice(1);

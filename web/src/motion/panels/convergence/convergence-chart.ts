@@ -1,5 +1,5 @@
 // Has methods compared on one step, and shows what comes of it.
-import { choice, element, field, setText } from '../../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { createNumberTable, fillHead } from '../../../shared/panels/number-table';
 import { digits, milliseconds } from '../../../shared/panels/quantity';
 import { createStore, type Store, watch } from '../../../shared/state/store';
@@ -118,13 +118,9 @@ export function createConvergenceChart(
 ): void {
   const store = createStore(NO_CONVERGENCE);
   const run = new ConvergenceRun(motion, store, () => shown.rest());
-  const wide = { type: 'button', class: 'wide' };
-  const start = element(
-    'button',
-    { ...wide, click: () => void run.start() },
-    'Compare methods on this step',
-  );
-  const cancel = element('button', { ...wide, click: () => run.cancel() }, 'Cancel');
+  const wide = { class: 'wide' };
+  const start = button('Compare methods on this step', () => void run.start(), wide);
+  const cancel = button('Cancel', () => run.cancel(), wide);
   const progress = element('progress', { max: 1, 'aria-label': 'Progress of the comparison' });
   const of = element('p', { class: 'note' });
   const figure = element('figure', { class: 'chart' });

@@ -1,5 +1,5 @@
 // The form of a knitted cloth: its particles, its springs and dampers, and its pattern.
-import { choice, element, field, setText } from '../../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { digits } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
 import { stepperRow } from '../../../shared/steppers/steppers';
@@ -109,14 +109,10 @@ export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): 
   const lines = LINES.map((places) =>
     element('div', { class: 'row' }, ...places.flatMap((place) => fields.get(place)?.box ?? [])),
   );
-  const reset = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      click: () => change(presetSetting(store.get().setting.preset).knit ?? {}),
-    },
+  const reset = button(
     'Reset the knit',
+    () => change(presetSetting(store.get().setting.preset).knit ?? {}),
+    { class: 'wide' },
   );
   const box = element(
     'details',

@@ -1,6 +1,6 @@
 // The sweep's chart with its table beside it; a chosen point is run to the time that its error is of.
 import './speed-error.css';
-import { element, setText } from '../../../shared/panels/element';
+import { button, element, setText } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { STEPPERS } from '../../../shared/steppers/steppers';
 import type { BenchRow } from '../../bindings/sweep-module';
@@ -96,11 +96,7 @@ export function createSpeedErrorView(
 
   const heading = element('h2');
   const beside = element('p', { class: 'note' });
-  const close = element(
-    'button',
-    { type: 'button', click: () => store.set({ sweepOpen: false }) },
-    'Close',
-  );
+  const close = button('Close', () => store.set({ sweepOpen: false }));
   const figure = element('figure', { class: 'chart' });
   const plot = createSpeedErrorPlot(figure, use);
   const note = element('p', { class: 'note' });
