@@ -11,7 +11,7 @@ export function createWorkingBar(
   const what = element('p', { role: 'status' });
   const bar = element(
     'div',
-    { class: 'modes-working' },
+    { class: 'working modes-working' },
     what,
     element('progress', { 'aria-label': 'Computing' }),
     button('Cancel', cancel),

@@ -1,7 +1,7 @@
 // Answers each question to the worker of modes, as a function of the module and of where answers go. The only
 // file that calls delete() on its objects.
-import { granted, refusalOf } from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { granted } from '../../shared/bindings/answers';
+import { ModuleCore } from '../../shared/workers/serve';
 import type {
   CompletionAnswer,
   FilledFrame,
@@ -24,29 +24,16 @@ function opened(study: ModalStudyHandle, { kind, text }: Opened): SurfaceAnswer 
 }
 
 /** Serves one page. Call `receive` with each message. */
-export class ModalCore {
+export class ModalCore extends ModuleCore<ModalModule, ToModal, FromModal> {
   private study: ModalStudyHandle | null = null;
   private completion: CompletionAnswer = { tets: 0, bodies: 0 };
-
-  constructor(
-    private readonly module: ModalModule,
-    private readonly post: Post<FromModal>,
-  ) {}
-
-  receive(message: ToModal): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      this.post(refusalOf(error), []);
-    }
-  }
 
   close(): void {
     this.study?.delete();
     this.study = null;
   }
 
-  private handle(message: ToModal): void {
+  protected handle(message: ToModal): void {
     if (message.type === 'open') return this.open(message);
     if (!this.study) throw new Error(`${message.type} before open`);
     switch (message.type) {

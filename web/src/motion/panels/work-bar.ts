@@ -19,7 +19,7 @@ export function createWorkBar(
   const sentence = element('p');
   const progress = element('progress', { max: 1, 'aria-label': 'Progress' });
   const stop = button('Stop', () => actions.stopWork());
-  const bar = element('div', { class: 'work-bar' }, sentence, progress, stop);
+  const bar = element('div', { class: 'working work-bar' }, sentence, progress, stop);
   parent.append(bar);
   return watch(store, ['ahead', 'busy', 'setting', 'summary'], (state) => {
     const text = words(state);

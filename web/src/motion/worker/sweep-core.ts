@@ -1,7 +1,7 @@
 // Plans a sweep and runs it to its end, as a function of the module and of where answers go.
 // The only file that calls delete() on its object.
-import { granted, refusalOf } from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { granted } from '../../shared/bindings/answers';
+import { ModuleCore } from '../../shared/workers/serve';
 import type { ExperimentHandle, SweepModule, SweepReport } from '../bindings/sweep-module';
 import type { FromSweep, PlanMessage, ToSweep } from './sweep-protocol';
 
@@ -9,28 +9,15 @@ import type { FromSweep, PlanMessage, ToSweep } from './sweep-protocol';
 const SWEEP_SLICE_MS = 150;
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class SweepCore {
+export class SweepCore extends ModuleCore<SweepModule, ToSweep, FromSweep> {
   private experiment: ExperimentHandle | null = null;
-
-  constructor(
-    private readonly module: SweepModule,
-    private readonly post: Post<FromSweep>,
-  ) {}
-
-  receive(message: ToSweep): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      this.post(refusalOf(error), []);
-    }
-  }
 
   close(): void {
     this.experiment?.delete();
     this.experiment = null;
   }
 
-  private handle(message: ToSweep): void {
+  protected handle(message: ToSweep): void {
     if (message.type === 'plan') return this.plan(message);
     if (!this.experiment) throw new Error(`${message.type} before a plan`);
     if (message.type === 'measure') return this.measure(this.experiment);

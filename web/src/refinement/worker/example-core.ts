@@ -7,9 +7,8 @@ import {
   Refused,
   type RunStatus,
   read,
-  refusalOf,
 } from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { ModuleCore, type Post } from '../../shared/workers/serve';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,
@@ -33,7 +32,7 @@ interface Running {
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class ExampleCore {
+export class ExampleCore extends ModuleCore<RefinementModule, ToExample, FromExample> {
   private study: ExampleStudyHandle | null = null;
   private running: Running | null = null;
 
@@ -101,7 +100,8 @@ export class ExampleCore {
     this.post({ type: 'wentOn', share: now.frame / last }, []);
   }
 
-  private handle(message: Exclude<ToExample, { type: 'open' }>): void {
+  protected async handle(message: ToExample): Promise<void> {
+    if (message.type === 'open') return this.open(message);
     if (!this.study) throw new Error(`${message.type} before open`);
     switch (message.type) {
       case 'begin':
@@ -115,18 +115,11 @@ export class ExampleCore {
   }
 
   constructor(
-    private readonly module: RefinementModule,
-    private readonly post: Post<FromExample>,
+    module: RefinementModule,
+    post: Post<FromExample>,
     private readonly nowMs: () => number,
-  ) {}
-
-  async receive(message: ToExample): Promise<void> {
-    try {
-      if (message.type === 'open') return await this.open(message);
-      this.handle(message);
-    } catch (error) {
-      this.post(refusalOf(error), []);
-    }
+  ) {
+    super(module, post);
   }
 
   close(): void {

@@ -1,9 +1,9 @@
 // Answers each message to the worker of one pane, as a function of the module and of where answers
 // go. The only file that calls delete() on its object.
 
-import { granted, type RunStatus, read, refusalOf } from '../../shared/bindings/answers';
+import { granted, type RunStatus, read } from '../../shared/bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
-import type { Post } from '../../shared/workers/serve';
+import { ModuleCore } from '../../shared/workers/serve';
 import type {
   ComparedAnswer,
   FaultsAnswer,
@@ -30,7 +30,7 @@ function payloadOf<Payload>(text: string): Payload | null {
 const FEWEST_FOLDED_FRAMES = 30;
 
 /** Serves one pane. Call `receive` with each message, `close` at the end. */
-export class GarmentCore {
+export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGarment> {
   private run: GarmentRunHandle | null = null;
   private summary: GarmentSummary | null = null;
   private recording: Recording | null = null;
@@ -170,7 +170,7 @@ export class GarmentCore {
     this.post(answer satisfies FromGarment, [buffer]);
   }
 
-  private async handle(message: ToGarment): Promise<void> {
+  protected async handle(message: ToGarment): Promise<void> {
     if (message.type === 'load') return this.load(message);
     if (!this.run || !this.summary) throw new Error(`${message.type} before load`);
     switch (message.type) {
@@ -180,19 +180,6 @@ export class GarmentCore {
         return this.reset(this.run);
       case 'describe':
         return this.describeFrame(this.run, message);
-    }
-  }
-
-  constructor(
-    private readonly module: RefinementModule,
-    private readonly post: Post<FromGarment>,
-  ) {}
-
-  async receive(message: ToGarment): Promise<void> {
-    try {
-      await this.handle(message);
-    } catch (error) {
-      this.post(refusalOf(error), []);
     }
   }
 

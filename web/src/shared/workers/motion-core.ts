@@ -1,7 +1,7 @@
 // Answers each message to the worker of cloth in motion, as a function of the module and of where
 // answers go. The only file that calls delete() on its objects.
 
-import { granted, Refused, type RunStatus, read, refusalOf } from '../bindings/answers';
+import { granted, Refused, type RunStatus, read } from '../bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import {
@@ -24,7 +24,7 @@ import type {
   ToMotion,
   TornMesh,
 } from './motion-protocol';
-import type { Post } from './serve';
+import { ModuleCore } from './serve';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
 function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
@@ -65,7 +65,7 @@ function frameBytes(simulation: SimulationHandle): number {
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class MotionCore {
+export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
   private isHeld = false;
@@ -182,7 +182,7 @@ export class MotionCore {
     this.post({ type: 'ready' }, []);
   }
 
-  private handle(message: ToMotion): void {
+  protected handle(message: ToMotion): void {
     if (message.type === 'open') return this.open(message.fabricsText);
     if (!this.simulation) throw new Error(`${message.type} before open`);
     switch (message.type) {
@@ -212,19 +212,6 @@ export class MotionCore {
         if (this.isHeld) this.simulation.releaseGrab();
         this.isHeld = false;
         return;
-    }
-  }
-
-  constructor(
-    private readonly module: PleatModule,
-    private readonly post: Post<FromMotion>,
-  ) {}
-
-  receive(message: ToMotion): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      this.post(refusalOf(error), []);
     }
   }
 
