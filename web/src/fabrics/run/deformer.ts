@@ -1,12 +1,13 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
-import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
+import { brokenFailure } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import type { StartShape } from '../../shared/page/view';
-import { Clock } from '../../shared/state/clock';
+import { createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
@@ -98,7 +99,7 @@ export class Deformer {
   private readonly latest = new Latest(); // opening
   private cloth = -1; // the one that is shown
   private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
-  private readonly clock = new Clock();
+  private readonly clock = createClock();
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
 
   constructor(

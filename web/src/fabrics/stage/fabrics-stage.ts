@@ -7,7 +7,7 @@ import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import { stepSeen } from '../../shared/stage/grab';
 import {
-  HeldStage,
+  createHeldStage,
   type HeldStageEvents,
   type HeldStageParts,
 } from '../../shared/stage/held-stage';
@@ -140,7 +140,7 @@ export function createFabricsStage(
         chosen: colour('--alarm'),
       }),
   };
-  const held = new HeldStage(parent, canvas, parts, events);
+  const held = createHeldStage(parent, canvas, parts, events);
   const { stage } = held;
   const { grid, redraw } = stage;
   stage.open();
@@ -176,14 +176,14 @@ export function createFabricsStage(
     choose(pane: number) {
       chosen = pane;
     },
-    invite: (vertex: number) => held.invite(vertex),
+    invite: held.invite,
     setEdges(isShown: boolean) {
       clothes.setEdges(isShown);
       redraw();
     },
     /** Sets the view so that these places are seen, three numbers each [m]. */
     frame(places: readonly number[]) {
-      held.floor = frame(stage, places);
+      held.setFloor(frame(stage, places));
     },
     homeView: stage.control.home,
     /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */
@@ -191,7 +191,7 @@ export function createFabricsStage(
       stepSeen(stage.camera, new Vector3(...place), direction).toArray(),
     positions: (pane: number) => clothes.positions(pane),
     /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-    project: (vertex: number, pane: number) => held.project(vertex, pane),
+    project: held.project,
   };
 }
 

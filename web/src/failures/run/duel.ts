@@ -1,8 +1,15 @@
 // Plays both sides of a case in step.
-import { brokenFailure, failureOf } from '../../shared/bindings/answers';
+
 import type { Collider } from '../../shared/bindings/geometry';
+import { brokenFailure, failureOf } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import { affordable, Clock, DISPLAY, type Display } from '../../shared/state/clock';
+import {
+  affordable,
+  type Clock,
+  createClock,
+  DISPLAY,
+  type Display,
+} from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
@@ -56,7 +63,7 @@ export class Duel {
     private readonly view: DuelView,
     private readonly parts: DuelParts = BROWSER,
   ) {
-    this.clock = new Clock(parts);
+    this.clock = createClock(parts);
     const broken = (reason: string) => this.breakDown(reason);
     const sideRun = () => new SideRun(parts.start({ broken }), fabricsText);
     this.sides = { naive: sideRun(), ours: sideRun() };

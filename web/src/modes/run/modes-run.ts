@@ -1,5 +1,6 @@
 // Runs the view of modes: turns what a visitor does into questions to the worker, and answers into state.
-import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { brokenFailure } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import { Latest } from '../../shared/state/latest';

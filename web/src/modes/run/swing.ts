@@ -1,5 +1,5 @@
 // Time that passes: modes that swing at a visible rate, and the way along the keys and back.
-import { Clock } from '../../shared/state/clock';
+import { createClock } from '../../shared/state/clock';
 import type { Store } from '../../shared/state/store';
 import type { ModeNumbers } from '../state/material';
 import type { ModesState } from '../state/modes-state';
@@ -40,7 +40,7 @@ export class Swing {
   /** Time since the modes were set to swing [s]. */
   seconds = 0;
   private way = 0; // along the keys and back
-  private readonly clock = new Clock();
+  private readonly clock = createClock();
 
   constructor(
     private readonly store: Store<ModesState>,

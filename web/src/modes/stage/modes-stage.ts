@@ -6,7 +6,7 @@ import { lookOf } from '../../shared/fabric/fabric-look';
 import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import {
-  HeldStage,
+  createHeldStage,
   type HeldStageEvents,
   type HeldStageParts,
 } from '../../shared/stage/held-stage';
@@ -141,7 +141,7 @@ export function createModesStage(
     drawn: events.drawn,
     themed: (colour) => makeGhost(ghost, colour('--modes-straight')),
   };
-  const held = new HeldStage(parent, canvas, parts, events);
+  const held = createHeldStage(parent, canvas, parts, events);
   const { stage } = held;
   const { redraw } = stage;
   stage.open();
@@ -173,18 +173,18 @@ export function createModesStage(
       for (const { mesh } of all) mesh.setEdges(isShown);
       redraw();
     },
-    invite: (vertex: number) => held.invite(vertex),
+    invite: held.invite,
     /**
      * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
      * take up.
      */
     frame(keys: readonly number[], swings: readonly number[]) {
-      held.floor = frame(stage, ghost, keys, swings);
+      held.setFloor(frame(stage, ghost, keys, swings));
       redraw();
     },
     homeView: stage.control.home,
     /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-    project: (vertex: number, pane: number) => held.project(vertex, pane),
+    project: held.project,
   };
 }
 

@@ -1,5 +1,5 @@
 // Messages between the page and the worker that finds modes and in-betweens. Lengths in metres.
-import type { Refusal } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type {
   CompletionAnswer,
   Energy,

@@ -3,7 +3,7 @@ import { brokenSentence, type Failure, sentenceOf } from '../../shared/bindings/
 import { frameViews, type Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { EnergyNumbers, ImexShare } from '../../shared/bindings/pleat-module';
-import { affordable, Clock } from '../../shared/state/clock';
+import { affordable, createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
@@ -79,7 +79,7 @@ export class MotionRun {
   readonly obj: ObjSource;
   private readonly worker: RunWorker;
   private readonly reference: ReferenceSource;
-  private readonly clock = new Clock();
+  private readonly clock = createClock();
   private readonly frames = new RunFrames();
   private readonly timer = createStepTimer();
   private readonly latest = new Latest(); // load or reset

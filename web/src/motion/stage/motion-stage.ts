@@ -10,7 +10,7 @@ import type { Print } from '../../shared/stage/fabric-material';
 import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import {
-  HeldStage,
+  createHeldStage,
   type HeldStageEvents,
   type HeldStageParts,
 } from '../../shared/stage/held-stage';
@@ -78,13 +78,13 @@ export function createMotionStage(
       events.drawn({ heatScale: cloth.heatScale(), invitation, camera: stage.control.pose() }),
     themed: (colour) => overlays.themed(colour),
   };
-  const held = new HeldStage(parent, canvas, parts, events);
+  const held = createHeldStage(parent, canvas, parts, events);
   const { stage } = held;
   const { redraw } = stage;
 
   function chooseInviting(): void {
     const towards = stage.camera.getWorldDirection(new Vector3()).negate();
-    held.inviting = invitingVertex(cloth.positions(), cloth.triangles(), towards);
+    held.invite(invitingVertex(cloth.positions(), cloth.triangles(), towards));
   }
 
   stage.open();
@@ -110,8 +110,9 @@ export function createMotionStage(
       if (awaitsFraming) {
         awaitsFraming = false;
         const sphere = framedSphere(cloth.positions(), colliders);
-        held.floor = floorHeight(sphere, colliders);
-        frame(stage, sphere, held.floor);
+        const floor = floorHeight(sphere, colliders);
+        held.setFloor(floor);
+        frame(stage, sphere, floor);
         stage.control.setPose(wantedPose);
         chooseInviting();
       }
@@ -134,7 +135,7 @@ export function createMotionStage(
     /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
     project: (vertex: number) => held.project(vertex, 0),
     /** The vertex that asks to be taken. */
-    inviting: () => held.inviting,
+    inviting: held.inviting,
   };
 }
 

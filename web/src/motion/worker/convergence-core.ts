@@ -1,5 +1,6 @@
 // Compares methods on one step, as a function of the module.
-import { granted, refusalOf } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
+import { refusalOf } from '../../shared/bindings/refusals';
 import type { Post } from '../../shared/workers/serve';
 import type { ConvergenceModule, ConvergenceStudy } from '../bindings/convergence-module';
 import type { FromConvergence, ToConvergence } from './convergence-protocol';

@@ -1,6 +1,6 @@
 // Messages between the page and the worker that compares methods on one step, both ways. It is told
 // once; to cancel, terminate the worker.
-import type { Refusal } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { ConvergenceStudy } from '../bindings/convergence-module';
 
 export interface ToConvergence {

@@ -1,7 +1,8 @@
 // Messages between the page and a worker that measures a scene beside the shown cloth, both ways. It
 // runs to its end; to cancel, terminate the worker.
-import type { Refusal } from '../../shared/bindings/answers';
+
 import type { ResponseStudy } from '../../shared/bindings/pleat-module';
+import type { Refusal } from '../../shared/bindings/refusals';
 
 export interface ToRace {
   type: 'race';

@@ -1,7 +1,8 @@
 // Reads an OBJ file into the section "cloth" of a scene, as a function of the module.
 // The only file that calls delete() on its object.
-import { granted, refusalOf } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
 import type { ObjAnswer, PleatModule } from '../../shared/bindings/pleat-module';
+import { refusalOf } from '../../shared/bindings/refusals';
 import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
 import type { FromObj, ToObj } from './obj-protocol';
 

@@ -1,6 +1,7 @@
 // Messages between the page and the worker that reads a mesh, both ways.
-import type { Refusal } from '../../shared/bindings/answers';
+
 import type { Triple } from '../../shared/bindings/geometry';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { ObjMesh } from '../state/obj-mesh';
 
 /** Reads to its end; to cancel, terminate the worker. */

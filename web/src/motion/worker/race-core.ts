@@ -1,11 +1,12 @@
 // Times imex against implicit with cg on the same scene, as a function of the module.
 // The only file that calls delete() on its objects.
-import { granted, type Refusal, refusalOf } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
 import type {
   PleatModule,
   SceneSummary,
   SimulationHandle,
 } from '../../shared/bindings/pleat-module';
+import { type Refusal, refusalOf } from '../../shared/bindings/refusals';
 import type { RacedMessage, ToRace } from './measuring-protocol';
 
 type Module = Pick<PleatModule, 'Scene' | 'Simulation'>;

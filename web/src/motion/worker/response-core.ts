@@ -1,6 +1,7 @@
 // Studies what a cloth does after its first contact, as a function of the module. Deletes what it makes.
-import { granted, type Refusal, refusalOf } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
 import type { PleatModule, ResponseStudy } from '../../shared/bindings/pleat-module';
+import { type Refusal, refusalOf } from '../../shared/bindings/refusals';
 import type { StudiedMessage, ToStudy } from './measuring-protocol';
 
 export function studyResponse(

@@ -1,5 +1,5 @@
 // Messages between the page and the worker that measures, both ways.
-import type { Refusal } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { SweepReport } from '../bindings/sweep-module';
 
 /** Plans a sweep; another plan takes its place. */

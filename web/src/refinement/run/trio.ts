@@ -1,13 +1,13 @@
 // Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
 import {
-  brokenFailure,
   describe,
   type Failure,
   inputFailure,
   quoted,
   Refused,
 } from '../../shared/bindings/answers';
-import { Clock, DISPLAY, type Display } from '../../shared/state/clock';
+import { brokenFailure } from '../../shared/bindings/refusals';
+import { type Clock, createClock, DISPLAY, type Display } from '../../shared/state/clock';
 import { type IsCurrent, Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { BrokenWorker } from '../../shared/workers/asked';
@@ -75,7 +75,7 @@ export class Trio {
     private readonly parts: TrioParts = BROWSER,
   ) {
     this.panes = new PaneSet(store, view, parts);
-    this.clock = new Clock(parts);
+    this.clock = createClock(parts);
     store.subscribe((state, previous) => this.follow(state, previous));
     void this.load('all');
   }

@@ -1,6 +1,6 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
-import type { Refusal } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import type {
   ComparedAnswer,

@@ -48,21 +48,6 @@ export function granted<Payload>(text: string): Payload {
   throw new Refused(answer);
 }
 
-/** A worker's word that it cannot do what it was asked. */
-export interface Refusal {
-  type: 'refused';
-  failure: Failure;
-}
-
-/** The failure that an error is of. */
-export function failureOf(error: unknown): Failure {
-  return error instanceof Refused ? error.failure : internalFailure(describe(error));
-}
-
-export function refusalOf(error: unknown): Refusal {
-  return { type: 'refused', failure: failureOf(error) };
-}
-
 /** Letters of a technical reason that are quoted at most. */
 const MOST_REASON = 100;
 
@@ -80,11 +65,6 @@ export function sentenceOf({ kind, where, what }: Failure): string {
 /** The sentence when a worker breaks without which `subject` cannot be computed. */
 export function brokenSentence(subject: string, reason: string): string {
   return `${subject} cannot be computed: the WebAssembly part did not start (${quoted(reason)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
-}
-
-/** A worker's end as the failure that it is for what `subject` names. */
-export function brokenFailure(subject: string, reason: string): Failure {
-  return internalFailure(brokenSentence(subject, reason));
 }
 
 export function describe(error: unknown): string {

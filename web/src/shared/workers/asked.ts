@@ -1,5 +1,6 @@
 // The page's end of a worker. A question has exactly one answer; what the worker says unasked is news.
-import { type Failure, type Refusal, Refused } from '../bindings/answers';
+import { type Failure, Refused } from '../bindings/answers';
+import type { Refusal } from '../bindings/refusals';
 import { watchLife } from './life';
 
 /** A worker that will not answer any more. */

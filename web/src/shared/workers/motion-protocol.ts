@@ -1,6 +1,5 @@
 // Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
 
-import type { Refusal } from '../bindings/answers';
 import type { Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import type {
@@ -12,6 +11,7 @@ import type {
   SceneSummary,
   SpringSplit,
 } from '../bindings/pleat-module';
+import type { Refusal } from '../bindings/refusals';
 import type { Done } from './asked';
 
 export interface StepMessage {

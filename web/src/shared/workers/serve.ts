@@ -1,5 +1,6 @@
 // The worker's end of the page: takes one message after the other to the core, and sends back what comes of it.
-import { describe, type Refusal, refusalOf } from '../bindings/answers';
+import { describe } from '../bindings/answers';
+import { type Refusal, refusalOf } from '../bindings/refusals';
 import type { Done, Letter, Message, Reply } from './asked';
 import { holdLife } from './life';
 
