@@ -48,8 +48,6 @@ const KEYS: readonly [string, string][] = [
   ['Home', 'first view'],
 ];
 
-export type FabricsView = View;
-
 export interface FabricsActions {
   /** Shows that fabric in motion. */
   wear(fabric: string): void;
@@ -252,11 +250,7 @@ function createTools(
   });
 }
 
-export function createFabricsView(
-  root: HTMLElement,
-  hash: string,
-  actions: FabricsActions,
-): FabricsView {
+export function createFabricsView(root: HTMLElement, hash: string, actions: FabricsActions): View {
   const first = decodeFabricsLink(hash);
   const store = createStore(initialFabricsState(first.link, first.problems));
   let isShown = false;

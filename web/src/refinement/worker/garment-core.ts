@@ -107,7 +107,6 @@ export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGar
   private reset(owner: GarmentRunHandle): void {
     granted(owner.reset());
     this.nFolded = 0;
-    this.post({ type: 'wasReset' }, []);
   }
 
   /** False when there is no such number. */

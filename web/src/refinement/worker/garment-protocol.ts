@@ -2,6 +2,7 @@
 // Lengths in metres, times in seconds.
 import type { Refusal } from '../../shared/bindings/refusals';
 import type { RunWarning } from '../../shared/bindings/run-warning';
+import type { Done } from '../../shared/workers/asked';
 import type {
   ComparedAnswer,
   FaultsAnswer,
@@ -99,17 +100,13 @@ export interface Advanced {
   ended: string | null;
 }
 
-export interface WasReset {
-  type: 'wasReset';
-}
-
-export type FromGarment = Loaded | Advanced | WasReset | Described | Refusal;
+export type FromGarment = Loaded | Advanced | Described | Refusal;
 
 /** The answer to each question. */
 export interface GarmentAnswers {
   load: Loaded;
   advance: Advanced;
-  reset: WasReset;
+  reset: Done;
   describe: Described;
 }
 

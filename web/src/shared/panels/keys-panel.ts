@@ -13,7 +13,9 @@ export const RUN_KEYS: Keys = [
   ['Home', 'first view'],
 ];
 
-const HAND_KEYS: Keys = [
+/** Keys of a run whose cloth can be taken. */
+export const HAND_KEYS: Keys = [
+  ...RUN_KEYS,
   ['G', 'take the cloth at the middle of the picture; then arrows, Page Up and Page Down move it'],
   ['G or Escape', 'let go'],
 ];
@@ -33,8 +35,4 @@ export function createKeyList(parent: HTMLElement, keys: Keys): () => void {
   const section = element('section', { 'aria-label': 'Keys' }, box);
   parent.append(section);
   return () => section.remove();
-}
-
-export function createKeysPanel(parent: HTMLElement): () => void {
-  return createKeyList(parent, [...RUN_KEYS, ...HAND_KEYS]);
 }
