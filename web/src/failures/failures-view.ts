@@ -8,8 +8,9 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
-import { createKeyList } from '../shared/panels/keys-panel';
-import { createStageCanvas, openStage } from '../shared/panels/stage-canvas';
+import { createKeyList, RUN_KEYS } from '../shared/panels/keys-panel';
+import { openStage } from '../shared/panels/open-stage';
+import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store } from '../shared/state/store';
 import { createCaseList } from './panels/case-list';
@@ -21,15 +22,6 @@ import { Duel, type DuelView } from './run/duel';
 import { createDuelStage, type DuelStage } from './stage/duel-stage';
 import { decodeFailuresLink, encodeFailuresLink } from './state/failures-link';
 import { type FailuresState, initialFailuresState } from './state/failures-state';
-
-const KEYS: readonly [string, string][] = [
-  ['Space', 'play or pause'],
-  ['.', 'one step'],
-  ['R', 'reset'],
-  ['Arrows', 'turn the view'],
-  ['+ and -', 'closer, farther'],
-  ['Home', 'first view'],
-];
 
 /** Panes narrower than this stand one above the other [CSS pixels]. */
 const LEAST_PANE_WIDTH = 240;
@@ -131,16 +123,10 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
   createFailureBanner(messages, store);
   createAnnouncer(messages, store, sentenceFor);
   createSideBadges(badges, store);
-  createDuelTools(toolBox, store, {
-    play: () => duel.play(),
-    pause: () => duel.pause(),
-    step: () => duel.step(),
-    reset: () => void duel.reset(),
-    homeView: () => picture.homeView(),
-  });
+  createDuelTools(toolBox, store, duel, picture.homeView);
   createCaseList(panel, store);
   createCaseStory(panel, store);
-  createKeyList(panel, KEYS);
+  createKeyList(panel, RUN_KEYS);
 
   const link = () => `#${encodeFailuresLink(store.get())}`;
   const writeLink = createLinkWriter(store, link, () => isShown);

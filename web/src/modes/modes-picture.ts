@@ -1,6 +1,6 @@
 // The picture of the view of modes and what lies on it, all of one store.
 import { createInvitation } from '../shared/panels/invitation';
-import { openStage } from '../shared/panels/stage-canvas';
+import { openStage } from '../shared/panels/open-stage';
 import { type Store, watch } from '../shared/state/store';
 import { columnsFor, createEnergyBadges, type EnergyBadges } from './panels/energy-badges';
 import type { Hands } from './run/hands';

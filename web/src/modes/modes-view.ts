@@ -7,6 +7,7 @@ import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
+import { createKeyList } from '../shared/panels/keys-panel';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
@@ -15,7 +16,6 @@ import { frame, Picture } from './modes-picture';
 import { createCompletionCurves } from './panels/completion-curves';
 import { createModeList } from './panels/mode-list';
 import { createModelPanel } from './panels/model-panel';
-import { createModesKeys } from './panels/modes-keys';
 import { createModesNumbers } from './panels/modes-numbers';
 import { modesSentence } from './panels/modes-sentence';
 import { createModesTools } from './panels/modes-tools';
@@ -27,6 +27,17 @@ import { ModesRun } from './run/modes-run';
 import { firstKeys } from './state/key-shapes';
 import { decodeModesLink, encodeModesLink } from './state/modes-link';
 import { initialModesState, type ModesState } from './state/modes-state';
+
+const KEYS: readonly [string, string][] = [
+  ['Space', 'play or pause'],
+  ['M', 'modes or key frames'],
+  ['1 to 9', 'that mode alone'],
+  [', and .', 'back and on along the keys'],
+  ['K', 'keep the mix as a key'],
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
 
 function createPanels(
   panel: HTMLElement,
@@ -54,7 +65,7 @@ function createPanels(
     setAmplitude: (mode, amplitude) => hands.setAmplitude(mode, amplitude),
   });
   createShareChart(panel, store);
-  createModesKeys(panel);
+  createKeyList(panel, KEYS);
 }
 
 function createTimeline(

@@ -1,6 +1,6 @@
 // The panels that are far down: they come once there is a cloth to be told of.
 import { element } from '../shared/panels/element';
-import { createKeysPanel } from '../shared/panels/keys-panel';
+import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
 import { type Store, watch } from '../shared/state/store';
 import { createConvergencePanel } from './panels/convergence/convergence-panel';
 import { createEnergyPanel } from './panels/energy/energy-panel';
@@ -44,7 +44,7 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
   };
 }
 
-/** What contact does is told where there are solids. */
+/** Tells what contact does where there are solids. */
 function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
   const section = element('section', { 'aria-label': 'Contact' });
   parent.append(section);
@@ -69,5 +69,5 @@ export function createLowerPanels(
   createConvergencePanel(panel, store, run);
   const showChart = createSweepTray(tray, store, run);
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
-  createKeysPanel(panel);
+  createKeyList(panel, HAND_KEYS);
 }

@@ -1,6 +1,6 @@
 // Methods compared on one step: which, how it is asked for, and what is read from it.
 import { describe, expect, it } from 'vitest';
-import { storyWords } from '../../src/motion/panels/convergence/convergence-figure';
+import { storyWords } from '../../src/motion/panels/convergence/convergence-chart';
 import {
   pointWords,
   readingOf,

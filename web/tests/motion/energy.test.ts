@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { spread } from '../../src/motion/panels/energy/energy-figure';
+import { spread } from '../../src/motion/panels/energy/energy-chart';
 import { linesOf } from '../../src/motion/panels/energy/energy-lines';
 import { energyWords } from '../../src/motion/panels/energy/energy-words';
 import { withSample } from '../../src/motion/state/energy-samples';

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { affordable, Clock } from '../../src/shared/state/clock';
+import { affordable, createClock } from '../../src/shared/state/clock';
 
 const STEP_S = 1 / 60;
 
@@ -8,7 +8,7 @@ const STILL = { later() {}, nowMs: () => 0 };
 
 /** Steps taken in `seconds` of a display at `rate` frames a second. */
 function stepsAt(rate: number, seconds: number, speed: number): number {
-  const clock = new Clock(STILL);
+  const clock = createClock(STILL);
   let taken = 0;
   for (let frame = 0; frame < rate * seconds; ++frame) {
     clock.advance(speed / rate);
@@ -27,7 +27,7 @@ describe('clock', () => {
   });
 
   it('drops time after a long gap instead of catching up', () => {
-    const clock = new Clock(STILL);
+    const clock = createClock(STILL);
     clock.advance(30);
     let taken = 0;
     for (let call = 0; call < 1000; ++call) taken += clock.take(STEP_S, affordable(0.1));
@@ -41,21 +41,21 @@ describe('clock', () => {
   });
 
   it('asks for one step at a time while the cost is unknown or high', () => {
-    const clock = new Clock(STILL);
+    const clock = createClock(STILL);
     clock.advance(0.09);
     expect(clock.take(STEP_S, affordable(null))).toBe(1);
     expect(clock.take(STEP_S, affordable(500))).toBe(1);
   });
 
   it('asks for no step before one is due', () => {
-    const clock = new Clock(STILL);
+    const clock = createClock(STILL);
     clock.advance(0.9 * STEP_S);
     expect(clock.take(STEP_S, affordable(1))).toBe(0);
   });
 
   it('goes on with each picture until told to stop, in one loop alone', () => {
     const waiting: (() => void)[] = [];
-    const clock = new Clock({ later: (callback) => waiting.push(callback), nowMs: () => 0 });
+    const clock = createClock({ later: (callback) => waiting.push(callback), nowMs: () => 0 });
     const heard: string[] = [];
     const show = () => {
       for (const callback of waiting.splice(0)) callback();
@@ -69,7 +69,7 @@ describe('clock', () => {
 
   it('says that numbers are due once in a while, or always', () => {
     let nowMs = 1000;
-    const clock = new Clock({ later() {}, nowMs: () => nowMs });
+    const clock = createClock({ later() {}, nowMs: () => nowMs });
     expect(clock.areNumbersDue(200, false)).toBe(true);
     nowMs += 100;
     expect(clock.areNumbersDue(200, false)).toBe(false);

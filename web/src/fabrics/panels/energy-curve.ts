@@ -34,7 +34,7 @@ const WIDE_RATIO = 30;
 /** More steps than this have no number of their own on the axis. */
 const MOST_LABELS = 8;
 
-/** What each step left: the weighted terms add up to the energy. */
+/** Energy that each step left: the weighted terms add up to the energy. */
 export interface WeightedStep {
   energy: number;
   terms: Record<Term, number>;

@@ -1,12 +1,13 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
-import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
+import { brokenFailure } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import type { StartShape } from '../../shared/page/view';
-import { Clock } from '../../shared/state/clock';
+import { createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
@@ -53,7 +54,7 @@ export interface DeformerView {
   showFrame(pane: number, buffer: ArrayBuffer): void;
 }
 
-/** What is on its way to be shown. */
+/** A cloth on its way to be shown. */
 interface Opening {
   experiment: Experiment;
   link: FabricsLink | null;
@@ -93,12 +94,12 @@ function ownState({ file, unit }: OwnMesh) {
 export class Deformer {
   private client: DeformClient;
   private readonly held: HeldCloth;
-  private readonly hand: Hand;
+  readonly hand: Hand;
   private readonly granted = new LastGranted<Shown | null>(null);
   private readonly latest = new Latest(); // opening
   private cloth = -1; // the one that is shown
   private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
-  private readonly clock = new Clock();
+  private readonly clock = createClock();
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
 
   constructor(
@@ -150,24 +151,6 @@ export class Deformer {
     this.store.set({ reading: null });
     const state = this.store.get();
     this.openExperiment(state.experiment, decodeFabricsLink(encodeFabricsLink(state)).link);
-  }
-
-  grab(vertex: number, pane: number): void {
-    this.hand.grab(vertex, pane);
-  }
-
-  /** Where the taken vertex is wanted [m]. */
-  moveGrab(target: Triple): void {
-    this.hand.move(target);
-  }
-
-  releaseGrab(): void {
-    this.hand.release();
-  }
-
-  /** Puts a pin around a vertex, or takes out the hold that has it. */
-  togglePin(vertex: number, pane: number): void {
-    this.hand.togglePin(vertex, pane);
   }
 
   release(name: string): void {

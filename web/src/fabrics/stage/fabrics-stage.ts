@@ -7,7 +7,7 @@ import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import { stepSeen } from '../../shared/stage/grab';
 import {
-  HeldStage,
+  createHeldStage,
   type HeldStageEvents,
   type HeldStageParts,
 } from '../../shared/stage/held-stage';
@@ -16,28 +16,6 @@ import { createHoldMarks, type HoldMark } from './hold-marks';
 
 export interface FabricsStageEvents extends HeldStageEvents {
   drawn: HeldStageParts['drawn'];
-}
-
-export interface FabricsStage {
-  /** Another cloth in all panes, not yet seen. */
-  showMesh(triangles: Uint32Array, nVertices: number): void;
-  /** Fabrics by id, a pane for each; `nColumns` of them side by side. */
-  setPanes(fabricIds: readonly number[], nColumns: number): void;
-  showFrame(pane: number, buffer: ArrayBuffer): void;
-  setMarks(marks: readonly HoldMark[]): void;
-  setBodies(bodies: Collider[]): void;
-  /** The pane that keys take the cloth in. */
-  choose(pane: number): void;
-  invite(vertex: number): void;
-  setEdges(isShown: boolean): void;
-  /** Sets the view so that these places are seen, three numbers each [m]. */
-  frame(places: readonly number[]): void;
-  homeView(): void;
-  /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */
-  stepFrom(place: Triple, direction: Triple): Triple;
-  positions(pane: number): Float32Array;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
 }
 
 /** Direction of the first view [rad]: from above enough to see a level sheet's shape. */
@@ -137,7 +115,7 @@ export function createFabricsStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: FabricsStageEvents,
-): FabricsStage {
+) {
   const marks = createHoldMarks();
   const clothes = new PaneClothes(() => held.stage.scene);
   let chosen = 0;
@@ -162,51 +140,59 @@ export function createFabricsStage(
         chosen: colour('--alarm'),
       }),
   };
-  const held = new HeldStage(parent, canvas, parts, events);
+  const held = createHeldStage(parent, canvas, parts, events);
   const { stage } = held;
   const { grid, redraw } = stage;
   stage.open();
 
   return {
-    showMesh(triangles, nVertices) {
+    /** Another cloth in all panes, not yet seen. */
+    showMesh(triangles: Uint32Array, nVertices: number) {
       clothes.setTopology(triangles, nVertices);
       held.drop();
       redraw();
     },
-    setPanes(fabricIds, columns) {
+    /** Fabrics by id, a pane for each; `nColumns` of them side by side. */
+    setPanes(fabricIds: readonly number[], columns: number) {
       clothes.setFabrics(fabricIds);
       grid.set(clothes.count, columns);
       stage.surroundings.setShadows(clothes.count <= MOST_SHADOWED_PANES);
       stage.refit();
       redraw();
     },
-    showFrame(pane, buffer) {
+    showFrame(pane: number, buffer: ArrayBuffer) {
       clothes.setFrame(pane, buffer);
       redraw();
     },
-    setMarks(newMarks) {
+    setMarks(newMarks: readonly HoldMark[]) {
       marks.set(newMarks);
       redraw();
     },
-    setBodies(bodies) {
+    setBodies(bodies: Collider[]) {
       stage.surroundings.setColliders(bodies);
       redraw();
     },
-    choose(pane) {
+    /** The pane that keys take the cloth in. */
+    choose(pane: number) {
       chosen = pane;
     },
-    invite: (vertex) => held.invite(vertex),
-    setEdges(isShown) {
+    invite: held.invite,
+    setEdges(isShown: boolean) {
       clothes.setEdges(isShown);
       redraw();
     },
-    frame(places) {
-      held.floor = frame(stage, places);
+    /** Sets the view so that these places are seen, three numbers each [m]. */
+    frame(places: readonly number[]) {
+      held.setFloor(frame(stage, places));
     },
     homeView: stage.control.home,
-    stepFrom: (place, direction) =>
+    /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */
+    stepFrom: (place: Triple, direction: Triple) =>
       stepSeen(stage.camera, new Vector3(...place), direction).toArray(),
-    positions: (pane) => clothes.positions(pane),
-    project: (vertex, pane) => held.project(vertex, pane),
+    positions: (pane: number) => clothes.positions(pane),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: held.project,
   };
 }
+
+export type FabricsStage = ReturnType<typeof createFabricsStage>;

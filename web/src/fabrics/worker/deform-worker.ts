@@ -4,7 +4,7 @@ import type { DeformModule } from '../bindings/deform-module';
 import { DeformCore } from './deform-core';
 import type { FromDeform, ToDeform } from './deform-protocol';
 
-// Between two slices of work the messages that came meanwhile get their turn.
+// Messages that came meanwhile get their turn between two slices of work.
 const turns = new MessageChannel();
 
 serve<ToDeform, FromDeform>(self, async (post) => {

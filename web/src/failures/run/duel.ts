@@ -1,23 +1,25 @@
 // Plays both sides of a case in step.
-import {
-  brokenFailure,
-  describe,
-  type Failure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+
 import type { Collider } from '../../shared/bindings/geometry';
+import { brokenFailure, failureOf } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import { affordable, Clock, DISPLAY, type Display } from '../../shared/state/clock';
+import {
+  affordable,
+  type Clock,
+  createClock,
+  DISPLAY,
+  type Display,
+} from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import type { FrameMessage } from '../../shared/workers/motion-protocol';
 import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
 import { type FailuresState, freshSides, type SideState } from '../state/failures-state';
 import { type StartSide, startSideWorker } from './failures-client';
 import { SideRun, type SideStart } from './side-run';
 
-/** What is drawn of a duel. */
+/** The picture of a duel. */
 export interface DuelView {
   showMesh(pane: number, mesh: SideStart): void;
   /** The frame's buffer belongs to the picture until the next; returns the one before. */
@@ -61,7 +63,7 @@ export class Duel {
     private readonly view: DuelView,
     private readonly parts: DuelParts = BROWSER,
   ) {
-    this.clock = new Clock(parts);
+    this.clock = createClock(parts);
     const broken = (reason: string) => this.breakDown(reason);
     const sideRun = () => new SideRun(parts.start({ broken }), fabricsText);
     this.sides = { naive: sideRun(), ours: sideRun() };
@@ -191,9 +193,7 @@ export class Duel {
 
   private giveUp(error: unknown): void {
     if (error instanceof BrokenWorker) return; // its listener hears
-    const problem: Failure =
-      error instanceof Refused ? error.failure : internalFailure(describe(error));
-    this.store.set({ playing: false, problem });
+    this.store.set({ playing: false, problem: failureOf(error) });
   }
 
   private breakDown(reason: string): void {

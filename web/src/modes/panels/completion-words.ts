@@ -1,4 +1,4 @@
-// What the in-betweens show, in words.
+// Words on what the in-betweens show.
 import { percent } from '../../shared/panels/quantity';
 import type { FilledFrame } from '../bindings/modal-module';
 import type { Completion, ModesState } from '../state/modes-state';
@@ -12,7 +12,7 @@ function ratio(frames: readonly FilledFrame[], frame: FilledFrame, volume_m3: nu
   return volume_m3 / (from + frame.share_of_next * (to - from));
 }
 
-/** Those ratios farthest from 1: of the in-betweens and of the straight way. */
+/** Ratios farthest from 1: of the in-betweens and of the straight way. */
 export function worstVolumes({ frames }: Pick<Completion, 'frames'>): {
   ours: number;
   straight: number;
@@ -36,7 +36,7 @@ function changeWords(change: number): string {
 const SEEN = 0.01;
 const MUCH_WORSE = 2;
 
-/** What to notice on the timeline. */
+/** Words on what to notice on the timeline. */
 export function storyWords({ completion, keys, phase, working }: ModesState): string {
   if (phase === 'loading' || working) return 'The in-betweens are on their way.';
   if (keys.length < 2) return 'Two keys make a motion: mix some modes and keep them as a key.';

@@ -1,5 +1,6 @@
 // Runs the view of modes: turns what a visitor does into questions to the worker, and answers into state.
-import { brokenFailure, describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { brokenFailure } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import { Latest } from '../../shared/state/latest';
@@ -42,7 +43,7 @@ interface OwnMesh {
   unit: ObjUnit;
 }
 
-/** What can be opened. */
+/** A model that can be opened. */
 interface Wanted {
   link: ModesLink;
   /** The visitor's mesh, if it is of that. */
@@ -100,8 +101,8 @@ export class ModesRun {
   }
 
   /**
-   * The same body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where that cannot
-   * be, it is as it was.
+   * Opens the present body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where
+   * that cannot be, it is as it was.
    */
   async reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): Promise<void> {
     const { link, own } = this.now();
@@ -167,13 +168,13 @@ export class ModesRun {
     });
   }
 
-  /** What stays from one model to the next. */
+  /** A link with the settings that stay from one model to the next. */
   private kept(link: ModesLink): ModesLink {
     const { count, ghost, edges, showing } = this.store.get();
     return { ...link, count, ghost, edges, showing };
   }
 
-  /** What is shown, with the keys that can be made again. */
+  /** The shown model, with the keys that can be made again. */
   private now(): Wanted {
     const state = this.store.get();
     const { model, cells, volume, energy, compares, count, amplitudes } = state;

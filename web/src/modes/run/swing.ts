@@ -1,5 +1,5 @@
 // Time that passes: modes that swing at a visible rate, and the way along the keys and back.
-import { Clock } from '../../shared/state/clock';
+import { createClock } from '../../shared/state/clock';
 import type { Store } from '../../shared/state/store';
 import type { ModeNumbers } from '../state/material';
 import type { ModesState } from '../state/modes-state';
@@ -8,7 +8,7 @@ import type { ModesState } from '../state/modes-state';
 const SLOWEST_HZ = 0.5;
 /** Swings a second that can still be seen. */
 const FASTEST_HZ = 4;
-/** From one key to the next [s]. */
+/** Time from one key to the next [s]. */
 const KEY_S = 1.5;
 /** A tab that was hidden goes on from where it was [s]. */
 const LONGEST_STEP_S = 0.1;
@@ -37,10 +37,10 @@ export function thereAndBack(way: number, length: number): number {
 }
 
 export class Swing {
-  /** Of the modes, since they were set to swing [s]. */
+  /** Time since the modes were set to swing [s]. */
   seconds = 0;
   private way = 0; // along the keys and back
-  private readonly clock = new Clock();
+  private readonly clock = createClock();
 
   constructor(
     private readonly store: Store<ModesState>,

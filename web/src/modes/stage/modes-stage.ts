@@ -6,7 +6,7 @@ import { lookOf } from '../../shared/fabric/fabric-look';
 import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import {
-  HeldStage,
+  createHeldStage,
   type HeldStageEvents,
   type HeldStageParts,
 } from '../../shared/stage/held-stage';
@@ -14,25 +14,6 @@ import type { PaneStage } from '../../shared/stage/pane-stage';
 
 export interface ModesStageEvents extends HeldStageEvents {
   drawn: HeldStageParts['drawn'];
-}
-
-export interface ModesStage {
-  /** Another body in all panes, with a fabric's look. */
-  showMesh(triangles: Uint32Array, nVertices: number, lookId: number): void;
-  setPanes(count: number, nColumns: number): void;
-  showShape(pane: number, positions: Float32Array): void;
-  /** Null hides it. */
-  showGhost(positions: Float32Array | null): void;
-  setEdges(isShown: boolean): void;
-  invite(vertex: number): void;
-  /**
-   * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
-   * take up.
-   */
-  frame(keys: readonly number[], swings: readonly number[]): void;
-  homeView(): void;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
 }
 
 /** Direction of the first view [rad]. */
@@ -67,7 +48,7 @@ class Shape {
   }
 }
 
-/** What is seen through: it throws no shadow, and hides nothing behind it. */
+/** Makes a shape that is seen through: it throws no shadow, and hides nothing behind it. */
 function makeGhost({ mesh }: Shape, colour: string): void {
   mesh.setLook({
     front: colour,
@@ -147,7 +128,7 @@ export function createModesStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: ModesStageEvents,
-): ModesStage {
+) {
   const shapes = new Shapes();
   const { all, ghost } = shapes;
   const parts: HeldStageParts = {
@@ -160,42 +141,51 @@ export function createModesStage(
     drawn: events.drawn,
     themed: (colour) => makeGhost(ghost, colour('--modes-straight')),
   };
-  const held = new HeldStage(parent, canvas, parts, events);
+  const held = createHeldStage(parent, canvas, parts, events);
   const { stage } = held;
   const { redraw } = stage;
   stage.open();
 
   return {
-    showMesh(triangles, nVertices, lookId) {
+    /** Another body in all panes, with a fabric's look. */
+    showMesh(triangles: Uint32Array, nVertices: number, lookId: number) {
       shapes.setTopology(triangles, nVertices);
       for (const { mesh } of all) mesh.setLook(lookOf(lookId));
       held.drop();
       redraw();
     },
-    setPanes(count, nColumns) {
+    setPanes(count: number, nColumns: number) {
       stage.grid.set(count, nColumns);
       stage.refit();
       redraw();
     },
-    showShape(pane, positions) {
+    showShape(pane: number, positions: Float32Array) {
       all[pane]?.set(positions);
       redraw();
     },
-    showGhost(positions) {
+    /** Null hides it. */
+    showGhost(positions: Float32Array | null) {
       shapes.hasGhost = positions !== null;
       if (positions) ghost.set(positions);
       redraw();
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       for (const { mesh } of all) mesh.setEdges(isShown);
       redraw();
     },
-    invite: (vertex) => held.invite(vertex),
-    frame(keys, swings) {
-      held.floor = frame(stage, ghost, keys, swings);
+    invite: held.invite,
+    /**
+     * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
+     * take up.
+     */
+    frame(keys: readonly number[], swings: readonly number[]) {
+      held.setFloor(frame(stage, ghost, keys, swings));
       redraw();
     },
     homeView: stage.control.home,
-    project: (vertex, pane) => held.project(vertex, pane),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: held.project,
   };
 }
+
+export type ModesStage = ReturnType<typeof createModesStage>;

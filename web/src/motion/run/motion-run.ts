@@ -3,7 +3,7 @@ import { brokenSentence, type Failure, sentenceOf } from '../../shared/bindings/
 import { frameViews, type Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { EnergyNumbers, ImexShare } from '../../shared/bindings/pleat-module';
-import { affordable, Clock } from '../../shared/state/clock';
+import { affordable, createClock } from '../../shared/state/clock';
 import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
@@ -59,7 +59,7 @@ const PATIENCE_MS = 1000;
 /** And a change that takes the motion over, which it loses then [ms]. */
 const MOVING_PATIENCE_MS = 5000;
 
-/** What a new mesh belongs to: another scene, the same one, or the same cloth, torn. */
+/** Kind of a new mesh: of another scene, of the same one, or of the same cloth, torn. */
 export type MeshChange = 'scene' | 'mesh' | 'tear';
 
 export interface MotionRunView {
@@ -71,7 +71,7 @@ export interface MotionRunView {
 
 type Reload = Extract<ToMotion, { type: 'load' | 'reset' }>;
 
-/** What the worker is asked for: a new mesh, one that keeps the motion, steps, or nothing. */
+/** The question that the worker is asked: a new mesh, one that keeps the motion, steps, or nothing. */
 type Doing = 'load' | 'carryOver' | 'step' | 'nothing';
 
 /** Loads the state's setting into its worker, and follows the store from then on. */
@@ -79,7 +79,7 @@ export class MotionRun {
   readonly obj: ObjSource;
   private readonly worker: RunWorker;
   private readonly reference: ReferenceSource;
-  private readonly clock = new Clock();
+  private readonly clock = createClock();
   private readonly frames = new RunFrames();
   private readonly timer = createStepTimer();
   private readonly latest = new Latest(); // load or reset
@@ -260,7 +260,7 @@ export class MotionRun {
     this.end(`${ended} That happened twice. Choose another setting, or reset to try once more.`);
   }
 
-  /** What ran last without a wait in this scene, or what the scene is made for. */
+  /** The content that ran last without a wait in this scene, or the one that the scene is made for. */
   private lastGood(): Content {
     const { setting, mesh } = this.store.get();
     const own = { setting: presetSetting(setting.preset), mesh };
@@ -294,7 +294,7 @@ export class MotionRun {
     if (busy?.type !== shown?.type || busy?.seconds !== shown?.seconds) this.store.set({ busy });
   }
 
-  /** What is wanted does not wait for a step that has taken so long by now. */
+  /** Loads what is wanted without waiting for a step that has taken so long by now. */
   private loadAtOnce(forMs: number): void {
     this.noteLeastCost(forMs);
     this.replaceWorker();

@@ -1,4 +1,4 @@
-// What helps a setting that was refused, or whose run shows nonsense.
+// Help for a setting that was refused, or whose run shows nonsense.
 import type { Failure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import { warningSentence } from '../../shared/panels/warning-words';
@@ -18,7 +18,7 @@ interface Help {
   remedy: Remedy;
 }
 
-/** For a number of a knit that its reader refuses: that of the preset. */
+/** Help for a number of a knit that its reader refuses: that of the preset. */
 function remedyForKnit({ where, what }: Failure, setting: Setting): Help | null {
   const { knit } = setting;
   const { knit: own } = presetSetting(setting.preset);

@@ -10,7 +10,7 @@ import type { Print } from '../../shared/stage/fabric-material';
 import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
 import {
-  HeldStage,
+  createHeldStage,
   type HeldStageEvents,
   type HeldStageParts,
 } from '../../shared/stage/held-stage';
@@ -26,53 +26,26 @@ export interface DrawnPicture {
   heatScale: HeatScale;
   /** Where the invitation belongs, in pixels. */
   invitation: { x: number; y: number };
-  /** From where it is seen; null from where the scene is seen at first. */
+  /** Pose from which it is seen; null for that of the scene's first view. */
   camera: Pose | null;
 }
 
-export interface MotionStage {
-  /** A new mesh; the view is set anew when it belongs to a new scene, and a hand keeps hold of what tears. */
-  showMesh(triangles: Uint32Array, nVertices: number, change: 'scene' | 'mesh' | 'tear'): void;
-  showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
-  setColliders(colliders: Collider[]): void;
-  setFabric(id: number): void;
-  /** What is painted on the cloth, once its mesh has as many vertices. */
-  setPrint(print: Print | null): void;
-  setHeat(map: HeatMap, range: 'auto' | number): void;
-  setEdges(isShown: boolean): void;
-  /** Draws it too, from now on. */
-  addOverlay(overlay: Overlay): void;
-  /** What an overlay draws is another. */
-  redraw(): void;
-  homeView(): void;
-  /** From where the scene is seen, also once it is another one. */
-  setCamera(pose: Pose | null): void;
-  /** Present positions, three numbers a vertex [m]. */
-  positions(): Float32Array;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number): { x: number; y: number };
-  /** The vertex that asks to be taken. */
-  inviting(): number;
-}
-
-/** What is set of how the cloth is drawn. */
-function drawingOf(
-  cloth: ClothMesh,
-  redraw: () => void,
-): Pick<MotionStage, 'setFabric' | 'setPrint' | 'setHeat' | 'setEdges'> {
+/** Settings of how the cloth is drawn. */
+function drawingOf(cloth: ClothMesh, redraw: () => void) {
   return {
-    setFabric(id) {
+    setFabric(id: number) {
       cloth.setLook(lookOf(id));
       redraw();
     },
-    setPrint(print) {
+    /** Paints the cloth, once its mesh has as many vertices. */
+    setPrint(print: Print | null) {
       cloth.setPrint(print);
       redraw();
     },
-    setHeat(map, range) {
+    setHeat(map: HeatMap, range: 'auto' | number) {
       if (cloth.setHeat(map, range)) redraw();
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       cloth.setEdges(isShown);
       redraw();
     },
@@ -84,7 +57,7 @@ export function createMotionStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: MotionStageEvents,
-): MotionStage {
+) {
   const cloth = createClothMesh();
   const overlays = createOverlays();
   let awaitsFraming = false;
@@ -105,19 +78,20 @@ export function createMotionStage(
       events.drawn({ heatScale: cloth.heatScale(), invitation, camera: stage.control.pose() }),
     themed: (colour) => overlays.themed(colour),
   };
-  const held = new HeldStage(parent, canvas, parts, events);
+  const held = createHeldStage(parent, canvas, parts, events);
   const { stage } = held;
   const { redraw } = stage;
 
   function chooseInviting(): void {
     const towards = stage.camera.getWorldDirection(new Vector3()).negate();
-    held.inviting = invitingVertex(cloth.positions(), cloth.triangles(), towards);
+    held.invite(invitingVertex(cloth.positions(), cloth.triangles(), towards));
   }
 
   stage.open();
 
   return {
-    showMesh(triangles, nVertices, change) {
+    /** A new mesh; the view is set anew when it belongs to a new scene, and a hand keeps hold of what tears. */
+    showMesh(triangles: Uint32Array, nVertices: number, change: 'scene' | 'mesh' | 'tear') {
       cloth.setTopology(triangles, nVertices);
       overlays.clear();
       if (change === 'tear') return;
@@ -125,35 +99,44 @@ export function createMotionStage(
       isFreshMesh = true;
       held.drop();
     },
-    showFrame(buffer, scalar) {
+    showFrame(buffer: ArrayBuffer, scalar: Scalar) {
       cloth.setFrame(buffer, scalar);
       if (isFreshMesh) chooseInviting();
       isFreshMesh = false;
       redraw();
     },
-    setColliders(colliders) {
+    setColliders(colliders: Collider[]) {
       stage.surroundings.setColliders(colliders);
       if (awaitsFraming) {
         awaitsFraming = false;
         const sphere = framedSphere(cloth.positions(), colliders);
-        held.floor = floorHeight(sphere, colliders);
-        frame(stage, sphere, held.floor);
+        const floor = floorHeight(sphere, colliders);
+        held.setFloor(floor);
+        frame(stage, sphere, floor);
         stage.control.setPose(wantedPose);
         chooseInviting();
       }
       redraw();
     },
     ...drawingOf(cloth, redraw),
-    addOverlay: (overlay) => overlays.add(overlay, stage.scene),
+    /** Draws it too, from now on. */
+    addOverlay: (overlay: Overlay) => overlays.add(overlay, stage.scene),
+    /** Draws anew, as an overlay has changed. */
     redraw,
     homeView: stage.control.home,
-    setCamera(pose) {
+    /** Sets from where the scene is seen, also once it is another one. */
+    setCamera(pose: Pose | null) {
       wantedPose = pose;
       if (JSON.stringify(pose) !== JSON.stringify(stage.control.pose()))
         stage.control.setPose(pose);
     },
+    /** Present positions, three numbers a vertex [m]. */
     positions: () => cloth.positions(),
-    project: (vertex) => held.project(vertex, 0),
-    inviting: () => held.inviting,
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: (vertex: number) => held.project(vertex, 0),
+    /** The vertex that asks to be taken. */
+    inviting: held.inviting,
   };
 }
+
+export type MotionStage = ReturnType<typeof createMotionStage>;

@@ -52,7 +52,7 @@ export interface MotionLink {
   compare: boolean;
   /** Steps that are run through before the cloth is shown. */
   startSteps: number;
-  /** From where the cloth is seen; null from where it is at first. */
+  /** Pose from which the cloth is seen; null for the first one. */
   camera: Pose | null;
 }
 

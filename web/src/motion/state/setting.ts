@@ -60,11 +60,11 @@ export interface Setting {
   iterations: number;
   /** imex: share of the springs that shall be explicit at least, for which it takes more substeps. */
   explicitShare: number;
-  /** Of the method, where they are not what its stepper starts from. */
+  /** Details of the method, where they are not what its stepper starts from. */
   details?: Details;
   /** The vertices that hold the mesh; of no meaning to other presets. */
   hold: Hold;
-  /** Of a preset whose cloth is knitted. */
+  /** Numbers of the knit of a preset whose cloth is knitted. */
   knit?: Knit;
   /** The cloth bounces off solids, for comparison. */
   bounces?: boolean;
@@ -199,7 +199,7 @@ export function detailsOf(
   return own.length > 0 ? Object.fromEntries(own) : undefined;
 }
 
-/** What a detail is set to. */
+/** The value of a detail. */
 export function detailOf(
   { stepper, details }: Pick<Setting, 'stepper' | 'details'>,
   key: string,
@@ -238,7 +238,7 @@ export function presetSetting(preset: PresetId): Setting {
   };
 }
 
-/** The same setting under another stepper, with that stepper's usual counts and details. */
+/** A setting under another stepper, with that stepper's usual counts and details. */
 export function withStepper(setting: Setting, stepper: string): Setting {
   const { method: own } = PRESETS[setting.preset].scene;
   const method = own.stepper === stepper ? own : {};
@@ -246,7 +246,7 @@ export function withStepper(setting: Setting, stepper: string): Setting {
   return { ...setting, stepper, ...countsOf(stepper, method), details };
 }
 
-/** The same setting with another model, under the first stepper that can run it if its own cannot. */
+/** A setting with another model, under the first stepper that can run it if its own cannot. */
 export function withModel(setting: Setting, model: Model): Setting {
   const stepper = [setting.stepper, ...STEPPER_NAMES].find((name) => canRun(name, model));
   const isOther = stepper !== undefined && stepper !== setting.stepper;

@@ -71,7 +71,7 @@ export class PaneSet {
     return this.run('fine');
   }
 
-  /** Those that are in step, fine last; the other rival rests as it was. */
+  /** The panes that are in step, fine last; the other rival rests as it was. */
   private get panes(): PaneRun[] {
     return comparedPanes(this.store.get()).map((id) => this.run(id));
   }

@@ -1,15 +1,16 @@
 // Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
 import {
-  brokenFailure,
   describe,
   type Failure,
   inputFailure,
   quoted,
+  Refused,
 } from '../../shared/bindings/answers';
-import { Clock, DISPLAY, type Display } from '../../shared/state/clock';
+import { brokenFailure } from '../../shared/bindings/refusals';
+import { type Clock, createClock, DISPLAY, type Display } from '../../shared/state/clock';
 import { type IsCurrent, Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import { FRAME_S } from '../state/garment-frames';
 import type { MotionId } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
@@ -48,7 +49,7 @@ function failureOf(error: unknown): Failure {
   return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
-/** What is computed for want of the frames that come with the page. */
+/** Says what is computed for want of the frames that come with the page. */
 function missedFailure({ panes, reason }: { panes: readonly PaneId[]; reason: string }): Failure {
   const names = new Intl.ListFormat('en-GB').format(
     panes.map((id) => PANE_TITLES[id].toLowerCase()),
@@ -74,7 +75,7 @@ export class Trio {
     private readonly parts: TrioParts = BROWSER,
   ) {
     this.panes = new PaneSet(store, view, parts);
-    this.clock = new Clock(parts);
+    this.clock = createClock(parts);
     store.subscribe((state, previous) => this.follow(state, previous));
     void this.load('all');
   }

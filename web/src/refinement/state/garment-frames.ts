@@ -21,7 +21,7 @@ export const KEPT_OF = 3;
 /** Patterns of a plan. */
 export const PATTERNS = 3;
 
-/** What the plans that come with the page may lose of their example's shapes, root mean square [mm]. */
+/** Loss that the plans that come with the page may lose of their example's shapes, root mean square [mm]. */
 export const USUAL_DEMANDS_MM = { skirt: 1.4, trousers: 1.5, slim_trousers: 1.3 };
 
 /**

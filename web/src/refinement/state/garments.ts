@@ -38,7 +38,7 @@ export const MOTIONS = [
 ] as const;
 export type MotionId = (typeof MOTIONS)[number]['value'];
 
-/** What takes the steps of all panes: the scenes' own method, or one that shows a fine skirt while it walks. */
+/** Method of the steps of all panes: the scenes' own method, or one that shows a fine skirt while it walks. */
 export const METHODS = [
   { value: 'implicit', title: 'implicit: the scenes’ own' },
   { value: 'multigrid', title: 'multigrid: computed as it walks' },

@@ -2,14 +2,13 @@
 // and from what it ran itself. The only file that calls delete() on its objects.
 
 import {
-  describe,
-  type Failure,
+  granted,
   inputFailure,
-  internalFailure,
+  Refused,
   type RunStatus,
   read,
 } from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { ModuleCore, type Post } from '../../shared/workers/serve';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,
@@ -33,39 +32,30 @@ interface Running {
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class ExampleCore {
+export class ExampleCore extends ModuleCore<RefinementModule, ToExample, FromExample> {
   private study: ExampleStudyHandle | null = null;
   private running: Running | null = null;
 
-  private refuse(failure: Failure): void {
-    this.post({ type: 'refused', failure }, []);
-  }
-
   private async open(message: Message<'open'>): Promise<void> {
     this.study ??= new this.module.ExampleStudy(message.fabricsText);
-    const answer = read<{ n_base_vertices: number; n_vertices: number }>(
+    const answer = granted<{ n_base_vertices: number; n_vertices: number }>(
       this.study.open(message.sceneText, message.files),
     );
-    if (!answer.ok) return this.refuse(answer);
     const parents = this.study.parents().slice();
     const features = await readRecording(new Uint8Array(message.features), parents);
     const frames = await readRecording(new Uint8Array(message.frames), parents);
     if (!features?.frames[0] || !frames)
-      return this.refuse(internalFailure('the example is a record of another cloth'));
+      throw new Error('the example is a record of another cloth');
     for (const frame of frames.frames) this.study.addFrame(frame);
-    const sorted = read<object>(
-      this.study.sort(message.name, features.frames[0], message.nPatterns),
-    );
-    if (!sorted.ok) return this.refuse(sorted);
+    granted(this.study.sort(message.name, features.frames[0], message.nPatterns));
     const { n_vertices: nFineVertices, n_base_vertices: nBaseVertices } = answer;
     this.post({ type: 'opened', nFineVertices, nBaseVertices }, []);
   }
 
   private plan(owner: ExampleStudyHandle, message: Message<'plan'>): void {
     const beginMs = this.nowMs();
-    const answer = read<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
-    if (!answer.ok) return this.refuse(answer);
-    this.post({ type: 'planned', plan: answer.plan, ms: this.nowMs() - beginMs }, []);
+    const { plan } = granted<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
+    this.post({ type: 'planned', plan, ms: this.nowMs() - beginMs }, []);
   }
 
   private endRun(): void {
@@ -80,10 +70,8 @@ export class ExampleCore {
     const run = new this.module.GarmentRun(fabricsText);
     const seen = new this.module.ExampleStudy(fabricsText);
     this.running = { wish, run, seen, stepsPerFrame: 1, frame: 0 };
-    const loaded = read<GarmentSummary>(run.load(sceneText, files));
-    if (!loaded.ok) return this.refuse(loaded);
-    const opened = read<object>(seen.open(sceneText, files));
-    if (!opened.ok) return this.refuse(opened);
+    const loaded = granted<GarmentSummary>(run.load(sceneText, files));
+    granted(seen.open(sceneText, files));
     this.running.stepsPerFrame = Math.max(1, Math.round(wish.frameS / loaded.step_s));
     this.post({ type: 'wentOn', share: 0 }, []);
   }
@@ -96,7 +84,7 @@ export class ExampleCore {
       const status = read<RunStatus>(run.status());
       const why = status.ok ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : '';
       const what = `The example "${wish.name}" stopped at ${run.time().toFixed(2)} s. ${why}`;
-      return this.refuse(inputFailure(what));
+      throw new Refused(inputFailure(what));
     }
     now.frame += 1;
     if (now.frame > first) {
@@ -105,14 +93,15 @@ export class ExampleCore {
       if ((now.frame - first - 1) % wish.keptOf === 0) owner.addFrame(places);
     }
     if (now.frame === last) {
-      const sorted = read<object>(owner.sort(wish.name, seen.features().slice(), wish.nPatterns));
+      const sorted = owner.sort(wish.name, seen.features().slice(), wish.nPatterns);
       this.endRun();
-      if (!sorted.ok) return this.refuse(sorted);
+      granted(sorted);
     }
     this.post({ type: 'wentOn', share: now.frame / last }, []);
   }
 
-  private handle(message: Exclude<ToExample, { type: 'open' }>): void {
+  protected async handle(message: ToExample): Promise<void> {
+    if (message.type === 'open') return this.open(message);
     if (!this.study) throw new Error(`${message.type} before open`);
     switch (message.type) {
       case 'begin':
@@ -126,18 +115,11 @@ export class ExampleCore {
   }
 
   constructor(
-    private readonly module: RefinementModule,
-    private readonly post: Post<FromExample>,
+    module: RefinementModule,
+    post: Post<FromExample>,
     private readonly nowMs: () => number,
-  ) {}
-
-  async receive(message: ToExample): Promise<void> {
-    try {
-      if (message.type === 'open') return await this.open(message);
-      this.handle(message);
-    } catch (error) {
-      this.refuse(internalFailure(describe(error)));
-    }
+  ) {
+    super(module, post);
   }
 
   close(): void {

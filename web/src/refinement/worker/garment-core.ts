@@ -1,15 +1,9 @@
 // Answers each message to the worker of one pane, as a function of the module and of where answers
 // go. The only file that calls delete() on its object.
 
-import {
-  describe,
-  type Failure,
-  internalFailure,
-  type RunStatus,
-  read,
-} from '../../shared/bindings/answers';
+import { granted, type RunStatus, read } from '../../shared/bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
-import type { Post } from '../../shared/workers/serve';
+import { ModuleCore } from '../../shared/workers/serve';
 import type {
   ComparedAnswer,
   FaultsAnswer,
@@ -36,7 +30,7 @@ function payloadOf<Payload>(text: string): Payload | null {
 const FEWEST_FOLDED_FRAMES = 30;
 
 /** Serves one pane. Call `receive` with each message, `close` at the end. */
-export class GarmentCore {
+export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGarment> {
   private run: GarmentRunHandle | null = null;
   private summary: GarmentSummary | null = null;
   private recording: Recording | null = null;
@@ -45,17 +39,11 @@ export class GarmentCore {
   private settledS = 0;
   private stepsPerFrame = 1;
 
-  private refuse(failure: Failure): void {
-    this.post({ type: 'refused', failure }, []);
-  }
-
   private async load(message: Message<'load'>): Promise<void> {
     const { fabricsText, sceneText, fineText, files, frameS, settledS } = message;
     this.run ??= new this.module.GarmentRun(fabricsText);
-    const answer = read<GarmentSummary>(this.run.load(sceneText, files));
-    if (!answer.ok) return this.refuse(answer);
-    const held = read<object>(this.run.holdAgainst(fineText, files));
-    if (!held.ok) return this.refuse(held);
+    const answer = granted<GarmentSummary>(this.run.load(sceneText, files));
+    granted(this.run.holdAgainst(fineText, files));
     this.summary = answer;
     this.settledS = settledS;
     this.nFolded = 0;
@@ -107,10 +95,9 @@ export class GarmentCore {
     }
     if (how === 'recorded') {
       const places = this.recording?.frames[frame];
-      if (!places || !this.recording) return this.refuse(internalFailure(`no frame ${frame}`));
+      if (!places || !this.recording) throw new Error(`no frame ${frame}`);
       const { first_s: firstS, every_s: everyS } = this.recording.head;
-      const put = read<object>(owner.put(places, firstS + frame * everyS));
-      if (!put.ok) return this.refuse(put);
+      granted(owner.put(places, firstS + frame * everyS));
     }
     const isWatched = this.summary?.has_monitor === true && how !== 'still';
     const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
@@ -118,10 +105,8 @@ export class GarmentCore {
   }
 
   private reset(owner: GarmentRunHandle): void {
-    const answer = read<object>(owner.reset());
-    if (!answer.ok) return this.refuse(answer);
+    granted(owner.reset());
     this.nFolded = 0;
-    this.post({ type: 'wasReset' }, []);
   }
 
   /** False when there is no such number. */
@@ -155,10 +140,7 @@ export class GarmentCore {
   private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
     const { reference, timeS } = message;
     const own = message.takesSample ? owner.positions().slice() : null;
-    if (own && reference) {
-      const answer = read<object>(owner.putSample(reference, timeS));
-      if (!answer.ok) return this.refuse(answer);
-    }
+    if (own && reference) granted(owner.putSample(reference, timeS));
     const compared = reference && payloadOf<ComparedAnswer>(owner.compare(reference));
     const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
     const given = message.buffer;
@@ -187,7 +169,7 @@ export class GarmentCore {
     this.post(answer satisfies FromGarment, [buffer]);
   }
 
-  private async handle(message: ToGarment): Promise<void> {
+  protected async handle(message: ToGarment): Promise<void> {
     if (message.type === 'load') return this.load(message);
     if (!this.run || !this.summary) throw new Error(`${message.type} before load`);
     switch (message.type) {
@@ -197,19 +179,6 @@ export class GarmentCore {
         return this.reset(this.run);
       case 'describe':
         return this.describeFrame(this.run, message);
-    }
-  }
-
-  constructor(
-    private readonly module: RefinementModule,
-    private readonly post: Post<FromGarment>,
-  ) {}
-
-  async receive(message: ToGarment): Promise<void> {
-    try {
-      await this.handle(message);
-    } catch (error) {
-      this.refuse(internalFailure(describe(error)));
     }
   }
 

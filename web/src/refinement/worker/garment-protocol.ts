@@ -1,7 +1,8 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { RunWarning } from '../../shared/bindings/run-warning';
+import type { Done } from '../../shared/workers/asked';
 import type {
   ComparedAnswer,
   FaultsAnswer,
@@ -32,7 +33,7 @@ export type ToGarment =
       recording: ArrayBuffer | null;
       /** Time of a frame. */
       frameS: number;
-      /** From when on folds count. */
+      /** Time from which on folds count. */
       settledS: number;
     }
   | { type: 'advance'; frame: number; how: Advance }
@@ -69,7 +70,7 @@ export interface Described {
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
   isKnown: boolean;
-  /** Against the reference, and RMS between the surfaces. */
+  /** Distances from the reference, and RMS between the surfaces. */
   compared: ComparedAnswer | null;
   surfaceM: number | null;
   /** How far folds stand out, over all that were seen; null until that is enough to tell. */
@@ -78,7 +79,7 @@ export interface Described {
   foldsM: number | null;
   faults: FaultsAnswer | null;
   costs: GarmentCosts | null;
-  /** What the steps of this pane show that its scene cannot explain. */
+  /** Signs in the steps of this pane that its scene cannot explain. */
   warnings: RunWarning[];
   solids: SolidsAnswer | null;
 }
@@ -99,22 +100,13 @@ export interface Advanced {
   ended: string | null;
 }
 
-export interface WasReset {
-  type: 'wasReset';
-}
-
-export type FromGarment =
-  | Loaded
-  | Advanced
-  | WasReset
-  | Described
-  | { type: 'refused'; failure: Failure };
+export type FromGarment = Loaded | Advanced | Described | Refusal;
 
 /** The answer to each question. */
 export interface GarmentAnswers {
   load: Loaded;
   advance: Advanced;
-  reset: WasReset;
+  reset: Done;
   describe: Described;
 }
 
@@ -170,7 +162,7 @@ export interface Planned {
   ms: number;
 }
 
-export type FromExample = ExampleOpened | WentOn | Planned | { type: 'refused'; failure: Failure };
+export type FromExample = ExampleOpened | WentOn | Planned | Refusal;
 
 /** The answer to each question. */
 export interface ExampleAnswers {

@@ -34,6 +34,20 @@ export function internalFailure(what: string): Failure {
   return { ok: false, kind: 'internal', where: '', what };
 }
 
+/** The error of what was refused. */
+export class Refused extends Error {
+  constructor(readonly failure: Failure) {
+    super(failure.what);
+  }
+}
+
+/** The payload of an answer; throws Refused where there is none. */
+export function granted<Payload>(text: string): Payload {
+  const answer = read<Payload>(text);
+  if (answer.ok) return answer;
+  throw new Refused(answer);
+}
+
 /** Letters of a technical reason that are quoted at most. */
 const MOST_REASON = 100;
 
@@ -51,11 +65,6 @@ export function sentenceOf({ kind, where, what }: Failure): string {
 /** The sentence when a worker breaks without which `subject` cannot be computed. */
 export function brokenSentence(subject: string, reason: string): string {
   return `${subject} cannot be computed: the WebAssembly part did not start (${quoted(reason)}). It needs a current browser, with SIMD and exceptions in WebAssembly; if this is one, check the connection and reload.`;
-}
-
-/** A worker's end as the failure that it is for what `subject` names. */
-export function brokenFailure(subject: string, reason: string): Failure {
-  return internalFailure(brokenSentence(subject, reason));
 }
 
 export function describe(error: unknown): string {

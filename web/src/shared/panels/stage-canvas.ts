@@ -1,6 +1,4 @@
 // The canvas of a stage, and what stands in its place where it cannot be drawn.
-import { type Failure, inputFailure } from '../bindings/answers';
-import type { Store } from '../state/store';
 import { element } from './element';
 
 export const PICTURE_LOST =
@@ -20,26 +18,4 @@ export function replaceCanvas(canvas: HTMLElement, rest: string): string {
   canvas.parentElement?.prepend(element('p', { class: 'plain' }, sentence));
   canvas.remove();
   return sentence;
-}
-
-/** Says in `store` that the browser took the picture away, until it gives it back. */
-function pictureLostIn(store: Store<{ problem: Failure | null }>): (isLost: boolean) => void {
-  return (isLost) => {
-    if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-    else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-  };
-}
-
-/** The stage that `create` makes; null where the browser cannot draw it, which a sentence in its place says. */
-export function openStage<Stage>(
-  canvas: HTMLCanvasElement,
-  store: Store<{ problem: Failure | null }>,
-  create: (pictureLost: (isLost: boolean) => void) => Stage,
-): Stage | null {
-  try {
-    return create(pictureLostIn(store));
-  } catch {
-    replaceCanvas(canvas, 'The numbers');
-    return null;
-  }
 }

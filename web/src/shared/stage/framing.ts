@@ -1,4 +1,4 @@
-// What a stage shows at first: all that the cloth of a scene will need, and its bodies.
+// The first view of a stage: all that the cloth of a scene will need, and its bodies.
 import { Box3, Sphere, Vector3 } from 'three';
 import type { Collider } from '../bindings/geometry';
 import type { PaneStage } from './pane-stage';
@@ -14,7 +14,7 @@ const LEVEL_HEIGHT = 0.25;
 const SWING_BELOW = 0.8;
 const SWING_AROUND = 0.15;
 
-/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
+/** A ball around what has to stay in view: where the cloth is, where it can swing to, and the bodies. */
 export function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
   const box = new Box3().setFromArray(positions);
   const reach = box.getSize(new Vector3());

@@ -10,7 +10,7 @@ export interface PaneStageParts {
   /** Angle of view from top to bottom [degrees]. */
   fov: number;
   objects: Object3D[];
-  /** Whether there is anything to be seen. */
+  /** True when there is anything to be seen. */
   isReady(): boolean;
   /** Puts into the scene what a pane shows, just before it is drawn. */
   prepare(pane: number): void;

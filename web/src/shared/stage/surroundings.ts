@@ -17,20 +17,6 @@ import {
 import type { Collider } from '../bindings/geometry';
 import { bodiesOf, type SolidBody } from './solid-look';
 
-export interface Surroundings {
-  object: Group;
-  /** Moves the bodies; builds them anew when their number or form changed. */
-  setColliders(colliders: Collider[]): void;
-  /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
-  frame(centre: Vector3, radius: number, height: number): void;
-  /** Puts floor and lights under somebody who walks; the grid's lines stay where they are [m]. */
-  follow(x: number, z: number): void;
-  /** Shadows cost as much as the picture itself, each time. */
-  setShadows(areCast: boolean): void;
-  /** `colour` reads a variable of the page's design. */
-  setTheme(colour: (name: string) => string): void;
-}
-
 /** Half the side of the grid, and its line spacing: metres, or a power of ten of them [m]. */
 const GRID_REACH_M = 4;
 const GRID_SPACING_M = 0.5;
@@ -179,7 +165,7 @@ function createBodies() {
   };
 }
 
-export function createSurroundings(): Surroundings {
+export function createSurroundings() {
   const object = new Group();
   const floor = createFloor();
   const bodies = createBodies();
@@ -190,8 +176,10 @@ export function createSurroundings(): Surroundings {
 
   return {
     object,
+    /** Moves the bodies; builds them anew when their number or form changed. */
     setColliders: bodies.set,
-    frame(centre, radius, height) {
+    /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
+    frame(centre: Vector3, radius: number, height: number) {
       const scale = 10 ** Math.round(Math.log10(radius));
       floor.object.scale.setScalar(scale);
       floor.object.position.set(centre.x, height, centre.z);
@@ -199,7 +187,8 @@ export function createSurroundings(): Surroundings {
       key.place(centre, radius);
       key.frame(radius, scale);
     },
-    follow(x, z) {
+    /** Puts floor and lights under somebody who walks; the grid's lines stay where they are [m]. */
+    follow(x: number, z: number) {
       lit.centre.set(x, lit.centre.y, z);
       key.place(lit.centre, lit.radius);
       floor.object.position.x = x;
@@ -208,10 +197,12 @@ export function createSurroundings(): Surroundings {
       const into = (place: number) => (Math.round(place / metre) * metre - place) / metre;
       floor.grid.position.set(into(x), 0, into(z));
     },
-    setShadows(areCast) {
+    /** Shadows cost as much as the picture itself, each time. */
+    setShadows(areCast: boolean) {
       key.light.castShadow = areCast;
     },
-    setTheme(colour) {
+    /** `colour` reads a variable of the page's design. */
+    setTheme(colour: (name: string) => string) {
       floor.disc.material.color.set(colour('--stage-floor'));
       floor.grid.material.color.set(colour('--stage-grid'));
       bodies.material.color.set(colour('--stage-body'));

@@ -28,57 +28,58 @@ export function affordable(msPerStep: number | null): number {
   return msPerStep === null ? 1 : Math.max(1, Math.floor(LONGEST_BATCH_MS / msPerStep));
 }
 
-export class Clock {
-  private readonly loops = new Latest();
-  private dueS = 0;
-  private lastTickMs = 0;
-  private lastNumbersMs = 0;
+export type Clock = ReturnType<typeof createClock>;
 
-  constructor(private readonly display: Display = DISPLAY) {}
-
-  /** Starts at nothing due; calls `onPicture` with each picture until it answers false or another call starts. */
-  start(onPicture: () => boolean): void {
-    const isCurrent = this.loops.start();
-    const next = () =>
-      this.display.later(() => {
-        if (isCurrent() && onPicture()) next();
-      });
-    this.restart();
-    next();
-  }
+export function createClock({ later, nowMs }: Display = DISPLAY) {
+  const loops = new Latest();
+  let dueS = 0;
+  let lastTickMs = 0;
+  let lastNumbersMs = 0;
 
   /** Nothing is due by now. */
-  restart(): void {
-    this.lastTickMs = this.display.nowMs();
-    this.dueS = 0;
-  }
-
-  /** Lets the time since the last call become due, at so many simulated seconds a second; that time [s]. */
-  tick(speed: number): number {
-    const nowMs = this.display.nowMs();
-    const elapsedS = (nowMs - this.lastTickMs) / 1000;
-    this.lastTickMs = nowMs;
-    this.advance(elapsedS * speed);
-    return elapsedS;
+  function restart(): void {
+    lastTickMs = nowMs();
+    dueS = 0;
   }
 
   /** Lets `elapsedS` of simulated time become due. */
-  advance(elapsedS: number): void {
-    this.dueS += Math.max(0, elapsedS);
+  function advance(elapsedS: number): void {
+    dueS += Math.max(0, elapsedS);
   }
 
-  /** Takes the whole steps that are due, `most` of them at once. */
-  take(stepS: number, most: number): number {
-    const count = Math.min(Math.floor(this.dueS / stepS + TOLERANCE), most);
-    this.dueS = Math.min(this.dueS - count * stepS, Math.max(LONGEST_GAP_S, stepS));
-    return count;
-  }
-
-  /** True once in so many milliseconds, when numbers are to be read; `isAlways` has it so each time. */
-  areNumbersDue(everyMs: number, isAlways: boolean): boolean {
-    const nowMs = this.display.nowMs();
-    const areDue = isAlways || nowMs - this.lastNumbersMs >= everyMs;
-    if (areDue) this.lastNumbersMs = nowMs;
-    return areDue;
-  }
+  return {
+    restart,
+    advance,
+    /** Starts at nothing due; calls `onPicture` with each picture until it answers false or another call starts. */
+    start(onPicture: () => boolean): void {
+      const isCurrent = loops.start();
+      const next = () =>
+        later(() => {
+          if (isCurrent() && onPicture()) next();
+        });
+      restart();
+      next();
+    },
+    /** Lets the time since the last call become due, at so many simulated seconds a second; that time [s]. */
+    tick(speed: number): number {
+      const now = nowMs();
+      const elapsedS = (now - lastTickMs) / 1000;
+      lastTickMs = now;
+      advance(elapsedS * speed);
+      return elapsedS;
+    },
+    /** Takes the whole steps that are due, `most` of them at once. */
+    take(stepS: number, most: number): number {
+      const count = Math.min(Math.floor(dueS / stepS + TOLERANCE), most);
+      dueS = Math.min(dueS - count * stepS, Math.max(LONGEST_GAP_S, stepS));
+      return count;
+    },
+    /** True once in so many milliseconds, when numbers are to be read; `isAlways` has it so each time. */
+    areNumbersDue(everyMs: number, isAlways: boolean): boolean {
+      const now = nowMs();
+      const areDue = isAlways || now - lastNumbersMs >= everyMs;
+      if (areDue) lastNumbersMs = now;
+      return areDue;
+    },
+  };
 }

@@ -17,7 +17,7 @@ export type Count = 'substeps' | 'iterations';
 
 export type DetailValue = string | number;
 
-/** What may be chosen of a method beside its counts: one of some words, or a number between bounds. */
+/** A choice of a method beside its counts: one of some words, or a number between bounds. */
 export interface MethodDetail {
   /** Spelled as in a scene and a link. */
   key: string;
@@ -39,7 +39,7 @@ export interface StepperRow {
   solves: boolean;
   /** The counts the stepper reads, each with what it starts from. */
   settings: Partial<Record<Count, { start: Substeps; least: Substeps; meaning: string }>>;
-  /** What the details that it reads start from. */
+  /** Values that the details that it reads start from. */
   details: Readonly<Record<string, DetailValue>>;
   /** The counts with which a sweep measures it at every level. */
   sweep: readonly { substeps?: Substeps; iterations?: number }[];
@@ -49,7 +49,7 @@ export interface StepperRow {
   substep_work: number;
   /** The models whose sweeps it takes part in. */
   models: readonly Model[];
-  /** At finer levels a sweep leaves it out. */
+  /** Finest level at which a sweep takes it in. */
   finest_sweep_level?: number;
   /** Its mark in a chart: an SVG path about the origin. */
   mark: string;

@@ -1,7 +1,7 @@
 // Answers each message to the worker of cloth in motion, as a function of the module and of where
 // answers go. The only file that calls delete() on its objects.
 
-import { describe, type Failure, internalFailure, type RunStatus, read } from '../bindings/answers';
+import { granted, Refused, type RunStatus, read } from '../bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import {
@@ -24,7 +24,7 @@ import type {
   ToMotion,
   TornMesh,
 } from './motion-protocol';
-import type { Post } from './serve';
+import { ModuleCore } from './serve';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
 function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
@@ -59,22 +59,18 @@ function readColliders(simulation: SimulationHandle): Collider[] {
   return answer.ok ? answer.colliders : [];
 }
 
-/** Of a buffer for the frames of the present mesh. */
+/** Size of a buffer for the frames of the present mesh. */
 function frameBytes(simulation: SimulationHandle): number {
   return (4 * FLOATS_PER_VERTEX * simulation.positions().length) / 3;
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class MotionCore {
+export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
   private isHeld = false;
   private hasLedger = false;
   private nBytes = 0; // of the buffers of frames
-
-  private refuse(failure: Failure): void {
-    this.post({ type: 'refused', failure }, []);
-  }
 
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
   private postLoaded(
@@ -83,7 +79,7 @@ export class MotionCore {
     summary: SceneSummary,
   ): void {
     const numbers = readNumbers(run);
-    if (!numbers) return this.refuse(internalFailure('no numbers after a load'));
+    if (!numbers) throw new Error('no numbers after a load');
     this.nBytes = frameBytes(run);
     const buffers: [ArrayBuffer, ArrayBuffer] = [
       new ArrayBuffer(this.nBytes),
@@ -101,18 +97,15 @@ export class MotionCore {
   private load(run: SimulationHandle, message: LoadMessage): void {
     const { sceneText, keepMotion, start } = message;
     const text = keepMotion && this.loaded ? run.carryOver(sceneText) : run.load(sceneText);
-    const answer = read<{ summary: SceneSummary }>(text);
-    if (!answer.ok) return this.refuse(answer);
-    const started = read<object>(start ? run.startFrom(start) : '{"ok": true}');
-    if (!started.ok) return this.refuse(started);
-    this.loaded = answer.summary;
+    const { summary } = granted<{ summary: SceneSummary }>(text);
+    if (start) granted(run.startFrom(start));
+    this.loaded = summary;
     this.postLoaded(message, run, this.loaded);
   }
 
   private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
-    if (!this.loaded) return this.refuse(internalFailure('reset before load'));
-    const answer = read<object>(run.reset());
-    if (!answer.ok) return this.refuse(answer);
+    if (!this.loaded) throw new Error('reset before load');
+    granted(run.reset());
     this.postLoaded(message, run, this.loaded);
   }
 
@@ -160,9 +153,8 @@ export class MotionCore {
 
   private readImplicitShare(run: SimulationHandle, message: ImplicitShareQuestion): void {
     const { stepS, substeps, explicitShare } = message;
-    const answer = read<ImexShare>(run.implicitShare(stepS, substeps, explicitShare));
-    if (!answer.ok) return this.refuse(answer);
-    const { substeps: taken, share } = answer;
+    const text = run.implicitShare(stepS, substeps, explicitShare);
+    const { substeps: taken, share } = granted<ImexShare>(text);
     this.post({ type: 'implicitShare', substeps: taken, share }, []);
   }
 
@@ -171,7 +163,7 @@ export class MotionCore {
     const answer = read<{ n_coarser: number; shortage: string }>(
       run.makeLevels(selection, nCoarser, ratio),
     );
-    if (!answer.ok && answer.kind === 'internal') return this.refuse(answer);
+    if (!answer.ok && answer.kind === 'internal') throw new Refused(answer);
     const levels: MeshLevel[] = [];
     for (let level = 1; answer.ok && level <= answer.n_coarser; ++level) {
       const vertices = run.levelVertices(level).slice();
@@ -190,7 +182,7 @@ export class MotionCore {
     this.post({ type: 'ready' }, []);
   }
 
-  private handle(message: ToMotion): void {
+  protected handle(message: ToMotion): void {
     if (message.type === 'open') return this.open(message.fabricsText);
     if (!this.simulation) throw new Error(`${message.type} before open`);
     switch (message.type) {
@@ -220,19 +212,6 @@ export class MotionCore {
         if (this.isHeld) this.simulation.releaseGrab();
         this.isHeld = false;
         return;
-    }
-  }
-
-  constructor(
-    private readonly module: PleatModule,
-    private readonly post: Post<FromMotion>,
-  ) {}
-
-  receive(message: ToMotion): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      this.refuse(internalFailure(describe(error)));
     }
   }
 

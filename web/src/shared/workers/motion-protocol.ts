@@ -1,6 +1,5 @@
 // Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
 
-import type { Failure } from '../bindings/answers';
 import type { Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import type {
@@ -12,6 +11,7 @@ import type {
   SceneSummary,
   SpringSplit,
 } from '../bindings/pleat-module';
+import type { Refusal } from '../bindings/refusals';
 import type { Done } from './asked';
 
 export interface StepMessage {
@@ -38,7 +38,7 @@ export interface ImplicitShareQuestion {
   type: 'readImplicitShare';
   stepS: number;
   substeps: number;
-  /** Of the springs, that shall be explicit at least. */
+  /** Share of the springs that shall be explicit at least. */
   explicitShare: number;
 }
 
@@ -46,7 +46,7 @@ export interface LevelsQuestion {
   type: 'readLevels';
   selection: LevelSelection;
   nCoarser: number;
-  /** Of a level's vertices that the next one keeps. */
+  /** Share of a level's vertices that the next one keeps. */
   ratio: number;
 }
 
@@ -138,7 +138,7 @@ export type FromMotion =
   | ImplicitShareMessage
   | LevelsMessage
   | ReferenceSetMessage
-  | { type: 'refused'; failure: Failure };
+  | Refusal;
 
 /** The answer to each message that is a question; `done`: there was nothing to answer. */
 export interface MotionAnswers {

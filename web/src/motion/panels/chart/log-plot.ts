@@ -61,7 +61,7 @@ export function gridMarks({ field, across, upward, xOf, yOf }: Axes): SVGElement
   ];
 }
 
-/** Below the field and, upright, beside it. */
+/** Titles below the field and, upright, beside it. */
 export function axisTitles(
   { left, right, top, bottom }: Field,
   x: string,

@@ -1,4 +1,4 @@
-// What contact makes of cloth that comes down: shown where there are solids, studied while it is open.
+// Panel of what contact makes of cloth that comes down: shown where there are solids, studied while it is open.
 import { element } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';
@@ -12,8 +12,8 @@ export function createContactPanel(section: HTMLElement, store: Store<MotionStat
   );
   section.append(box);
   const bring = later(store, 'The figure of contact', async () => {
-    const { createContactFigure } = await import('./contact-figure');
-    return createContactFigure(box, store);
+    const { createContactChart } = await import('./contact-chart');
+    return createContactChart(box, store);
   });
   async function open(): Promise<void> {
     if (box.open) (await bring())?.follow();

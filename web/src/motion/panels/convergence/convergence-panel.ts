@@ -17,6 +17,6 @@ export function createConvergencePanel(
   );
   parent.append(element('section', { 'aria-label': 'Convergence' }, box));
   const bring = later(store, 'The comparison of methods', async () => {
-    (await import('./convergence-figure')).createConvergenceFigure(box, store, run);
+    (await import('./convergence-chart')).createConvergenceChart(box, store, run);
   });
 }

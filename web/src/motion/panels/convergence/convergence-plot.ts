@@ -1,4 +1,4 @@
-// What each method leaves of a step's error, over the time that it takes.
+// Plot of what each method leaves of a step's error, over the time that it takes.
 import './convergence.css';
 import { pathThrough } from '../../../shared/chart/path-through';
 import { element, setText, svg } from '../../../shared/panels/element';

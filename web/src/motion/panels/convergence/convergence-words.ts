@@ -1,4 +1,4 @@
-// What a comparison of methods on one step shows, in words.
+// Words on what a comparison of methods on one step shows.
 import { digits, milliseconds } from '../../../shared/panels/quantity';
 import type { Constraints, ConvergencePoint } from '../../bindings/convergence-module';
 import type { ConvergenceResult } from '../../state/convergence';
@@ -14,13 +14,13 @@ export interface Way {
 export interface WayPoint {
   rounds: number;
   ms: number;
-  /** What is left, of what there was at the predicted places. */
+  /** Share that is left of what there was at the predicted places. */
   left: number;
 }
 
 const TARGETS = [0.1, 0.01, 0.001];
 
-/** What is measured: compliant constraints single out one place, which all methods can be held against. */
+/** The measured error: compliant constraints single out one place, which all methods can be held against. */
 export const MEASURES: Record<
   Constraints,
   { title: string; left(point: ConvergencePoint): number | null }

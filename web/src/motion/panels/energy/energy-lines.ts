@@ -17,14 +17,14 @@ export interface EnergyLine {
   joules(numbers: EnergyNumbers): number;
 }
 
-/** Of the cloth now. */
+/** Energies of the cloth now. */
 const HELD: readonly EnergyLine[] = [
   { kind: 'kinetic', title: 'Motion', joules: ({ kinetic }) => kinetic },
   { kind: 'elastic', title: 'Stretch and bending', joules: ({ elastic }) => elastic },
   { kind: 'gravity', title: 'Height, against the start', joules: ({ gravity }) => gravity },
 ];
 
-/** What went elsewhere since the start; negative where the cloth has gained. */
+/** Energies that went elsewhere since the start; negative where the cloth has gained. */
 const LOST: readonly EnergyLine[] = [
   { kind: 'damping', title: 'Lost to damping', joules: ({ damping }) => -damping },
   { kind: 'air', title: 'Lost to air', joules: ({ air }) => -air },
@@ -40,7 +40,7 @@ const SUM: EnergyLine = {
   joules: (numbers) => [...HELD, ...LOST].reduce((sum, line) => sum + line.joules(numbers), 0),
 };
 
-/** Below this part of the largest energy a line cannot be told from none. */
+/** Part of the largest energy below which a line cannot be told from none. */
 const LEAST_PART = 1e-12;
 
 /** The lines that differ from none somewhere; the sum always. */

@@ -12,8 +12,8 @@ export function createEnergyPanel(parent: HTMLElement, store: Store<MotionState>
   );
   parent.append(element('section', { 'aria-label': 'Energy' }, box));
   const bring = later(store, 'The plot of energy', async () => {
-    const { createEnergyFigure } = await import('./energy-figure');
-    return createEnergyFigure(box, store);
+    const { createEnergyChart } = await import('./energy-chart');
+    return createEnergyChart(box, store);
   });
   return watch(store, ['energy'], async ({ energy }) => {
     box.open = energy;

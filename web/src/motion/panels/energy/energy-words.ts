@@ -21,7 +21,7 @@ function worksText(now: EnergyNumbers): string {
   return works.length > 0 ? works.join(', ') : 'no force took any';
 }
 
-/** What the method itself gained or lost, beside the most energy of motion so far. */
+/** Words on what the method itself gained or lost, beside the most energy of motion so far. */
 function driftText(samples: readonly EnergyNumbers[], { drift }: EnergyNumbers): string {
   const most = Math.max(...samples.map(({ kinetic }) => kinetic));
   const share = most > 0 ? `, ${percent(Math.abs(drift) / most)} of the most energy of motion` : '';

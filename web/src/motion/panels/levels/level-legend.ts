@@ -1,4 +1,4 @@
-// What is drawn of a coarser level: its marks and lines, and how many.
+// Legend of a coarser level: its marks and lines, and how many.
 import './level-legend.css';
 import { element, setText } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';

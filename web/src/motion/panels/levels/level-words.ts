@@ -1,4 +1,4 @@
-// What a coarser level is, in words.
+// Words on what a coarser level is.
 import type { MeshLevels } from '../../../shared/bindings/pleat-module';
 import { digits } from '../../../shared/panels/quantity';
 
@@ -14,7 +14,7 @@ export function levelCounts({ levels }: MeshLevels, coarse: number, nMesh: numbe
 /** So near to two that it is called "every other one". */
 const NEARLY_TWO = 0.2;
 
-/** Of so many, this many: "every other one", "one in 4". */
+/** Words for this many of so many: "every other one", "one in 4". */
 function shareText(n: number, of: number): string {
   if (Math.abs(of / n - 2) < NEARLY_TWO) return 'every other one';
   return `one in ${digits(of / n, 2).replace(/\.0$/, '')}`;

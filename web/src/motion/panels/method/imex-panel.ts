@@ -1,4 +1,4 @@
-// What imex saves at the substeps that the slider shows.
+// Line on what imex saves at the substeps that the slider shows.
 import { choice, element, field, setText } from '../../../shared/panels/element';
 import { digits, milliseconds, percent } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';

@@ -1,6 +1,6 @@
-// What may be chosen of a method beside its counts, as the core's table tells it.
+// Choices of a method beside its counts, as the core's table tells it.
 import details from 'virtual:pleat-details';
-import { choice, element, field } from '../../../shared/panels/element';
+import { button, choice, element, field } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { type DetailValue, stepperRow } from '../../../shared/steppers/steppers';
 import type { MotionState } from '../../state/motion-state';
@@ -61,18 +61,14 @@ export function createMethodDetails(parent: HTMLElement, store: Store<MotionStat
       store.set({ setting: withDetail(store.get().setting, detail.key, value) }),
     ),
   );
-  const usual = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      click() {
-        const { setting } = store.get();
-        const { details: own } = withStepper(setting, setting.stepper);
-        store.set({ setting: { ...setting, details: own } });
-      },
-    },
+  const usual = button(
     'As usual',
+    () => {
+      const { setting } = store.get();
+      const { details: own } = withStepper(setting, setting.stepper);
+      store.set({ setting: { ...setting, details: own } });
+    },
+    { class: 'wide' },
   );
   const box = element(
     'details',

@@ -107,16 +107,18 @@ function modelPicker(onChoice: (model: Model) => void) {
 
 export const STEPPER_CHOICES = STEPPERS.map(({ name, title }) => ({ value: name, title }));
 
-/** What imex saves is told from the first imex on. */
-function createImexTray(store: Store<MotionState>, run: MotionRun) {
+/** A place for a part that comes with the first setting that asks for it. */
+function laterTray(
+  store: Store<MotionState>,
+  what: string,
+  isDue: (setting: Setting) => boolean,
+  create: (tray: HTMLElement) => Promise<() => void>,
+) {
   const tray = element('div');
-  const bring = later(store, 'What imex saves', async () => {
-    const { createImexPanel } = await import('./imex-panel');
-    return createImexPanel(tray, store, run);
-  });
+  const bring = later(store, what, () => create(tray));
   let close: (() => void) | null = null;
   const stop = watch(store, ['setting'], async ({ setting }) => {
-    if (setting.stepper === 'imex') close ??= await bring();
+    if (isDue(setting)) close ??= await bring();
   });
   return {
     tray,
@@ -127,25 +129,21 @@ function createImexTray(store: Store<MotionState>, run: MotionRun) {
   };
 }
 
-/** What else may be chosen comes with the first stepper that reads it. */
-function createDetailsTray(store: Store<MotionState>) {
-  const tray = element('div');
-  const bring = later(store, 'The details of the method', async () => {
-    const { createMethodDetails } = await import('./method-details');
-    return createMethodDetails(tray, store);
-  });
-  let close: (() => void) | null = null;
-  const stop = watch(store, ['setting'], async ({ setting }) => {
-    const { details } = stepperRow(setting.stepper);
-    if (Object.keys(details).length > 0) close ??= await bring();
-  });
-  return {
-    tray,
-    close() {
-      stop();
-      close?.();
-    },
-  };
+function laterTrays(store: Store<MotionState>, run: MotionRun) {
+  return [
+    laterTray(
+      store,
+      'What imex saves',
+      ({ stepper }) => stepper === 'imex',
+      async (tray) => (await import('./imex-panel')).createImexPanel(tray, store, run),
+    ),
+    laterTray(
+      store,
+      'The details of the method',
+      ({ stepper }) => Object.keys(stepperRow(stepper).details).length > 0,
+      async (tray) => (await import('./method-details')).createMethodDetails(tray, store),
+    ),
+  ] as const;
 }
 
 function countFields(store: Store<MotionState>) {
@@ -187,8 +185,7 @@ export function createMethodPanel(
     (count) => change({ stepS: 1 / count }),
   );
   const counts = countFields(store);
-  const imex = createImexTray(store, run);
-  const details = createDetailsTray(store);
+  const [imex, details] = laterTrays(store, run);
   const builtNote = element('p', { class: 'note' });
   const builtBox = element(
     'details',

@@ -13,7 +13,7 @@ export interface ErrorWords {
   value: string;
   detail: string;
   sentence: string;
-  /** What brings the number, where something does. */
+  /** The way to bring the number, where there is one. */
   action?: string;
 }
 
@@ -68,7 +68,7 @@ function fromItself(numbers: RunNumbers, solves: boolean): string {
   return parts.join(' ');
 }
 
-/** What is said until the reference of the scene is there; null when it is, or when there is none. */
+/** Words until the reference of the scene is there; null when it is, or when there is none. */
 function beforeReference(state: ErrorState): ErrorWords | null {
   const { reference, setting } = state;
   if (referenceUrl(setting) === null || reference === 'here') return null;
@@ -82,7 +82,7 @@ function beforeReference(state: ErrorState): ErrorWords | null {
   return { value: '–', detail: 'compare to see', sentence, action: 'Compare' };
 }
 
-/** What the last sweep found for the very same setting; null when it did not. */
+/** Error that the last sweep found for the very same setting; null when it did not. */
 function fromSweep(state: ErrorState): ErrorWords | null {
   const row = rowOfSetting(state);
   if (!row || row.position_error_m === null) return null;

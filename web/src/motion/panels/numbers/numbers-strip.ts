@@ -1,6 +1,6 @@
 // The read-out above the toolbar: what the setting costs and how wrong it is, with status and time.
 import { fabricNamed } from '../../../shared/fabric/fabric-data';
-import { element, setText } from '../../../shared/panels/element';
+import { button, element, setText } from '../../../shared/panels/element';
 import { digits, milliseconds, percent } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
@@ -27,7 +27,7 @@ interface Item {
   text(state: MotionState): string;
   width: 'narrow' | 'middle' | 'wide';
   /** A second, smaller line. */
-  detail?(state: MotionState): string;
+  detail(state: MotionState): string;
 }
 
 function statusText({ phase, playing, pace, ahead }: MotionState): string {
@@ -108,25 +108,19 @@ const ITEMS: readonly Item[] = [
 ];
 
 /** The error in a sentence, with a button for what it takes to know it. */
-function createVerdict(
-  store: Store<MotionState>,
-  actions: { bringReference(): void },
-): { line: HTMLElement; update(state: MotionState): void } {
+function createVerdict(store: Store<MotionState>, actions: { bringReference(): void }) {
   const sentence = element('span');
-  const button = element('button', {
-    type: 'button',
-    click() {
-      store.set({ compare: true });
-      actions.bringReference();
-    },
+  const ask = button('', () => {
+    store.set({ compare: true });
+    actions.bringReference();
   });
   return {
-    line: element('p', { class: 'verdict' }, sentence, ' ', button),
-    update(state) {
+    line: element('p', { class: 'verdict' }, sentence, ' ', ask),
+    update(state: MotionState) {
       const words = errorWords(state);
       setText(sentence, words.sentence);
-      setText(button, words.action ?? '');
-      button.hidden = words.action === undefined;
+      setText(ask, words.action ?? '');
+      ask.hidden = words.action === undefined;
     },
   };
 }
@@ -173,7 +167,7 @@ export function createNumbersStrip(
     (state) => {
       for (const { item, value, detail } of cells) {
         setText(value, item.text(state));
-        setText(detail, item.detail?.(state) ?? '');
+        setText(detail, item.detail(state));
       }
       verdict.update(state);
     },

@@ -1,5 +1,5 @@
 // The form of a knitted cloth: its particles, its springs and dampers, and its pattern.
-import { choice, element, field, setText } from '../../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { digits } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
 import { stepperRow } from '../../../shared/steppers/steppers';
@@ -32,7 +32,7 @@ const LINES: readonly (readonly KnitPlace[])[] = [
   ['pattern/plain_columns', 'pattern/lace_columns', 'pattern/lace_stiffness'],
 ];
 
-/** Of one particle on one spring: c / (2 sqrt(k m)). */
+/** Damping ratio of one particle on one spring: c / (2 sqrt(k m)). */
 function dampingRatio(knit: Knit, kind: (typeof SPRINGS)[number]): number {
   const inScene = (place: KnitPlace) => knit[place] * unitOf(place, knit.dampingPer).factor;
   const stiffness = inScene(`${kind}/stiffness_n_per_m`);
@@ -48,7 +48,7 @@ export function dampingWords(knit: Knit): string {
   return `Damping ratios: ${words.join(', ')}. ${creeps ? 'Above 1 it creeps back and does not swing.' : 'Below 1 it swings before it rests.'}`;
 }
 
-/** What the stability bound asks for, where the stepper has one; before anything runs. */
+/** Words on what the stability bound asks for, where the stepper has one; before anything runs. */
 export function boundWords({ setting, summary }: Pick<MotionState, 'setting' | 'summary'>): string {
   if (setting.substeps !== 0 || !summary) return '';
   const microseconds = (1e6 * summary.step_s) / summary.substeps;
@@ -109,14 +109,10 @@ export function createKnitForm(parent: HTMLElement, store: Store<MotionState>): 
   const lines = LINES.map((places) =>
     element('div', { class: 'row' }, ...places.flatMap((place) => fields.get(place)?.box ?? [])),
   );
-  const reset = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      click: () => change(presetSetting(store.get().setting.preset).knit ?? {}),
-    },
+  const reset = button(
     'Reset the knit',
+    () => change(presetSetting(store.get().setting.preset).knit ?? {}),
+    { class: 'wide' },
   );
   const box = element(
     'details',

@@ -1,4 +1,4 @@
-// What the mesh of each level does wrong alone, of a sweep's rows and as lines in their chart.
+// Errors of the mesh of each level alone, of a sweep's rows and as lines in their chart.
 import { svg } from '../../../shared/panels/element';
 import type { BenchRow } from '../../bindings/sweep-module';
 import { hasFinished, SURER } from '../../state/sweep-plan';
@@ -10,7 +10,7 @@ export interface Floor {
   ms: [number, number];
 }
 
-/** Below so much [m] the reference of a row tells no error; null where there is none. */
+/** Least error that the reference of a row tells [m]; null where there is none. */
 export function boundOf({ reference }: BenchRow): number | null {
   return reference.uncertainty_m === null ? null : SURER * reference.uncertainty_m;
 }

@@ -1,4 +1,4 @@
-// What a sweep's errors are made of, and what refinement buys, in words.
+// Words on what a sweep's errors are made of, and on what refinement buys.
 import { digits, smallLength, stepTitle } from '../../../shared/panels/quantity';
 import { STEPPERS } from '../../../shared/steppers/steppers';
 import type { BenchRow } from '../../bindings/sweep-module';
@@ -24,29 +24,29 @@ const MUCH = 3;
 /** An error that keeps so much of itself on a finer mesh gained nothing from it. */
 const HARDLY_LESS = 0.8;
 
-/** What the errors of a sweep over so long [s] are. */
+/** Words on what the errors of a sweep over so long [s] are. */
 export function errorSentence(meshError: MeshError, durationS: number): string {
   return `The error, over ${digits(durationS, 1)} s, ${WHAT_ERRORS_ARE[meshError]}`;
 }
 
-/** What the errors are called: only those against one and the same motion have the mesh in them. */
+/** Name of the errors: only those against one and the same motion have the mesh in them. */
 export function errorName(meshError: MeshError): string {
   return meshError === 'known' ? 'Error' : 'Method’s error';
 }
 
-/** What the mesh of a row does wrong [m], or what that is below; null where its reference tells neither. */
+/** Error of the mesh of a row [m], or a bound that it is below; null where its reference tells neither. */
 function mostOfMesh(row: BenchRow): number | null {
   return row.mesh_error_m ?? boundOf(row);
 }
 
-/** What the mesh of a row does wrong, as far as its reference tells; `below` goes before a bound. */
+/** Words on the error of the mesh of a row, as far as its reference tells; `below` goes before a bound. */
 export function meshText(row: BenchRow, meshError: MeshError, below = '<'): string {
   if (meshError !== 'known' || row.mesh_error_m !== null) return smallLength(row.mesh_error_m);
   const bound = boundOf(row);
   return bound === null ? smallLength(null) : `${below} ${smallLength(bound)}`;
 }
 
-/** What the mesh does wrong from level to level; empty before a row has finished. */
+/** Words on the error of the mesh from level to level; empty before a row has finished. */
 function refinementSentence(rows: readonly BenchRow[]): string {
   const ofLevels = new Map(rows.filter(hasFinished).map((row) => [row.level, row]));
   const meshes = [...ofLevels.values()].sort((a, b) => a.level - b.level);

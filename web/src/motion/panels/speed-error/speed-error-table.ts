@@ -1,6 +1,6 @@
 // The chart's data as a table; every row can be applied, failed rows say why they failed.
 
-import { element } from '../../../shared/panels/element';
+import { button, element } from '../../../shared/panels/element';
 import { createNumberTable } from '../../../shared/panels/number-table';
 import { digits, milliseconds, percent, smallLength } from '../../../shared/panels/quantity';
 import { warningSentence } from '../../../shared/panels/warning-words';
@@ -11,7 +11,7 @@ import { boundOf } from './mesh-floors';
 import { errorName, meshText } from './mesh-words';
 import { type PlotContent, titleOf } from './speed-error-plot';
 
-/** What the two lines of a cell say. */
+/** The two lines of a cell. */
 type Cell = [string, string];
 
 /** Each column's title, and what its second line is. */
@@ -58,16 +58,10 @@ export function createSpeedErrorTable(onChoice: (index: number) => void): {
 
   function line(row: BenchRow, index: number, { front, current, meshError }: PlotContent) {
     const title = titleOf(row);
-    const use = element(
-      'button',
-      {
-        type: 'button',
-        title: 'Show this setting',
-        'data-row': index,
-        click: () => onChoice(index),
-      },
-      title,
-    );
+    const use = button(title, () => onChoice(index), {
+      title: 'Show this setting',
+      'data-row': index,
+    });
     const heading = element('th', { scope: 'row' }, use);
     if (row.n_vertices > 0) heading.append(element('small', {}, `${row.n_vertices} vertices`));
     if (row.status === 'not_converged') heading.append(' (solve cut short)');

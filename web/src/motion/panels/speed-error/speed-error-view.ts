@@ -1,6 +1,6 @@
 // The sweep's chart with its table beside it; a chosen point is run to the time that its error is of.
 import './speed-error.css';
-import { element, setText } from '../../../shared/panels/element';
+import { button, element, setText } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { STEPPERS } from '../../../shared/steppers/steppers';
 import type { BenchRow } from '../../bindings/sweep-module';
@@ -16,7 +16,7 @@ import { createSpeedErrorTable } from './speed-error-table';
 
 const NONSENSE = 'crossed out: not how cloth moves';
 
-/** What the front is: rows of different references have one each. */
+/** Words on the front: rows of different references have one each. */
 function frontWords({ rows, meshError }: PlotContent): string {
   const isOfLevel = meshError !== 'known' && new Set(rows.map(({ level }) => level)).size > 1;
   return `front: no other setting${isOfLevel ? ' of its level' : ''} is both faster and nearer`;
@@ -49,7 +49,7 @@ function createLegend() {
   };
 }
 
-/** What was measured, how far that is, and whose errors no mesh mends. */
+/** Caption: what was measured, how far that is, and whose errors no mesh mends. */
 function besideHeadline({ scene, phase, progress, rows, meshError }: SweepState): string {
   const cloth = scene ? `${scene.mesh?.name ?? PRESETS[scene.preset].title}, ${scene.fabric}.` : '';
   const soFar = phase === 'running' ? `Measured so far: ${Math.floor(100 * progress)} %.` : '';
@@ -96,11 +96,7 @@ export function createSpeedErrorView(
 
   const heading = element('h2');
   const beside = element('p', { class: 'note' });
-  const close = element(
-    'button',
-    { type: 'button', click: () => store.set({ sweepOpen: false }) },
-    'Close',
-  );
+  const close = button('Close', () => store.set({ sweepOpen: false }));
   const figure = element('figure', { class: 'chart' });
   const plot = createSpeedErrorPlot(figure, use);
   const note = element('p', { class: 'note' });

@@ -1,5 +1,5 @@
 // Starts and cancels the sweep, and tells how far it is.
-import { choice, element, field, setText } from '../../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { shortTime } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
 import type { Model } from '../../../shared/steppers/steppers';
@@ -20,7 +20,7 @@ const FINEST = [
   { value: FINEST_SWEEP, title: `0 to ${FINEST_SWEEP}` },
 ];
 
-/** What takes part only when it is asked for. */
+/** Choices that take part only when they are asked for. */
 function slowPicker(onChange: (withSlow: boolean) => void) {
   const input = element('input', { type: 'checkbox', change: () => onChange(input.checked) });
   const title = element('span');
@@ -42,7 +42,7 @@ function timeLeft({ phase, leftS }: SweepState): string {
   return `, about ${shortTime(1000 * Math.ceil(leftS))} left`;
 }
 
-/** What a sweep would take, as far as steps that were timed tell. */
+/** Words on what a sweep would take, as far as steps that were timed tell. */
 export function expectation(
   { costs, setting }: Pick<MotionState, 'costs' | 'setting'>,
   wish: SweepWish,
@@ -79,31 +79,19 @@ export function createSweepPanel(
     wish.withSlow = withSlow;
     showExpectation(store.get());
   });
-  const start = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      click() {
-        sweep.start({ ...wish });
-        showChart();
-      },
-    },
+  const start = button(
     'Measure speed and error',
+    () => {
+      sweep.start({ ...wish });
+      showChart();
+    },
+    { class: 'wide' },
   );
-  const cancel = element(
-    'button',
-    { type: 'button', class: 'wide', click: () => sweep.cancel() },
-    'Cancel',
-  );
+  const cancel = button('Cancel', () => sweep.cancel(), { class: 'wide' });
   const progress = element('progress', { max: 1, 'aria-label': 'Progress of the sweep' });
   const message = element('p', { class: 'note' });
   const expected = element('p', { class: 'note' });
-  const open = element(
-    'button',
-    { type: 'button', class: 'wide', click: showChart },
-    'Show the chart',
-  );
+  const open = button('Show the chart', showChart, { class: 'wide' });
   parent.append(
     element(
       'section',

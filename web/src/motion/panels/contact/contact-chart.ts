@@ -1,7 +1,7 @@
 // How touched vertices move along the normal after first contact, under both responses.
 
 import type { ResponseStudy } from '../../../shared/bindings/pleat-module';
-import { element, setText } from '../../../shared/panels/element';
+import { checkBox, element, setText } from '../../../shared/panels/element';
 import { lineKey } from '../../../shared/panels/line-key';
 import { digits, percent } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
@@ -50,23 +50,21 @@ export function contactChart({ substep_s, resting, uniform }: ResponseStudy): Ti
   };
 }
 
-/** Whether the shown cloth bounces too. */
+/** A switch that lets the shown cloth bounce too. */
 function createSwitch(store: Store<MotionState>): HTMLElement {
-  const box = element('input', {
-    type: 'checkbox',
-    change: () => {
-      const { bounces: _, ...setting } = store.get().setting;
-      store.set({ setting: box.checked ? { ...setting, bounces: true } : setting });
-    },
+  const words = 'Let the shown cloth bounce, as textbooks do';
+  const { input, label } = checkBox(words, (isOn) => {
+    const { bounces: _, ...setting } = store.get().setting;
+    store.set({ setting: isOn ? { ...setting, bounces: true } : setting });
   });
   watch(store, ['setting'], ({ setting }) => {
-    box.checked = setting.bounces === true;
+    input.checked = setting.bounces === true;
   });
-  return element('label', { class: 'check' }, box, 'Let the shown cloth bounce, as textbooks do');
+  return label;
 }
 
 /** Returns what studies the shown scene if that is due. */
-export function createContactFigure(
+export function createContactChart(
   parent: HTMLDetailsElement,
   store: Store<MotionState>,
 ): ResponseSource {

@@ -1,5 +1,5 @@
 // Has methods compared on one step, and shows what comes of it.
-import { choice, element, field, setText } from '../../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../../shared/panels/element';
 import { createNumberTable, fillHead } from '../../../shared/panels/number-table';
 import { digits, milliseconds } from '../../../shared/panels/quantity';
 import { createStore, type Store, watch } from '../../../shared/state/store';
@@ -28,7 +28,7 @@ const MEASURE_WORDS: Record<Constraints, string> = {
     'Compliant springs give as the fabric does: what is left is the distance to where the method’s own equations would end, 1 before the first round. Methods that solve a step as a whole take part.',
 };
 
-/** What times and "never" mean. */
+/** Words on what times and "never" mean. */
 const HOW =
   'Measured on this device, each time the better of two batches of 50 ms. A method that never gets there had up to 513 rounds, fewer where one solve takes longer than 30 ms.';
 
@@ -37,7 +37,7 @@ const NEWTON =
 
 const DISTURBED = 'The cloth was playing meanwhile: the times are too long.';
 
-/** As choices have them: no number stands for now. */
+/** Times as choices have them: no number stands for now. */
 const NOW = -1;
 const BEGINS = [
   { value: NOW, title: 'Shown now' },
@@ -111,20 +111,16 @@ function createWish(motion: Store<MotionState>, store: Store<ConvergenceState>):
   return element('div', {}, pair, words);
 }
 
-export function createConvergenceFigure(
+export function createConvergenceChart(
   parent: HTMLElement,
   motion: Store<MotionState>,
   shown: Pick<MotionRun, 'rest'>,
 ): void {
   const store = createStore(NO_CONVERGENCE);
   const run = new ConvergenceRun(motion, store, () => shown.rest());
-  const wide = { type: 'button', class: 'wide' };
-  const start = element(
-    'button',
-    { ...wide, click: () => void run.start() },
-    'Compare methods on this step',
-  );
-  const cancel = element('button', { ...wide, click: () => run.cancel() }, 'Cancel');
+  const wide = { class: 'wide' };
+  const start = button('Compare methods on this step', () => void run.start(), wide);
+  const cancel = button('Cancel', () => run.cancel(), wide);
   const progress = element('progress', { max: 1, 'aria-label': 'Progress of the comparison' });
   const of = element('p', { class: 'note' });
   const figure = element('figure', { class: 'chart' });

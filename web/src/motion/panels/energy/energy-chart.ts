@@ -4,12 +4,11 @@ import type { EnergyNumbers } from '../../../shared/bindings/pleat-module';
 import { element, setText } from '../../../shared/panels/element';
 import { lineKey } from '../../../shared/panels/line-key';
 import { createNumberTable, fillHead, type NumberTable } from '../../../shared/panels/number-table';
-import { energyText } from '../../../shared/panels/quantity';
+import { energyText, energyUnit } from '../../../shared/panels/quantity';
 import { type Store, watch } from '../../../shared/state/store';
 import type { MotionState } from '../../state/motion-state';
-import { createTimePlot } from '../chart/time-plot';
+import { createTimePlot, type TimeChart } from '../chart/time-plot';
 import { type EnergyLine, linesOf } from './energy-lines';
-import { energyChart, lineClass } from './energy-plot';
 import { energyWords } from './energy-words';
 
 /** So many times of a run are in the table. */
@@ -39,7 +38,26 @@ function fillTable(
   table.rows.replaceChildren(...spread(samples).map(row));
 }
 
-export function createEnergyFigure(parent: HTMLElement, store: Store<MotionState>): () => void {
+/** Look of a line, in the chart and in its legend. */
+function lineClass(kind: EnergyLine['kind']): string {
+  return `time-line energy-${kind}`;
+}
+
+function energyChart(samples: readonly EnergyNumbers[], lines: readonly EnergyLine[]): TimeChart {
+  const heights = lines.map(({ joules }) => samples.map(joules));
+  const { unit, perJoule } = energyUnit(Math.max(0, ...heights.flat().map(Math.abs)));
+  return {
+    timeTitle: 'time [s]',
+    valueTitle: `energy [${unit}]`,
+    times: samples.map(({ time_s }) => time_s),
+    lines: lines.map(({ kind }, index) => ({
+      class: lineClass(kind),
+      values: (heights[index] ?? []).map((joules) => perJoule * joules),
+    })),
+  };
+}
+
+export function createEnergyChart(parent: HTMLElement, store: Store<MotionState>): () => void {
   const plot = createTimePlot('energy-over-time');
   const legend = element('ul', { class: 'marks energy-keys' });
   const words = element('figcaption');

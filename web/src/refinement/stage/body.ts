@@ -1,4 +1,4 @@
-// The solids of a figure: hulls of two balls, widened across their axis, closed and smooth.
+// The solids of a body: hulls of two balls, widened across their axis, closed and smooth.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -71,14 +71,7 @@ function shapeOf(cone: RoundedCone): string {
   return numbers.map((number) => number.toFixed(5)).join();
 }
 
-export interface Mannequin {
-  object: Group;
-  /** Moves the solids; builds them anew when their shapes changed. */
-  setCones(cones: readonly RoundedCone[]): void;
-  setColour(colour: string): void;
-}
-
-export function createMannequin(): Mannequin {
+export function createBody() {
   const object = new Group();
   const material = new MeshStandardMaterial({ roughness: 0.8 });
   let shapes = '';
@@ -102,7 +95,8 @@ export function createMannequin(): Mannequin {
 
   return {
     object,
-    setCones(cones) {
+    /** Moves the solids; builds them anew when their shapes changed. */
+    setCones(cones: readonly RoundedCone[]) {
       const wanted = cones.map(shapeOf).join(';');
       if (wanted !== shapes) build(cones);
       shapes = wanted;
@@ -117,7 +111,7 @@ export function createMannequin(): Mannequin {
         parts[index]?.updateMatrixWorld(true);
       });
     },
-    setColour(colour) {
+    setColour(colour: string) {
       material.color.set(colour);
     },
   };
