@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { goal } from '../../../native-tests/bench/parts/bench-rows.mjs';
+import { goal } from '../../../bench/parts/bench-rows.mjs';
 
 const ok = { status: 'ok' };
 const verdict = (value, direction, bound, rows = [ok]) =>

@@ -1,4 +1,4 @@
-// ./pleat bench skeleton (--help tells the options)
+// ./pleat bench loop (--help tells the options)
 // Speed and error of every stepper against each other, the same core as WebAssembly, and a plain
 // JavaScript loop. Bounds in milliseconds hold where that loop (sheet 65x65, 100 substeps, row
 // order) takes 20 ms, and are scaled by what it takes here.
@@ -267,7 +267,7 @@ async function absent({ repeat }) {
   return { rows, goals };
 }
 
-await runParts('skeleton', 'speed and error, and the goals they have to meet', {
+await runParts('loop', 'speed and error, and the goals they have to meet', {
   yardstick: againstYardstick,
   projective,
   implicit,

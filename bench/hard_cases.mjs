@@ -1,10 +1,10 @@
-// ./pleat bench stability (--help tells the options)
+// ./pleat bench hard_cases (--help tells the options)
 // Whether cloth stays cloth: hard cases, a minute of wind, a strain limit, and what a scene does not ask for.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { createPacer } from '../../web/src/shared/state/pacer.ts';
+import { createPacer } from '../web/src/shared/state/pacer.ts';
 import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
 import { goal, markdown, measure, short } from './parts/bench-rows.mjs';
 import { ask, reference, root } from './parts/command.mjs';
@@ -266,7 +266,7 @@ async function display() {
 }
 
 await runParts(
-  'stability',
+  'hard_cases',
   'whether cloth stays cloth, and what that costs',
   { hard_cases: hardCases, flag, limit, absent, display },
   [

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { tell } from './bench-parts.mjs';
 import { goal, hasFinished, markdown, short } from './bench-rows.mjs';
 import { askRows, cacheFolder, nativeRun, reference, root } from './command.mjs';
-import { changed } from './truth-warnings.mjs';
+import { changed } from './honesty-warnings.mjs';
 
 const kFewestRanked = 5; // of fewer settings an order says little
 

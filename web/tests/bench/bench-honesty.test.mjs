@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { crumpledDress } from '../../../native-tests/bench/parts/crumpled-dress.mjs';
-import { distance, rankCorrelation } from '../../../native-tests/bench/parts/truth-order.mjs';
-import { changed, isTold } from '../../../native-tests/bench/parts/truth-warnings.mjs';
+import { crumpledDress } from '../../../bench/parts/crumpled-dress.mjs';
+import { distance, rankCorrelation } from '../../../bench/parts/honesty-order.mjs';
+import { changed, isTold } from '../../../bench/parts/honesty-warnings.mjs';
 
 describe('rank correlation', () => {
   const errors = [3, 1, 4, 1.5, 9, 2.6];

@@ -1,5 +1,5 @@
 // The fine skirt in a fast walk: position-based steps against implicit ones.
-import { LIVE_SKIRT } from '../../../web/src/refinement/state/garment-frames.ts';
+import { LIVE_SKIRT } from '../../web/src/refinement/state/garment-frames.ts';
 import { commit, described, tell } from './bench-parts.mjs';
 import { goal, measure, median } from './bench-rows.mjs';
 import { nativeRun, reference } from './command.mjs';

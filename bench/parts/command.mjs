@@ -10,7 +10,7 @@ import { BadInput } from './bench-options.mjs';
 
 const kMaxOutput = 2 ** 30; // [bytes]; positions are printed as text
 
-export const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..', '..');
+export const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
 export const command = join(root, 'build', 'release', 'cli', 'pleat');
 export const cacheFolder = join(root, 'build', 'references');
 
