@@ -1,14 +1,12 @@
 // ./pleat bench hard_cases (--help tells the options)
 // Whether cloth stays cloth: hard cases, a minute of wind, a strain limit, and what a scene does not ask for.
-import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { createPacer } from '../web/src/shared/state/pacer.ts';
 import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
 import { goal, markdown, measure, short } from './parts/bench-rows.mjs';
-import { ask, reference, root } from './parts/command.mjs';
-import { answer, contestant, fabricsText, wasmModule } from './parts/contestants.mjs';
+import { ask, askPage, reference, root } from './parts/command.mjs';
+import { contestant } from './parts/contestants.mjs';
 import { hardCases } from './parts/hard-cases.mjs';
 import { squareSheet } from './parts/square-sheet.mjs';
 
@@ -221,42 +219,16 @@ async function absent({ repeat }) {
   };
 }
 
-/** What a display of so many pictures a second shows: hashes of the positions after each second. */
-async function shownSeconds(rate) {
-  const kSeconds = 4;
-  const module = await wasmModule();
-  const simulation = new module.Simulation(fabricsText());
-  const scene = shipped('flag');
-  answer(simulation.load(JSON.stringify(scene)));
-  const pacer = createPacer();
-  const hashes = [];
-  let steps = 0;
-  for (let picture = 0; hashes.length < kSeconds; ++picture) {
-    pacer.advance(1 / rate);
-    for (let due = pacer.take(scene.method.step_s, 0.1); due > 0; --due) {
-      simulation.step(1);
-      if (++steps % Math.round(1 / scene.method.step_s) === 0)
-        hashes.push(createHash('sha256').update(simulation.exactPositions()).digest('hex'));
-    }
-  }
-  simulation.delete();
-  return hashes.join();
-}
-
-/** The same motion at any rate of pictures, to the bit. */
+/** Motion on displays of several rates is the same to the bit, as the page paces it. */
 async function display() {
-  const rates = [30, 60, 120, 144];
-  const shown = [];
-  for (const rate of rates) {
-    tell(`flag at ${rate} Hz`);
-    shown.push(await shownSeconds(rate));
-  }
-  const differing = shown.filter((hashes) => hashes !== shown[0]).length;
-  const rows = rates.map((rate, i) => ({ rate_hz: rate, status: 'ok', sha256: shown[i] }));
-  const lines = rates.map((rate, i) => [
-    rate,
-    shown[i].slice(0, 12),
-    shown[i] === shown[0] ? 'yes' : 'no',
+  tell('flag on displays of several rates');
+  const rows = askPage('display-rates');
+  const isAsFirst = ({ sha256 }) => sha256 === rows[0].sha256;
+  const differing = rows.filter((row) => !isAsFirst(row)).length;
+  const lines = rows.map((row) => [
+    row.rate_hz,
+    row.sha256.slice(0, 12),
+    isAsFirst(row) ? 'yes' : 'no',
   ]);
   return {
     rows,

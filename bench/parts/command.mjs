@@ -64,6 +64,13 @@ export function askRows(...words) {
   return lines.map((line) => JSON.parse(line, orNaN));
 }
 
+/** What a program of the page's package prints: its lines of JSON. */
+export function askPage(script) {
+  const options = { cwd: join(root, 'web'), encoding: 'utf8' };
+  const lines = execFileSync('npm', ['run', '--silent', script], options).split('\n');
+  return lines.filter((line) => line.startsWith('{')).map((line) => JSON.parse(line));
+}
+
 /**
  * Positions that are taken for right: `kind` is "rigid_chain", "closed_form", or "run" for the
  * scene's own method; runs are kept in build/references.

@@ -1,26 +1,19 @@
 // How long a visitor waits for the page's default sweep, in headless Chromium.
-import { execFileSync } from 'node:child_process';
-import { join } from 'node:path';
-
 import { tell } from './bench-parts.mjs';
 import { goal, markdown, short } from './bench-rows.mjs';
-import { root } from './command.mjs';
+import { askPage } from './command.mjs';
 
 const kAllMs = 20000;
 const kFirstRowsMs = 5000;
 
 export async function page({ scale }) {
-  const web = join(root, 'web');
-  const run = (...words) => execFileSync(words[0], words.slice(1), { cwd: web, encoding: 'utf8' });
   tell('the page is built');
-  run('npm', 'run', '--silent', 'build');
+  askPage('build');
   tell("the page's sweeps");
-  const rows = run('node', 'tests/e2e/sweep-times.mjs')
-    .trim()
-    .split('\n')
-    .filter((line) => line.startsWith('{'))
-    .map((line) => JSON.parse(line))
-    .map((row) => ({ ...row, status: row.phase === 'done' ? 'ok' : row.phase }));
+  const rows = askPage('sweep-times').map((row) => ({
+    ...row,
+    status: row.phase === 'done' ? 'ok' : row.phase,
+  }));
   const head = ['scene', 'rows', 'errors known', 'first rows s', 'all s', 'status'];
   const lines = rows.map((row) => [
     row.scene,
