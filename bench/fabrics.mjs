@@ -1,24 +1,30 @@
 // ./pleat bench fabrics (--help tells the options)
-// What a shape of least deformation energy costs, from its mesh and under a moving hand, natively
-// and in WebAssembly; how much it depends on the mesh; and whether fabrics' weights show in it.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-
-import { runParts, tell } from './parts/bench-parts.mjs';
-import { exponent, goal, markdown, median, short } from './parts/bench-rows.mjs';
-import { ask, root } from './parts/command.mjs';
-import { deformWasm } from './parts/contestants.mjs';
+// Costs of a shape of least deformation energy, from its mesh and under a moving hand, natively and
+// in WebAssembly; how much it depends on the mesh; and whether fabrics' weights show in it.
+import { asset, fabricsText, readJson } from './parts/assets.mjs';
+import { tell } from './parts/bench-options.mjs';
+import { runParts } from './parts/bench-parts.mjs';
+import {
+  atMost,
+  exponent,
+  inTurn,
+  markdown,
+  median,
+  medianRow,
+  rankCorrelation,
+  short,
+  spread,
+  table,
+} from './parts/bench-rows.mjs';
+import { ask } from './parts/command.mjs';
+import { deformWasm } from './parts/deform-wasm.mjs';
 
 const kMoves = 20; // of a hand, from rest to the scene's targets
 const kLargest = ['ball', 'diagonal_stretch', 'wrinkles']; // 51 x 51 vertices each
 const kTerms = ['recovery', 'stretch', 'bending'];
 
-const sceneFile = (name) => join(root, 'assets', 'deform', `${name}.json`);
-const fabrics = JSON.parse(
-  readFileSync(join(root, 'assets', 'fabrics', 'fabrics.json')),
-).fabrics.map((fabric) => fabric.name_en);
-
-const everyFabric = kLargest.flatMap((scene) => fabrics.map((fabric) => ({ scene, fabric })));
+const sceneFile = (name) => asset('deform', `${name}.json`);
+const fabrics = JSON.parse(fabricsText()).fabrics.map((fabric) => fabric.name_en);
 
 /** The paper's table 3: [linearise ms, solve ms, iterations], of the scene that is ours. */
 const kPaper = {
@@ -32,31 +38,16 @@ const kPaper = {
 /** Least deformation energy of a scene, or of its file, as `pleat bench deform` tells it. */
 const deformNative = (scene, options = []) => ask('bench', 'deform', scene, ...options);
 
-function rounds(repeat, contestants) {
-  const found = contestants.map(() => []);
-  for (let round = 0; round < repeat; ++round)
-    for (const [i, { label, run }] of contestants.entries()) {
-      tell(`round ${round + 1} of ${repeat}: ${label}`);
-      found[i].push(run());
-    }
-  return found;
-}
-
 /** One row of a scene's runs: times are medians, the rest is the same in all of them. */
 function row(label, runs) {
   const [first] = runs;
-  const mid = (key) => median(runs.map((run) => run.cost[key]));
+  const costs = runs.map((run) => run.cost);
+  const times = Object.keys(first.cost).filter((key) => key.endsWith('_ms'));
   return {
     ...first,
     label,
-    cost: Object.fromEntries(
-      Object.entries(first.cost).map(([key, value]) =>
-        key.endsWith('_ms') ? [key, mid(key)] : [key, value],
-      ),
-    ),
-    spread_ms:
-      Math.max(...runs.map((run) => run.cost.total_ms)) -
-      Math.min(...runs.map((run) => run.cost.total_ms)),
+    cost: medianRow(costs, times),
+    spread_ms: spread(costs.map((cost) => cost.total_ms)),
     n_runs: runs.length,
     status: first.cost.status,
     drag: first.drag && {
@@ -68,165 +59,123 @@ function row(label, runs) {
   };
 }
 
-function costTable(rows) {
-  const head = [
-    'scene',
-    'target',
-    'vertices',
-    'faces',
-    'edges',
-    'build ms',
-    'linearise ms',
-    'solve ms/step',
-    'linearisations',
-    'steps',
-    'total ms',
-    'spread',
-    'energy',
-    'status',
-    'paper: linearise, solve ms, iterations',
-  ];
-  const lines = rows.map(({ label, paper, cost, ...shape }) => [
-    label,
-    shape.target,
-    shape.n_vertices,
-    shape.n_triangles ?? '',
-    shape.n_edges ?? '',
-    short(cost.build_ms),
-    short(cost.assembly_ms + cost.factor_ms),
-    short(cost.solve_ms),
-    cost.linearisations,
-    cost.steps,
-    short(cost.total_ms),
-    short(shape.spread_ms),
-    cost.energy.toPrecision(6),
-    cost.status,
-    paper?.join(', ') ?? '',
-  ]);
-  return markdown(head, lines);
+/** A row of each of [{label, run}], which take turns. */
+async function rowsOf(repeat, contestants) {
+  const runs = await inTurn(repeat, contestants);
+  return runs.map((of, i) => row(contestants[i].label, of));
 }
 
-/** From mesh to least energy: the paper's table 3 beside ours, then every fabric at 51 x 51. */
-async function solve({ repeat, scale }) {
-  const scenes = [...Object.keys(kPaper), ...kLargest.filter((name) => !kPaper[name])];
-  const shown = rounds(
+const shownScenes = (repeat, names, options = []) =>
+  rowsOf(
     repeat,
-    scenes.map((name) => ({ label: name, run: () => deformNative(sceneFile(name)) })),
-  ).map((runs, i) => ({ ...row(scenes[i], runs), paper: kPaper[scenes[i]] }));
-  const others = rounds(
+    names.map((label) => ({ label, run: () => deformNative(sceneFile(label), options) })),
+  );
+
+/** The largest scenes in every fabric, once. */
+const inEveryFabric = (options = []) =>
+  rowsOf(
     1,
-    everyFabric.map(({ scene, fabric }) => ({
-      label: `${scene}, ${fabric}`,
-      run: () => deformNative(sceneFile(scene), ['--fabric', fabric]),
-    })),
-  ).map((runs, i) => row(`${everyFabric[i].scene}, ${everyFabric[i].fabric}`, runs));
-  const largest = shown.filter(({ label }) => kLargest.includes(label));
-  const worst = others.reduce((a, b) => (a.cost.total_ms > b.cost.total_ms ? a : b));
-  const goals = [
-    goal(
-      'full_solve_2601_ms_native',
-      Math.max(...largest.map(({ cost }) => cost.total_ms)),
-      'at-most',
-      600 * scale,
-      largest,
+    kLargest.flatMap((scene) =>
+      fabrics.map((fabric) => ({
+        label: `${scene}, ${fabric}`,
+        run: () => deformNative(sceneFile(scene), [...options, '--fabric', fabric]),
+      })),
     ),
-    goal('full_solve_2601_all_fabrics_ms_native', worst.cost.total_ms, 'at-most', 600 * scale, [
-      worst,
-    ]),
-  ];
+  );
+
+/** The row of which `of` is the largest. */
+const worstOf = (rows, of) => rows.reduce((a, b) => (of(a) > of(b) ? a : b));
+
+const costTable = (rows) =>
+  table(rows, {
+    scene: 'label',
+    target: 'target',
+    vertices: 'n_vertices',
+    faces: (of) => of.n_triangles ?? '',
+    edges: (of) => of.n_edges ?? '',
+    'build ms': ({ cost }) => cost.build_ms,
+    'linearise ms': ({ cost }) => cost.assembly_ms + cost.factor_ms,
+    'solve ms/step': ({ cost }) => cost.solve_ms,
+    linearisations: ({ cost }) => cost.linearisations ?? '',
+    steps: ({ cost }) => cost.steps,
+    'total ms': ({ cost }) => cost.total_ms,
+    spread: 'spread_ms',
+    energy: ({ cost }) => cost.energy.toPrecision(6),
+    status: 'status',
+    'paper: linearise, solve ms, iterations': ({ paper }) => paper?.join(', ') ?? '',
+  });
+
+const totalMs = ({ cost }) => cost.total_ms;
+
+/** Costs from mesh to least energy: the paper's table 3 beside ours, every fabric at 51 x 51. */
+async function solve({ repeat, scale }) {
+  const names = [...Object.keys(kPaper), ...kLargest.filter((name) => !kPaper[name])];
+  const found = await shownScenes(repeat, names);
+  const shown = found.map((one) => ({ ...one, paper: kPaper[one.label] }));
+  const others = await inEveryFabric();
+  const largest = shown.filter(({ label }) => kLargest.includes(label));
+  const most = Math.max(...largest.map(totalMs));
+  const worst = worstOf(others, totalMs);
+  const bound = 600 * scale;
   return {
     rows: [...shown, ...others],
-    goals,
+    goals: [
+      atMost('full_solve_2601_ms_native', most, bound, largest),
+      atMost('full_solve_2601_all_fabrics_ms_native', totalMs(worst), bound, [worst]),
+    ],
     text: `\n\n${costTable(shown)}\n\nworst of 15 fabrics:\n\n${costTable([worst])}`,
   };
 }
 
-function dragTable(rows) {
-  const head = ['scene', 'target', 'update ms: median', 'largest', 'energy above the least %'];
-  return markdown(
-    head,
-    rows.map(({ label, target, drag }) => [
-      label,
-      target,
-      short(median(drag.update_ms)),
-      short(Math.max(...drag.update_ms)),
-      short(100 * Math.max(...drag.excess)),
-    ]),
-  );
-}
+const slowest = ({ drag }) => Math.max(...drag.update_ms);
+const mostExcess = ({ drag }) => 100 * Math.max(...drag.excess);
+
+const dragTable = (rows) =>
+  table(rows, {
+    scene: 'label',
+    target: 'target',
+    'update ms: median': ({ drag }) => median(drag.update_ms),
+    largest: slowest,
+    'energy above the least %': mostExcess,
+  });
 
 function dragGoals(rows, target, ms) {
-  const worst = (values) => Math.max(...rows.flatMap(values));
+  const most = (of) => Math.max(...rows.map(of));
   return [
-    goal(
-      `drag_update_2601_ms_${target}`,
-      worst(({ drag }) => drag.update_ms),
-      'at-most',
-      ms,
-      rows,
-    ),
-    goal(
-      `drag_energy_above_least_percent_${target}`,
-      100 * worst(({ drag }) => drag.excess),
-      'at-most',
-      5,
-      rows,
-    ),
+    atMost(`drag_update_2601_ms_${target}`, most(slowest), ms, rows),
+    atMost(`drag_energy_above_least_percent_${target}`, most(mostExcess), 5, rows),
   ];
 }
 
 /** A hand that takes the handles from rest to their targets in equal moves. */
 async function drag({ repeat, scale }) {
-  const options = ['--drag', String(kMoves)];
-  const rows = rounds(
-    repeat,
-    kLargest.map((name) => ({
-      label: name,
-      run: () => deformNative(sceneFile(name), options),
-    })),
-  ).map((runs, i) => row(kLargest[i], runs));
-  const others = everyFabric.map(({ scene, fabric }) => {
-    tell(`${scene}, ${fabric}`);
-    const run = deformNative(sceneFile(scene), [...options, '--fabric', fabric]);
-    return row(`${scene}, ${fabric}`, [run]);
-  });
-  const mostExcess = (a, b) => (Math.max(...a.drag.excess) > Math.max(...b.drag.excess) ? a : b);
-  const worst = others.reduce(mostExcess);
-  const next = others.filter(({ fabric }) => fabric !== worst.fabric).reduce(mostExcess);
+  const options = ['--drag', kMoves];
+  const rows = await shownScenes(repeat, kLargest, options);
+  const others = await inEveryFabric(options);
+  const worst = worstOf(others, mostExcess);
+  const rest = others.filter(({ fabric }) => fabric !== worst.fabric);
+  const name = 'drag_energy_above_least_percent_all_fabrics';
   return {
     rows: [...rows, ...others],
-    goals: [
-      ...dragGoals(rows, 'native', 16 * scale),
-      goal(
-        'drag_energy_above_least_percent_all_fabrics',
-        100 * Math.max(...worst.drag.excess),
-        'at-most',
-        5,
-        others,
-      ),
-    ],
-    text: `\n\n${dragTable(rows)}\n\nworst of 15 fabrics, and of the other 14:\n\n${dragTable([worst, next])}`,
+    goals: [...dragGoals(rows, 'native', 16 * scale), atMost(name, mostExcess(worst), 5, others)],
+    text: `\n\n${dragTable(rows)}\n\nworst of 15 fabrics, and of the other 14:\n\n${dragTable([worst, worstOf(rest, mostExcess)])}`,
   };
 }
 
 async function wasm({ repeat, scale }) {
-  const found = [];
-  for (const name of kLargest) {
-    const runs = [];
-    for (let round = 0; round < repeat; ++round) {
-      tell(`round ${round + 1} of ${repeat}: ${name}, wasm`);
-      runs.push(await deformWasm(sceneFile(name), kMoves));
-    }
-    found.push(row(name, runs));
-  }
-  const total = Math.max(...found.map(({ cost }) => cost.total_ms));
+  const run = (name) => () => deformWasm(sceneFile(name), kMoves);
+  const rows = await rowsOf(
+    repeat,
+    kLargest.map((name) => ({ label: name, run: run(name) })),
+  );
+  const total = Math.max(...rows.map(totalMs));
   return {
-    rows: found,
+    rows,
     goals: [
-      goal('full_solve_2601_ms_wasm', total, 'at-most', 1200 * scale, found),
-      ...dragGoals(found, 'wasm', 33 * scale),
+      atMost('full_solve_2601_ms_wasm', total, 1200 * scale, rows),
+      ...dragGoals(rows, 'wasm', 33 * scale),
     ],
-    text: `\n\n${costTable(found)}\n\n${dragTable(found)}`,
+    text: `\n\n${costTable(rows)}\n\n${dragTable(rows)}`,
   };
 }
 
@@ -243,22 +192,20 @@ async function mesh() {
   for (const form of ['consistent', 'published'])
     for (const [name, other] of kPairs) {
       const runs = fabrics.map((fabric) => {
-        tell(`${name} and ${other}, ${fabric}, ${form}`);
+        const label = `${name} and ${other}, ${fabric}, ${form}`;
+        tell(label);
         const words = ['--form', form, '--fabric', fabric, '--against', sceneFile(other)];
         const run = deformNative(sceneFile(name), words);
-        const percent = (100 * run.against.largest_m) / kSide;
-        return { ...row(`${name} and ${other}, ${fabric}, ${form}`, [run]), form, percent };
+        return { ...row(label, [run]), form, percent: (100 * run.against.largest_m) / kSide };
       });
       runs.sort((a, b) => a.percent - b.percent);
       const [least, middle, most] = [0, 7, 14].map((k) => runs[k]);
       const counts = `${least.n_vertices} and ${least.against.n_vertices}`;
-      lines.push([
-        `${counts} vertices, ${form}`,
-        ...[least, middle, most].map(({ percent, fabric }) => `${short(percent)} (${fabric})`),
-      ]);
+      const shown = ({ percent, fabric }) => `${short(percent)} (${fabric})`;
+      lines.push([`${counts} vertices, ${form}`, ...[least, middle, most].map(shown)]);
       rows.push(...runs);
       const goalName = `mesh_distance_percent_${counts.replaceAll(' ', '_')}`;
-      if (form === 'consistent') goals.push(goal(goalName, most.percent, 'at-most', 5, runs));
+      if (form === 'consistent') goals.push(atMost(goalName, most.percent, 5, runs));
     }
   const head = ['largest distance, % of the side', 'least', 'median', 'most of 15 fabrics'];
   return { rows, goals, text: `\n\n${markdown(head, lines)}` };
@@ -266,7 +213,7 @@ async function mesh() {
 
 /** The pulled sheet of about so many vertices. */
 function pulledSheet(n) {
-  const scene = JSON.parse(readFileSync(sceneFile('pull')));
+  const scene = readJson(sceneFile('pull'));
   const { sheet } = scene.cloth;
   const across = Math.round(Math.sqrt((n * sheet.height_m) / sheet.width_m));
   sheet.vertices = [Math.round(n / across), across];
@@ -275,34 +222,14 @@ function pulledSheet(n) {
 
 /** Time to the least energy of the same sheet, more and more finely cut. */
 async function growth({ repeat }) {
-  const kVertices = [500, 1000, 2000, 5000, 10_000, 20_000];
-  const rows = rounds(
-    repeat,
-    kVertices.map((n) => ({
-      label: `${n} vertices`,
-      run: () => deformNative(pulledSheet(n)),
-    })),
-  ).map((runs, i) => row(`pull, about ${kVertices[i]} vertices`, runs));
-  const slope = exponent(rows.map(({ n_vertices, cost }) => [n_vertices, cost.total_ms]));
-  return {
-    rows,
-    goals: [goal('growth_exponent', slope, 'at-most', 1.6, rows)],
-    text: `\n\n${costTable(rows)}`,
-  };
-}
-
-/** Spearman's; ties share their ranks. */
-function rankCorrelation(a, b) {
-  const ranks = (values) =>
-    values.map((value) => {
-      const below = values.filter((other) => other < value).length;
-      const equal = values.filter((other) => other === value).length;
-      return below + (equal - 1) / 2;
-    });
-  const [p, q] = [ranks(a), ranks(b)];
-  const mid = (a.length - 1) / 2;
-  const product = (x, y) => x.reduce((sum, rank, i) => sum + (rank - mid) * (y[i] - mid), 0);
-  return product(p, q) / Math.sqrt(product(p, p) * product(q, q));
+  const contestants = [500, 1000, 2000, 5000, 10_000, 20_000].map((n) => ({
+    label: `pull, about ${n} vertices`,
+    run: () => deformNative(pulledSheet(n)),
+  }));
+  const rows = await rowsOf(repeat, contestants);
+  const slope = exponent(rows.map((of) => [of.n_vertices, totalMs(of)]));
+  const goals = [atMost('growth_exponent', slope, 1.6, rows)];
+  return { rows, goals, text: `\n\n${costTable(rows)}` };
 }
 
 /** Does a fabric with more weight on a term have less of it? All 15 under one pull. */
@@ -322,11 +249,11 @@ async function weights() {
         runs.map((run) => run.cost.terms[term]),
       ),
     );
-    lines.push([form, ...correlations.map(short)]);
+    lines.push([form, ...correlations]);
     rows.push(...runs);
     if (form === 'published')
       for (const [k, term] of kTerms.entries())
-        goals.push(goal(`rank_correlation_${term}`, correlations[k], 'at-most', -0.8, runs));
+        goals.push(atMost(`rank_correlation_${term}`, correlations[k], -0.8, runs));
   }
   const head = ['form', ...kTerms.map((term) => `rank correlation: ${term}`)];
   return { rows, goals, text: `\n\n${markdown(head, lines)}` };
@@ -335,8 +262,7 @@ async function weights() {
 /** Where the posed T-shirt is wrinkled: at its arms, or on its body too. */
 async function shirt() {
   const kArm = 0.2; // [m] from the middle
-  const kFabrics = ['coarse cotton (denim)', 'canvas', 'silk', 'nylon'];
-  const rows = kFabrics.map((fabric) => {
+  const rows = ['coarse cotton (denim)', 'canvas', 'silk', 'nylon'].map((fabric) => {
     tell(`T-shirt, ${fabric}`);
     const words = ['--fabric', fabric, '--vertices'];
     const { vertices, ...run } = deformNative(sceneFile('t_shirt'), words);
@@ -346,24 +272,14 @@ async function shirt() {
     });
     return { ...row(`T-shirt, ${fabric}`, [run]), bending };
   });
-  const text = markdown(
-    ['T-shirt', 'E_A at the arms', 'E_A on the body', 'arms / body'],
-    rows.map(({ fabric, bending: { arms, body } }) => [
-      fabric,
-      short(arms),
-      short(body),
-      short(arms / body),
-    ]),
-  );
-  return { rows, goals: [], text: `\n\n${text}` };
+  const columns = {
+    'T-shirt': 'fabric',
+    'E_A at the arms': ({ bending }) => bending.arms,
+    'E_A on the body': ({ bending }) => bending.body,
+    'arms / body': ({ bending }) => bending.arms / bending.body,
+  };
+  return { rows, goals: [], text: `\n\n${table(rows, columns)}` };
 }
 
-await runParts('fabrics', 'Shapes of least deformation energy: cost, and what they depend on.', {
-  solve,
-  drag,
-  wasm,
-  mesh,
-  growth,
-  weights,
-  shirt,
-});
+const purpose = 'shapes of least deformation energy: cost, and what they depend on';
+await runParts('fabrics', purpose, { solve, drag, wasm, mesh, growth, weights, shirt });

@@ -1,69 +1,42 @@
 // ./pleat bench imex (--help tells the options)
-// What it saves to treat only those springs implicitly that need it, and where it does not pay.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-
-import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
-import { exponent, goal, markdown, measure, short } from './parts/bench-rows.mjs';
-import { ask, reference, root } from './parts/command.mjs';
-import { contestant } from './parts/contestants.mjs';
-import { squareSheet } from './parts/square-sheet.mjs';
+// Savings of treating only those springs implicitly that need it, and where it does not pay.
+import { shippedScene } from './parts/assets.mjs';
+import { tell } from './parts/bench-options.mjs';
+import { runParts } from './parts/bench-parts.mjs';
+import { atMost, described, exponent, markdown, table } from './parts/bench-rows.mjs';
+import { ask } from './parts/command.mjs';
+import { againstNewton } from './parts/contestants.mjs';
+import { by, kStep, squareSheet } from './parts/sheets.mjs';
 
 const kFrames = 100;
-const kStep = 1 / 60; // [s]
 const kSubsteps = 7; // of 2.4 ms
 const kTolerance = 1e-4;
 
-const kImplicit = { stepper: 'implicit', substeps: kSubsteps, solver: 'cg', tolerance: kTolerance };
-const kImex = { stepper: 'imex', substeps: kSubsteps, solver: 'sor', tolerance: kTolerance };
+const imex = (solver, more = {}) => ({ stepper: 'imex', substeps: kSubsteps, solver, ...more });
+const iterated = { tolerance: kTolerance };
+const kImplicit = { ...imex('cg', iterated), stepper: 'implicit' };
+const kImex = imex('sor', iterated);
+const kImexCg = imex('cg', iterated);
 
 /**
  * A sheet of 0.2 kg/m^2, n x n particles on a square with sides of `size` [m], let go from the
  * horizontal, two corners held.
  */
-function pendulum(n, method, { fabric = 'fine cotton', size = 1 } = {}) {
-  return {
-    name: `pendulum ${n}x${n} over ${size} m, ${fabric}`,
-    cloth: squareSheet(n, [0, 1.5, 0], [1, 0, 0], [0, 0, 1], size),
-    fabric: {
-      name: fabric,
-      overrides: { damping_ratio: 0.02, areal_density_kg_per_m2: 0.2 },
-    },
-    pins: [{ part: 'upper_left' }, { part: 'lower_left' }],
-    method: { step_s: kStep, ...method },
-    duration_s: kFrames * kStep,
-  };
-}
+const pendulum = (n, { fabric = 'fine cotton', size = 1 } = {}) => ({
+  name: `pendulum ${n}x${n} over ${size} m, ${fabric}`,
+  cloth: squareSheet(n, [0, 1.5, 0], [1, 0, 0], [0, 0, 1], size),
+  fabric: {
+    name: fabric,
+    overrides: { damping_ratio: 0.02, areal_density_kg_per_m2: 0.2 },
+  },
+  pins: [{ part: 'upper_left' }, { part: 'lower_left' }],
+  duration_s: kFrames * kStep,
+});
 
-/** A shipped scene as springs with quadratic bending, which `imex` splits. */
-function shipped(file, method, changes = {}) {
-  const scene = JSON.parse(readFileSync(join(root, 'assets', 'scenes', `${file}.json`), 'utf8'));
-  return { ...scene, ...changes, method: { step_s: kStep, ...method } };
-}
-
-/** A skirt on a walking figure; a file of its own finds the motion nowhere else. */
-function skirt(method) {
-  const motion = join(root, 'assets', 'motions', 'walk_normal.json');
-  const figure = { build: 'slim', motion };
-  return shipped(join('garments', 'skirt_walk'), method, { figure, refinement: { level: 0 } });
-}
-
-/**
- * The scene by several methods in turn, against `newton` with `exactSteps` of a frame.
- *
- * sceneOf: method => scene; methods: {label: method}
- */
-function compared(settings) {
-  const { repeat, sceneOf, methods, vertices, frames = kFrames, exactSteps = 64 } = settings;
-  const times = [(frames * kStep) / 2, frames * kStep];
-  const scene = sceneOf({});
-  tell(`reference of ${scene.name}`);
-  const exact = { stepper: 'newton', step_s: kStep / exactSteps };
-  const against = reference(sceneOf(exact), 'run', times);
-  const contestants = Object.entries(methods).map(([label, method]) =>
-    contestant('native', label, sceneOf(method), vertices, frames),
-  );
-  return measure(contestants, { repeat, times, commit, tell, against, frames, turnFrames: 5 });
+/** The scene by several methods in turn, against `newton`; methods: {label: method} */
+function compared(scene, methods, { frames = kFrames, exactSteps = 64, repeat }) {
+  const scenes = Object.entries(methods).map(([label, method]) => [label, by(scene, method)]);
+  return againstNewton(Object.fromEntries(scenes), scene, { repeat, frames, exactSteps });
 }
 
 const lastError = (row) => Object.values(row.position_errors_m).at(-1);
@@ -76,34 +49,28 @@ const overFirst = (rows) =>
   }));
 
 async function onPendulum({ repeat }) {
-  const rows = await compared({
-    repeat,
-    sceneOf: (method) => pendulum(10, method),
-    vertices: 100,
-    methods: {
-      'implicit, cg': kImplicit,
-      'imex, sor': kImex,
-      'imex, cg': { ...kImex, solver: 'cg' },
-      'imex, cholmod': { stepper: 'imex', substeps: kSubsteps, solver: 'cholmod' },
-      'imex_fixed, sor': { ...kImex, split: 'structural' },
-      'rk4, largest stable step': { stepper: 'rk4', substeps: 'stable' },
-    },
-  });
-  const [, imex] = overFirst(rows);
-  const judged = rows.slice(0, 2);
-  return {
-    rows,
-    goals: [
-      goal('imex_sor_time_to_implicit_cg', imex.time, 'at-most', 0.6, judged),
-      goal('imex_sor_error_to_implicit_cg', imex.error, 'at-most', 1, judged),
-    ],
+  const methods = {
+    'implicit, cg': kImplicit,
+    'imex, sor': kImex,
+    'imex, cg': kImexCg,
+    'imex, cholmod': imex('cholmod'),
+    'imex_fixed, sor': { ...kImex, split: 'structural' },
+    'rk4, largest stable step': { stepper: 'rk4', substeps: 'stable' },
   };
+  const rows = await compared(pendulum(10), methods, { repeat });
+  const [, { time, error }] = overFirst(rows);
+  const judged = rows.slice(0, 2);
+  const goals = [
+    atMost('imex_sor_time_to_implicit_cg', time, 0.6, judged),
+    atMost('imex_sor_error_to_implicit_cg', error, 1, judged),
+  ];
+  return { rows, goals };
 }
 
 const kGrowing = {
   'imex, sor': kImex,
-  'imex, cg': { ...kImex, solver: 'cg' },
-  'imex, supernodal': { stepper: 'imex', substeps: kSubsteps, solver: 'supernodal' },
+  'imex, cg': kImexCg,
+  'imex, supernodal': imex('supernodal'),
   'implicit, cg': kImplicit,
 };
 
@@ -112,134 +79,113 @@ async function grown(name, repeat, sizeOf) {
   const kSides = [10, 20, 40, 80];
   const rows = [];
   for (const n of kSides) {
-    const found = await compared({
-      repeat,
-      sceneOf: (method) => pendulum(n, method, { size: sizeOf(n) }),
-      vertices: n * n,
-      frames: 15,
-      exactSteps: 8,
-      methods: kGrowing,
-    });
-    rows.push(...found);
+    const scene = pendulum(n, { size: sizeOf(n) });
+    rows.push(...(await compared(scene, kGrowing, { repeat, frames: 15, exactSteps: 8 })));
   }
   const slope = (label) => {
     const own = rows.filter((row) => row.label.endsWith(label));
     return exponent(own.map((row) => [row.n_vertices, row.ms_per_frame]));
   };
-  return {
-    rows,
-    goals: ['imex, sor', 'imex, cg'].map((label) =>
-      goal(`growth_${name}_${label.replace(', ', '_')}`, slope(label), 'at-most', 1.2, rows),
-    ),
-  };
+  const goals = ['imex, sor', 'imex, cg'].map((label) =>
+    atMost(`growth_${name}_${label.replace(', ', '_')}`, slope(label), 1.2, rows),
+  );
+  return { rows, goals };
 }
 
 /** A larger cloth with the same mesh width: each particle's springs and mass stay as they are. */
 const larger = ({ repeat }) => grown('larger', repeat, (n) => (n - 1) / 9);
 
-/** The same cloth on a finer mesh: what a substep reaches is ever more cells away. */
+/** A finer mesh of one cloth: a substep reaches ever more cells. */
 const finer = ({ repeat }) => grown('finer', repeat, () => 1);
 
 /** The preset's wool with another method, let go or thrown. */
-function wool(method, velocity) {
-  const scene = JSON.parse(readFileSync(join(root, 'assets', 'scenes', 'wool.json'), 'utf8'));
-  const cloth = { knit: { ...scene.cloth.knit, initial_velocity_m_per_s: velocity } };
-  return { ...scene, cloth, method: { step_s: kStep, ...method } };
+function wool(method, initial_velocity_m_per_s = [0, 0, 0]) {
+  const scene = shippedScene('wool');
+  Object.assign(scene.cloth.knit, { initial_velocity_m_per_s });
+  return by(scene, method);
 }
 
 /** Wool that falls on a ball, from one state at first contact, resting and bouncing. */
 async function contact() {
   const kExplicit = { stepper: 'explicit', substeps: 'stable' };
   const kThrown = [1.5, 0, 0.5];
+  const imexBy = (substeps) => ({ stepper: 'imex', substeps });
   const kScenes = {
-    explicit: wool(kExplicit, [0, 0, 0]),
+    explicit: wool(kExplicit),
     'explicit, thrown': wool(kExplicit, kThrown),
-    'explicit, forward Euler': wool({ ...kExplicit, euler: 'forward' }, [0, 0, 0]),
-    'imex, 8 substeps': wool({ stepper: 'imex', substeps: 8 }, [0, 0, 0]),
-    'imex, 8 substeps, thrown': wool({ stepper: 'imex', substeps: 8 }, kThrown),
-    'imex, 64 substeps': wool({ stepper: 'imex', substeps: 64 }, [0, 0, 0]),
+    'explicit, forward Euler': wool({ ...kExplicit, euler: 'forward' }),
+    'imex, 8 substeps': wool(imexBy(8)),
+    'imex, 8 substeps, thrown': wool(imexBy(8), kThrown),
+    'imex, 64 substeps': wool(imexBy(64)),
   };
   const rows = Object.entries(kScenes).map(([label, scene]) => {
     tell(`wool on a ball: ${label}`);
     return { label, ...ask('bench', 'response', scene) };
   });
-  const percent = (share) => (share === null ? '-' : short(100 * share));
-  const lines = rows.flatMap((row) =>
-    ['resting', 'uniform'].map((response) => [
-      row.label,
+  const responses = rows.flatMap(({ label, first_contact_s, substep_s, resting, uniform }) =>
+    Object.entries({ resting, uniform }).map(([response, found]) => ({
+      label,
+      first_contact_s,
+      substep_s,
       response,
-      short(1e3 * row.first_contact_s),
-      short(1e6 * row.substep_s),
-      row[response].n_touched,
-      short(1e3 * row[response].rms_normal_velocity_m_per_s),
-      percent(row[response].tangential_velocity_deviation),
-      percent(row[response].momentum_deviation),
-      percent(row[response].contact_share),
-    ]),
+      ...found,
+    })),
   );
-  const head = [
-    'method',
-    'response',
-    'first contact ms',
-    'substep us',
-    'touched',
-    'RMS normal velocity mm/s',
-    'tangential velocity off %',
-    'momentum off %',
-    'contact, % of a step',
-  ];
-  const [explicit, thrown, , imex] = rows;
+  const percent = (key) => (row) => 100 * (row[key] ?? Number.NaN);
+  const columns = {
+    method: 'label',
+    response: 'response',
+    'first contact ms': (row) => 1e3 * row.first_contact_s,
+    'substep us': (row) => 1e6 * row.substep_s,
+    touched: 'n_touched',
+    'RMS normal velocity mm/s': (row) => 1e3 * row.rms_normal_velocity_m_per_s,
+    'tangential velocity off %': percent('tangential_velocity_deviation'),
+    'momentum off %': percent('momentum_deviation'),
+    'contact, % of a step': percent('contact_share'),
+  };
+  const [explicit, thrown, , inImex] = rows;
   const ratio = ({ resting, uniform }) =>
     resting.rms_normal_velocity_m_per_s / uniform.rms_normal_velocity_m_per_s;
-  const off = (key) =>
-    Math.max(...rows.flatMap(({ resting, uniform }) => [resting[key] ?? 0, uniform[key] ?? 0]));
+  const off = (key) => Math.max(...responses.map((response) => response[key] ?? 0));
   return {
     rows,
     goals: [
-      goal('wool_resting_to_uniform_explicit', ratio(explicit), 'at-most', 0.2),
-      goal('wool_resting_to_uniform_explicit_thrown', ratio(thrown), 'at-most', 0.2),
-      goal('wool_resting_to_uniform_imex', ratio(imex), 'at-most', 0.2),
-      goal('wool_tangential_velocity_off', off('tangential_velocity_deviation'), 'at-most', 0.01),
-      goal('wool_momentum_off', off('momentum_deviation'), 'at-most', 0.01),
+      atMost('wool_resting_to_uniform_explicit', ratio(explicit), 0.2),
+      atMost('wool_resting_to_uniform_explicit_thrown', ratio(thrown), 0.2),
+      atMost('wool_resting_to_uniform_imex', ratio(inImex), 0.2),
+      atMost('wool_tangential_velocity_off', off('tangential_velocity_deviation'), 0.01),
+      atMost('wool_momentum_off', off('momentum_deviation'), 0.01),
     ],
-    text: markdown(head, lines),
+    text: table(responses, columns),
   };
 }
 
-/** Other scenes, fabrics and steps: what no goal names. */
+/** Other scenes, fabrics and steps: no goal names them. */
 async function elsewhere({ repeat }) {
-  const kScenes = [
-    ['curtain, its own fabric', (method) => shipped('curtain', method)],
-    ['tablecloth, its own fabric', (method) => shipped('tablecloth', method)],
-    ['skirt in a walk', skirt],
-    ['swinging sheet', (method) => shipped('swinging_sheet', method)],
-    ['pendulum of denim', (method) => pendulum(10, method, { fabric: 'coarse cotton (denim)' })],
-    ['pendulum of silk', (method) => pendulum(10, method, { fabric: 'silk' })],
-    [
-      'pendulum, 2 substeps',
-      (method) => pendulum(10, { ...method, ...(method.substeps && { substeps: 2 }) }),
-    ],
-    [
-      'pendulum, 20 substeps',
-      (method) => pendulum(10, { ...method, ...(method.substeps && { substeps: 20 }) }),
-    ],
-  ];
+  const skirt = { ...shippedScene('garments/skirt_walk'), refinement: { level: 0 } };
+  const of = (fabric) => pendulum(10, { fabric });
+  // [scene, substeps]
+  const kScenes = {
+    'curtain, its own fabric': [shippedScene('curtain')],
+    'tablecloth, its own fabric': [shippedScene('tablecloth')],
+    'skirt in a walk': [skirt],
+    'swinging sheet': [shippedScene('swinging_sheet')],
+    'pendulum of denim': [of('coarse cotton (denim)')],
+    'pendulum of silk': [of('silk')],
+    'pendulum, 2 substeps': [pendulum(10), 2],
+    'pendulum, 20 substeps': [pendulum(10), 20],
+  };
   const rows = [];
   const lines = [];
-  for (const [name, sceneOf] of kScenes) {
-    const found = await compared({
-      repeat,
-      sceneOf,
-      vertices: 100,
-      frames: 30,
-      methods: {
-        'implicit, cg': kImplicit,
-        'imex, sor': kImex,
-        'imex, cg': { ...kImex, solver: 'cg' },
-      },
-    });
-    const [, sor, cg] = overFirst(found);
-    lines.push([name, ...[sor, cg].flatMap(({ time, error }) => [short(time), short(error)])]);
+  for (const [name, [scene, substeps = kSubsteps]] of Object.entries(kScenes)) {
+    const methods = {
+      'implicit, cg': { ...kImplicit, substeps },
+      'imex, sor': { ...kImex, substeps },
+      'imex, cg': { ...kImexCg, substeps },
+    };
+    const found = await compared(scene, methods, { repeat, frames: 30 });
+    const [, ...both] = overFirst(found);
+    lines.push([name, ...both.flatMap(({ time, error }) => [time, error])]);
     rows.push(...found);
   }
   const head = ['scene', 'sor: time', 'error', 'cg: time', 'error'];
@@ -247,10 +193,5 @@ async function elsewhere({ repeat }) {
   return { rows, goals: [], text };
 }
 
-await runParts('imex', 'implicit where it must be, explicit where it can be', {
-  pendulum: onPendulum,
-  contact,
-  larger,
-  finer,
-  elsewhere,
-});
+const parts = { pendulum: onPendulum, contact, larger, finer, elsewhere };
+await runParts('imex', 'implicit where it must be, explicit where it can be', parts);

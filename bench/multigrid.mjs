@@ -1,6 +1,6 @@
 // ./pleat bench multigrid (--help tells the options)
-// What coarser levels save: position-based steps against a plain loop and one by one, and solves of
-// implicit steps; and what it takes to make them.
+// Savings of coarser levels: position-based steps against a plain loop and one by one, and solves of
+// implicit steps; and the cost of making them.
 import { runParts } from './parts/bench-parts.mjs';
 import { convergence } from './parts/convergence.mjs';
 import { experiments } from './parts/experiments.mjs';
@@ -21,5 +21,6 @@ const parts = {
   experiments,
   skirt,
 };
+const more = { ...loopOptions, ...clothOption };
 
-await runParts('multigrid', 'what coarser levels save', parts, [...loopOptions, clothOption]);
+await runParts('multigrid', 'what coarser levels save', parts, { more });

@@ -1,26 +1,21 @@
 // ./pleat bench references (--help tells the options)
-// What every other error is measured against, held against something of its own: a closed form,
-// half its step, finer meshes; what the exact method costs; and a sweep that is killed.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-
-import { commit, described, runParts, tell } from './parts/bench-parts.mjs';
-import { goal, measure, rowsOf, short } from './parts/bench-rows.mjs';
+// References of all other errors, held against something of their own: a closed form, half the
+// step, finer meshes; the cost of the exact method; and a sweep that is killed.
+import { asset, readJson } from './parts/assets.mjs';
+import { tell } from './parts/bench-options.mjs';
+import { runParts } from './parts/bench-parts.mjs';
+import { atMost, described, measure, millimetres, rowsOf, short } from './parts/bench-rows.mjs';
 import { cantilever } from './parts/cantilever.mjs';
-import { ask, nativeRun, reference, root } from './parts/command.mjs';
+import { ask, nativeRun, reference } from './parts/command.mjs';
 import { contestant as contestantOf } from './parts/contestants.mjs';
 import { killedSweep } from './parts/killed-sweep.mjs';
+import { by, kStep } from './parts/sheets.mjs';
 
-const kFrame = 1 / 60; // [s]
 const kModels = ['springs', 'membrane']; // each with the bending that goes with it
-const swinging = JSON.parse(readFileSync(join(root, 'assets', 'scenes', 'swinging_sheet.json')));
+const swinging = readJson(asset('scenes', 'swinging_sheet.json'));
 
-const sheet = (level, elasticity, method) => ({
-  ...swinging,
-  refinement: { level },
-  model: { elasticity },
-  method: { step_s: kFrame, ...method },
-});
+const sheet = (level, elasticity, method) =>
+  by({ ...swinging, refinement: { level }, model: { elasticity } }, method);
 const cells = (level) => swinging.cloth.sheet.columns << level;
 const size = (level) => `${cells(level) + 1}x${cells(level) + 1}`;
 const newton = (stepsPerSecond) => ({
@@ -28,12 +23,10 @@ const newton = (stepsPerSecond) => ({
   rule: 'midpoint',
   step_s: 1 / stepsPerSecond,
 });
-const millimetres = (lengths) => `${lengths.map((length) => short(1e3 * length)).join(' / ')} mm`;
 
 function contestant(level, elasticity, label, method, frames, target = 'native') {
   const scene = sheet(level, elasticity, method);
-  const about = `${size(level)}, ${elasticity}, ${label}`;
-  return contestantOf(target, about, scene, (cells(level) + 1) ** 2, frames);
+  return contestantOf(target, `${size(level)}, ${elasticity}, ${label}`, scene, frames);
 }
 
 /** `newton` with the midpoint rule on the same mesh, and how far halving its step moved it. */
@@ -71,19 +64,14 @@ async function time({ repeat }) {
       contestant(kLevel, model, label, method, 60),
     );
     const rounds = Math.min(repeat, kMostRounds);
-    const options = { repeat: rounds, times: kTimes, against, commit, tell };
-    const found = await measure(contestants, options);
-    const shares = found.map((row) =>
-      Math.max(
-        ...kTimes.map(
-          (at, t) => against.samples[t].halving_changed_m / row.position_errors_m[`${at} s`],
-        ),
-      ),
-    );
+    const found = await measure(contestants, { repeat: rounds, times: kTimes, against });
+    const shareAt = (row) => (at, t) =>
+      against.samples[t].halving_changed_m / row.position_errors_m[`${at} s`];
+    const shares = found.map((row) => Math.max(...kTimes.map(shareAt(row))));
     for (const [i, row] of found.entries())
       row.reference = { ...row.reference, converged: shares[i] <= kLargestShare };
     const name = `time_reference_change_over_smallest_error_${model}`;
-    goals.push(goal(name, Math.max(...shares), 'at-most', kLargestShare, found));
+    goals.push(atMost(name, Math.max(...shares), kLargestShare, found));
     rows.push(...found);
   }
   return { rows, goals };
@@ -103,13 +91,11 @@ async function mesh() {
     const runs = kLevels.map((level) => {
       tell(`mesh ${size(level)}, ${model}`);
       const scene = sheet(level, model, newton(kStepsPerSecond));
-      return nativeRun(scene, kTimes.at(-1) / kFrame, kTimes);
+      return nativeRun(scene, kTimes.at(-1) / kStep, kTimes);
     });
     const [{ masses_kg, core }] = runs; // of the vertices that all three have
-    const { samples } = ask('bench', 'limit', {
-      masses_kg,
-      meshes: runs.map((run) => run.samples),
-    });
+    const meshes = runs.map((run) => run.samples);
+    const { samples } = ask('bench', 'limit', { masses_kg, meshes });
     const against = {
       reference: {
         id: `limit-of-meshes-${model}-${core}`,
@@ -124,51 +110,50 @@ async function mesh() {
     const method = newton(kStepsPerSecond);
     const contestants = kLevels.map((level) => contestant(level, model, label, method, 0));
     const each = runs.map((run) => [run]);
-    rows.push(...rowsOf(contestants, each, { times: kTimes, against, masses: masses_kg, commit }));
+    rows.push(...rowsOf(contestants, each, { times: kTimes, against, masses: masses_kg }));
     const halved = halvedReference(2, model, 2 * kStepsPerSecond, kTimes).samples;
     lines.push(
       ...kTimes.map((at, t) => {
         const { rate, distances_m } = samples[t];
-        const meshes = `successive meshes ${millimetres(distances_m)} apart`;
-        const steps = `halving the step moves ${size(2)} by ${millimetres([halved[t].halving_changed_m])}`;
-        return `shown mesh_error_rate_${model}_${at}_s ${short(rate)} (${meshes}; ${steps})`;
+        const apart = `successive meshes ${millimetres(distances_m)} mm apart`;
+        const steps = `halving the step moves ${size(2)} by ${millimetres([halved[t].halving_changed_m])} mm`;
+        return `shown mesh_error_rate_${model}_${at}_s ${short(rate)} (${apart}; ${steps})`;
       }),
     );
   }
   return { rows, goals: [], text: `${described(rows)}\n\n${lines.join('\n')}` };
 }
 
-/** What a step of the exact method costs at the step that references take. */
+/** Cost of a step of the exact method at the length that references take. */
 async function step({ repeat, scale }) {
   const kLevel = 3;
   const kStepsPerSecond = 960;
   const kFrames = 6;
-  const kTimes = [kFrames * kFrame]; // [s]
+  const kTimes = [kFrames * kStep]; // [s]
   const method = newton(kStepsPerSecond);
   tell(`reference ${size(kLevel)}, step 1/${2 * kStepsPerSecond} s`);
   const against = reference(sheet(kLevel, 'membrane', newton(2 * kStepsPerSecond)), 'run', kTimes);
   const label = `newton, step 1/${kStepsPerSecond} s`;
-  const native = contestant(kLevel, 'membrane', label, method, kFrames);
-  const inWasm = contestant(kLevel, 'membrane', label, method, kFrames, 'wasm');
-  const options = { times: kTimes, against, commit, tell, frames: kFrames };
-  const rows = [
-    ...(await measure([native], { ...options, repeat })),
-    ...(await measure([inWasm], { ...options, repeat: 1 })),
-  ].map((row) => ({ ...row, ms_per_step: row.ms_per_frame / (kFrame * kStepsPerSecond) }));
+  const found = [];
+  for (const [target, rounds] of Object.entries({ native: repeat, wasm: 1 })) {
+    const one = contestant(kLevel, 'membrane', label, method, kFrames, target);
+    const settings = { repeat: rounds, times: kTimes, against, frames: kFrames };
+    found.push(...(await measure([one], settings)));
+  }
+  const rows = found.map((row) => ({
+    ...row,
+    ms_per_step: row.ms_per_frame / (kStep * kStepsPerSecond),
+  }));
+  const [native] = rows;
   const steps = rows.map((row) => `${short(row.ms_per_step)} ms (${row.target})`).join(', ');
   return {
     rows,
-    goals: [
-      goal('newton_65x65_ms_per_step', rows[0].ms_per_step, 'at-most', 600 * scale, [rows[0]]),
-    ],
+    goals: [atMost('newton_65x65_ms_per_step', native.ms_per_step, 600 * scale, [native])],
     text: `${described(rows)}\n\na step takes ${steps}`,
   };
 }
 
-await runParts('references', 'what references are held against, and the goals they have to meet', {
-  cantilever,
-  time,
-  mesh,
-  step,
-  sweep: () => killedSweep({ ...swinging, refinement: { level: 0 } }),
-});
+const sweep = () => killedSweep({ ...swinging, refinement: { level: 0 } });
+
+const purpose = 'what references are held against, and the goals they have to meet';
+await runParts('references', purpose, { cantilever, time, mesh, step, sweep });

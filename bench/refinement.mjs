@@ -6,10 +6,12 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { wholeNumber } from './parts/bench-options.mjs';
-import { commit, runParts, tell } from './parts/bench-parts.mjs';
+import { garmentScene, root } from './parts/assets.mjs';
+import { tell, wholeNumber } from './parts/bench-options.mjs';
+import { runParts } from './parts/bench-parts.mjs';
 import { markdown, short } from './parts/bench-rows.mjs';
-import { root } from './parts/command.mjs';
+
+import { commit } from './parts/command.mjs';
 import { savingsFigure } from './parts/refinement-figure.mjs';
 import {
   buildRow,
@@ -30,7 +32,7 @@ import {
   stretchGoals,
   wasmGoals,
 } from './parts/refinement-goals.mjs';
-import { answer, garmentScene, keptAnswers, shownPlan } from './parts/refinement-runs.mjs';
+import { answer, keptAnswers, shownPlan } from './parts/refinement-runs.mjs';
 import { bothBuilds, differences, kEarly, kTight } from './parts/refinement-wasm.mjs';
 
 const kFineLevel = 2;
@@ -49,26 +51,14 @@ const kFigureFile = join('docs', 'refinement.svg');
 /** Where a garment's mesh of every frame is split [1/m]. */
 const kSplitCurvatures = { skirt: 20, trousers: 30, slim_trousers: 30 };
 
-const kMore = [
-  {
-    name: 'method',
-    type: 'string',
-    usage: "--method NAME     of all runs alike, in place of the scenes' own",
-  },
-  { name: 'substeps', type: 'string', usage: '--substeps N      the same' },
-  {
-    name: 'quick',
-    type: 'boolean',
-    usage: `--quick           ${kQuickDuration} s of motion: for trying, no figure`,
-  },
-  {
-    name: 'resume',
-    type: 'boolean',
-    usage: '--resume          take what a bench that was stopped has measured already',
-  },
-];
+const more = {
+  '--method NAME': "of all runs alike, in place of the scenes' own",
+  '--substeps N': 'the same',
+  '--quick': `${kQuickDuration} s of motion: for trying, no figure`,
+  '--resume': 'take what a bench that was stopped has measured already',
+};
 
-/** What holds for all runs of a bench. */
+/** Method and length of all runs of a bench. */
 function settings(options) {
   keptAnswers.areTaken = options.resume === true;
   const method = {};
@@ -125,32 +115,23 @@ function compared(garment, plans, { method, duration }) {
     ]),
   ];
   tell(`${garment}: test walk`);
+  const [first, ...others] = entries.map(([, scene]) => scene);
   const { runs } = answer(
-    'bench',
-    'together',
-    entries[0][1],
-    '--with',
-    entries.slice(1).map(([, scene]) => scene),
-    '--adaptive',
-    kSplitCurvatures[garment],
-    '--every',
-    kErrorEvery,
+    ...['bench', 'together', first, '--with', others],
+    ...['--adaptive', kSplitCurvatures[garment], '--every', kErrorEvery],
   );
   const labels = [...entries.map(([label]) => label), 'split in every frame'];
   const rows = runs.map((run, k) => runRow(labels[k], run, { garment, commit }));
-  return { rows, faults: { ...foldFaults(rows, further.length), restarts: restarts(scenes) } };
+  return { rows, faults: { ...foldFaults(rows), restarts: restarts(scenes) } };
 }
 
-/** Of rows in the order of `compared`: each mesh's run and its further ones, pooled. */
-function foldFaults(rows, nFurther) {
-  const begin = 5;
-  const pools = [0, 1, 2].map((mesh) => [
-    rows[mesh].folds_m,
-    ...rows
-      .slice(begin, begin + nFurther)
-      .slice(mesh * kFurtherRuns, (mesh + 1) * kFurtherRuns)
-      .map(({ folds_m }) => folds_m),
-  ]);
+/** Faults of rows in the order of `compared`: each mesh's run and its further ones, pooled. */
+function foldFaults(rows) {
+  const kBefore = 5;
+  const further = (mesh) => kBefore + mesh * kFurtherRuns;
+  const pools = [0, 1, 2].map((mesh) =>
+    [rows[mesh], ...rows.slice(further(mesh), further(mesh + 1))].map(({ folds_m }) => folds_m),
+  );
   const [fine, multi, same] = pools;
   return {
     folds: { multi: foldFault(multi, fine), same: foldFault(same, fine) },
@@ -166,15 +147,8 @@ function restarts(scenes) {
   const [fine, multi, same] = Object.values(scenes).map(tight);
   tell(`${fine.name}: restarts`);
   const found = answer(
-    'bench',
-    'restarts',
-    fine,
-    '--with',
-    [multi, same, inHeavierAir(fine)],
-    '--every',
-    every,
-    '--after',
-    after,
+    ...['bench', 'restarts', fine, '--with', [multi, same, inHeavierAir(fine)]],
+    ...['--every', every, '--after', after],
   );
   const [ofMulti, ofSame, ofTwin] = restartFaults(found.restarts);
   return { multi: ofMulti, same: ofSame, twin: ofTwin };
@@ -198,16 +172,15 @@ function otherMotions(garment, plans, { method, duration }) {
 }
 
 function planText(plans, fine, multi) {
-  const head = ['example s', 'plan s', 'kept MB', 'peak MB', 'frames', 'paid for after frames'];
-  const line = [
-    short(plans.example_s),
-    short(plans.planning_s),
-    short(plans.kept_bytes / 1e6),
-    short(plans.process_peak_memory_bytes / 1e6),
-    plans.n_frames,
-    short(framesToPay(plans, fine, multi)),
-  ];
-  return markdown(head, [line]);
+  const cells = {
+    'example s': plans.example_s,
+    'plan s': plans.planning_s,
+    'kept MB': plans.kept_bytes / 1e6,
+    'peak MB': plans.process_peak_memory_bytes / 1e6,
+    frames: plans.n_frames,
+    'paid for after frames': framesToPay(plans, fine, multi),
+  };
+  return markdown(Object.keys(cells), [Object.values(cells)]);
 }
 
 const measured = {};
@@ -337,16 +310,12 @@ largest difference of both after ${kEarly} s: ${short(1e3 * apart.own_m)} mm, so
   };
 }
 
-await runParts(
-  'refinement',
-  'garments refined where an example bends',
-  {
-    skirt: (wanted) => garmentPart('skirt', wanted),
-    trousers: (wanted) => garmentPart('trousers', wanted),
-    slim_trousers: (wanted) => garmentPart('slim_trousers', wanted),
-    friction,
-    figure,
-    wasm,
-  },
-  kMore,
-);
+const parts = {
+  skirt: (wanted) => garmentPart('skirt', wanted),
+  trousers: (wanted) => garmentPart('trousers', wanted),
+  slim_trousers: (wanted) => garmentPart('slim_trousers', wanted),
+  friction,
+  figure,
+  wasm,
+};
+await runParts('refinement', 'garments refined where an example bends', parts, { more });

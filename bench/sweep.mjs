@@ -1,142 +1,96 @@
 // ./pleat bench sweep (--help tells the options)
-// The same sweep by the native command and by WebAssembly: stepper x level, milliseconds, stretch
-// and position error.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-
-import {
-  BadInput,
-  oneOf,
-  readOptions,
-  reasonOf,
-  rowsFile,
-  runBench,
-  wholeNumber,
-} from './parts/bench-options.mjs';
-import { markdown, short } from './parts/bench-rows.mjs';
-import { askRows, cacheFolder, root } from './parts/command.mjs';
-import { fabricsText, wasmModule } from './parts/contestants.mjs';
+// One sweep by the native command and by WebAssembly: stepper x level, milliseconds, stretch and
+// position error.
+import { asset, fabricsText, readJson } from './parts/assets.mjs';
+import { BadInput, oneOf, reasonOf, wholeNumber } from './parts/bench-options.mjs';
+import { runParts } from './parts/bench-parts.mjs';
+import { table } from './parts/bench-rows.mjs';
+import { askRows, cacheFolder } from './parts/command.mjs';
+import { answer, wasmModule } from './parts/contestants.mjs';
+import { methodWords } from './parts/honesty-order.mjs';
 
 const kSliceMs = 200; // between reports of progress
 const kDuration = 1; // [s]
-const kUsage = `./pleat bench sweep [SCENE.json]   one sweep natively and as WebAssembly
-  SCENE.json        default: assets/scenes/swinging_sheet.json
-  --levels 0,1,2    refinement levels (default 0,1,2)
-  --repeat N        timed runs of each setting (default 5)
-  --reference KIND  rigid_chain (default; bending is then left out) or converged
-  --json FILE       write the rows as JSON lines
-Exit status: 0 done, 2 bad input.`;
 
 function readScene(file) {
-  let text;
   try {
-    text = readFileSync(file, 'utf8');
+    return readJson(file);
   } catch (error) {
-    throw new BadInput(`${file}: expected a scene file, got ${reasonOf(error)}`);
-  }
-  try {
-    return JSON.parse(text);
-  } catch (error) {
-    throw new BadInput(`${file}: expected JSON, got ${error.message}`);
+    throw new BadInput(`${file}: expected a scene file in JSON, got ${reasonOf(error)}`);
   }
 }
 
 /** The scene of a file that the core can read. */
 async function checkedScene(file, reference) {
   const scene = readScene(file);
-  const module = await wasmModule();
+  const module = await wasmModule('Scene');
   const reader = new module.Scene(fabricsText());
-  const answer = JSON.parse(reader.parse(JSON.stringify(scene)));
+  const { ok, where, what } = JSON.parse(reader.parse(JSON.stringify(scene)));
   reader.delete();
-  if (!answer.ok) throw new BadInput(`${file}: ${answer.where}: ${answer.what}`);
+  if (!ok) throw new BadInput(`${file}: ${where}: ${what}`);
   // The chain does not bend.
   if (reference === 'rigid_chain') scene.model = { ...scene.model, bending: 'none' };
   return scene;
 }
 
-async function wasmSweep(scene, { repeat, reference }, nativeRows) {
-  const plan = {
-    scene,
-    settings: nativeRows.map((row) => row.setting),
-    duration_s: kDuration,
-    repeats: repeat,
-    reference,
-  };
-  const module = await wasmModule('sweep');
+async function wasmSweep(scene, repeats, reference, nativeRows) {
+  const settings = nativeRows.map((row) => row.setting);
+  const plan = { scene, settings, duration_s: kDuration, repeats, reference };
+  const module = await wasmModule('Experiment');
   const experiment = new module.Experiment(fabricsText());
-  let answer = JSON.parse(experiment.start(JSON.stringify(plan)));
-  while (answer.ok && !answer.done) {
-    answer = JSON.parse(experiment.advance(kSliceMs));
-    if (answer.ok) process.stderr.write(process.stderr.isTTY ? `\r\x1b[K${answer.message}` : '');
+  let told = answer(experiment.start(JSON.stringify(plan)));
+  while (!told.done) {
+    told = answer(experiment.advance(kSliceMs));
+    process.stderr.write(process.stderr.isTTY ? `\r\x1b[K${told.message}` : '');
   }
   experiment.delete();
-  if (!answer.ok) throw new Error(`${answer.where}: ${answer.what}`);
-  return answer.rows;
+  return told.rows;
 }
 
-function describe(method, substeps) {
-  const solver =
-    method.stepper === 'implicit' || method.stepper === 'projective' ? ` ${method.solver}` : '';
-  return `${method.stepper}${solver}, ${substeps} substeps${method.iterations > 1 ? ` x ${method.iterations}` : ''}`;
+function solverWords({ stepper, solver, ...method }, substeps) {
+  const isSolved = stepper === 'implicit' || stepper === 'projective';
+  return methodWords({ ...method, stepper: isSolved ? `${stepper} ${solver}` : stepper }, substeps);
 }
 
-/** Both lists hold the same settings in the same order. */
-function table(native, wasm) {
-  const head = [
-    'method',
-    'level',
-    'vertices',
-    'native ms/frame',
-    'wasm ms/frame',
-    'position error mm',
-    '%',
-    'rms stretch %',
-    'largest %',
-    'status',
-  ];
-  const lines = native.map((row, i) => [
-    describe(row.method, row.n_substeps),
-    row.level,
-    row.n_vertices,
-    short(row.ms_per_frame),
-    short(wasm[i].ms_per_frame),
-    short(1e3 * row.position_error_m),
-    short(row.position_error_percent),
-    short(100 * row.rms_stretch),
-    short(100 * row.largest_stretch),
-    row.status,
+async function sweep({ repeat, options }) {
+  const { levels = '0,1,2', words } = options;
+  const kind = oneOf('--reference', options.reference ?? 'rigid_chain', [
+    'rigid_chain',
+    'converged',
   ]);
-  return markdown(head, lines);
-}
-
-await runBench('sweep', async (words) => {
-  const options = readOptions(
-    words,
-    kUsage,
-    {
-      levels: { type: 'string', default: '0,1,2' },
-      repeat: { type: 'string', default: '5' },
-      reference: { type: 'string', default: 'rigid_chain' },
-      json: { type: 'string' },
-    },
-    1,
-  );
-  if (options === null) return;
-  const reference = oneOf('--reference', options.reference, ['rigid_chain', 'converged']);
-  const repeat = wholeNumber('--repeat', options.repeat, 1);
-  for (const level of options.levels.split(',')) wholeNumber('--levels', level, 0);
-  const file = rowsFile(options.json);
-  const [sceneFile = join(root, 'assets', 'scenes', 'swinging_sheet.json')] = options.words;
-  const scene = await checkedScene(sceneFile, reference);
+  for (const level of levels.split(',')) wholeNumber('--levels', level, 0);
+  const scene = await checkedScene(words[0] ?? asset('scenes', 'swinging_sheet.json'), kind);
   const native = askRows(
     ...['sweep', scene, '--json', '--cache', cacheFolder, '--duration', kDuration],
-    ...['--levels', options.levels, '--repeat', repeat, '--reference', reference],
+    ...['--levels', levels, '--repeat', repeat, '--reference', kind],
   );
-  file.write(native);
-  const wasm = await wasmSweep(scene, { repeat, reference }, native);
-  console.log(
-    `${scene.name}, ${kDuration} s, frames of 1/60 s; errors against ${native[0].reference.description}\n`,
-  );
-  console.log(table(native, wasm));
-  file.write([...native, ...wasm]);
-});
+  const wasm = await wasmSweep(scene, repeat, kind, native);
+  // Both lists hold the same settings in the same order.
+  const pairs = native.map((row, i) => ({ ...row, wasm_ms: wasm[i].ms_per_frame }));
+  const columns = {
+    method: (row) => solverWords(row.method, row.n_substeps),
+    level: 'level',
+    vertices: 'n_vertices',
+    'native ms/frame': 'ms_per_frame',
+    'wasm ms/frame': 'wasm_ms',
+    'position error mm': (row) => 1e3 * row.position_error_m,
+    '%': 'position_error_percent',
+    'rms stretch %': (row) => 100 * row.rms_stretch,
+    'largest %': (row) => 100 * row.largest_stretch,
+    status: 'status',
+  };
+  return {
+    rows: [...native, ...wasm],
+    goals: [],
+    text: `${scene.name}, ${kDuration} s, frames of 1/60 s; errors against ${native[0].reference.description}\n\n${table(pairs, columns)}`,
+  };
+}
+
+const purpose =
+  '[SCENE.json]   one sweep natively and as WebAssembly (default: the swinging sheet)';
+const more = {
+  '--levels 0,1,2': 'refinement levels (default 0,1,2)',
+  '--repeat N': 'timed runs of each setting (default 5)',
+  '--reference KIND': 'rigid_chain (default; bending is then left out) or converged',
+};
+await runParts('sweep', purpose, { sweep }, { more, isScaled: false, most: 1 });

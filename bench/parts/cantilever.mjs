@@ -1,8 +1,8 @@
 // A strip clamped at one end, at rest under its weight, on several triangulations, against the
 // heavy elastica. Its first two rows of vertices are held, the clamp is the second of them.
-import { commit, tell } from './bench-parts.mjs';
-import { goal, markdown, measure, short } from './bench-rows.mjs';
+import { atMost, mean, measure, table } from './bench-rows.mjs';
 import { nativeRun, reference } from './command.mjs';
+import { kStep } from './sheets.mjs';
 
 const kLength = 0.2; // [m], from the clamp on
 const kEdges = 40; // along it
@@ -10,7 +10,6 @@ const kColumns = 10;
 const kArealDensity = 0.114; // [kg/m^2]
 const kGravity = 9.81; // [m/s^2], a scene's default
 const kStretch = 4500; // [N/m]
-const kFrame = 1 / 60; // [s]; the one step to equilibrium is as long, of no effect
 const kLoads = [1, 10, 100]; // rho g L^3/B
 const kPromised = ['one_way', 'alternating', 'irregular'];
 const kLargestPercent = 2;
@@ -30,16 +29,10 @@ function random(seed) {
 }
 
 /** The four corners of a cell as two triangles, cut from a to d or from b to c. */
-const cut = ([a, b, c, d], isFromAToD) =>
-  isFromAToD
-    ? [
-        [a, b, d],
-        [a, d, c],
-      ]
-    : [
-        [a, b, c],
-        [b, d, c],
-      ];
+const cut = (a, b, c, d, isFromAToD) => [
+  [a, b, isFromAToD ? d : c],
+  [isFromAToD ? a : b, d, c],
+];
 
 /**
  * A flat strip along x, its row 1 at x = 0. Vertex r (columns + 1) + c lies in row r; `crossed` has
@@ -79,7 +72,7 @@ export function strip(triangulation, edges = kEdges, columns = kColumns) {
         positions.push([(r - 0.5) * edge, 0, (c + 0.5) * edge]);
         triangles.push([a, b, middle], [b, e, middle], [e, d, middle], [d, a, middle]);
       } else {
-        triangles.push(...cut([a, b, d, e], isFromAToD(r, c)));
+        triangles.push(...cut(a, b, d, e, isFromAToD(r, c)));
       }
     }
   }
@@ -101,8 +94,8 @@ function scene(load, bending, name, cloth, line) {
     },
     model: { elasticity: 'membrane', bending },
     pins: [{ vertices: [...Array(2 * line).keys()] }],
-    method: { stepper: 'newton', rule: 'equilibrium', step_s: kFrame },
-    duration_s: kFrame,
+    method: { stepper: 'newton', rule: 'equilibrium', step_s: kStep }, // a length of no effect
+    duration_s: kStep,
   };
 }
 
@@ -125,7 +118,7 @@ function elastica(load) {
     weft_direction: [0, 0, 1],
   };
   const line = kColumns + 1;
-  return reference(scene(load, 'fitted', 'elastica', { sheet }, line), 'closed_form', [kFrame]);
+  return reference(scene(load, 'fitted', 'elastica', { sheet }, line), 'closed_form', [kStep]);
 }
 
 /** [extent, height] of each vertex of the last row, from the clamp [m]. */
@@ -147,9 +140,7 @@ export function tipErrors(positions, elasticaPositions, length = kLength) {
   const [right] = tips(elasticaPositions);
   const way = Math.hypot(right[0] - length, right[1]);
   const distances = found.map((tip) => Math.hypot(tip[0] - right[0], tip[1] - right[1]));
-  const [extent, height] = [0, 1].map(
-    (k) => found.reduce((sum, tip) => sum + tip[k], 0) / found.length - right[k],
-  );
+  const [extent, height] = [0, 1].map((k) => mean(found.map((tip) => tip[k])) - right[k]);
   return {
     percent: (100 * Math.max(...distances)) / way,
     extent_percent: (100 * extent) / right[0],
@@ -167,7 +158,6 @@ function contestant(load, bending, triangulation, shapes) {
     label,
     scene: built.name,
     method: built.method,
-    n_vertices: built.cloth.mesh.positions_m.length,
     begin: async (times) => {
       const run = nativeRun(built, 2, times);
       if (times.length) shapes.set(label, run.samples[0]?.positions_m);
@@ -185,7 +175,7 @@ async function rowsAtLoad(load, repeat) {
   const contestants = ['fitted', 'hinge'].flatMap((bending) =>
     triangulations.map((triangulation) => contestant(load, bending, triangulation, shapes)),
   );
-  const options = { repeat, times: [kFrame], against, masses: isTip, commit, tell, frames: 1 };
+  const options = { repeat, times: [kStep], against, masses: isTip, frames: 1 };
   const rows = await measure(contestants, options);
   return rows.map(({ ms_per_frame, ms_per_simulated_second, position_errors_m, ...row }) => ({
     ...row,
@@ -195,29 +185,20 @@ async function rowsAtLoad(load, repeat) {
 }
 
 function tipTable(rows) {
-  const head = [
-    'contestant',
-    'vertices',
-    'ms to rest',
-    'spread',
-    'tip, % of its way',
-    'extent %',
-    'height %',
-    'extent, % of L',
-    'height, % of L',
-    'residual',
-    'status',
-  ];
-  const lines = rows.map((row) => [
-    row.label,
-    row.n_vertices,
-    short(row.ms_to_rest),
-    short(row.spread_ms),
-    ...Object.values(row.tip).map(short),
-    short(row.residual),
-    row.status,
-  ]);
-  return `errors against ${rows[0].reference.description}\n\n${markdown(head, lines)}`;
+  const columns = {
+    contestant: 'label',
+    vertices: 'n_vertices',
+    'ms to rest': 'ms_to_rest',
+    spread: 'spread_ms',
+    'tip, % of its way': (row) => row.tip.percent,
+    'extent %': (row) => row.tip.extent_percent,
+    'height %': (row) => row.tip.height_percent,
+    'extent, % of L': (row) => row.tip.extent_percent_of_length,
+    'height, % of L': (row) => row.tip.height_percent_of_length,
+    residual: 'residual',
+    status: 'status',
+  };
+  return `errors against ${rows[0].reference.description}\n\n${table(rows, columns)}`;
 }
 
 /** Fitted bending, with a bound on the tip's error, and hinges beside it. */
@@ -227,16 +208,11 @@ export async function cantilever({ repeat }) {
   for (const load of kLoads) {
     const found = await rowsAtLoad(load, repeat);
     rows.push(...found);
-    for (const [i, name] of kPromised.entries())
-      goals.push(
-        goal(
-          `cantilever_${name}_load_${load}_tip_percent`,
-          found[i].tip.percent,
-          'at-most',
-          kLargestPercent,
-          [found[i]],
-        ),
-      );
+    for (const [i, name] of kPromised.entries()) {
+      const { percent } = found[i].tip;
+      const title = `cantilever_${name}_load_${load}_tip_percent`;
+      goals.push(atMost(title, percent, kLargestPercent, [found[i]]));
+    }
   }
   return { rows, goals, text: tipTable(rows) };
 }

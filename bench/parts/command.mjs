@@ -1,34 +1,31 @@
 // The native command, asked in words and scenes, and what it answers.
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync, spawn, spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { dirname, join } from 'node:path';
+import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { fileURLToPath } from 'node:url';
 
+import { root } from './assets.mjs';
 import { BadInput } from './bench-options.mjs';
 
 const kMaxOutput = 2 ** 30; // [bytes]; positions are printed as text
 
-export const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
 export const command = join(root, 'build', 'release', 'cli', 'pleat');
 export const cacheFolder = join(root, 'build', 'references');
 
-/** Words for the command: texts and numbers, and in the place of objects files that hold them. */
-export function withFiles(words, work) {
+/** Source that is measured, for the rows. */
+export const commit = (() => {
+  const words = ['-C', root, 'describe', '--always', '--dirty'];
+  return spawnSync('git', words, { encoding: 'utf8' }).stdout?.trim() || 'unknown';
+})();
+
+/** Does `work` with a folder that is gone afterwards. */
+export function inFolder(work) {
   const folder = mkdtempSync(join(tmpdir(), 'pleat-bench-'));
   const drop = () => rmSync(folder, { recursive: true });
-  let count = 0;
-  const file = (object) => {
-    const path = join(folder, `${count++}.json`);
-    writeFileSync(path, JSON.stringify(object));
-    return path;
-  };
-  const text = (word) =>
-    Array.isArray(word) ? word.map(text).join() : typeof word === 'object' ? file(word) : word;
   let result;
   try {
-    result = work(words.map((word) => String(text(word))));
+    result = work(folder);
   } catch (error) {
     drop();
     throw error;
@@ -38,33 +35,49 @@ export function withFiles(words, work) {
   return result;
 }
 
+/** Words for the command: texts and numbers, and in the place of objects files that hold them. */
+export const withFiles = (words, work) =>
+  inFolder((folder) => {
+    let count = 0;
+    const text = (word) => {
+      if (Array.isArray(word)) return word.map(text).join();
+      if (typeof word !== 'object') return String(word);
+      const path = join(folder, `${count++}.json`);
+      writeFileSync(path, JSON.stringify(word));
+      return path;
+    };
+    return work(words.map(text));
+  });
+
 /**
- * What the command prints; words as of withFiles. Status 1 is an answer too: a run that ended
- * early. Bad input has been told by the command itself.
+ * Exit status and output; words as of withFiles. Status 1 is an answer too: a run that ended early,
+ * or a check that failed. Bad input has been told by the command itself.
  */
+export function ran(words, stderr = 'inherit') {
+  const options = { encoding: 'utf8', maxBuffer: kMaxOutput, stdio: ['ignore', 'pipe', stderr] };
+  const run = withFiles(words, (texts) => spawnSync(command, texts, options));
+  if (run.status === 2) throw new BadInput('');
+  if (run.error || run.status > 1 || run.status === null)
+    throw run.error ?? new Error(`pleat ${words[0]}: exit status ${run.status ?? run.signal}`);
+  return run;
+}
+
 export function printed(...words) {
-  const options = { encoding: 'utf8', maxBuffer: kMaxOutput, stdio: ['ignore', 'pipe', 'inherit'] };
-  try {
-    return withFiles(words, (texts) => execFileSync(command, texts, options));
-  } catch (error) {
-    if (error.status === 2) throw new BadInput('');
-    if (error.status === 1 && error.stdout) return error.stdout;
-    throw error;
-  }
+  const { stdout } = ran(words);
+  if (stdout === '') throw new Error(`pleat ${words[0]}: no answer`);
+  return stdout;
 }
 
 export const ask = (...words) => JSON.parse(printed(...words));
 
 /** Rows, a line each. What was not measured is NaN, with which no goal is met. */
 export function askRows(...words) {
-  const lines = printed(...words)
-    .trim()
-    .split('\n');
   const orNaN = (_, value) => (value === null ? Number.NaN : value);
-  return lines.map((line) => JSON.parse(line, orNaN));
+  const lines = printed(...words).trim();
+  return lines.split('\n').map((line) => JSON.parse(line, orNaN));
 }
 
-/** What a program of the page's package prints: its lines of JSON. */
+/** Lines of JSON that a program of the page's package prints. */
 export function askPage(script) {
   const options = { cwd: join(root, 'web'), encoding: 'utf8' };
   const lines = execFileSync('npm', ['run', '--silent', script], options).split('\n');
@@ -80,19 +93,21 @@ export function reference(scene, kind, times, options = []) {
   return ask('bench', 'reference', scene, ...words);
 }
 
-/** A whole run of the scene, its first frame not timed. */
-export function nativeRun(scene, frames, times = [], options = []) {
-  const wanted = times.length ? ['--times', times] : [];
-  return ask('bench', 'run', scene, '--frames', frames, ...wanted, ...options);
-}
+const runWords = (scene, frames, times, options) => [
+  ...['bench', 'run', scene, '--frames', frames],
+  ...(times.length ? ['--times', times] : []),
+  ...options,
+];
 
-/** The same in turns: its state is built and its first frame has been run. */
+/** A whole run of the scene, its first frame not timed. */
+export const nativeRun = (scene, frames, times = [], options = []) =>
+  ask(...runWords(scene, frames, times, options));
+
+/** A run in turns: its state is built and its first frame has been run. */
 export function nativeTurns(scene, frames, times, options = []) {
-  const wanted = times.length ? ['--times', times] : [];
-  const words = ['bench', 'run', scene, '--frames', frames, '--turns', ...wanted, ...options];
   return new Promise((begin, fail) => {
     const ended = withFiles(
-      words,
+      runWords(scene, frames, times, ['--turns', ...options]),
       (texts) =>
         new Promise((resolve, reject) => {
           const child = spawn(command, texts, { stdio: ['pipe', 'pipe', 'pipe'] });

@@ -1,46 +1,27 @@
 // One step solved by each position-based method from the same predicted places: error against time.
-import { tell } from './bench-parts.mjs';
-import { goal, markdown, short } from './bench-rows.mjs';
+import { tell } from './bench-options.mjs';
+import { atLeast, atMost, markdown, mean, median, short, table } from './bench-rows.mjs';
 import { ask, nativeRun } from './command.mjs';
-import { squareSheet } from './square-sheet.mjs';
+import { by, cornersCome, cotton, kCorners, kStep, lying, upright } from './sheets.mjs';
 
-const kStep = 1 / 60; // [s]
 const kErrors = [1e-1, 1e-2, 1e-3];
 const kMostRounds = 513;
 const kSizes = [33, 65, 129];
 
-const kCorners = [{ part: 'upper_left' }, { part: 'upper_right' }];
-const upright = (n) => squareSheet(n, [0, 0, 0], [0, -1, 0], [1, 0, 0]);
-const lying = (n) => squareSheet(n, [0, 0, 0], [0, 0, 1], [1, 0, 0]);
-const comes = (x, z) => ({ kind: 'ease', offset_m: [x, 0, z], begin_s: 0, end_s: 1 });
 /** Out of the sheet's plane [m]: in it no fold forms, and cloth that is gathered is crushed. */
 const kTwist = 0.05;
 
-/** What the step is of, and when it begins [s]. */
+/** Cloth that the step is of, and when it starts [s]. */
 const kSteps = {
   hang: { cloth: upright, pins: kCorners, at: 0 },
   swing: { cloth: lying, pins: kCorners, at: 0.25 },
-  gathered: {
-    cloth: upright,
-    pins: [
-      { part: 'upper_left', motion: comes(0.25, kTwist) },
-      { part: 'upper_right', motion: comes(-0.25, -kTwist) },
-    ],
-    at: 0.5,
-  },
+  gathered: { cloth: upright, pins: cornersCome(0.25, kTwist), at: 0.5 },
 };
 
 function sceneOf(name, n, bending) {
   const { cloth, pins } = kSteps[name];
-  return {
-    name: `${name} ${n}x${n}`,
-    cloth: cloth(n),
-    fabric: { name: 'fine cotton' },
-    model: { bending },
-    pins,
-    duration_s: 1,
-    method: { stepper: 'xpbd', constraints: 'rigid', step_s: kStep, substeps: 30 },
-  };
+  const method = { stepper: 'xpbd', constraints: 'rigid', substeps: 30 };
+  return by(cotton(name, n, cloth, pins, { model: { bending } }), method);
 }
 
 const pbd = (smoother, omega) => ({
@@ -63,7 +44,7 @@ const multigrid = (label, more = {}) => ({
   },
 });
 const kMultigrid = multigrid('multigrid');
-/** With so many levels that some 50 vertices are left. */
+/** Levels enough that some 50 vertices are left. */
 const multigridFor = (n) => {
   const levels = Math.max(1, Math.round(Math.log2((n * n) / 50) / 2));
   return multigrid('multigrid', { levels });
@@ -83,7 +64,7 @@ const kRatios = [0.5, 0.33, 0.25, 0.125].map((ratio) => multigrid(`ratio ${ratio
 function solved(name, n, bending, contestants, repeat, words = []) {
   tell(`${name} ${n}x${n}, bending ${bending}`);
   const { at } = kSteps[name];
-  const study = ask(
+  const { scene, n_vertices, core, series } = ask(
     'convergence',
     sceneOf(name, n, bending),
     ...['--at', at, '--repeat', repeat, '--rounds', kMostRounds, '--json'],
@@ -91,19 +72,9 @@ function solved(name, n, bending, contestants, repeat, words = []) {
     ...words,
   );
   return contestants.map(({ label }, i) => {
-    const { points, method, distance_begin_m, distance_unknown_m } = study.series[i];
-    return {
-      scene: study.scene,
-      bending,
-      label,
-      n_vertices: study.n_vertices,
-      method,
-      distance_begin_m,
-      distance_unknown_m,
-      points,
-      status: 'ok',
-      core: study.core,
-    };
+    const { points, method, distance_begin_m, distance_unknown_m } = series[i];
+    const distances = { distance_begin_m, distance_unknown_m };
+    return { scene, bending, label, n_vertices, method, ...distances, points, status: 'ok', core };
   });
 }
 
@@ -113,41 +84,23 @@ const msTo = (row, error) => pointAt(row, error)?.ms ?? Number.POSITIVE_INFINITY
 const longest = ({ points }) => Math.max(...points.map(({ ms }) => ms));
 const best = (rows, error) => Math.min(...rows.map((row) => msTo(row, error)));
 
-function linesOf(rows) {
-  return rows.map((row) => {
-    const last = row.points.at(-1);
-    return [
-      row.scene,
-      row.bending,
-      row.label,
-      ...kErrors.map((error) => {
-        const point = pointAt(row, error);
-        return point ? `${short(point.ms)} (${short(point.sweeps)})` : '-';
-      }),
-      short(last.relative_error),
-    ];
-  });
-}
-
 /** The drape that so many rounds a step make of a fall: how far it is stretched, and its cost. */
 function drapes() {
-  const lines = [];
-  for (const iterations of [3, 5, 9, 27])
-    for (const stepper of ['pbd', 'hpbd', 'multigrid']) {
+  const rows = [3, 5, 9, 27].flatMap((iterations) =>
+    ['pbd', 'hpbd', 'multigrid'].map((stepper) => {
       tell(`drape, ${iterations} rounds: ${stepper}`);
-      const method = { stepper, substeps: 1, iterations, step_s: kStep };
-      const run = nativeRun({ ...sceneOf('swing', 33, 'quadratic'), duration_s: 3, method }, 180);
-      const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
-      const ms = [...run.ms].sort((a, b) => a - b)[run.ms.length >> 1];
-      lines.push([
-        iterations,
-        stepper,
-        short(ms),
-        short(100 * mean(run.rms_stretch.slice(-30))),
-        run.status,
-      ]);
-    }
-  return markdown(['rounds', 'method', 'ms/frame', 'rms stretch %', 'status'], lines);
+      const scene = { ...sceneOf('swing', 33, 'quadratic'), duration_s: 3 };
+      const run = nativeRun(by(scene, { stepper, substeps: 1, iterations }), 180);
+      return { iterations, stepper, ...run };
+    }),
+  );
+  return table(rows, {
+    rounds: 'iterations',
+    method: 'stepper',
+    'ms/frame': ({ ms }) => median(ms),
+    'rms stretch %': ({ rms_stretch }) => 100 * mean(rms_stretch.slice(-30)),
+    status: 'status',
+  });
 }
 
 const kWhole = [
@@ -164,16 +117,14 @@ function firstToDistance(repeat) {
   const words = ['--constraints', 'compliant'];
   const rows = solved('hang', 51, 'quadratic', contestants, repeat, words);
   const shares = [1e-1, 1e-2, 1e-3, 1e-4];
-  const lines = rows.map(({ label, points }) => [
-    label,
-    ...shares.map((share) => {
-      const at = points.find(({ relative_distance }) => relative_distance <= share);
-      return at ? short(at.ms) : '-';
-    }),
-    short(points.at(-1).relative_distance),
-  ]);
-  const head = ['method', ...shares.map((share) => `ms to ${share}`), 'last distance'];
-  return { rows, text: markdown(head, lines) };
+  const msToShare = (share) => (row) =>
+    row.points.find(({ relative_distance }) => relative_distance <= share)?.ms;
+  const columns = {
+    method: 'label',
+    ...Object.fromEntries(shares.map((share) => [`ms to ${share}`, msToShare(share)])),
+    'last distance': ({ points }) => points.at(-1).relative_distance,
+  };
+  return { rows, text: table(rows, columns) };
 }
 
 /** How much sooner levels have the error that is the least of 257 sweeps of one level. */
@@ -190,7 +141,7 @@ function advantages(repeat) {
       return least.ms / msTo(solvedRows.at(-1), least.relative_error);
     }),
   );
-  const lines = Object.keys(kSteps).map((name, i) => [name, ...found[i].map(short)]);
+  const lines = Object.keys(kSteps).map((name, i) => [name, ...found[i]]);
   const growth = (name) => {
     const of = found[Object.keys(kSteps).indexOf(name)];
     return Math.min(...of.slice(1).map((advantage, i) => advantage / of[i]));
@@ -199,8 +150,8 @@ function advantages(repeat) {
     rows,
     text: markdown(['times sooner', ...kSizes.map((n) => `${n}x${n}`)], lines),
     goals: [
-      goal('convergence_advantage_growth_swing', growth('swing'), 'at-least', 1),
-      goal('convergence_advantage_gathered', Math.min(...found[2]), 'at-least', 1),
+      atLeast('convergence_advantage_growth_swing', growth('swing'), 1),
+      atLeast('convergence_advantage_gathered', Math.min(...found[2]), 1),
     ],
   };
 }
@@ -218,22 +169,26 @@ export function convergence({ repeat }) {
   const bounds = { pbd: 0.5, hpbd: 0.8 };
   const goals = [1e-2, 1e-3].flatMap((error) =>
     Object.entries(bounds).map(([other, bound]) => {
-      // What never came there within the rounds took longer than all of them.
+      // A method that never came there within the rounds took longer than all of them.
       const theirs = Math.min(best(of(other), error), ...of(other).map(longest));
       const name = `convergence_${error.toExponential()}_of_${other}`;
-      return goal(name, best(ours, error) / theirs, 'at-most', bound);
+      return atMost(name, best(ours, error) / theirs, bound);
     }),
   );
   const distances = firstToDistance(repeat);
   const more = advantages(repeat);
-  const head = [
-    'step',
-    'bending',
-    'method',
-    ...kErrors.map((error) => `ms (sweeps) to ${error}`),
-    'last error',
-  ];
-  const texts = [markdown(head, linesOf(rows)), distances.text, more.text, drapes()];
+  const msToError = (error) => (row) => {
+    const point = pointAt(row, error);
+    return point ? `${short(point.ms)} (${short(point.sweeps)})` : '-';
+  };
+  const columns = {
+    step: 'scene',
+    bending: 'bending',
+    method: 'label',
+    ...Object.fromEntries(kErrors.map((error) => [`ms (sweeps) to ${error}`, msToError(error)])),
+    'last error': ({ points }) => points.at(-1).relative_error,
+  };
+  const texts = [table(rows, columns), distances.text, more.text, drapes()];
   return {
     rows: [...rows, ...distances.rows, ...more.rows],
     goals: [...goals, ...more.goals],

@@ -86,19 +86,17 @@ export function crumpledDress(around, along, flounces) {
       for (let column = 0; column < around; ++column) {
         const [a, b] = [corner(row, column), corner(row, column + 1)];
         const [c, d] = [corner(row + 1, column + 1), corner(row + 1, column)];
-        const [one, other] =
-          random() < 0.5
-            ? [
-                [a, d, c],
-                [a, c, b],
-              ]
-            : [
-                [a, d, b],
-                [b, d, c],
-              ];
-        lines.push(`f ${one.join(' ')}`, `f ${other.join(' ')}`);
+        if (random() < 0.5) lines.push(`f ${a} ${d} ${c}`, `f ${a} ${c} ${b}`);
+        else lines.push(`f ${a} ${d} ${b}`, `f ${b} ${d} ${c}`);
       }
     }
   }
   return `${lines.join('\n')}\n`;
 }
+
+/** A scene of the dress, but for its name and method. */
+export const dressScene = (file) => ({
+  cloth: { mesh: { obj: file, warp_direction: [0, -1, 0] } },
+  fabric: { name: 'fine cotton' },
+  pins: [{ part: 'seam' }],
+});

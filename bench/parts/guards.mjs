@@ -1,12 +1,13 @@
-// What hierarchies are without the guards of their collapses: faults of each level, and a picture
-// of right beside wrong.
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+// Hierarchies without the guards of their collapses: faults of each level, and a picture of right
+// beside wrong.
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { commit, tell } from './bench-parts.mjs';
-import { goal, markdown, short } from './bench-rows.mjs';
-import { ask, root } from './command.mjs';
+import { asset, root } from './assets.mjs';
+import { tell } from './bench-options.mjs';
+import { atMost, short, table } from './bench-rows.mjs';
+
+import { ask, commit, inFolder } from './command.mjs';
 import { guardsFigure } from './guards-figure.mjs';
 
 const kFigureFile = join('docs', 'hierarchy-guards.svg');
@@ -23,9 +24,8 @@ const kDrawn = ['', 'borders', 'flips,borders,links'];
 /** {positions: [[x, y, z]], triangles: [[a, b, c]]} */
 function readLevel(folder, level) {
   const file = join(folder, `frame_${String(level).padStart(6, '0')}.obj`);
-  const lines = readFileSync(file, 'utf8')
-    .split('\n')
-    .map((line) => line.split(' '));
+  const text = readFileSync(file, 'utf8');
+  const lines = text.split('\n').map((line) => line.split(' '));
   const of = (kind, take) =>
     lines.filter(([word]) => word === kind).map(([, ...words]) => words.map(take));
   return {
@@ -41,8 +41,8 @@ const named = (without) =>
 function studied(mesh, without, folder) {
   tell(`${mesh}, ${named(without)}`);
   const out = join(folder, `${mesh} ${without}`);
-  const scene = join(root, 'assets', 'scenes', kMeshes[mesh]);
   const words = without === '' ? [] : ['--without', without];
+  const scene = asset('scenes', kMeshes[mesh]);
   const { levels } = ask('hierarchy', scene, '--json', '--out', out, ...words);
   const rows = levels.map((row, level) => ({ mesh, without, level, ...row, commit }));
   if (!(mesh in kDrawnLevel && kDrawn.includes(without))) return { rows, panels: [] };
@@ -57,40 +57,31 @@ function studied(mesh, without, folder) {
 }
 
 export function guards() {
-  const folder = mkdtempSync(join(tmpdir(), 'pleat-guards-'));
-  const rows = [];
-  const panels = [];
-  try {
-    for (const mesh of Object.keys(kMeshes))
-      for (const without of kWithout) {
-        const found = studied(mesh, without, folder);
-        rows.push(...found.rows);
-        panels.push(...found.panels);
-      }
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  const found = inFolder((folder) =>
+    Object.keys(kMeshes).flatMap((mesh) =>
+      kWithout.map((without) => studied(mesh, without, folder)),
+    ),
+  );
+  const panels = found.flatMap((one) => one.panels);
   writeFileSync(join(root, kFigureFile), guardsFigure(panels, kDrawn.length));
+  const rows = found.flatMap((one) => one.rows);
   const faults = ({ turned_triangles, strayed_borders, crowded_edges }) =>
     turned_triangles + strayed_borders + crowded_edges;
-  const lines = rows
-    .filter(({ level }) => level > 0)
-    .map((row) => [
-      row.mesh,
-      named(row.without),
-      row.level,
-      row.n_vertices,
-      row.turned_triangles,
-      row.strayed_borders,
-      row.crowded_edges,
-      (100 * row.covered_share).toFixed(1),
-    ]);
-  const head = ['mesh', 'guards', 'level', 'vertices', 'turned', 'strayed', 'crowded', 'covered %'];
-  const guarded = rows.filter(({ without }) => without === '');
-  const most = Math.max(...guarded.map(faults));
+  const columns = {
+    mesh: 'mesh',
+    guards: (row) => named(row.without),
+    level: 'level',
+    vertices: 'n_vertices',
+    turned: 'turned_triangles',
+    strayed: 'strayed_borders',
+    crowded: 'crowded_edges',
+    'covered %': (row) => (100 * row.covered_share).toFixed(1),
+  };
+  const coarser = rows.filter(({ level }) => level > 0);
+  const most = Math.max(...rows.filter(({ without }) => without === '').map(faults));
   return {
     rows,
-    goals: [goal('multigrid.guarded_hierarchy_faults', most, 'at-most', 0)],
-    text: `${kFigureFile}\n\n${markdown(head, lines)}`,
+    goals: [atMost('multigrid.guarded_hierarchy_faults', most, 0)],
+    text: `${kFigureFile}\n\n${table(coarser, columns)}`,
   };
 }

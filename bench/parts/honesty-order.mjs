@@ -1,35 +1,15 @@
 // Whether a sweep puts settings into the order that they have against the truth: a run on twice the
 // mesh with a quarter of the step and another solver, compared here.
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
-
-import { tell } from './bench-parts.mjs';
-import { goal, hasFinished, markdown, short } from './bench-rows.mjs';
-import { askRows, cacheFolder, nativeRun, reference, root } from './command.mjs';
-import { changed } from './honesty-warnings.mjs';
+import { changed, shippedScene } from './assets.mjs';
+import { tell } from './bench-options.mjs';
+import { atLeast, hasFinished, rankCorrelation, table } from './bench-rows.mjs';
+import { askRows, cacheFolder, nativeRun, reference } from './command.mjs';
 
 const kFewestRanked = 5; // of fewer settings an order says little
 
 // How long each is compared [s], as on the page: later on their motions are chance.
 const kScenes = { curtain: 1, swinging_sheet: 0.4, tablecloth: 0.4 };
 const kTruthStep = 1 / 960; // [s], a quarter of the smallest substep of implicit
-
-/** Places in ascending order; equal values share the mean of theirs. */
-function ranks(values) {
-  return values.map((value) => {
-    const smaller = values.filter((other) => other < value).length;
-    const equal = values.filter((other) => other === value).length;
-    return smaller + (equal + 1) / 2;
-  });
-}
-
-/** Spearman's rank correlation, in [-1, 1]; NaN where there is nothing to rank. */
-export function rankCorrelation(a, b) {
-  const [x, y] = [ranks(a), ranks(b)];
-  const mean = (a.length + 1) / 2;
-  const product = (p, q) => p.reduce((sum, value, k) => sum + (value - mean) * (q[k] - mean), 0);
-  return product(x, y) / Math.sqrt(product(x, x) * product(y, y));
-}
 
 /**
  * RMS distance over samples and cloth [m], at the vertices that both have: those of a coarser mesh
@@ -72,40 +52,38 @@ function judged(scene, duration) {
   });
 }
 
-function describe({ method }) {
-  const iterations = method.iterations > 1 ? ` x ${method.iterations}` : '';
-  return `${method.stepper}, ${method.substeps ?? 1} substeps${iterations}`;
+/** "xpbd, 10 substeps x 2" */
+export function methodWords({ stepper, iterations }, substeps) {
+  return `${stepper}, ${substeps} substeps${iterations > 1 ? ` x ${iterations}` : ''}`;
 }
 
 export async function order() {
   const rows = [];
-  const correlations = [];
+  const correlations = {};
   const told = [];
   for (const [name, duration] of Object.entries(kScenes)) {
-    const scene = JSON.parse(readFileSync(join(root, 'assets', 'scenes', `${name}.json`), 'utf8'));
-    const found = judged(scene, duration);
+    const found = judged(shippedScene(name), duration);
     const ranked = found.filter((row) => row.position_error_m > 0 && row.truth_m > 0);
-    const errors = (key) => ranked.map((row) => row[key]);
-    const tells = ranked.length >= kFewestRanked;
-    correlations.push(
-      tells ? rankCorrelation(errors('position_error_m'), errors('truth_m')) : Number.NaN,
+    const [errors, truths] = ['position_error_m', 'truth_m'].map((of) =>
+      ranked.map((row) => row[of]),
     );
+    const tells = ranked.length >= kFewestRanked;
+    correlations[name] = tells ? rankCorrelation(errors, truths) : Number.NaN;
     told.push(`${name} ${ranked.length} of ${found.length}`);
     rows.push(...found);
   }
-  const lines = rows.map((row) => [
-    row.scene,
-    describe(row),
-    short(row.ms_per_frame),
-    short(1e3 * row.position_error_m),
-    short(1e3 * row.truth_m),
-    row.status,
-  ]);
-  const head = ['scene', 'method', 'ms/frame', 'sweep: mm', 'truth: mm', 'status'];
-  const truths = [...new Set(rows.map((row) => row.truth.description))];
-  const text = `the order of a sweep against ${truths.join('; ')}; ranked: ${told.join(', ')}\n\n${markdown(head, lines)}`;
-  const goals = Object.keys(kScenes).map((name, k) =>
-    goal(`truth.order_${name}`, correlations[k], 'at-least', 0.95, rows),
+  const columns = {
+    scene: 'scene',
+    method: ({ method }) => methodWords(method, method.substeps ?? 1),
+    'ms/frame': 'ms_per_frame',
+    'sweep: mm': (row) => 1e3 * row.position_error_m,
+    'truth: mm': (row) => 1e3 * row.truth_m,
+    status: 'status',
+  };
+  const truths = [...new Set(rows.map((row) => row.truth.description))].join('; ');
+  const text = `the order of a sweep against ${truths}; ranked: ${told.join(', ')}\n\n${table(rows, columns)}`;
+  const goals = Object.entries(correlations).map(([name, correlation]) =>
+    atLeast(`truth.order_${name}`, correlation, 0.95, rows),
   );
   return { rows, goals, text };
 }

@@ -1,13 +1,11 @@
-// A sweep that is killed and started again: what its journal and its rows have lost or measured
-// twice.
+// A sweep that is killed and started again: what its journal and its rows have lost or repeated.
 import { spawn } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { tell } from './bench-parts.mjs';
-import { goal, markdown, short } from './bench-rows.mjs';
-import { command } from './command.mjs';
+import { tell } from './bench-options.mjs';
+import { atMost, table } from './bench-rows.mjs';
+import { command, inFolder } from './command.mjs';
 
 const kPollMs = 1;
 const kRepeats = 2;
@@ -82,19 +80,6 @@ async function killAndGoOn(plan, folder) {
   return { allKilled, kills, lines: wholeLines(journal), rows };
 }
 
-function rowTable(rows) {
-  const head = ['method', 'substeps', 'ms/frame', 'runs', 'position error mm', 'status'];
-  const lines = rows.map((row) => [
-    row.method.stepper,
-    row.n_substeps,
-    short(row.ms_per_frame),
-    row.n_runs,
-    short(row.position_error_m === null ? Number.NaN : 1e3 * row.position_error_m),
-    row.status,
-  ]);
-  return markdown(head, lines);
-}
-
 /** `scene` with 30 settings, killed and continued twice. */
 export async function killedSweep(scene) {
   const settings = kSteppers.flatMap((stepper) =>
@@ -103,23 +88,26 @@ export async function killedSweep(scene) {
       '/method/substeps': s + 1,
     })),
   );
-  const folder = mkdtempSync(join(tmpdir(), 'pleat-bench-'));
-  try {
-    const plan = { scene, settings, duration_s: 1, repeats: kRepeats };
-    const { allKilled, kills, lines, rows } = await killAndGoOn(plan, folder);
-    const faults = [journalFaults(kills, lines, kRuns), rowFaults(settings, rows)];
-    const total = (kind) =>
-      allKilled ? faults.reduce((sum, fault) => sum + fault[kind], 0) : Number.NaN;
-    const killed = kills.map((known) => known.length).join(' and ');
-    return {
-      rows,
-      goals: [
-        goal('sweep_rows_lost', total('lost'), 'at-most', 0, rows),
-        goal('sweep_runs_repeated', total('repeated'), 'at-most', 0, rows),
-      ],
-      text: `killed after ${killed} of ${kRuns} runs; errors against ${rows[0]?.reference.description}\n\n${rowTable(rows)}`,
-    };
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
+  const plan = { scene, settings, duration_s: 1, repeats: kRepeats };
+  const { allKilled, kills, lines, rows } = await inFolder((folder) => killAndGoOn(plan, folder));
+  const faults = [journalFaults(kills, lines, kRuns), rowFaults(settings, rows)];
+  const total = (kind) =>
+    allKilled ? faults.reduce((sum, fault) => sum + fault[kind], 0) : Number.NaN;
+  const killed = kills.map((known) => known.length).join(' and ');
+  const columns = {
+    method: (row) => row.method.stepper,
+    substeps: 'n_substeps',
+    'ms/frame': 'ms_per_frame',
+    runs: 'n_runs',
+    'position error mm': (row) => 1e3 * (row.position_error_m ?? Number.NaN),
+    status: 'status',
+  };
+  return {
+    rows,
+    goals: [
+      atMost('sweep_rows_lost', total('lost'), 0, rows),
+      atMost('sweep_runs_repeated', total('repeated'), 0, rows),
+    ],
+    text: `killed after ${killed} of ${kRuns} runs; errors against ${rows[0]?.reference.description}\n\n${table(rows, columns)}`,
+  };
 }

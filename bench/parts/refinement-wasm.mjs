@@ -1,25 +1,30 @@
 // A garment on one mesh in WebAssembly, called as the page calls it, in turn with the native
 // command.
-import { tell } from './bench-parts.mjs';
-import { median } from './bench-rows.mjs';
+import { fabricsText } from './assets.mjs';
+import { tell } from './bench-options.mjs';
+import { inTurn, median } from './bench-rows.mjs';
 import { ask, nativeRun } from './command.mjs';
-import { fabricsText, answer as opened, wasmModule } from './contestants.mjs';
+import { answer, wasmModule } from './contestants.mjs';
+import { kStep } from './sheets.mjs';
 
 const kFrame = 1 / 30; // [s]
-const kNativeFrame = 1 / 60; // of nativeRun [s]
 const kNoSamples = 1_000_000; // frames from one to the next
 export const kEarly = 0.5; // [s], after which both builds are compared
 export const kTight = 1e-12; // tolerance of the solver, with which rounding does not grow
 
+async function opened(scene) {
+  const module = await wasmModule('GarmentRun');
+  const run = new module.GarmentRun(fabricsText());
+  const { n_vertices, step_s } = answer(run.load(JSON.stringify(scene), {}));
+  return { run, n_vertices, steps: (seconds) => run.step(Math.round(seconds / step_s)) };
+}
+
 /** Wall time of a run's contact so far [ms]. */
-const contactMs = (run) => opened(run.costs()).parts_ms.contact ?? 0;
+const contactMs = (run) => answer(run.costs()).parts_ms.contact ?? 0;
 
 /** Frames of the second half are timed, as the native command does. */
 async function wasmTimes(scene) {
-  const module = await wasmModule('refinement');
-  const run = new module.GarmentRun(fabricsText());
-  const { n_vertices, step_s } = opened(run.load(JSON.stringify(scene), {}));
-  const stepsPerFrame = Math.round(kFrame / step_s);
+  const { run, n_vertices, steps } = await opened(scene);
   const nFrames = Math.round(scene.duration_s / kFrame);
   const found = { target: 'wasm', n_vertices, status: 'ok', message: '' };
   const frameMs = [];
@@ -28,9 +33,9 @@ async function wasmTimes(scene) {
     const isTimed = frame > nFrames / 2;
     if (!isTimed) contactBefore = contactMs(run);
     const begin = performance.now();
-    const code = run.step(stepsPerFrame);
+    const code = steps(kFrame);
     const ms = performance.now() - begin;
-    const { status, message } = opened(run.status());
+    const { status, message } = answer(run.status());
     if (status !== 'ok') Object.assign(found, { status, message });
     if (code !== 0) break;
     if (isTimed) frameMs.push(ms);
@@ -42,15 +47,13 @@ async function wasmTimes(scene) {
 
 const nativeTimes = (scene) => ask('bench', 'together', scene, '--every', kNoSamples).runs[0];
 
-/** Of any coordinate after kEarly [m]; NaN where a run did not come that far. */
+/** The largest of any coordinate after kEarly [m]; NaN where a run did not come that far. */
 async function largestDifference(scene) {
-  const module = await wasmModule('refinement');
-  const run = new module.GarmentRun(fabricsText());
-  const { step_s } = opened(run.load(JSON.stringify(scene), {}));
-  const code = run.step(Math.round(kEarly / step_s));
+  const { run, steps } = await opened(scene);
+  const code = steps(kEarly);
   const positions = Array.from(run.positions());
   run.delete();
-  const [right] = nativeRun(scene, Math.round(kEarly / kNativeFrame), [kEarly]).samples;
+  const [right] = nativeRun(scene, Math.round(kEarly / kStep), [kEarly]).samples;
   if (code !== 0 || !right) return Number.NaN;
   return Math.max(...positions.map((value, q) => Math.abs(value - right.positions_m[q])));
 }
@@ -64,12 +67,9 @@ export async function differences(scene) {
 
 /** Runs of one scene in both builds, round by round in turn. */
 export async function bothBuilds(scene, repeat) {
-  const found = { wasm: [], native: [] };
-  for (let round = 1; round <= repeat; ++round) {
-    tell(`round ${round} of ${repeat}: ${scene.name}, wasm`);
-    found.wasm.push(await wasmTimes(scene));
-    tell(`round ${round} of ${repeat}: ${scene.name}, native`);
-    found.native.push(nativeTimes(scene));
-  }
-  return found;
+  const [wasm, native] = await inTurn(repeat, [
+    { label: `${scene.name}, wasm`, run: () => wasmTimes(scene) },
+    { label: `${scene.name}, native`, run: () => nativeTimes(scene) },
+  ]);
+  return { wasm, native };
 }

@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
+import { changed } from '../../../bench/parts/assets.mjs';
+import { rankCorrelation } from '../../../bench/parts/bench-rows.mjs';
 import { crumpledDress } from '../../../bench/parts/crumpled-dress.mjs';
-import { distance, rankCorrelation } from '../../../bench/parts/honesty-order.mjs';
-import { changed, isTold } from '../../../bench/parts/honesty-warnings.mjs';
+import { distance } from '../../../bench/parts/honesty-order.mjs';
+import { isTold } from '../../../bench/parts/honesty-warnings.mjs';
 
 describe('rank correlation', () => {
   const errors = [3, 1, 4, 1.5, 9, 2.6];

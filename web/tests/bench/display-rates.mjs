@@ -3,7 +3,8 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 
-import { answer, fabricsText, wasmModule } from '../../../bench/parts/contestants.mjs';
+import { fabricsText } from '../../../bench/parts/assets.mjs';
+import { answer, wasmModule } from '../../../bench/parts/contestants.mjs';
 import { createPacer } from '../../src/shared/state/pacer.ts';
 
 const kSeconds = 4;
