@@ -10,9 +10,8 @@ import { garmentScene, root } from './parts/assets.mjs';
 import { tell, wholeNumber } from './parts/bench-options.mjs';
 import { runParts } from './parts/bench-parts.mjs';
 import { markdown, short } from './parts/bench-rows.mjs';
-
+import { savingsFigure } from './parts/charts.mjs';
 import { commit } from './parts/command.mjs';
-import { savingsFigure } from './parts/refinement-figure.mjs';
 import {
   buildRow,
   buildTable,

@@ -6,9 +6,8 @@ import { join } from 'node:path';
 import { asset, root } from './assets.mjs';
 import { tell } from './bench-options.mjs';
 import { atMost, short, table } from './bench-rows.mjs';
-
+import { guardsFigure } from './charts.mjs';
 import { ask, commit, inFolder } from './command.mjs';
-import { guardsFigure } from './guards-figure.mjs';
 
 const kFigureFile = join('docs', 'hierarchy-guards.svg');
 const kMeshes = {

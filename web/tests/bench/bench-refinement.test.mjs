@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { savingsFigure, ticks } from '../../../bench/parts/refinement-figure.mjs';
+import { savingsFigure, ticks } from '../../../bench/parts/charts.mjs';
 import {
   buildRow,
   buildTable,
