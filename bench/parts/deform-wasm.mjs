@@ -5,8 +5,7 @@ import { dirname, join } from 'node:path';
 import { fabricsText } from './assets.mjs';
 import { answer, wasmModule } from './contestants.mjs';
 
-const kConverged = 2; // Deformation.step returns at least so much at the end
-const kStepsOfMove = 4;
+const kDone = 3; // that Deformation.settle answers at the end
 
 /** The text of the mesh that a scene names; empty without one. */
 function meshText(file, scene) {
@@ -26,10 +25,10 @@ function fabricWeights(name) {
   };
 }
 
-function stepToTheEnd(shape, pane) {
-  let steps = 0;
-  for (let progress = 0; progress < kConverged; ++steps) progress = shape.step(pane, true);
-  return steps;
+/** The pane comes to its least energy from where it is. */
+function settle(shape, pane) {
+  answer(shape.beginSettling(pane, false));
+  while (shape.settle(pane) !== kDone);
 }
 
 /** Vertices that are held, and their places at rest and at the scene's targets, as one list each. */
@@ -60,27 +59,27 @@ export async function deformWasm(file, moves) {
   show(1);
   answer(shape.hold(vertices, end));
   answer(shape.restart(0));
-  const steps = stepToTheEnd(shape, 0);
+  settle(shape, 0);
   const total_ms = performance.now() - clock;
-  const { energy, converged } = answer(shape.report(0));
+  const { energy, converged, steps } = answer(shape.report(0));
   show(2);
   answer(shape.hold(vertices, begin));
   for (const pane of [0, 1]) {
     answer(shape.restart(pane));
-    stepToTheEnd(shape, pane);
+    settle(shape, pane);
   }
   const drag = { update_ms: [], excess: [] };
   for (let move = 1; move <= moves; ++move) {
     shape.moveHeld(begin.map((from, q) => from + ((end[q] - from) * move) / moves));
     const start = performance.now();
     answer(shape.follow(0));
-    for (let k = 0; k < kStepsOfMove; ++k) if (shape.step(0, k === 0) >= kConverged) break;
     drag.update_ms.push(performance.now() - start);
     answer(shape.follow(1));
-    stepToTheEnd(shape, 1);
+    settle(shape, 1);
     drag.excess.push(answer(shape.report(0)).energy / answer(shape.report(1)).energy - 1);
   }
   shape.delete();
-  const cost = { total_ms, steps, energy, status: converged ? 'ok' : 'not_converged' };
+  const status = converged ? 'ok' : 'not_converged';
+  const cost = { total_ms, steps: steps.length, energy, status };
   return { scene: scene.name, n_vertices: opened.n_vertices, target: 'wasm', cost, drag };
 }
