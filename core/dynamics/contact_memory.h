@@ -8,8 +8,8 @@
 
 namespace pleat {
 
-/// Whether the force with which a solid held a vertex in one substep is among the forces of the
-/// next. The equations of a stepper that solves for the end of a substep then contain the support:
+/// Forces with which solids held vertices in one substep may be among the forces of the next. The
+/// equations of a stepper that solves for the end of a substep then contain the support:
 /// cloth comes to rest in equilibrium instead of falling into the solid and being put back in every
 /// substep.
 enum class ContactForces { forgotten, remembered };
@@ -61,10 +61,10 @@ class ContactMemory {
 
   const ClothModel& model_;
   Positions forces_;
-  std::vector<Touch> touches_;   // of the last substep, in the order of the vertices
-  std::vector<char> is_exempt_;  // for each vertex, of models with contact
+  std::vector<Touch> touches_;   // last substep's, in the order of the vertices
+  std::vector<char> is_exempt_;  // one for each vertex; empty without contact
   bool is_touched_ = false;
-  Positions solved_velocities_;  // before contact [m/s]
+  Positions solved_velocities_;  // velocities before contact [m/s]
 };
 
 }  // namespace pleat

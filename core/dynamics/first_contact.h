@@ -23,7 +23,7 @@ class FirstContact {
   FirstContact(ClothModel& model, double within) : model_(model), within_(within) {}
 
   bool is_awaited() const { return within_ > 0 && model_.contact && !time_; }
-  /// Of the touch [s]; nothing before.
+  /// Time of the touch [s]; nothing before.
   std::optional<double> time() const { return time_; }
 
   /// Advances by one substep, in two parts if a solid touches the cloth in it. Cloth that touches
@@ -38,7 +38,7 @@ class FirstContact {
   ClothModel& model_;
   double within_;  // [m]
   std::optional<double> time_;
-  // At the start of the substep.
+  // Kept from the start of the substep.
   State state_;
   Positions forces_;
   BendFriction::Kept friction_;

@@ -31,7 +31,7 @@ class Stepper {
   virtual ~Stepper() = default;
 
   /// Steps from `time` to `time + step` [s], in equal substeps. Pinned vertices end exactly at
-  /// their pins, hanging ones in the middle of their parents, where they are put to begin with.
+  /// their pins, hanging ones in the middle of their parents, where they are put first.
   /// After each substep the model's strain limit and contact correct the result. The report's
   /// residual is that of the last substep's own equations, its iterations the sum. A state that is
   /// not finite, or beyond kLargestCoordinate, ends the step: `state` then holds the last good one.
@@ -49,11 +49,12 @@ class Stepper {
   /// remembered.
   void start_from_contact_forces(const Eigen::Ref<const Positions>& forces);
 
-  /// For each spring of the model, whether it is taken implicitly; empty for steppers that treat
-  /// all alike. Valid until the next call that changes the stepper.
+  /// Says for each spring of the model whether it is taken implicitly; empty for steppers that
+  /// treat all alike. Valid until the next call that changes the stepper.
   virtual std::span<const char> implicit_springs() const { return {}; }
 
-  /// What the options ask for and this cloth has not, in a sentence's middle; empty for nothing.
+  /// Names what the options ask for and this cloth has not, in a sentence's middle; empty for
+  /// nothing.
   virtual std::string remark() const { return {}; }
 
   /// When a solid first touched the cloth since this was made, to the accuracy that
@@ -108,7 +109,7 @@ class Stepper {
   ClothModel& model_;
   StageObserver* observer_ = nullptr;
   ContactMemory contact_memory_;
-  Positions positions_begin_;  // of the substep, set by steppers that call correct
+  Positions positions_begin_;  // start of the substep, set by steppers that call correct
 
  private:
   SolveReport substep_in_world(State& state, double time_end, double h);
@@ -122,7 +123,7 @@ class Stepper {
   std::optional<StrainLimitStage> strain_limit_;
   FirstContact first_contact_;
   State last_finite_;
-  BendFriction::Kept last_friction_;  // of that state, with friction inside the fabric
+  BendFriction::Kept last_friction_;  // state of friction inside the fabric, there
 };
 
 }  // namespace pleat

@@ -13,7 +13,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kStepShare = 0.9;  // of the bound, used when the substeps are ours to choose
+constexpr double kStepShare = 0.9;  // share of the bound, used when the substeps are ours to choose
 
 [[noreturn]] void refuse(const char* format, double bound, double found, double enough) {
   char sentence[200];

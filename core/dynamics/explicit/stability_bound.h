@@ -9,10 +9,10 @@ namespace pleat {
 /// The classical Runge-Kutta method is stable in steps of this length too.
 double largest_stable_step(const ClothModel& model);
 
-/// The same of forward Euler: h k <= c for every spring and h sum c <= m for every vertex [s]. With
-/// the shares c, k of a mode that swings, |1 + h lambda|^2 = 1 - h c + h^2 k; one that only fades
-/// has |lambda| <= c. 0 where a spring or anything else is undamped, or dampers leave rotations
-/// alone.
+/// Largest step of forward Euler that is surely stable [s]: h k <= c for every spring and h sum c
+/// <= m for every vertex. With the shares c, k of a mode that swings, |1 + h lambda|^2 = 1 - h c +
+/// h^2 k; one that only fades has |lambda| <= c. 0 where a spring or anything else is undamped, or
+/// dampers leave rotations alone.
 double largest_forward_step(const ClothModel& model);
 
 /// The bound that holds for an explicit method with these options [s].

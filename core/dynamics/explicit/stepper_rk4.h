@@ -27,7 +27,7 @@ class StepperRk4 final : public Stepper {
   void evaluate(State& state, double time, State& rates);
 
   State stage_;
-  std::array<State, 4> rates_;  // of positions [m/s], of velocities [m/s^2]
+  std::array<State, 4> rates_;  // d/dt of positions [m/s] and velocities [m/s^2]
 };
 
 }  // namespace pleat

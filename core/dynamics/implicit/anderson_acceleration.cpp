@@ -30,7 +30,7 @@ void AndersonAcceleration::start(const LoadedRows& point) {
 /// Makes the newest direction of the room at the end, which holds the differences of step and
 /// image.
 void AndersonAcceleration::add_direction() {
-  constexpr double kLostShare = 1e-14;  // of a squared norm: what is left is rounding
+  constexpr double kLostShare = 1e-14;  // share of a squared norm: what is left is rounding
   Direction& fresh = directions_.back();
   const double whole = inner_product(fresh.step, fresh.step);
   for (std::size_t d = 0; d < n_directions_; ++d) {

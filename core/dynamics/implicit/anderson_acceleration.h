@@ -34,17 +34,17 @@ class AndersonAcceleration {
  public:
   explicit AndersonAcceleration(Eigen::Index n_vertices);
 
-  /// Forgets all rounds. The next one begins at this point.
+  /// Forgets all rounds. The next one starts at this point.
   void start(const LoadedRows& point);
-  /// What to add to the image of the round that began at the present point, to be accepted or
-  /// refused; null, and the image is the next point, while there is nothing to foretell from. Valid
-  /// until the next call.
+  /// Proposes what to add to the image of the round that began at the present point, to be accepted
+  /// or refused; null, and the image is the next point, while there is nothing to foretell from.
+  /// Valid until the next call.
   const LoadedRows* propose(const VertexRows& image, const VertexRows& load);
   void accept();
   /// The image is the next point, and rounds before this one are forgotten.
   void refuse();
 
-  /// Since this was made.
+  /// Count since this was made.
   int n_refused() const { return n_refused_; }
 
  private:
@@ -52,7 +52,7 @@ class AndersonAcceleration {
   struct Direction {
     LoadedRows step;
     LoadedRows image;
-    double squared_norm = 0;  // of the step [J]
+    double squared_norm = 0;  // norm of the step [J]
   };
 
   void add_direction();

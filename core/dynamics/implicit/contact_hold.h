@@ -25,14 +25,14 @@ class ContactHold {
   /// share  of what a vertex resists with alone, with which it is held
   explicit ContactHold(const ClothModel& model, double share = 1);
 
-  /// What holds a touched vertex: the force R (u - v)/h at its velocity v.
+  /// Hold on a touched vertex: the force R (u - v)/h at its velocity v.
   struct Held {
     VertexId vertex;
     Mat3 resistance;  // R [kg]
     Vec3 velocity;    // u, that it is held to [m/s]
   };
 
-  /// From the matrix of a substep without what holds; mass_unit turns its entries into kg.
+  /// Takes them from the matrix of a substep without holds; mass_unit turns its entries into kg.
   void set_resistances(const SystemMatrix& matrix, double mass_unit = 1);
   void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
 

@@ -17,7 +17,7 @@ struct Demand {
   double amount;
 };
 
-/// Of springs two, of bending elements three.
+/// Two for a spring, three for a bending element.
 using Demands = std::vector<Demand>;
 
 Demands demands_of(const Spring& spring, double h) {
@@ -67,7 +67,7 @@ StabilitySplit split(const ClothModel& model, const std::vector<char>& is_stiff)
   return parts;
 }
 
-/// For each element whether it is stiff in substeps of h.
+/// Says for each element whether it is stiff in substeps of h.
 std::vector<char> stiff_elements(const ClothModel& model, double h) {
   PLEAT_CHECK(model.is_plain_spring_lattice(), "springs with quadratic bending alone are split");
   PLEAT_CHECK(h > 0, "a substep is positive");

@@ -10,7 +10,7 @@ namespace pleat {
 struct StabilitySplit {
   ClothModel stiff;  ///< the others; masses and pins as in the whole
   ClothModel soft;
-  std::vector<char> is_stiff;  ///< for each spring of the whole
+  std::vector<char> is_stiff;  ///< one for each spring of the whole
 };
 
 /// Goes through the elements from soft to stiff, by (h^2 k + 2 h c)(1/m_i + 1/m_j): one is soft as

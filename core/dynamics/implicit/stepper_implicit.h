@@ -37,7 +37,7 @@ class StepperImplicit : public Stepper {
 
   const ClothModel* stiff_ = nullptr;
   std::optional<SystemMatrix> matrix_;
-  std::optional<ContactHold> hold_;  // with contact
+  std::optional<ContactHold> hold_;  // models with contact only
   VelocitySolve solve_;
   Positions forces_;  // right-hand side, in [N s] once scaled by h
 };

@@ -13,17 +13,17 @@ namespace pleat {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMaxPushes = 8;        // off saddles
-constexpr int kMaxIterations = 200;  // of a substep in time; reaching it is reported
+constexpr int kMaxPushes = 8;        // pushes off saddles
+constexpr int kMaxIterations = 200;  // limit for a substep in time; reaching it is reported
 constexpr int kMaxEquilibriumIterations = 5000;
-constexpr int kMaxHalvings = 40;              // of a step along a direction
-constexpr double kLargestShare = 1024;        // of a direction of the projected Hessian
+constexpr int kMaxHalvings = 40;              // halvings of a step along a direction
+constexpr double kLargestShare = 1024;        // limit for a direction of the projected Hessian
 constexpr double kSufficientDecrease = 1e-4;  // Armijo's condition
 constexpr double kShiftFactor = 4;            // the shift follows the steps by this factor
 constexpr double kLinearTolerance = 1e-3;     // relative residual of the first linear solve
 constexpr double kIterativeTolerance = 1e-6;  // relative residual with a solver that has no factor
-constexpr int kMaxLinearIterations = 15;      // with a kept factor; more cost as much as a new one
-constexpr double kSmallestShift = 1e-6;       // of the first one; below, the true Hessian stands
+constexpr int kMaxLinearIterations = 15;  // limit for a kept factor; more cost as much as a new one
+constexpr double kSmallestShift = 1e-6;   // share of the first one; below, the true Hessian stands
 
 double largest_norm(const Positions& columns) {
   return std::sqrt(columns.colwise().squaredNorm().maxCoeff());
@@ -289,9 +289,9 @@ bool StepperNewton::is_stable() {
   return has_factor_;
 }
 
-/// Off a saddle, where cloth would stand on its edge for ever.
+/// Pushes off a saddle, where cloth would stand on its edge for ever.
 void StepperNewton::push_off(int attempt) {
-  constexpr double kPush = 1e-6;  // of the extent: far below what is seen, far above rounding
+  constexpr double kPush = 1e-6;  // share of the extent: far below what is seen, far above rounding
   Random random(static_cast<std::uint64_t>(attempt));
   for (double& coordinate : trial_.reshaped()) coordinate = random.uniform(-1, 1);
   for (const Pin& pin : model_.pins) trial_.col(pin.vertex).setZero();

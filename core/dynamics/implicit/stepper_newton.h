@@ -15,7 +15,7 @@ namespace pleat {
 ///
 /// With k = h (backward Euler) or h/2 (midpoint: half of a backward step, then extrapolated) and
 /// d = x - x_begin it minimises 1/2 d'(M/k^2 + C/k) d - d'(M v/k + f) + E(x). The damping C is
-/// taken at the begin, for midpoint at x + k v, so that the order stays. Drag enters by its value
+/// taken at the start, for midpoint at x + k v, so that the order stays. Drag enters by its value
 /// at each iterate. Equilibrium leaves the first term out and shifts the Hessian by a multiple of M
 /// while steps have to be cut (Levenberg-Marquardt).
 ///
@@ -53,28 +53,28 @@ class StepperNewton final : public Stepper {
   bool is_at_rest() const { return options().rule == NewtonRule::equilibrium; }
 
   SystemMatrix matrix_;
-  std::optional<ContactHold> hold_;  // by backward Euler, of models with contact
+  std::optional<ContactHold> hold_;  // backward Euler of models with contact only
   std::unique_ptr<LinearSolver> solver_;
   SparseMatrix base_;               // M/k^2 + C/k, fixed during a substep [N/m]
   double interval_ = 0;             // k [s]
   double shift_ = 0;                // multiple of M in the Hessian [1/s^2]
   double extent_ = 0;               // diagonal of the box around the cloth [m]
-  double first_gradient_norm_ = 0;  // of the substep [N]
-  double rounding_ = 0;             // below this the gradient is noise [N]
+  double first_gradient_norm_ = 0;  // norm where the substep starts [N]
+  double rounding_ = 0;             // a gradient below this is noise [N]
   bool is_projected_ = false;       // the matrix at hand
-  bool has_factor_ = false;         // of some earlier Hessian with the same pins
+  bool has_factor_ = false;         // factor of some earlier Hessian with the same pins
   double residual_scale_ = 0;       // [N]
   Positions loads_;                 // M v/k + f [N]
   Positions positions_;             // the iterate
-  Positions gradient_;              // of the potential there; 0 where pinned [N]
+  Positions gradient_;              // potential's, there; 0 where pinned [N]
   Positions direction_;
   Positions trial_;
   Positions velocities_;    // (x - x_begin)/k, for drag
   Positions product_;       // base times d [N]
-  Positions no_change_;     // of pins
-  Eigen::VectorXd change_;  // since the begin [m]
+  Positions no_change_;     // pins' changes, all zero
+  Eigen::VectorXd change_;  // way since the start [m]
   Eigen::VectorXd right_side_;
-  Eigen::VectorXd residual_;  // of conjugate gradients, and what they keep beside
+  Eigen::VectorXd residual_;  // conjugate gradients', and what they keep beside
   Eigen::VectorXd preconditioned_;
   Eigen::VectorXd search_;
   Eigen::VectorXd image_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNotPinned = -1;
 
-/// With how much of what it resists with alone a vertex is held: the more, the fewer substeps until
+/// Share of its own resistance with which a vertex is held: the more, the fewer substeps until
 /// the remembered force is what it should be, and the more rounds until one that may slip has.
 constexpr double kHeldShare = 0.1;
 
@@ -163,7 +163,7 @@ void StepperProjective::set_right_side(double time_end, double h) {
       right_side_.row(held.vertex) += (freedom(held, h) * positions_.col(held.vertex)).transpose();
 }
 
-/// What the matrix has too much of, where the held vertex may slip [N/m].
+/// Excess of the matrix where the held vertex may slip [N/m].
 Mat3 StepperProjective::freedom(const ContactHold::Held& held, double h) const {
   return kHeldShare * diagonal_[held.vertex] * Mat3::Identity() - held.resistance / (h * h);
 }
@@ -213,8 +213,9 @@ void StepperProjective::accelerate(double h) {
   }
 }
 
-/// Without what remembered forces alone would do: thrown far away from its neighbours by its mass.
-/// Friction of what slips is nothing that the rounds find, so it stays, as far as it brakes.
+/// Starts without the remembered forces: alone they would throw a light vertex far away from its
+/// neighbours. The rounds do not find friction of a vertex that slips, so it stays, as far as it
+/// brakes.
 void StepperProjective::place_first_guess(double time_end, double h) {
   positions_ = predicted_;
   if (contact_memory_.has_forces())

@@ -43,7 +43,7 @@ class StepperProjective final : public Stepper {
   struct Target {
     double weight = 0;     // k, plus c/h when the damper acts along the spring [N/m]
     double length = 0;     // effective rest length [m]
-    Vec3 damped{0, 0, 0};  // c/h (x_a - x_b) at the begin, for the isotropic damper [N]
+    Vec3 damped{0, 0, 0};  // c/h (x_a - x_b) at the start, for the isotropic damper [N]
   };
   struct PinnedEntry {
     int free_vertex;
@@ -62,14 +62,14 @@ class StepperProjective final : public Stepper {
   Mat3 freedom(const ContactHold::Held& held, double h) const;
   void start_acceleration(double time_end, double h);
   void accelerate(double h);
-  /// Of what the rounds lower [J], from positions_ to proposed_, which are `change` apart.
+  /// Change of what the rounds lower [J], from positions_ to proposed_, which are `change` apart.
   double energy_change(const LoadedRows& change, double h) const;
 
   SparseMatrix matrix_;
-  Eigen::VectorXd diagonal_;         // of the matrix, but for what holds
-  std::vector<char> is_free_;        // for each vertex: neither pinned nor hanging
-  std::optional<ContactHold> hold_;  // of models with contact
-  std::vector<char> is_held_;        // in the matrix as it is factorised, for each vertex
+  Eigen::VectorXd diagonal_;         // the matrix's, but for holds
+  std::vector<char> is_free_;        // neither pinned nor hanging, for each vertex
+  std::optional<ContactHold> hold_;  // models with contact only
+  std::vector<char> is_held_;        // held in the factorised matrix, for each vertex
   std::vector<char> was_held_;
   std::unique_ptr<LinearSolver> solver_;
   SolveReport factor_report_;
@@ -79,15 +79,16 @@ class StepperProjective final : public Stepper {
   Positions air_forces_;  // applied in the last substep, in wind [N]
   Positions predicted_;   // x + h v + h^2 M^-1 f_external; 0 where vertices hang
   Positions positions_;
-  Positions first_change_;  // from where neither springs nor solids act to the first round's end
+  Positions
+      first_change_;  // way from where neither springs nor solids act to the first round's end
   VertexRows right_side_;
   VertexRows solution_;
   Eigen::VectorXd column_;
   std::optional<AndersonAcceleration> acceleration_;
-  LoadedRows start_;        // of the substep's first round
-  VertexRows steady_side_;  // of the right-hand side, what no round changes
+  LoadedRows start_;        // start of the substep's first round
+  VertexRows steady_side_;  // part of the right-hand side that no round changes
   Positions proposed_;
-  double time_end_ = 0;  // of the last substep [s]
+  double time_end_ = 0;  // end of the last substep [s]
 };
 
 }  // namespace pleat

@@ -5,7 +5,7 @@
 namespace pleat {
 namespace {
 
-/// What a degree must have saved of a lower one's squared error to be taken: it multiplies what
+/// Share of a lower degree's squared error below which a degree is taken: it multiplies what
 /// solves left over, up to eight times.
 constexpr double kMuchLess = 0.5;
 

@@ -41,11 +41,11 @@ class VelocitySolve {
 
   const ClothModel& model_;
   std::unique_ptr<LinearSolver> solver_;
-  Positions change_;  // of velocities [m/s]
+  Positions change_;  // change of velocities [m/s]
   std::array<Positions, 4>
       differences_;  // backward, of the last changes; the first is the last one
   Positions difference_;
-  std::size_t degree_ = 0;  // of the polynomial
+  std::size_t degree_ = 0;  // degree of the polynomial
   Positions pin_changes_;   // prescribed, one column per pin
 };
 

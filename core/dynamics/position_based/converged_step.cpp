@@ -12,8 +12,8 @@ namespace {
 
 struct StepSpring {
   Eigen::Index a, b;
-  double rest;        // that it aims at [m]
-  double compliance;  // over h^2, relative to the inverse masses
+  double rest;        // length it aims at [m]
+  double compliance;  // compliance/h^2, relative to the inverse masses
 };
 
 /// The pull of a spring per multiplier, and how it changes with d.
@@ -158,7 +158,7 @@ class StepEquations {
 
   const ClothModel& model_;
   const PredictedStep& step_;
-  Eigen::Index unknowns_;  // of places
+  Eigen::Index unknowns_;  // coordinates
   double mean_mass_ = 0;   // [kg]
   std::vector<bool> is_held_;
   std::vector<StepSpring> springs_;
@@ -175,7 +175,7 @@ class StepEquations {
 ConvergedStep converged_step(const ClothModel& model, const PredictedStep& step) {
   constexpr int kMostIterations = 60;
   constexpr int kMostHalvings = 12;
-  constexpr double kRounding = 1e-11;  // of the extent
+  constexpr double kRounding = 1e-11;  // share of the extent
   StepEquations equations(model, step);
   const double first = equations.error();
   const double extent = box_diagonal(step.begins);

@@ -4,11 +4,12 @@
 
 namespace pleat {
 
-/// What a position-based solve of a step would come to with rounds without end.
+/// Limit of a position-based solve of a step with rounds without end.
 struct ConvergedStep {
-  Positions positions;        ///< [m]
-  double last_change = 0;     ///< of any vertex by the last iteration [m]: how well they are known
-  double relative_error = 0;  ///< of its equations, over their value at the predicted places
+  Positions positions;  ///< [m]
+  double last_change =
+      0;  ///< largest of any vertex in the last iteration [m]: how well they are known
+  double relative_error = 0;  ///< residual of its equations, over that at the predicted places
   int iterations = 0;
   bool is_converged = false;  ///< the last change was rounding
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr int kSmallestStride = 3;
 /// Rest coordinates closer than this share of the extent are the same row.
 constexpr double kRowTolerance = 1e-6;
-/// With more places per vertex than this the rows are no grid: padding would cost more than it
+/// Rows with more places per vertex than this are no grid: padding would cost more than it
 /// saves. Small sheets are mostly padding and may be so.
 constexpr double kMostPlacesPerVertex = 3;
 constexpr int kSmallSheet = 256;

@@ -21,7 +21,7 @@ std::vector<LaneOperation> compile_operations(std::vector<LaneCandidate> candida
               return std::tie(p.first_slots, p.lane, p.element) <
                      std::tie(q.first_slots, q.lane, q.element);
             });
-  std::vector<std::pair<std::size_t, std::size_t>> groups;  // from, to in candidates
+  std::vector<std::pair<std::size_t, std::size_t>> groups;  // ranges [from, to) of candidates
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const bool joins = i > 0 && candidates[i].first_slots == candidates[i - 1].first_slots &&
                        candidates[i].lane > candidates[i - 1].lane;

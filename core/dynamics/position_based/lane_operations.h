@@ -22,8 +22,8 @@ constexpr float kEmptyLane = std::numeric_limits<float>::infinity();
 /// against a position, so that what a projection adds to it is not rounded to the position's last
 /// bit.
 struct LaneView {
-  std::array<float*, 3> moves;         ///< x, y, z since the substep's begin [m]
-  std::array<const float*, 3> begins;  ///< places at the substep's begin, to single precision [m]
+  std::array<float*, 3> moves;         ///< x, y, z since the substep's start [m]
+  std::array<const float*, 3> begins;  ///< places at the substep's start, to single precision [m]
   const float* inverse_masses;         ///< mean mass / mass; 0 where pinned and in padding
 };
 
@@ -57,7 +57,7 @@ constexpr LaneMembers kNoMembers{-1, -1, -1, -1};
 
 /// An element that wants a lane, and the rank of the operation that it belongs to.
 struct LaneCandidate {
-  std::array<int, 3> first_slots;  ///< of the groups it works on; the third may be unused
+  std::array<int, 3> first_slots;  ///< groups it works on; the third may be unused
   int lane = 0;
   int element = 0;
   std::array<int, 5> rank;

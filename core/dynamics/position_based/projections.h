@@ -36,7 +36,8 @@ class Projections {
   /// Sum of |C + compliance/h^2 lambda|^2 over the constraints of the finest mesh [m^2].
   virtual double squared_residual(const LaneView& view) = 0;
 
-  /// What the options ask for and this cloth has not, in a sentence's middle; empty for nothing.
+  /// Names what the options ask for and this cloth has not, in a sentence's middle; empty for
+  /// nothing.
   virtual std::string remark() const { return {}; }
 };
 

@@ -13,7 +13,7 @@ namespace pleat {
 /// How a spring pulls.
 enum class SpringLaw {
   rigid,             ///< keeps its rest length whatever the force
-  rigid_threads,     ///< the same, but diagonals of quads are corrected in part at a time
+  rigid_threads,     ///< rigid, but diagonals of quads are corrected in part at a time
   elastic,           ///< stiffness only
   damped,            ///< stiffness, and damping along the spring
   damped_isotropic,  ///< stiffness, and damping of every relative velocity
@@ -50,8 +50,8 @@ std::vector<int> free_springs(const ClothModel& model, SpringLaw law);
 
 /// A bending element as one vector constraint, C = sum of weights times places.
 struct BendConstraint {
-  std::array<VertexId, 3> vertices;  ///< before, middle, after
-  std::array<double, 3> weights;     ///< over the size of the middle one
+  std::array<VertexId, 3> vertices;  ///< the one before, the middle one, the one after
+  std::array<double, 3> weights;     ///< shares of the middle one's size
   float compliance;                  ///< mean mass / (stiffness h^2)
 };
 
@@ -65,16 +65,16 @@ bool any_hangs(const ClothModel& model, const Vertices& vertices) {
                      [&model](VertexId v) { return model.hangs(v); });
 }
 
-/// Where a length [m] may be zero, its square is held above this [m^2].
+/// Least square of a length that may be zero [m^2].
 constexpr float kTinySquare = 1e-30f;
 
 /// The numbers of four springs.
 struct SpringBlock {
   PerLane<float> rest{1, 1, 1, 1};  ///< L [m]; for the rigid law L^2 [m^2]
   PerLane<float> compliance{};      ///< mean mass / (stiffness h^2); 0 in empty lanes
-  /// The same; infinite in empty lanes: nothing moves there.
+  /// Compliance in denominators; infinite in empty lanes: nothing moves there.
   PerLane<float> denominator_share{kEmptyLane, kEmptyLane, kEmptyLane, kEmptyLane};
-  PerLane<float> damper_share{};  ///< of the stiffness k + c/h, what is c/h
+  PerLane<float> damper_share{};  ///< share of c/h in the stiffness k + c/h
   /// The compliance of the damper across the spring; infinite without.
   PerLane<float> across_compliance{kEmptyLane, kEmptyLane, kEmptyLane, kEmptyLane};
   bool operator==(const SpringBlock&) const = default;
@@ -90,7 +90,7 @@ constexpr int multiplier_floats(SpringLaw law) {
   return law == SpringLaw::damped_isotropic ? 4 * Float4::kLanes : Float4::kLanes;
 }
 
-// With d = x_a - x_b at the end of the substep and d_begin at its begin, the pull acts along their
+// With d = x_a - x_b at the end of the substep and d_begin at its start, the pull acts along their
 // mean, of which g = d + d_begin is twice: all of it along d damps, less than half along d is not
 // stable under high tension (docs/methods/xpbd.md). Corrections x_a += w_a f g, x_b -= w_b f g
 // change the length l = |d| by f (w_a + w_b) d.g/l.

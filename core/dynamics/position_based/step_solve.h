@@ -10,7 +10,7 @@
 
 namespace pleat {
 
-/// Where a position-based step begins, and where it would end without constraints [m].
+/// Places where a position-based step starts, and where it would end without constraints [m].
 struct PredictedStep {
   double h = 0;         ///< [s]
   Positions begins;     ///< x
@@ -29,14 +29,14 @@ class StepSolve {
   /// Keeps nothing of its arguments.
   StepSolve(const ClothModel& model, const MethodOptions& options, const PredictedStep& step);
 
-  /// From the predicted places and multipliers of zero; none leaves them there. Allocates nothing
-  /// after the first call.
+  /// Projects from the predicted places and multipliers of zero; no round leaves them there.
+  /// Allocates nothing after the first call.
   void solve(int rounds);
 
   /// |C + compliance/h^2 lambda| over all constraints of the finest mesh after the last solve, over
   /// its value at the predicted places with multipliers of zero. 0 where that is 0.
   double relative_error();
-  /// After the last solve [m]. What hangs is in the middle of its parents.
+  /// Places after the last solve [m]. Hanging vertices are in the middle of their parents.
   Positions positions() const;
   /// See Projections.
   double sweeps_per_round() const { return projections_->sweeps_per_round(); }
@@ -52,8 +52,8 @@ class StepSolve {
   std::unique_ptr<Projections> projections_;
   std::size_t pitch_;               // floats from one array to the next
   std::vector<float> data_;         // see Array
-  std::vector<float> first_moves_;  // to the predicted places
-  Vec3 origin_;                     // of the places [m]
+  std::vector<float> first_moves_;  // moves to the predicted places
+  Vec3 origin_;                     // origin of the places [m]
   double residual_begin_ = 0;       // [m]
 };
 

@@ -160,7 +160,8 @@ void StepperPositionBased::take_gains() {
   }
 }
 
-// What holds is placed once a step, and goes on as it is: a move that is all rounded off.
+// A pin that holds still is placed once a step, and goes on as it is: a move that is all rounded
+// off.
 void StepperPositionBased::place_pins(double time_end, double h) {
   const bool is_first = substeps_left_ == substeps();
   for (std::size_t p = 0; p < model_.pins.size(); ++p) {
@@ -179,9 +180,9 @@ void StepperPositionBased::place_pins(double time_end, double h) {
   }
 }
 
-// What triangles feel costs more than all constraints, and is asked for now and then. Until the
-// next time the drag of a vertex is f - r D (v' - v), with f and the bound D of its resistance at
-// the velocity v of then, v' that at a substep's end and r the share above.
+// The air's forces on triangles cost more than all constraints, and are taken now and then. Until
+// the next time the drag of a vertex is f - r D (v' - v), with f and the bound D of its resistance
+// at the velocity v of then, v' that at a substep's end and r the share above.
 void StepperPositionBased::find_air_drag(State& state, double h) {
   const StageScope scope(observer_, Stage::forces);
   copy_to(state, h);
@@ -197,7 +198,7 @@ void StepperPositionBased::find_air_drag(State& state, double h) {
       const Mat3 left = (Mat3::Identity() + resistance).inverse();
       brake = Mat3::Identity() - left;
       gain = left * h * (per_mass * forces_.col(i) + resistance * state.velocities.col(i)) -
-             brake * (h * h * model_.gravity);  // which is added afterwards
+             brake * (h * h * model_.gravity);  // gravity is added afterwards
     }
     const std::array<double, kAirArrays> numbers = {gain[0],     gain[1],     gain[2],
                                                     brake(0, 0), brake(1, 1), brake(2, 2),

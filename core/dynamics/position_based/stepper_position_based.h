@@ -39,7 +39,7 @@ class StepperPositionBased final : public Stepper {
  private:
   /// Numbers of a slot, each in an array of its own, one after the other.
   ///
-  /// A vertex is at begin + move. Single precision rounds a begin; what it rounds off is
+  /// A vertex is at begin + move. Single precision rounds `begin`; what it rounds off is
   /// `rounded_off` and is contained in the move, so that move - rounded_off is the velocity times
   /// h.
   ///
@@ -69,11 +69,11 @@ class StepperPositionBased final : public Stepper {
   static Vec3 velocity_of(const MotionLanes& motion, int slot, double h);
   void set_motion(const MotionLanes& motion, int slot, const Vec3& position, const Vec3& velocity,
                   double h) const;
-  /// Makes the end of a substep the begin of the next, which goes on at the same velocity, and
+  /// Makes the end of a substep the start of the next, which goes on at the same velocity, and
   /// lets gravity act.
   template <bool carries>
   void predict();
-  /// Makes of the velocity at the substep's begin what has been added to it.
+  /// Makes of the velocity at the substep's start what has been added to it.
   void take_gains();
   void place_pins(double time_end, double h);
   void find_air_drag(State& state, double h);
@@ -83,19 +83,19 @@ class StepperPositionBased final : public Stepper {
 
   LaneLayout layout_;
   std::unique_ptr<Projections> projections_;
-  std::optional<ContactProgram> contact_;  // where the model has solids
-  std::vector<VertexId> vertices_;         // of each slot, where the model has solids
+  std::optional<ContactProgram> contact_;  // models with solids only
+  std::vector<VertexId> vertices_;         // one for each slot, with solids
   double mean_mass_;                       // [kg]
   std::size_t pitch_;                      // floats from one array to the next
   std::vector<float> data_;                // see Array
-  Vec3 origin_{0, 0, 0};                   // of the positions [m]
-  double extent_ = 0;                      // of the cloth about it when the step begins [m]
+  Vec3 origin_{0, 0, 0};                   // origin of the positions [m]
+  double extent_ = 0;                      // size of the cloth about it when the step starts [m]
   std::array<float, 3> fall_{};            // gravity h^2 [m]
   int substeps_left_ = 0;
-  double residual_begin_ = 0, residual_end_ = 0;  // of the last substep [m]
+  double residual_begin_ = 0, residual_end_ = 0;  // the last substep's [m]
   Positions pin_velocities_;                      // one column per pin [m/s]
-  double time_end_ = 0;                           // of the last substep [s]
-  Positions forces_;                              // of the air [N]
+  double time_end_ = 0;                           // end of the last substep [s]
+  Positions forces_;                              // the air's [N]
   std::vector<float> air_;  // arrays as those above: to a move v it adds gain - brake v, as x y z
                             // [m] and xx yy zz xy xz yz
 };

@@ -119,7 +119,7 @@ std::vector<int> columns_of(const std::vector<int>& beginnings, const ThreadNeig
 
 struct ThreadGrid {
   std::vector<GridPlace> places;
-  double row_of_pins = 1;  ///< on average, in shares of the last row; 1 without
+  double row_of_pins = 1;  ///< mean, in shares of the last row; 1 without pins
 };
 
 std::optional<ThreadGrid> grid_across(const ClothModel& model, SpringKind kind_across,

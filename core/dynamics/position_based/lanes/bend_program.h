@@ -32,7 +32,7 @@ class BendProgram {
   struct Block {
     PerLane<float> before{}, after{};    // weights relative to the middle one
     PerLane<float> compliance{};         // mean mass / (stiffness h^2); 0 in empty lanes
-    PerLane<float> denominator_share{};  // the same; infinite in empty lanes: nothing moves there
+    PerLane<float> denominator_share{};  // softened; infinite in empty lanes: nothing moves there
   };
 
   template <bool first>

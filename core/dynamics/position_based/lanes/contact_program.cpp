@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-/// What a place is known to in single precision, in shares of the lengths that it is made from.
+/// Accuracy of a place in single precision, in shares of the lengths that it is made from.
 constexpr double kRounding = 4e-7;
 
 /// Vertices deeper inside than so many roundings did not come there by rounding.
@@ -74,7 +74,7 @@ Vec3Lanes<Float4> choose(Float4 condition, const Vec3Lanes<Float4>& a, const Vec
 
 }  // namespace
 
-/// Of places above a solid's surface [m]; of a ball to first order.
+/// Height of places above a solid's surface [m]; for a ball to first order.
 inline Float4 ContactProgram::gap_of(const Solid& solid, const Vec3Lanes<Float4>& place) {
   const Float4 size = Float4::all(solid.size);
   if (solid.kind == Kind::plane)
@@ -83,16 +83,16 @@ inline Float4 ContactProgram::gap_of(const Solid& solid, const Vec3Lanes<Float4>
 }
 
 struct ContactProgram::Ways {
-  Vec3Lanes<Float4> begin;  // from the centre; of a plane from the origin
+  Vec3Lanes<Float4> begin;  // place from the centre; for a plane from the origin
   Vec3Lanes<Float4> way;
-  Vec3Lanes<Float4> shift;   // of the solid, where the way begins
-  Vec3Lanes<Float4> offset;  // of the begin above from the vertex's rounded begin
+  Vec3Lanes<Float4> shift;   // solid's shift where the way starts
+  Vec3Lanes<Float4> offset;  // start above, seen from the vertex's rounded start
 };
 
-/// Where vertices meet a solid.
+/// Places where vertices meet a solid.
 struct ContactProgram::Meeting {
-  Float4 fraction;  // of the way
-  Float4 lift;      // along the normal, from there onto the surface [m]
+  Float4 fraction;  // share of the way
+  Float4 lift;      // distance along the normal from there onto the surface [m]
   Vec3Lanes<Float4> normal;
   Float4 is_met;  // positive where it is
 };
@@ -187,7 +187,7 @@ void ContactProgram::list_cones(const ContactStage& contact) {
   freedom_.begin_substep(cone_shifts_, static_cast<float>(contact.stretch()));
 }
 
-// What is at x, from the origin o, is carried to R (o + x) + t, seen from o.
+// A point at x, from the origin o, is carried to R (o + x) + t, seen from o.
 void ContactProgram::place_cone(const ContactStage& contact, const ContactStage::Outline& outline,
                                 const Vec3& origin, Solid& solid) {
   const SweptCone& cone = *outline.cone;
@@ -246,7 +246,7 @@ inline void ContactProgram::judge(const Solid& solid, const Ways& ways, Near& ne
   near.hits = positive_lanes(max(ends_inside, passes));
 }
 
-// The height is convex: a way that does not cross the tangent plane below its begin meets nothing.
+// The height is convex: a way that does not cross the tangent plane below its start meets nothing.
 inline void ContactProgram::judge_cone(const Solid& solid, const Ways& ways, Float4 face_squares,
                                        Near& near) {
   const auto [height, normal] = solid.cone.above(ways.begin, solid.cone.radii(face_squares));
@@ -286,7 +286,7 @@ inline ContactProgram::Meeting ContactProgram::meeting(const Solid& solid, const
   return met;
 }
 
-// Newton's steps from the begin never pass the surface. Where one leads beyond the way's end, the
+// Newton's steps from the start never pass the surface. Where one leads beyond the way's end, the
 // solid is not met.
 inline ContactProgram::Meeting ContactProgram::cone_meeting(const Solid& solid, const Ways& ways,
                                                             Float4 face_squares) {
@@ -312,7 +312,7 @@ inline ContactProgram::Meeting ContactProgram::cone_meeting(const Solid& solid, 
 // With d the way relative to the solid, f the share of it at which it is met, and u the velocity
 // times the substep relative to the point that is met: the vertex ends at f d + lift n +
 // (1 - f) slip d_t, and goes on at slip u_t + max(u_n, 0) n. All are small, so that nothing is
-// rounded to a place's last bit. What is q beyond the way's begin, seen from a solid that turns by
+// rounded to a place's last bit. A point q beyond the way's start, seen from a solid that turns by
 // R, shifts by R^T q - q less.
 void ContactProgram::respond(const Solid& solid, const LaneView& view,
                              const std::array<float*, 3>& rounded_off,
@@ -403,7 +403,7 @@ void ContactProgram::look_at_cone(int cone, const Group& group, float further) {
   near_[n_near_++] = near;
 }
 
-// Those that may be met, and those that may be where one of them is.
+// Looks at cones that may be met, then, where one is, at all that its answer may lead to.
 void ContactProgram::look_at_cones(Group& group) {
   const Vec3Lanes<Float4> gone = group.move - group.low - all(drift_);
   group.way = -lowest(zero() - where_positive(group.moves, sqrt(dot(gone, gone))));
@@ -426,18 +426,19 @@ void ContactProgram::look_at_cones(Group& group) {
   freedom_.spend_more(index, further);
 }
 
-// What is done about a hit ends, seen from the solid that is hit, no further from where it would
-// have ended than the way is long; a cone that the vertex began further above than that and its way
-// is not met then either. Planes and balls are near only where they may be met.
-int ContactProgram::sort_out(const Group& group) {
+// A vertex that hits one solid is answered for here if the answer cannot lead it into another: its
+// end moves by no more than the length of its way, seen from the solid, so that it does not reach a
+// cone whose height above its start is larger than that and its way. Every plane and ball in the
+// list is within reach. Vertices that start deep inside, or beside a bound, are for ContactStage.
+int ContactProgram::assign_hits(const Group& group) {
   const std::span<const Near> near = std::span<const Near>(near_).first(n_near_);
   const auto is_cone = [&](const Near& one) {
     return solids_[static_cast<std::size_t>(one.solid)].kind == Kind::cone;
   };
-  int others = 0;
+  int left_over = 0;
   for (const Near& one : near) {
     if (!solids_[static_cast<std::size_t>(one.solid)].is_exact) {
-      others |= one.lanes & group.moving;
+      left_over |= one.lanes & group.moving;
       continue;
     }
     const int hits = one.hits & one.lanes & group.moving;
@@ -450,9 +451,9 @@ int ContactProgram::sort_out(const Group& group) {
                                                        : kAllLanes);
       hits_[static_cast<std::size_t>(one.solid)].append(hits & ~not_alone, group.slot);
     }
-    others |= not_alone;
+    left_over |= not_alone;
   }
-  return others;
+  return left_over;
 }
 
 const std::vector<int>& ContactProgram::resolve(const LaneView& view,
@@ -471,7 +472,7 @@ const std::vector<int>& ContactProgram::resolve(const LaneView& view,
     look_at_others(group);
     if (!cones_.empty()) look_at_cones(group);
     if (n_near_ == 0) continue;
-    const int lanes = sort_out(group);
+    const int lanes = assign_hits(group);
     for (int lane = 0; lane < Float4::kLanes; ++lane)
       if (lanes >> lane & 1) left_over_.push_back(slot + lane);
     if (lanes != 0 && !cones_.empty())

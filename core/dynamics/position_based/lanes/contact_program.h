@@ -48,14 +48,15 @@ class ContactProgram {
     Kind kind;
     bool is_exact;
     std::array<float, 3> place;      // the centre at the substep's end [m], or n
-    std::array<float, 3> place_low;  // what single precision rounds off the centre [m]
+    std::array<float, 3> place_low;  // rest that single precision rounds off the centre [m]
     float size, size_low;            // radius, or level and what is rounded off that [m]
-    std::array<float, 3> middle;     // of the centre's way [m], or n
+    std::array<float, 3> middle;     // middle of the centre's way [m], or n
     float reach;                     // a vertex that moves no further may touch from so near [m]
-    std::array<float, 3> shift;      // during the substep [m]; of a cone, of what is at the origin
-    float rounding;                  // of a vertex's place [m]
+    std::array<float, 3>
+        shift;       // shift during the substep [m]; for a cone, of a point at the origin
+    float rounding;  // error of a vertex's place [m]
     float friction;
-    std::array<std::array<float, 3>, 3> turn;  // by rows: what is at x shifts by turn x more
+    std::array<std::array<float, 3>, 3> turn;  // rows: a point at x shifts by turn x more
     LaneCone cone;
   };
   struct Slots {
@@ -71,10 +72,10 @@ class ContactProgram {
   /// A solid near some of four vertices.
   struct Near {
     int solid;
-    int lanes;       // of the vertices
+    int lanes;       // vertices that are near
     int hits, deep;  // lanes that meet it, and that begin deep inside
-    Float4 margin;   // of a cone's height at the begin over the length of the way [m]
-    Float4 length;   // of the way, seen from a cone [m]
+    Float4 margin;   // a cone's height at the start less the length of the way [m]
+    Float4 length;   // length of the way, seen from a cone [m]
   };
 
   static Float4 gap_of(const Solid& solid, const Vec3Lanes<Float4>& place);
@@ -93,25 +94,27 @@ class ContactProgram {
   void look_at_cone(int cone, const Group& group, float further);
   void look_at_cones(Group& group);
   void look_at_others(const Group& group);
-  int sort_out(const Group& group);
+  /// Lists each vertex that this file can answer for at the one solid that it hits. Returns the
+  /// lanes of the others that may meet a solid.
+  int assign_hits(const Group& group);
   void respond(const Solid& solid, const LaneView& view, const std::array<float*, 3>& rounded_off,
                const LaneMembers& slots) const;
   void respond_to(const Slots& hits, const Solid& solid, const LaneView& view,
                   const std::array<float*, 3>& rounded_off) const;
 
   int n_slots_;
-  std::vector<float> face_squares_;  // of the radii of each slot's faces [m^2]; where cones are
+  std::vector<float> face_squares_;  // squared radius of each slot's faces [m^2]; where cones are
   std::vector<ContactStage::Outline> outlines_;
   std::vector<Solid> solids_;
   std::vector<int> others_;         // planes, balls and bounds among the solids
   std::vector<int> cones_;          // exact ones
-  std::vector<float> cone_shifts_;  // beyond the drift [m]
-  std::array<float, 3> drift_{};    // of the cones in the substep [m]
+  std::vector<float> cone_shifts_;  // shifts beyond the drift [m]
+  std::array<float, 3> drift_{};    // drift of the cones in the substep [m]
   bool knows_groups_ = false;
-  GroupFreedom freedom_;    // of groups from cones
-  std::vector<Near> near_;  // of the group that is looked at; the first n_near_ count
+  GroupFreedom freedom_;    // distance of groups from cones
+  std::vector<Near> near_;  // solids near the group that is looked at; the first n_near_ count
   std::size_t n_near_ = 0;
-  std::vector<Slots> hits_;  // of each solid, where it alone is met
+  std::vector<Slots> hits_;  // vertices that meet this solid alone, for each solid
   std::vector<int> left_over_;
 };
 

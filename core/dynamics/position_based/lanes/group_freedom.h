@@ -39,7 +39,7 @@ class GroupFreedom {
     }
   }
 
-  /// What both may come nearer to each other in the substep [m].
+  /// Distance by which both may come nearer to each other in the substep [m].
   float spent(int solid, float way) const { return way + shifts_[static_cast<std::size_t>(solid)]; }
 
   /// How much further than that they may come before the group meets the solid [m], at least.
@@ -50,7 +50,7 @@ class GroupFreedom {
   /// How far the group is from the solid at the substep's end [m], at least.
   void set(int group, int solid, float distance) { of(group)[solid] = distance; }
 
-  /// What the group went further [m]; infinite where nothing is known of it.
+  /// Spends a further way of the group [m]; infinite where nothing is known of it.
   void spend_more(int group, float way) {
     for (int solid = 0; solid < n_padded_; ++solid) of(group)[solid] -= way;
   }

@@ -67,8 +67,8 @@ HangingProgram::HangingProgram(const ClothModel& model, const LaneLayout& layout
   }
   for (const BendConstraint& bend : bend_constraints(model, h))
     if (any_hangs(model, bend.vertices))
-      bends_.push_back({sum_in_slots(in_free_vertices(bend.vertices, bend.weights), layout),
-                        bend.compliance});
+      bends_.push_back(
+          {sum_in_slots(in_free_vertices(bend.vertices, bend.weights), layout), bend.compliance});
   spring_multipliers_.resize(springs_.size() * static_cast<std::size_t>(multiplier_floats(law)));
   bend_multipliers_.resize(3 * bends_.size());
   refresh_rest_lengths(model);

@@ -41,7 +41,7 @@ class HangingProgram {
   struct JoinedSpring {
     SlotSum sum;
     int spring;
-    SpringBlock block;  // in its first lane
+    SpringBlock block;  // first lane only
   };
   struct JoinedBend {
     SlotSum sum;  // relative to the middle vertex's weight

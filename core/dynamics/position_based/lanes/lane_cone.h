@@ -21,8 +21,9 @@ class LaneCone {
   };
   /// The grown radii, and what follows from them.
   struct Radii {
-    Float4 begin, growth;               ///< [m]
-    Float4 axis_tangent, edge_tangent;  ///< of the angles between surface and rows of balls
+    Float4 begin, growth;  ///< [m]
+    Float4 axis_tangent,
+        edge_tangent;  ///< tangents of the angles between surface and rows of balls
   };
 
   LaneCone() = default;
@@ -31,13 +32,13 @@ class LaneCone {
   /// added  to what the faces' radii ask for [m]
   LaneCone(const SweptCone& cone, const std::array<double, 2>& bare, double added);
 
-  /// Whether neither end's ball holds all the others: those alone are known here.
+  /// True where neither end's ball holds all the others: other cones are not known here.
   static bool is_regular(const SweptCone& cone, const std::array<double, 2>& bare);
 
   /// face_squares  of the radii of the vertices' faces [m^2]
   Radii radii(Float4 face_squares) const;
 
-  /// place  from the centre at the begin [m]
+  /// place  from the centre, at the start [m]
   Height above(const Vec3Lanes<Float4>& place, const Radii& radii) const;
 
  private:
@@ -46,10 +47,10 @@ class LaneCone {
   std::array<Row, 3> to_local_{};
   bool has_width_ = false;
   float axis_per_length_ = 0, edge_per_length_ = 0;  // [1/m]
-  float length_ = 0;                                 // of the axis [m]
+  float length_ = 0;                                 // length of the axis [m]
   float half_width_ = 0, widening_ = 0;              // [m]
   float edge_y_ = 0, edge_z_ = 0;                    // direction of the edge
-  float square_a_ = 0, square_b_ = 0;                // of the bare radii [m^2]
+  float square_a_ = 0, square_b_ = 0;                // squared bare radii [m^2]
   float added_ = 0;                                  // [m]
 };
 

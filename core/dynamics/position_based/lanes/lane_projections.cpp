@@ -4,9 +4,7 @@ namespace pleat {
 
 LaneProjections::LaneProjections(const ClothModel& model, const LaneLayout& layout, SpringLaw law,
                                  double h)
-    : springs_(model, layout, law, h),
-      bends_(model, layout, h),
-      hanging_(model, layout, law, h) {}
+    : springs_(model, layout, law, h), bends_(model, layout, h), hanging_(model, layout, law, h) {}
 
 void LaneProjections::refresh_rest_lengths(const ClothModel& model) {
   springs_.refresh_rest_lengths(model);

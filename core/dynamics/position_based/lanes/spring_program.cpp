@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
+#include <functional>
+#include <string_view>
 
 namespace pleat {
 namespace {
@@ -25,17 +25,8 @@ constexpr int kLanes = Float4::kLanes;
 
 using Block = SpringBlock;
 
-/// Source: Fowler, Noll & Vo, hash FNV-1a.
-std::uint32_t hash_of(const Block& block) {
-  std::uint32_t hash = 2166136261u;
-  for (const PerLane<float>* lanes : {&block.rest, &block.denominator_share})
-    for (float value : *lanes) {
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, &value, sizeof bits);
-      for (int shift = 0; shift < 32; shift += 8)
-        hash = (hash ^ ((bits >> shift) & 0xff)) * 16777619u;
-    }
-  return hash;
+std::size_t hash_of(const Block& block) {
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(&block), sizeof block});
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct Nearest {
   double distance = kNever;  // [m]
 };
 
-/// Of each vertex, by Dijkstra's algorithm from all pins of a patch at once.
+/// The nearest pin of each vertex, by Dijkstra's algorithm from all pins of a patch at once.
 std::vector<Nearest> nearest_by_roads(const Roads& roads, const std::vector<VertexId>& patch) {
   using Reached = std::pair<double, std::int32_t>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
@@ -206,8 +206,8 @@ float AttachmentProgram::stretch_of_pins(const LaneView& view) const {
   return static_cast<float>(most);
 }
 
-// As the rigid law of springs (core/dynamics/position_based/spring_law.h), with an end that does
-// not move.
+// The rigid law of springs (core/dynamics/position_based/spring_law.h), with an end that does not
+// move.
 float AttachmentProgram::sweep(const LaneView& view) const {
   const float stretch = stretch_of_pins(view);
   const Float4 squared_stretch = Float4::all(stretch * stretch);

@@ -7,12 +7,12 @@
 namespace pleat {
 namespace {
 
-/// What a level hands back of its correction. Levels see the same stretch one after the other, and
-/// interpolated moves are not smooth: all of it throws cloth that lies on a solid
+/// Share of its correction that a level hands back. Levels see the same stretch one after the
+/// other, and interpolated moves are not smooth: all of it throws cloth that lies on a solid
 /// (docs/methods/multigrid.md).
 constexpr double kShare = 0.5;
 
-/// Of a level by errors that has no coarser one: it is small, and is all but solved.
+/// Sweeps of the coarsest level where lengths follow strains: it is small, and is all but solved.
 constexpr int kCoarsestSweeps = 16;
 
 /// Sums of masses as the transfer hands them on.
@@ -38,46 +38,50 @@ std::vector<PlaceLength> lengths_of(const MeshLevel& level, LevelLengths lengths
 
 }  // namespace
 
+// Rows to vertices that do not move have nothing to hand back to.
+template <class Quad>
+void CoarseLevels<Quad>::take_rows(const Transfer& transfer, const FinerLevel& finer,
+                                   Level& level) {
+  for (std::size_t row = 0; row < finer.places.size(); ++row) {
+    if (finer.inverse_masses[row] == 0) continue;
+    level.targets.push_back(finer.places[row]);
+    for (auto i = transfer.begin[row]; i < transfer.begin[row + 1]; ++i) {
+      const auto& [coarse, weight] = transfer.terms[static_cast<std::size_t>(i)];
+      level.columns.push_back(4 * coarse);
+      level.weights.push_back(static_cast<Real>(weight));
+    }
+    level.row_ends.push_back(static_cast<int>(level.columns.size()));
+  }
+}
+
+// Each round makes a level of the next finer one: the rows by which it hands corrections back, the
+// vertices that it copies, their masses, and its lengths. A vertex that does not move hands no mass
+// on and takes none: its coarse copy does not move either.
 template <class Quad>
 CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vector<int>& places,
                                  const std::vector<double>& inverse_masses, LevelLengths lengths)
     : share_(static_cast<Real>(lengths == LevelLengths::error ? 1 : kShare)) {
-  // What does not move hands no mass on and takes none: its coarse copy does not move either.
   std::vector<double> masses;
-  masses.reserve(inverse_masses.size());
   for (const double w : inverse_masses) masses.push_back(w > 0 ? 1 / w : 0);
-  std::vector<int> finer_places;  // first numbers
-  finer_places.reserve(places.size());
-  for (const int place : places) finer_places.push_back(4 * place);
-  std::vector<double> finer_inverse = inverse_masses;
+  FinerLevel finer{{}, inverse_masses};
+  for (const int place : places) finer.places.push_back(4 * place);
   for (std::size_t k = 1; k < hierarchy.levels.size(); ++k) {
-    const MeshLevel& finer = hierarchy.levels[k - 1];
+    const std::vector<VertexId>& fine = hierarchy.levels[k - 1].vertices;
     const MeshLevel& mesh = hierarchy.levels[k];
-    const Transfer& transfer = finer.from_coarser;
-    const auto n = static_cast<std::size_t>(mesh.n_vertices());
+    const Transfer& transfer = hierarchy.levels[k - 1].from_coarser;
     Level level;
-    for (int row = 0; row < transfer.n_rows(); ++row) {
-      const auto first = transfer.begin[static_cast<std::size_t>(row)];
-      const auto end = transfer.begin[static_cast<std::size_t>(row) + 1];
-      if (finer_inverse[static_cast<std::size_t>(row)] == 0) continue;
-      level.targets.push_back(finer_places[static_cast<std::size_t>(row)]);
-      for (auto i = first; i < end; ++i) {
-        const auto& [coarse, weight] = transfer.terms[static_cast<std::size_t>(i)];
-        level.columns.push_back(4 * coarse);
-        level.weights.push_back(static_cast<Real>(weight));
-      }
-      level.row_ends.push_back(static_cast<int>(level.columns.size()));
-    }
+    take_rows(transfer, finer, level);
     masses = coarse_masses(transfer, masses, mesh.n_vertices());
-    std::vector<double> inverse(n);
-    auto at = finer.vertices.begin();
-    for (std::size_t i = 0; i < n; ++i) {
-      at = std::lower_bound(at, finer.vertices.end(), mesh.vertices[i]);
-      const auto source = static_cast<std::size_t>(at - finer.vertices.begin());
-      level.sources.push_back(finer_places[source]);
-      inverse[i] = finer_inverse[source] > 0 ? 1 / masses[i] : 0;
+    FinerLevel next;
+    auto at = fine.begin();
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      at = std::lower_bound(at, fine.end(), mesh.vertices[i]);
+      const auto source = static_cast<std::size_t>(at - fine.begin());
+      level.sources.push_back(finer.places[source]);
+      next.places.push_back(4 * static_cast<int>(i));
+      next.inverse_masses.push_back(finer.inverse_masses[source] > 0 ? 1 / masses[i] : 0);
     }
-    std::vector<double> with_nobody = inverse;
+    std::vector<double> with_nobody = next.inverse_masses;
     with_nobody.push_back(0);
     level.lengths = LengthGroups<Quad>(
         lengths_of(mesh, lengths), with_nobody,
@@ -85,9 +89,7 @@ CoarseLevels<Quad>::CoarseLevels(const MeshHierarchy& hierarchy, const std::vect
     for (std::vector<Real>* array : {&level.begins, &level.moves, &level.corrections})
       array->resize(4 * with_nobody.size(), 0);
     levels_.push_back(std::move(level));
-    finer_places.clear();
-    for (std::size_t i = 0; i < n; ++i) finer_places.push_back(4 * static_cast<int>(i));
-    finer_inverse = std::move(inverse);
+    finer = std::move(next);
   }
 }
 

@@ -10,8 +10,8 @@ namespace pleat {
 
 /// How a cycle goes over each coarse level.
 struct CycleSmoothing {
-  Relaxation before;  ///< on the way to coarser levels
-  Relaxation after;   ///< on the way back
+  Relaxation before;  ///< taken on the way to coarser levels
+  Relaxation after;   ///< taken on the way back
 };
 
 /// The coarser levels of a hierarchy, as a correction of the finest one: places of the next finer
@@ -50,7 +50,7 @@ class CoarseLevels {
 
   /// Lengths that `correct` projects, each as often as it does.
   int n_projections(const CycleSmoothing& smoothing) const;
-  int n_levels() const { return static_cast<int>(levels_.size()); }  ///< without the finest
+  int n_levels() const { return static_cast<int>(levels_.size()); }  ///< the finest apart
 
  private:
   struct Level {
@@ -65,15 +65,21 @@ class CoarseLevels {
     std::vector<int> columns;  ///< first number of the coarse vertex
     std::vector<Real> weights;
   };
+  /// First numbers of a finer level's vertices, and their inverse masses.
+  struct FinerLevel {
+    std::vector<int> places;
+    std::vector<double> inverse_masses;
+  };
 
+  static void take_rows(const Transfer& transfer, const FinerLevel& finer, Level& level);
   bool is_by_error() const { return !levels_.empty() && !levels_[0].strains.empty(); }
-  /// On the way back.
+  /// Sweeps of a level on the way back.
   int n_sweeps(std::size_t k) const;
   void correct_level(std::size_t k, const Real* begins, Real* moves,
                      const CycleSmoothing& smoothing, const Real* strains, Real growth);
 
   std::vector<Level> levels_;
-  Real share_ = 0;  // of a correction that is handed back
+  Real share_ = 0;  // share of a correction that is handed back
 };
 
 extern template class CoarseLevels<Float4>;

@@ -54,7 +54,7 @@ Products products(const KnownArrays& known, std::span<const float> last) {
 /// a of the least |last + sum of a_i d_i|.
 std::array<float, kDifferences> least_errors(const KnownArrays& known,
                                              std::span<const float> last) {
-  // Of the mean of d_i.d_i: what is left of a difference beside those before it is rounding, or its
+  // Share of the mean of d_i.d_i: less of a difference, beside those before it, is rounding or its
   // turn in the cycles since.
   constexpr double kLost = 1e-6;
   const Products sums = products(known, last);
@@ -69,30 +69,16 @@ std::array<float, kDifferences> least_errors(const KnownArrays& known,
   return weights;
 }
 
-/// Calls work(first and end in all arrays, the array) for each.
-template <class Work>
-void for_each_array(CycleAcceleration::Arrays arrays, Work&& work) {
-  std::size_t first = 0;
-  for (const std::span<float>& array : arrays) {
-    work(first, array);
-    first += array.size();
-  }
-}
-
 void copy(CycleAcceleration::Arrays from, std::vector<float>& to) {
-  std::size_t n = 0;
-  for_each_array(from,
-                 [&](std::size_t first, std::span<float> array) { n = first + array.size(); });
-  to.resize(n);
-  for_each_array(from, [&](std::size_t first, std::span<float> array) {
-    std::copy(array.begin(), array.end(), to.begin() + static_cast<std::ptrdiff_t>(first));
-  });
+  to.clear();
+  for (const std::span<float>& array : from) to.insert(to.end(), array.begin(), array.end());
 }
 
 /// Adds sum of a_i (known_i - last) to the arrays, which are `last`.
 void add(const std::array<float, kDifferences>& weights, const KnownArrays& known,
          CycleAcceleration::Arrays arrays) {
-  for_each_array(arrays, [&](std::size_t first, std::span<float> array) {
+  std::size_t first = 0;
+  for (const std::span<float>& array : arrays) {
     for (std::size_t k = 0; k < array.size(); k += 4) {
       const Float4 last = Float4::load(&array[k]);
       Float4 sum = last;
@@ -100,7 +86,8 @@ void add(const std::array<float, kDifferences>& weights, const KnownArrays& know
         sum = sum + Float4::all(weights[i]) * (Float4::load(known[i] + first + k) - last);
       sum.store(&array[k]);
     }
-  });
+    first += array.size();
+  }
 }
 
 }  // namespace
@@ -110,7 +97,7 @@ bool CycleAcceleration::propose(Arrays point, std::span<const float> errors) {
   image_.errors.assign(errors.begin(), errors.end());
   image_square_ = squared_norm(errors);
   if (n_known_ == 0) return false;
-  // What is not known yet is no different from the last.
+  // Points that are not known yet are no different from the last.
   std::array<const float*, kWindow> of_points, of_errors;
   for (std::size_t i = 0; i < kWindow; ++i) {
     const Known& known = i < n_known_ ? known_[i] : image_;
@@ -124,10 +111,11 @@ bool CycleAcceleration::propose(Arrays point, std::span<const float> errors) {
 void CycleAcceleration::settle(Arrays point, std::span<float> errors) {
   const double square = squared_norm(errors);
   if (!(square <= image_square_)) {
-    for_each_array(point, [&](std::size_t first, std::span<float> array) {
-      std::copy_n(image_.point.begin() + static_cast<std::ptrdiff_t>(first), array.size(),
-                  array.begin());
-    });
+    auto from = image_.point.begin();
+    for (const std::span<float>& array : point) {
+      std::copy_n(from, array.size(), array.begin());
+      from += static_cast<std::ptrdiff_t>(array.size());
+    }
     std::copy(image_.errors.begin(), image_.errors.end(), errors.begin());
     n_known_ = 0;
   }

@@ -31,13 +31,14 @@ class CycleAcceleration {
   /// Forgets all cycles.
   void begin() { n_known_ = 0; }
 
-  /// After a cycle. True when the point now is a proposal, to be settled with the errors there.
+  /// Takes the point that a cycle led to, and moves it where it has a proposal. Returns true then:
+  /// it is to be settled with the errors there.
   ///
   /// errors  at the point, a multiple of four
   bool propose(Arrays point, std::span<const float> errors);
 
-  /// After `propose`, with the errors at the point. Takes a proposal that is no better back, and
-  /// the errors with it.
+  /// Takes a proposal that is no better back, and the errors with it. Follows `propose`, with the
+  /// errors at the point.
   void settle(Arrays point, std::span<float> errors);
 
  private:
@@ -47,9 +48,9 @@ class CycleAcceleration {
 
   std::array<Known, kWindow> known_;
   std::size_t n_known_ = 0;
-  std::size_t next_ = 0;     // of known_, to be forgotten first
-  Known image_;              // where the last cycle led
-  double image_square_ = 0;  // of its errors
+  std::size_t next_ = 0;     // place in known_ to be forgotten first
+  Known image_;              // point that the last cycle led to
+  double image_square_ = 0;  // squared norm of its errors
 };
 
 }  // namespace pleat

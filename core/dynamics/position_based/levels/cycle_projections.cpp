@@ -11,8 +11,8 @@
 #include "core/dynamics/position_based/levels/attachments.h"
 #include "core/dynamics/position_based/levels/coarse_levels.h"
 #include "core/dynamics/position_based/levels/cycle_acceleration.h"
-#include "core/dynamics/position_based/levels/error_correction.h"
 #include "core/dynamics/position_based/levels/gathered_sweeps.h"
+#include "core/dynamics/position_based/levels/strain_correction.h"
 
 namespace pleat {
 namespace {
@@ -33,7 +33,7 @@ std::vector<bool> pinned(const ClothModel& model) {
 
 /// omega  0: the usual one
 Relaxation relaxation(Smoother smoother, double omega) {
-  constexpr double kUsualOmega = 1.1;  // of sor: more smooths less (docs/methods/multigrid.md)
+  constexpr double kUsualOmega = 1.1;  // sor's: more smooths less (docs/methods/multigrid.md)
   if (omega == 0) omega = smoother == Smoother::sor ? kUsualOmega : 1;
   return {smoother, omega};
 }
@@ -72,8 +72,8 @@ std::string lines_remark(const MethodOptions& options, const LaneLayout& layout)
   return std::string("gauss_seidel in the place of lines, as ") + why;
 }
 
-/// Of the finest level behind each correction by errors: half of what the cycle costs.
-constexpr int kSweepsByError = 3;
+/// Sweeps of the finest level after each correction by strains: half of what the cycle costs.
+constexpr int kSweepsByStrain = 3;
 
 class CycleProjections final : public Projections {
  public:
@@ -98,9 +98,9 @@ class CycleProjections final : public Projections {
     std::vector<double> of_vertices;
     for (const int slot : slots_) of_vertices.push_back(inverse_masses[slot]);
     if (options_.level_lengths == LevelLengths::error && hierarchy_.levels.size() > 1) {
-      by_error_ = {{hierarchy_, slots_, of_vertices, gathered_->springs.strained_edges(model),
-                    model.surface.rest_positions},
-                   gathered_->springs};
+      by_strain_ = {{hierarchy_, slots_, of_vertices, gathered_->springs.strained_edges(model),
+                     model.surface.rest_positions},
+                    gathered_->springs};
     } else {
       levels_ = {hierarchy_, slots_, of_vertices, options_.level_lengths};
     }
@@ -120,15 +120,15 @@ class CycleProjections final : public Projections {
     const float growth = attachments_.sweep(view);
     vertices_.begin(view);
     is_swept_ = false;
-    by_error_.empty() ? solve_by_lengths(rounds, growth) : solve_by_errors(rounds);
+    by_strain_.empty() ? solve_by_lengths(rounds, growth) : solve_by_strains(rounds);
     vertices_.lanes();
   }
 
   double sweeps_per_round() const override {
-    const double n_after = by_error_.empty() ? 1 : kSweepsByError;
+    const double n_after = by_strain_.empty() ? 1 : kSweepsByStrain;
     const double n_sweeps = (smoothing_.before.smoother != Smoother::none ? 1 : 0) +
                             (smoothing_.after.smoother != Smoother::none ? n_after : 0);
-    const CoarseLevels<Float4>& levels = by_error_.empty() ? levels_ : by_error_.levels();
+    const CoarseLevels<Float4>& levels = by_strain_.empty() ? levels_ : by_strain_.levels();
     return n_sweeps + levels.n_projections(smoothing_) / static_cast<double>(n_constraints_);
   }
 
@@ -166,32 +166,34 @@ class CycleProjections final : public Projections {
     }
   }
 
-  void solve_by_errors(int rounds) {
+  /// A cycle: sweep, measure, correct by coarse levels, sweep, and let the acceleration propose
+  /// where cycles lead.
+  void solve_by_strains(int rounds) {
     auto& [springs, bends, hanging] = *gathered_;
-    by_error_.begin();
+    by_strain_.begin();
     acceleration_.begin();
     springs.forget();
     bends.forget();
-    look();
+    take_errors();
     for (int round = 0; round < rounds; ++round) {
       if (smoothing_.before.smoother != Smoother::none) {
         sweep(smoothing_.before);
-        look();
+        take_errors();
       }
-      by_error_.correct(springs, vertices_.begins(), vertices_.moves(), vertices_.n_numbers(),
-                        errors_.data(), smoothing_);
-      for (int i = 0; i < kSweepsByError; ++i) sweep(smoothing_.after);
-      look();
+      by_strain_.correct(springs, vertices_.begins(), vertices_.moves(), vertices_.n_numbers(),
+                         errors_.data(), smoothing_);
+      for (int i = 0; i < kSweepsByStrain; ++i) sweep(smoothing_.after);
+      take_errors();
       const std::array<std::span<float>, 3> point = {
           std::span(vertices_.moves(), vertices_.n_numbers()), springs.multipliers(),
           bends.multipliers()};
-      if (acceleration_.propose(point, errors_)) look();
+      if (acceleration_.propose(point, errors_)) take_errors();
       acceleration_.settle(point, errors_);
     }
   }
 
-  /// Where errors are: of springs, and of bending beside the springs' mean length.
-  void look() {
+  /// Takes the errors: strains of springs, and bending over the springs' mean length.
+  void take_errors() {
     const GatheredSprings& springs = gathered_->springs;
     const GatheredBends& bends = gathered_->bends;
     errors_.resize(springs.n_strains() + bends.n_errors());
@@ -203,18 +205,18 @@ class CycleProjections final : public Projections {
   MethodOptions options_;
   CycleSmoothing smoothing_;
   GatheredVertices vertices_;
-  std::optional<LaneProjections> lines_;    // where the cloth's own mesh is swept in lines, else
+  std::optional<LaneProjections> lines_;  // cloth whose own mesh is swept in lines, else
   std::optional<GatheredSweeps> gathered_;
-  std::size_t n_constraints_;  // of that mesh
+  std::size_t n_constraints_;  // constraints of that mesh
   MeshHierarchy hierarchy_;
   std::string lines_remark_;  // see lines_remark
-  std::vector<int> slots_;    // of each vertex
+  std::vector<int> slots_;    // one for each vertex
   CoarseLevels<Float4> levels_;
-  ErrorCorrection by_error_;  // in the place of levels_, where the options ask for it
+  StrainCorrection by_strain_;  // replaces levels_ where the options ask for it
   CycleAcceleration acceleration_;
-  std::vector<float> errors_;  // as look() has them
-  float mean_length_ = 1;      // of springs [m]
-  bool is_swept_ = false;      // in this solve
+  std::vector<float> errors_;  // taken by take_errors()
+  float mean_length_ = 1;      // mean rest length of springs [m]
+  bool is_swept_ = false;      // this solve's first sweep is done
   AttachmentProgram attachments_;
 };
 

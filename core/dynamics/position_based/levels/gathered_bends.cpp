@@ -34,16 +34,18 @@ void GatheredBends::refresh_pins(const float* inverse_masses) {
 
 namespace {
 
-/// C = b_0 (x_0 - x_1) + b_2 (x_2 - x_1).
+/// C + compliance/h^2 lambda, with C = b_0 (x_0 - x_1) + b_2 (x_2 - x_1).
 template <class Element>
-Float4 error_of(const Element& e, const float* begins, const float* moves) {
+Float4 error_of(const Element& e, const float* begins, const float* moves,
+                const float* multiplier) {
   const Float4 begin_1 = Float4::load(begins + e.middle);
   const Float4 move_1 = Float4::load(moves + e.middle);
   const Float4 d_0 =
       (Float4::load(begins + e.before) - begin_1) + (Float4::load(moves + e.before) - move_1);
   const Float4 d_2 =
       (Float4::load(begins + e.after) - begin_1) + (Float4::load(moves + e.after) - move_1);
-  return Float4::all(e.b_0) * d_0 + Float4::all(e.b_2) * d_2;
+  return Float4::all(e.b_0) * d_0 + Float4::all(e.b_2) * d_2 +
+         Float4::all(e.compliance) * Float4::load(multiplier);
 }
 
 void add(float* to, float factor, Float4 change) {
@@ -55,8 +57,7 @@ void add(float* to, float factor, Float4 change) {
 void GatheredBends::sweep(const float* begins, float* moves, float omega) {
   float* multiplier = multipliers_.data();
   for (const Element& e : elements_) {
-    const Float4 error =
-        error_of(e, begins, moves) + Float4::all(e.compliance) * Float4::load(multiplier);
+    const Float4 error = error_of(e, begins, moves, multiplier);
     const Float4 change = Float4::all(omega * e.gain) * error;
     add(multiplier, 1, change);
     add(moves + e.before, e.w_0, change);
@@ -72,8 +73,7 @@ void GatheredBends::errors(const float* begins, const float* moves, float unit,
   const Float4 inverse = Float4::load(lanes);
   const float* multiplier = multipliers_.data();
   for (const Element& e : elements_) {
-    (inverse * (error_of(e, begins, moves) + Float4::all(e.compliance) * Float4::load(multiplier)))
-        .store(errors);
+    (inverse * error_of(e, begins, moves, multiplier)).store(errors);
     errors += Float4::kLanes;
     multiplier += Float4::kLanes;
   }
@@ -83,8 +83,7 @@ double GatheredBends::squared_residual(const float* begins, const float* moves) 
   Float4 sum = Float4::all(0);
   const float* multiplier = multipliers_.data();
   for (const Element& e : elements_) {
-    const Float4 error =
-        error_of(e, begins, moves) + Float4::all(e.compliance) * Float4::load(multiplier);
+    const Float4 error = error_of(e, begins, moves, multiplier);
     sum = sum + error * error;
     multiplier += Float4::kLanes;
   }

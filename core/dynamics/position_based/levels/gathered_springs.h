@@ -14,7 +14,7 @@ namespace pleat {
 
 /// The springs of a model that join no hanging vertex, on any mesh: four at a time in an order in
 /// which no two of four share a vertex. Every vertex is four numbers, x y z and one unused, by its
-/// slot, at its begin and its move of the substep.
+/// slot, at its start and its move of the substep.
 class GatheredSprings {
  public:
   /// h  substep [s]
@@ -35,7 +35,7 @@ class GatheredSprings {
   /// (C + compliance/h^2 lambda)/L of each spring, four a group; 0 where a group has none.
   void strains(const float* begins, const float* moves, float* strains) const;
   std::size_t n_strains() const { return 4 * groups_.size(); }
-  /// Those that this projects, and where their strains stand.
+  /// The springs that this projects, and where their strains stand.
   StrainedEdges strained_edges(const ClothModel& model) const;
 
   /// Sum of (C + compliance/h^2 lambda)^2 [m^2].

@@ -21,7 +21,7 @@ class GatheredVertices {
   float* moves();
   const float* begins();
   const LaneView& lanes();
-  std::size_t n_numbers() const { return moves_.size(); }  ///< of all moves
+  std::size_t n_numbers() const { return moves_.size(); }  ///< count, of all moves
 
  private:
   LaneView view_{};

@@ -7,7 +7,7 @@ namespace pleat {
 std::vector<std::vector<int>> independent_sets(const std::vector<PlacePair>& elements,
                                                const std::vector<bool>& moves) {
   std::vector<std::vector<int>> sets;
-  std::vector<std::vector<bool>> is_taken(moves.size());  // of each place, by set
+  std::vector<std::vector<bool>> is_taken(moves.size());  // sets that have each place
   const auto is_free = [&](int place, std::size_t set) {
     const std::vector<bool>& taken = is_taken[static_cast<std::size_t>(place)];
     return !moves[static_cast<std::size_t>(place)] || set >= taken.size() || !taken[set];

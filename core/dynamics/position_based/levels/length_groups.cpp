@@ -47,7 +47,7 @@ LengthGroups<Quad>::LengthGroups(const std::vector<PlaceLength>& lengths,
   }
 }
 
-// As the rigid law of springs (core/dynamics/position_based/spring_law.h): with d at the end and g
+// The rigid law of springs (core/dynamics/position_based/spring_law.h): with d at the end and g
 // = d + d_begin, (l^2 - L^2)/2 + f (w_a + w_b) d.g = 0, the slope d.g held above L^2 and l^2. Where
 // a length holds from above only, aims above zero, which push, are cut off.
 template <class Quad>
@@ -83,8 +83,8 @@ void LengthGroups<Quad>::sweep(const Real* begins, Real* moves, const Relaxation
   if (is_averaged) mean_.add_to(moves, omega);
 }
 
-// What is longer by e of its length comes back over 1 + e. Times 1 - e is the same for small e, but
-// below zero where e is large; what is shorter, e < 0, is stretched by that.
+// A length that is too long by e of itself comes back over 1 + e. Times 1 - e is the same for small
+// e, but below zero where e is large; one that is too short, e < 0, is stretched by that.
 template <class Quad>
 void LengthGroups<Quad>::aim_at(const Real* begins, const Real* moves, const Real* strains) {
   const Quad zero = Quad::all(0);

@@ -16,7 +16,7 @@ struct PlaceLength {
   double length;  ///< [m]
 };
 
-/// Which side of its length a constraint acts on.
+/// The side of its length on which a constraint acts.
 enum class LengthSide {
   both,
   longer,  ///< places may come nearer: folded cloth has shorter chords
@@ -26,11 +26,11 @@ enum class LengthSide {
 /// smoother does not say.
 struct Relaxation {
   Smoother smoother = Smoother::gauss_seidel;
-  double omega = 1;  ///< of sor and jacobi
+  double omega = 1;  ///< sor and jacobi only
 };
 
 /// Rigid constraints on lengths between places, four at a time in an order in which no two of four
-/// share a place. Every place is four numbers, x y z and one unused, at its begin and its move of
+/// share a place. Every place is four numbers, x y z and one unused, at its start and its move of
 /// the substep. The last place is nobody's: lanes without a constraint work on it.
 ///
 /// Quad  Float4, or Double4 for tests
@@ -52,12 +52,12 @@ class LengthGroups {
   /// Makes each length what its places are apart now, less a strain. In arrays of strains a length
   /// stands at its place_of.
   void aim_at(const Real* begins, const Real* moves, const Real* strains);
-  /// By how much places are further apart than their lengths, relatively.
+  /// Excess of the places' distances over their lengths, relative to these.
   void strains(const Real* begins, const Real* moves, Real* strains) const;
 
   int n_lengths() const { return n_lengths_; }
   std::size_t n_strains() const { return 4 * groups_.size(); }
-  /// Of the lengths in the order in which they were given.
+  /// Places of the lengths' strains, in the order in which they were given.
   const std::vector<int>& strain_places() const { return strain_places_; }
 
  private:
@@ -65,7 +65,7 @@ class LengthGroups {
     std::array<int, 4> a, b;  // first numbers of the places
     std::array<Real, 4> square;
     std::array<Real, 4> w_a, w_b;   // inverse masses
-    std::array<Real, 4> inverse_w;  // of their sum; 0 where nothing moves
+    std::array<Real, 4> inverse_w;  // 1/(w_a + w_b); 0 where nothing moves
   };
 
   void project(const Real* begins, const Real* moves, Real* to, Real omega, Real growth);

@@ -5,7 +5,7 @@
 
 namespace pleat {
 
-/// What constraints ask of each place, all from the same places, and its mean. Places are four
+/// The mean of what constraints ask of each place, all from the same places. Places are four
 /// numbers each.
 template <class Quad>
 class MeanCorrection {
@@ -14,10 +14,10 @@ class MeanCorrection {
 
   explicit MeanCorrection(std::size_t n_places = 0) : shares_(n_places, 0) {}
 
-  /// One more constraint acts on a place. Before the first `begin`.
+  /// One more constraint acts on a place. Call it before the first `begin`.
   void count(int place) { ++shares_[static_cast<std::size_t>(place)]; }
 
-  /// Sums of corrections, of zero to begin with. Allocates once.
+  /// Sums of corrections, all zero. Allocates once.
   Real* begin() {
     sums_.assign(4 * shares_.size(), 0);
     return sums_.data();

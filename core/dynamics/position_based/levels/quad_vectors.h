@@ -34,7 +34,7 @@ Quad dots(const QuadVectors<Quad>& a, const QuadVectors<Quad>& b) {
   return x + y + z;
 }
 
-/// The vectors that begin at these numbers of an array, and back.
+/// The vectors from these numbers of an array on, and back.
 template <class Quad, class Real>
 QuadVectors<Quad> gather(const Real* from, const std::array<int, 4>& firsts) {
   return {Quad::load(from + firsts[0]), Quad::load(from + firsts[1]), Quad::load(from + firsts[2]),

@@ -1,4 +1,4 @@
-#include "core/dynamics/position_based/levels/error_correction.h"
+#include "core/dynamics/position_based/levels/strain_correction.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,24 +6,24 @@
 namespace pleat {
 namespace {
 
-constexpr double kFirstTrust = 0.125;  // doubled in the first cycle
+constexpr double kFirstShare = 0.125;  // doubled in the first cycle
 
-/// Of squared errors, what a cycle leaves at most that is trusted more.
+/// A cycle that leaves more than this share of the squared errors has stalled.
 constexpr double kStalled = 0.95;
 
 }  // namespace
 
-void ErrorCorrection::begin() {
+void StrainCorrection::begin() {
   last_square_ = std::numeric_limits<double>::infinity();
-  trust_ = kFirstTrust;
+  least_share_ = kFirstShare;
   has_stalled_ = false;
 }
 
 // With errors e before and e' after a whole correction, a share s of it leaves |e - s (e - e')|,
 // least at s = e.(e - e') / |e - e'|^2.
-void ErrorCorrection::correct(const GatheredSprings& springs, const float* begins, float* moves,
-                              std::size_t n_numbers, const float* strains,
-                              const CycleSmoothing& smoothing) {
+void StrainCorrection::correct(const GatheredSprings& springs, const float* begins, float* moves,
+                               std::size_t n_numbers, const float* strains,
+                               const CycleSmoothing& smoothing) {
   moves_before_.assign(moves, moves + n_numbers);
   levels_.correct(begins, moves, smoothing, strains);
   springs.strains(begins, moves, strains_after_.data());
@@ -37,12 +37,12 @@ void ErrorCorrection::correct(const GatheredSprings& springs, const float* begin
   const bool stalls = !(square < kStalled * last_square_);
   has_stalled_ = has_stalled_ || stalls;
   if (stalls)
-    trust_ /= 2;
+    least_share_ /= 2;
   else if (!has_stalled_)
-    trust_ = std::min(1.0, 2 * trust_);
+    least_share_ = std::min(1.0, 2 * least_share_);
   last_square_ = square;
   const double best = change > 0 ? std::clamp(along / change, 0.0, 1.0) : 0;
-  const auto share = static_cast<float>(std::max(best, trust_));
+  const auto share = static_cast<float>(std::max(best, least_share_));
   if (share == 1) return;
   for (std::size_t i = 0; i < n_numbers; ++i)
     moves[i] = moves_before_[i] + share * (moves[i] - moves_before_[i]);
