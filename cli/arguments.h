@@ -20,7 +20,7 @@ std::vector<std::string> split(const std::string& text);
 /// The number that a whole text says. Throws InputError{where} unless it is in [low, high].
 int parse_whole_number(const std::string& text, const std::string& where, int low, int high);
 
-/// Which numbers are taken.
+/// The numbers that are taken.
 enum class Numbers { positive, not_negative };
 /// The number that a whole text says. Throws InputError{where} for others.
 double parse_number(const std::string& text, const std::string& where,

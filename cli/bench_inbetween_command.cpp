@@ -12,11 +12,11 @@ namespace pleat {
 namespace {
 
 /// The largest numbers of all frames, and the sums.
-Json figures_json(const std::vector<FrameFigures>& figures) {
+Json measures_json(const std::vector<FrameMeasures>& measures) {
   double change = 0, unequal = 0;
   int n_inverted = 0;
-  for (const FrameFigures& of : figures) {
-    change = std::max(change, std::abs(of.volume / figures.front().volume - 1));
+  for (const FrameMeasures& of : measures) {
+    change = std::max(change, std::abs(of.volume / measures.front().volume - 1));
     unequal = std::max(unequal, of.unequal_halves);
     n_inverted += of.n_inverted;
   }
@@ -49,14 +49,14 @@ Outcome bench_inbetween(Arguments arguments) {
                {"n_volume_vertices", cost.n_volume_vertices},
                {"n_tets", cost.n_tets},
                {"n_keys", keys.positions.size()},
-               {"n_frames", cost.figures.size()},
+               {"n_frames", cost.measures.size()},
                {"precompute_ms", cost.precompute_ms},
                {"middles_ms", cost.middles_ms},
                {"middle_ms", cost.middles_ms / std::max(1, cost.n_middles)},
                {"surfaces_ms", cost.surfaces_ms},
                {"unconverged", cost.n_unconverged},
-               {"figures", figures_json(cost.figures)},
-               {"linear", figures_json(cost.linear_figures)},
+               {"figures", measures_json(cost.measures)},
+               {"linear", measures_json(cost.linear_measures)},
                {"target", build_target()},
                {"core", core_version()}};
   std::optional<UnreducedCost> unreduced;
@@ -65,7 +65,7 @@ Outcome bench_inbetween(Arguments arguments) {
                      "expected a surface in one part, got " + std::to_string(cost.n_bodies));
   if (against && cost.middles.empty())
     throw InputError("--against",
-                     "expected more frames than keys, got " + std::to_string(cost.figures.size()));
+                     "expected more frames than keys, got " + std::to_string(cost.measures.size()));
   if (wants_unreduced) {
     unreduced = unreduced_cost(keys.positions, keys.mesh.triangles, options, n_frames);
     json["unreduced"] = {{"middles_ms", unreduced->middles_ms}};

@@ -11,7 +11,7 @@
 #include "core/error/side_by_side.h"
 #include "core/files/plan_file.h"
 #include "core/reference/reference.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 #include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 

@@ -3,7 +3,7 @@
 #include "cli/command_table.h"
 #include "cli/scene_input.h"
 #include "core/run/response_study.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 
 namespace pleat {
 namespace {

@@ -4,7 +4,7 @@
 #include "cli/command_table.h"
 #include "cli/source.h"
 #include "core/error/error_norms.h"
-#include "core/error/run_figures.h"
+#include "core/error/run_measures.h"
 #include "core/reference/reference.h"
 
 namespace pleat {
@@ -17,7 +17,7 @@ constexpr double kFramesPerSecond = 60;
 std::vector<double> read_numbers(const JsonReader& reader) {
   std::vector<double> numbers;
   for (const JsonReader& element : reader.elements())
-    numbers.push_back(element.is_null() ? RunFigures::kUnknown : element.number());
+    numbers.push_back(element.is_null() ? RunMeasures::kUnknown : element.number());
   return numbers;
 }
 
@@ -69,24 +69,24 @@ Runs read_runs(const JsonReader& contestant, const std::vector<Positions>& right
   return runs;
 }
 
-Json row_json(const Json& asked, const Json& contestant, const RunFigures& figures) {
+Json row_json(const Json& asked, const Json& contestant, const RunMeasures& measures) {
   const Json& first = contestant.at("runs").at(0);
   const double last =
-      figures.position_errors.empty() ? RunFigures::kUnknown : figures.position_errors.back();
+      measures.position_errors.empty() ? RunMeasures::kUnknown : measures.position_errors.back();
   Json errors = Json::object();
-  for (std::size_t t = 0; t < figures.position_errors.size(); ++t)
-    errors[asked.at("times_s").at(t).dump() + " s"] = number_json(figures.position_errors[t]);
+  for (std::size_t t = 0; t < measures.position_errors.size(); ++t)
+    errors[asked.at("times_s").at(t).dump() + " s"] = number_json(measures.position_errors[t]);
   Json row = Json::object();
   for (const char* key : {"scene", "label", "method", "n_vertices"}) row[key] = contestant.at(key);
   row["target"] = first.at("target");
-  row["ms_per_frame"] = number_json(figures.ms_per_frame);
-  row["ms_per_simulated_second"] = number_json(kFramesPerSecond * figures.ms_per_frame);
-  row["spread_ms"] = number_json(figures.spread_ms);
+  row["ms_per_frame"] = number_json(measures.ms_per_frame);
+  row["ms_per_simulated_second"] = number_json(kFramesPerSecond * measures.ms_per_frame);
+  row["spread_ms"] = number_json(measures.spread_ms);
   row["n_runs"] = contestant.at("runs").size();
   row["parts_ms"] = first.value("parts_ms", Json());
-  row["rms_stretch"] = number_json(figures.rms_stretch);
-  row["largest_stretch"] = number_json(figures.largest_stretch);
-  row["rms_stretch_worst_frame"] = number_json(figures.rms_stretch_worst_frame);
+  row["rms_stretch"] = number_json(measures.rms_stretch);
+  row["largest_stretch"] = number_json(measures.largest_stretch);
+  row["rms_stretch_worst_frame"] = number_json(measures.rms_stretch_worst_frame);
   row["position_errors_m"] = errors;
   row["position_error_m"] = number_json(last);
   row["position_error_percent"] =
@@ -125,7 +125,7 @@ void print_rows(const Json& asked) {
     check_texts(contestant);
     const Runs runs = read_runs(contestant, right, reader.find("masses_kg"));
     if (i == 0) first = runs.records;
-    Json row = row_json(asked, contestants.at(i), run_figures(runs.records, right, runs.masses));
+    Json row = row_json(asked, contestants.at(i), run_measures(runs.records, right, runs.masses));
     row["times_as_long_as_first"] = number_json(time_ratio(runs.records, first, turn_frames));
     std::printf("%s\n", row.dump().c_str());
     ++i;

@@ -15,7 +15,7 @@
 #include "core/reference/closed_form_reference.h"
 #include "core/run/sampled_run.h"
 #include "core/run/timed_run.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 #include "core/sweep/bench_row.h"
 #include "core/sweep/platform.h"
 

@@ -23,7 +23,7 @@ using CommandTable = std::span<const Command* const>;
 /// A command, or a part of one that stands after its name. Dispatch and help read nothing else.
 struct Command {
   const char* name;
-  const char* words;    ///< which follow the name: "SCENE.json"
+  const char* words;    ///< follow the name: "SCENE.json"
   const char* meaning;  ///< a phrase
   Outcome (*run)(Arguments arguments);
   std::array<const char*, 5> common;  ///< lines of help on options that others have too, or null

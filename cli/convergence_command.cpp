@@ -5,7 +5,7 @@
 #include "core/base/core_version.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/run/convergence_json.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 
 namespace pleat {
 namespace {

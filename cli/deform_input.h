@@ -8,7 +8,7 @@
 #include "cli/source.h"
 #include "core/deform/deform_solver.h"
 #include "core/files/json_text.h"
-#include "core/scene/deform_scene.h"
+#include "core/scene/deform/deform_scene.h"
 
 namespace pleat {
 

@@ -5,9 +5,9 @@
 #include "cli/overwriting.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/hierarchy/level_faults.h"
+#include "core/hierarchy/mesh_hierarchy.h"
 #include "core/mesh/mesh_fault.h"
-#include "core/multigrid/level_faults.h"
-#include "core/multigrid/mesh_hierarchy.h"
 #include "core/scene/rest_cloth.h"
 #include "core/sweep/platform.h"
 
@@ -83,7 +83,7 @@ Json json_levels(const MeshHierarchy& hierarchy, const TriangleMesh& mesh) {
   for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
     const MeshLevel& level = hierarchy.levels[k];
     const auto n_edges = static_cast<double>(level.edges.size());
-    double mean_edge = 0;     // along the surface [m]
+    double mean_edge = 0;     // measured along the surface [m]
     double longest_edge = 0;  // [m]
     double chord_gap = 0;     // the most that a chord is shorter than the surface, over the latter
     for (const LevelEdge& edge : level.edges) {
@@ -93,7 +93,7 @@ Json json_levels(const MeshHierarchy& hierarchy, const TriangleMesh& mesh) {
       const double gap = 1 - edge.chord / edge.geodesic;
       if (gap > kRounding) chord_gap = std::max(chord_gap, gap);
     }
-    double error = 0;  // in places from the next coarser level [m]
+    double error = 0;  // places from the next coarser level miss so much [m]
     if (k + 1 < hierarchy.levels.size())
       error = linear_error(level.from_coarser, positions_on(hierarchy.levels[k + 1], finest),
                            positions_on(level, finest));

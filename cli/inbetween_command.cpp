@@ -6,7 +6,7 @@
 #include "cli/modal_input.h"
 #include "cli/overwriting.h"
 #include "core/base/core_version.h"
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 
 namespace pleat {
 namespace {
@@ -33,19 +33,19 @@ double widest_step(const KeyCompletion& completion,
 }
 
 Json json_frames(const KeyCompletion& completion, const std::vector<KeyCompletion::Frame>& frames) {
-  const std::vector<FrameFigures> figures = frame_figures(completion, frames);
-  const std::vector<FrameFigures> linear = linear_figures(completion, frames);
+  const std::vector<FrameMeasures> measures = frame_measures(completion, frames);
+  const std::vector<FrameMeasures> linear = linear_measures(completion, frames);
   Json json = Json::array();
   for (std::size_t f = 0; f < frames.size(); ++f)
     json.push_back({{"time", frames[f].time},
                     {"is_key", frames[f].is_key()},
-                    {"volume_m3", figures[f].volume},
+                    {"volume_m3", measures[f].volume},
                     {"linear_volume_m3", linear[f].volume},
-                    {"strain", figures[f].strain},
+                    {"strain", measures[f].strain},
                     {"linear_strain", linear[f].strain},
-                    {"inverted", figures[f].n_inverted},
+                    {"inverted", measures[f].n_inverted},
                     {"linear_inverted", linear[f].n_inverted},
-                    {"unequal_halves", figures[f].unequal_halves},
+                    {"unequal_halves", measures[f].unequal_halves},
                     {"converged", has_converged(frames[f])}});
   return json;
 }

@@ -18,8 +18,8 @@
 #include "core/run/scene_model.h"
 #include "core/run/simulation.h"
 #include "core/run/timed_run.h"
-#include "core/scene/method_section.h"
-#include "core/scene/start_section.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/start_section.h"
 #include "core/scene/tearing.h"
 
 namespace pleat {
@@ -211,7 +211,7 @@ std::string joined(const Json& words) {
 
 /// There may be so many that the first step, and so the first sign of progress, takes minutes.
 bool chooses_substeps(const Scene& scene) {
-  return scene.method.substeps == 0 || scene.method.explicit_share > 0;
+  return scene.method.substeps == kStableSubsteps || scene.method.explicit_share > 0;
 }
 
 /// Says what a long run is of.

@@ -9,8 +9,8 @@
 
 #include "cli/arguments.h"
 #include "cli/source.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/scene_override.h"
 
 namespace pleat {
 

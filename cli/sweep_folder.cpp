@@ -3,7 +3,7 @@
 #include <array>
 #include <set>
 
-#include "core/sweep/front_figure.h"
+#include "core/sweep/front_chart.h"
 
 namespace pleat {
 namespace {
@@ -14,9 +14,9 @@ constexpr const char* kPlan = "plan.json";
 constexpr const char* kJournal = "runs.jsonl";
 constexpr const char* kRows = "rows.jsonl";
 constexpr const char* kTable = "table.md";
-constexpr const char* kFigure = "front.svg";
+constexpr const char* kChart = "front.svg";
 /// The plan's last: without the others it is a sweep that has just begun.
-constexpr std::array kFiles = {kJournal, kRows, kTable, kFigure, kPlan};
+constexpr std::array kFiles = {kJournal, kRows, kTable, kChart, kPlan};
 
 Json core_of(const std::string& identity) {
   const Json json = Json::parse(identity, nullptr, /*allow_exceptions=*/false);
@@ -89,7 +89,7 @@ void SweepFolder::record(const std::string& line) {
 void SweepFolder::write_results(const Sweep& sweep) const {
   write_file(file(kRows), json_lines(sweep.rows()));
   write_file(file(kTable), sweep_table(sweep));
-  write_file(file(kFigure), front_figure(sweep.rows()));
+  write_file(file(kChart), front_chart(sweep.rows()));
 }
 
 }  // namespace pleat

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 #include "core/sweep/usual_settings.h"
 
 namespace pleat {

@@ -16,11 +16,12 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 
 
 class Rules:
-    """core/LAYERS, read: the height of each module, who may include which installed header, and
-    who may call which function."""
+    """core/LAYERS, read: the height of each module and of the rooms inside it, who may include which
+    installed header, and who may call which function."""
 
     def __init__(self, text):
         self.height = {}
+        self.floors = {}  # folder with rooms, below core/: {file or folder in it: height}
         self.reserved = []  # (header or folder ending in "/", places)
         self.calls = []  # (function, places)
         n_layers = 0
@@ -31,12 +32,15 @@ class Rules:
             if words[0] == "layer" and len(words) > 1:
                 self.height.update({module: n_layers for module in words[1:]})
                 n_layers += 1
+            elif words[0] == "room" and len(words) > 2:
+                floors = self.floors.setdefault(words[1], {})
+                floors.update(dict.fromkeys(words[2:], 1 + max(floors.values(), default=-1)))
             elif words[0] in ("only", "call") and "in" in words[2:-1]:
                 split = words.index("in")
                 rules = self.reserved if words[0] == "only" else self.calls
                 rules += [(name, words[split + 1:]) for name in words[1:split]]
             else:
-                sys.exit(f"core/LAYERS:{number}: expected 'layer MODULE…', 'only HEADER… in PLACE…' "
+                sys.exit(f"core/LAYERS:{number}: expected 'layer MODULE…', 'room FOLDER NAME…', 'only HEADER… in PLACE…' "
                          f"or 'call FUNCTION… in PLACE…', found '{line.strip()}'")
 
     def places_for(self, header):
@@ -53,6 +57,27 @@ def module_of(path):
     if parts[0] == "core" and len(parts) > 2:
         return parts[1]
     return parts[0] if parts[0] in OUTER_MODULES else None
+
+
+def judge_rooms(rules, path, header):
+    """What is wrong with including `header` from `path`, both files of core, by the rooms of a folder that
+    holds both; or None."""
+    seer, seen = (name.removeprefix("core/").rsplit(".", 1)[0].split("/") for name in (path, header))
+    depth = 0
+    while seer[depth] == seen[depth] and depth < min(len(seer), len(seen)) - 1:
+        depth += 1
+    folder = "/".join(seen[:depth])
+    floors = rules.floors.get(folder)
+    if floors is None or seer[depth] == seen[depth]:
+        return None
+    for name in (seer[depth], seen[depth]):
+        if name not in floors:
+            return f"{folder}/{name} stands in no room of core/LAYERS"
+    higher = floors[seen[depth]] - floors[seer[depth]]
+    beside_folder = higher == 0 and len(seer) + len(seen) > 2 * depth + 2
+    if higher > 0 or beside_folder:
+        return f"{folder}/{seer[depth]} may not see {folder}/{seen[depth]}: it is not in a lower room"
+    return None
 
 
 def is_in(path, places):
@@ -73,7 +98,7 @@ def judge_own(root, rules, path, header):
             return f"module {name} stands in no layer of core/LAYERS"
     if target != module and rules.height[target] >= rules.height[module]:
         return f"{module} may not see {target}: it is not in a lower layer"
-    return None
+    return judge_rooms(rules, path, header) if path.startswith("core/") and module == target else None
 
 
 def judge_installed(rules, path, header):
@@ -148,8 +173,20 @@ PLANTED = {  # path: (text, expected violation or None)
     "core/mesh/printing.cpp": ('std::printf ("%d", 1);\n', ":1: printf() is only for cli/"),
     "core/mesh/formatting.cpp": ("std::snprintf(text, 9, format);  // not printf()\n", None),
     "cli/report.cpp": ("std::puts(text);\n", None),
-    "core/linalg/cholmod_solver.cpp": ("#include <cholmod.h>\n", None),
-    "core/linalg/other_solver.cpp": ("#include <cholmod.h>\n", "<cholmod.h> is only for"),
+    "core/linalg/direct/cholmod_solver.cpp": ("#include <cholmod.h>\n", None),
+    "core/linalg/sparse.h": ("", None),
+    "core/linalg/solve_report.h": ('#include "core/linalg/sparse.h"\n', None),
+    "core/linalg/iterative/sweep.h": ('#include "core/linalg/sparse.h"\n', None),
+    "core/linalg/aggregation/multigrid.h": ('#include "core/linalg/iterative/sweep.h"\n',
+                                            "linalg/aggregation may not see linalg/iterative"),
+    "core/linalg/direct/beside.h": ('#include "core/linalg/aggregation/multigrid.h"\n',
+                                    "linalg/direct may not see linalg/aggregation"),
+    "core/linalg/attic.h": ('#include "core/linalg/sparse.h"\n', "linalg/attic stands in no room"),
+    "core/dynamics/position_based/lanes/springs.h": ("", None),
+    "core/dynamics/position_based/lane_layout.h": (
+        '#include "core/dynamics/position_based/lanes/springs.h"\n',
+        "dynamics/position_based/lane_layout may not see dynamics/position_based/lanes"),
+    "core/linalg/direct/other_solver.cpp": ("#include <cholmod.h>\n", "<cholmod.h> is only for"),
     "core/attic/new.h": ('#include "core/base/vec.h"\n', "module attic stands in no layer"),
     "cli/main.cpp": ('#include <iostream>\n#include "core/mesh/quad.h"\n', None),
     "native-tests/mesh/quad_test.cpp": ('#include "cli/main.h"\n', "there is no such file"),

@@ -10,6 +10,10 @@ check_layers() {
   python3 native-tests/check_layers.py --self-test && python3 native-tests/check_layers.py
 }
 
+check_comments() {
+  python3 native-tests/check_comments.py --self-test && python3 native-tests/check_comments.py
+}
+
 # The commit the changes are counted from: where this branch left its upstream, else the commit before.
 change_base() {
   local base
@@ -39,10 +43,17 @@ tidy_sources() {
   done
 }
 
-# tidy LIST: clang-tidy over the files the command LIST names, one process per core.
+# tidy LIST: clang-tidy over the files the command LIST names, one process per core. The bindings are read as
+# Emscripten's compiler, which is of the same version, reads them.
 tidy() {
-  "$1" | tidy_sources | tee /dev/stderr |
-    xargs -r -n 1 -P "$(nproc)" clang-tidy -p build/tidy --quiet
+  local files sysroot=/usr/share/emscripten/cache/sysroot
+  files=$("$1")
+  tidy_sources <<<"$files" | tee /dev/stderr |
+    xargs -r -n 1 -P "$(nproc)" clang-tidy -p build/tidy --quiet &&
+    sed -n '/^wasm\/.*\.cpp$/p' <<<"$files" | tee /dev/stderr |
+    xargs -r -P "$(nproc)" -I {} clang-tidy --quiet {} -- -std=c++20 --target=wasm32-unknown-emscripten --sysroot="$sysroot" \
+      -isystem "$sysroot/include/compat" -isystem build/wasm/hosted -isystem /usr/include/eigen3 -D__EMSCRIPTEN__ \
+      -fwasm-exceptions -msimd128 -I .
 }
 
 # The modules that have native tests, one a line.
@@ -135,6 +146,7 @@ run_all_tests() {
   (install_tools "$native_tools" "$wasm_tools" "$node_tools" "$test_tools") || failed=1
   check format "Check the format of C++" check_format
   check layers "Check the layers" check_layers
+  check comments "Check the comments" check_comments
   test_in_release
   # The page's tests wait for a browser now and then, and leave a core to the compiler.
   meanwhile test_with_sanitizers

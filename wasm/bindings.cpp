@@ -11,19 +11,20 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/dynamics/stepper_imex.h"
+#include "core/dynamics/implicit/stepper_imex.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/files/obj_file.h"
+#include "core/hierarchy/mesh_hierarchy.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/mesh/mesh_fault.h"
 #include "core/model/stretch.h"
-#include "core/multigrid/mesh_hierarchy.h"
 #include "core/reference/reference_track.h"
 #include "core/run/response_study.h"
 #include "core/run/run_ledger.h"
-#include "core/scene/mesh_cloth.h"
-#include "core/scene/method_section.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/tearing.h"
+#include "core/scene/cloth/mesh_cloth.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/solid_section.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
 #include "wasm/page_run.h"
@@ -38,11 +39,14 @@ using pleat::json_value;
 using pleat::positions_in;
 using pleat::view_of;
 
-/// What may be shown: all that is plain, and tears.
-pleat::SceneParts shown_parts() {
-  pleat::SceneParts parts = pleat::scene_parts_with_files();
-  parts.read_tearing = pleat::read_tearing;
-  return parts;
+/// A scene that the motion view can draw: it has no body.
+pleat::Scene shown_scene(const std::string& scene_text, const std::string& fabrics_json,
+                         const pleat::FileSource& files = {}) {
+  pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json), files);
+  if (scene.body)
+    throw pleat::InputError("/figure",
+                            "expected no figure, as this view shows none; pleat run takes it");
+  return scene;
 }
 
 val summary(const pleat::Simulation& simulation) {
@@ -90,8 +94,7 @@ class Scene {
 
   std::string parse(const std::string& scene_text) const {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene =
-          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, shown_parts());
+      const pleat::Scene scene = shown_scene(scene_text, fabrics_json_);
       envelope.set("scene", json_value(pleat::write_scene(scene)));
       envelope.set("summary", summary(pleat::Simulation(scene)));
     });
@@ -100,8 +103,7 @@ class Scene {
   /// The scene from first contact on, at rest and bouncing.
   std::string study_response(const std::string& scene_text, double window) const {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene =
-          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, shown_parts());
+      const pleat::Scene scene = shown_scene(scene_text, fabrics_json_);
       const pleat::ResponseStudy study = pleat::study_response(scene, window);
       envelope.set("first_contact_s", study.first_contact);
       envelope.set("substep_s", study.substep);
@@ -124,8 +126,7 @@ class Scene {
     return guarded([&](val& envelope) {
       const auto file = [&](const std::string&) { return obj_text; };
       const pleat::Scene scene =
-          pleat::read_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}",
-                            pleat::read_fabrics(fabrics_json_), file, shown_parts());
+          shown_scene("{\"cloth\": {\"mesh\": " + mesh_text + "}}", fabrics_json_, file);
       const auto& cloth = *scene.cloth.as<pleat::MeshCloth>();
       const pleat::Positions& x = cloth.mesh.rest_positions;
       envelope.set("cloth", json_value(pleat::write_scene(scene))["cloth"]);
@@ -243,16 +244,8 @@ class Simulation {
       val list = val::array();
       for (const pleat::Collider& collider : running().scene().colliders) {
         const auto shape = pleat::ContactStage::placed(collider, running().time());
-        val entry = val::object();
-        if (const auto* sphere = std::get_if<pleat::Sphere>(&shape)) {
-          entry.set("shape", std::string("sphere"));
-          entry.set("centre", json_triple(sphere->centre));
-          entry.set("radius_m", sphere->radius);
-        } else if (const auto* plane = std::get_if<pleat::Plane>(&shape)) {
-          entry.set("shape", std::string("plane"));
-          entry.set("point", json_triple(plane->point));
-          entry.set("normal", json_triple(plane->normal));
-        }
+        val entry = json_value(pleat::json_solid(shape).dump());
+        entry.set("shape", std::string(pleat::word_for(shape)));
         list.call<void>("push", entry);
       }
       envelope.set("colliders", list);
@@ -386,8 +379,7 @@ class Simulation {
   }
 
   std::unique_ptr<pleat::Simulation> build(const std::string& scene_text) const {
-    return std::make_unique<pleat::Simulation>(
-        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, shown_parts()));
+    return std::make_unique<pleat::Simulation>(shown_scene(scene_text, fabrics_json_));
   }
 
   /// The old simulation goes only now that the new one stands: a bad scene leaves the page's state

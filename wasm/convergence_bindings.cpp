@@ -1,12 +1,10 @@
-// One step of a scene by several methods, for a page. It is a module of its own: only who presses
-// the button fetches it.
+// One step of a scene by several methods, for a page. Calls are as in bindings.cpp.
 #include <emscripten/bind.h>
 
 #include <string>
 
 #include "core/run/convergence_json.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/tearing.h"
+#include "core/scene/format/scene_file.h"
 #include "wasm/envelope.h"
 
 namespace {
@@ -18,10 +16,7 @@ using emscripten::val;
 std::string study_convergence(const std::string& fabrics_json, const std::string& scene_text,
                               const std::string& wish_text, const val& hear) {
   return pleat::guarded([&](val& envelope) {
-    pleat::SceneParts parts = pleat::scene_parts_with_files();
-    parts.read_tearing = pleat::read_tearing;
-    const pleat::Scene scene =
-        pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json), {}, parts);
+    const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json));
     const pleat::Json wish = pleat::parse_json(wish_text);
     pleat::ConvergenceOptions options = pleat::read_convergence_options(pleat::JsonReader(wish));
     options.hear = [&](double done) { hear(done); };

@@ -9,9 +9,9 @@
 #include "core/base/check.h"
 #include "core/deform/deform_settling.h"
 #include "core/deform/deform_solver.h"
-#include "core/scene/deform_scene.h"
-#include "core/scene/mesh_cloth.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/cloth/mesh_cloth.h"
+#include "core/scene/deform/deform_scene.h"
+#include "core/scene/format/scene_file.h"
 #include "core/scene/vertex_place.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
@@ -57,7 +57,7 @@ val json_step(const pleat::DeformStep& step) {
   val result = val::object();
   result.set("energy", step.energy);
   result.set("terms", json_terms(step.terms));
-  result.set("relativeStep", step.relative_step);
+  result.set("relative_step", step.relative_step);
   result.set("linearised", step.linearised);
   return result;
 }
@@ -246,8 +246,8 @@ class Deformation {
           fit_.fit(three_numbers<pleat::GeometricMeasures>(json_value(measures_text)));
       envelope.set("weights", json_terms(fit.weights));
       envelope.set("normalised", json_terms(fit.normalised));
-      envelope.set("leaveOneOutError", json_terms(fit.leave_one_out_error));
-      envelope.set("measuredRange", json_ranges(fit));
+      envelope.set("leave_one_out_error", json_terms(fit.leave_one_out_error));
+      envelope.set("measured_range", json_ranges(fit));
       envelope.set("clamped",
                    json_array(std::vector<std::string>(fit.clamped.begin(), fit.clamped.end())));
       envelope.set("nearest", fabrics_.fabrics[fit.nearest].name);

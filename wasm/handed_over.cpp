@@ -1,19 +1,8 @@
 #include "wasm/handed_over.h"
 
-#include <array>
-
 #include "core/base/check.h"
-#include "core/dynamics/stepper_table.h"
 
 namespace pleat {
-namespace {
-
-/// That garments are moved by: others are not linked.
-constexpr std::array<const StepperType*, 3> kSteppers = {&steppers::kImplicitEuler,
-                                                         &steppers::kXpbd, &steppers::kMultigrid};
-
-}  // namespace
-
 using emscripten::val;
 
 Scene read_scene_with(const std::string& scene_text, const val& files,
@@ -23,7 +12,7 @@ Scene read_scene_with(const std::string& scene_text, const val& files,
     if (!text.isString()) throw InputError(name, "expected a file handed over, got none");
     return text.as<std::string>();
   };
-  return read_scene(scene_text, read_fabrics(fabrics_json), source, worn_scene_parts(kSteppers));
+  return read_scene(scene_text, read_fabrics(fabrics_json), source);
 }
 
 }  // namespace pleat

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 

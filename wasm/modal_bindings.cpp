@@ -12,13 +12,12 @@
 #include "core/files/obj_file.h"
 #include "core/modal/box_surface.h"
 #include "core/modal/cloth_modes.h"
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 #include "core/modal/key_completion.h"
 #include "core/modal/key_faces.h"
 #include "core/modal/shown_modes.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/sheet_cloth.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/completion_cost.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"
@@ -47,18 +46,6 @@ pleat::ModalOptions options_in(const val& wanted) {
   if (volume == "lattice") options.volume = pleat::VolumeKind::lattice;
   if (volume == "shell") options.volume = pleat::VolumeKind::shell;
   return options;
-}
-
-/// Sheets that one stepper drapes: what else a scene may have is not linked.
-pleat::SceneParts sheet_parts() {
-  static constexpr std::array<const pleat::StepperType*, 1> kSteppers = {
-      &pleat::steppers::kImplicitEuler};
-  const auto sheet = [](const pleat::JsonReader& reader,
-                        const pleat::ClothSurroundings&) -> pleat::SceneCloth {
-    return pleat::read_sheet(reader);
-  };
-  return {.cloths = {{"sheet", sheet}, {"particles"}, {"knit"}, {"mesh"}, {"garment"}},
-          .steppers = kSteppers};
 }
 
 /// One surface, or one cloth of a scene, its modes and its key shapes.
@@ -97,8 +84,7 @@ class ModalStudy {
   /// The cloth of a scene, where it begins.
   std::string open_scene(const std::string& scene_text) {
     return guarded([&](val& envelope) {
-      const pleat::Scene scene =
-          pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_), {}, sheet_parts());
+      const pleat::Scene scene = pleat::read_scene(scene_text, pleat::read_fabrics(fabrics_json_));
       auto run = std::make_unique<pleat::Simulation>(scene);
       take(run->rest_positions(), run->triangles(), envelope);
       run_ = std::move(run);
@@ -174,8 +160,8 @@ class ModalStudy {
   std::string fill_in(int count) {
     return guarded([&](val& envelope) {
       frames_ = completed().frames(count);
-      const auto figures = pleat::frame_figures(completed(), frames_);
-      const auto straight = pleat::linear_figures(completed(), frames_);
+      const auto measures = pleat::frame_measures(completed(), frames_);
+      const auto straight = pleat::linear_measures(completed(), frames_);
       val frames = val::array();
       filled_.resize(3, shape_.cols() * static_cast<Eigen::Index>(frames_.size()));
       for (std::size_t f = 0; f < frames_.size(); ++f) {
@@ -184,12 +170,12 @@ class ModalStudy {
         val frame = val::object();
         frame.set("time", frames_[f].time);
         frame.set("left", frames_[f].left);
-        frame.set("shareOfNext", frames_[f].share_of_next);
-        frame.set("unequalHalves", figures[f].unequal_halves);
-        frame.set("volume_m3", figures[f].volume);
-        frame.set("straightVolume_m3", straight[f].volume);
-        frame.set("strain", figures[f].strain);
-        frame.set("straightStrain", straight[f].strain);
+        frame.set("share_of_next", frames_[f].share_of_next);
+        frame.set("unequal_halves", measures[f].unequal_halves);
+        frame.set("volume_m3", measures[f].volume);
+        frame.set("straight_volume_m3", straight[f].volume);
+        frame.set("strain", measures[f].strain);
+        frame.set("straight_strain", straight[f].strain);
         frames.call<void>("push", frame);
       }
       envelope.set("frames", frames);

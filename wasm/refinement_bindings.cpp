@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/body/mannequin.h"
+#include "core/body/moving_body.h"
 #include "core/error/error_norms.h"
 #include "core/error/fold_spectrum.h"
 #include "core/error/mesh_sampling.h"
 #include "core/error/self_crossings.h"
 #include "core/error/surface_distance.h"
-#include "core/figure/mannequin.h"
-#include "core/figure/moving_body.h"
 #include "core/model/stretch.h"
 #include "core/refinement/fit_monitor.h"
 #include "wasm/arrays.h"
@@ -214,14 +214,14 @@ class GarmentRun {
     });
   }
 
-  /// The figure at the shown time, whether the cloth meets all of it or not, but for arms, which
+  /// The body at the shown time, whether the cloth meets all of it or not, but for arms, which
   /// would hang through a skirt; and where its pelvis is.
   std::string solids() const {
     return guarded([&](val& envelope) {
       val list = val::array();
       for (const pleat::BodyPart& part : parts_) {
-        const auto shape = pleat::placed(part.shape, body_->pose(part.bone, time_));
-        list.call<void>("push", json_cone(std::get<pleat::RoundedCone>(shape)));
+        const pleat::Pose pose = body_->pose(part.bone, time_);
+        list.call<void>("push", json_cone(pleat::placed(part.shape, pose)));
       }
       envelope.set("cones", list);
       envelope.set("pelvis_m",
@@ -291,12 +291,12 @@ class GarmentRun {
     curvature_.emplace(mesh());
     reference_.reset();
     crossings_.reset();
-    body_ = scene.figure ? std::make_shared<const pleat::MovingBody>(scene.figure->motion,
-                                                                     scene.figure->playback)
-                         : nullptr;
+    body_ = scene.body ? std::make_shared<const pleat::MovingBody>(scene.body->motion,
+                                                                   scene.body->playback)
+                       : nullptr;
     parts_.clear();
-    if (scene.figure)
-      for (const pleat::BodyPart& part : pleat::mannequin(scene.figure->build))
+    if (scene.body)
+      for (const pleat::BodyPart& part : pleat::mannequin(scene.body->build))
         if (!is_arm(part.bone)) parts_.push_back(part);
     begin();
   }

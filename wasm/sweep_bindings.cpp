@@ -1,5 +1,4 @@
-// Sweeps of speed and error for a page. They are a module of their own: only who presses the button
-// fetches it.
+// Sweeps of speed and error for a page. Calls are as in bindings.cpp.
 #include <emscripten/bind.h>
 
 #include <optional>
@@ -7,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep.h"
 #include "wasm/envelope.h"
 
@@ -28,7 +27,7 @@ class Experiment {
     return guarded([&](val& envelope) {
       const pleat::FabricLibrary fabrics = pleat::read_fabrics(fabrics_json_);
       const auto read = [fabrics](const pleat::JsonReader& scene) {
-        return pleat::read_scene(scene, fabrics, {}, pleat::plain_scene_parts());
+        return pleat::read_scene(scene, fabrics);
       };
       const pleat::Json plan = pleat::parse_json(plan_text);
       sweep_.emplace(pleat::read_sweep_plan(pleat::JsonReader(plan), read), references_,

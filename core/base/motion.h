@@ -11,7 +11,7 @@ struct Motion {
   enum class Kind {
     hold,       ///< stays where it is
     move,       ///< goes by `offset` between time_begin and time_end at constant speed
-    ease,       ///< the same path, starting and ending at rest (cubic smoothstep)
+    ease,       ///< goes the way of `move`, starting and ending at rest (cubic smoothstep)
     oscillate,  ///< offset * sin(2 pi frequency (t - time_begin)) from time_begin on
     follow,     ///< goes and turns with `frame`
   };
@@ -20,12 +20,12 @@ struct Motion {
   double time_begin = 0;                               ///< [s]
   double time_end = 0;                                 ///< [s], at least time_begin
   double frequency = 0;                                ///< [Hz], for oscillate
-  std::shared_ptr<const MovingFrame> frame = nullptr;  ///< for follow, then not null
+  std::shared_ptr<const MovingFrame> frame = nullptr;  ///< set when the kind is `follow`
 
-  /// How it has moved at a time [s]; only a frame turns.
+  /// Displacement since time 0 at a time [s]; only a frame turns.
   Pose pose(double time) const;
-  /// Velocity [m/s] at a time [s] of what is at `place` [m] at time 0. Where it jumps, that of the
-  /// later part; of a frame by central differences.
+  /// Velocity [m/s] at a time [s] of a point that is at `place` [m] at time 0. At a jump it is that
+  /// of the later part; a frame's is a central difference.
   Vec3 velocity(const Vec3& place, double time) const;
 };
 

@@ -16,11 +16,11 @@ struct Pose {
   Pose inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
 };
 
-/// Something rigid that moves in a prescribed way, as a bone of a figure does.
+/// Something rigid that moves in a prescribed way, as a bone of a body does.
 class MovingFrame {
  public:
   virtual ~MovingFrame() = default;
-  /// How it has moved since time 0 [s]; the identity there.
+  /// Its displacement since time 0 [s]; the identity there.
   virtual Pose pose(double time) const = 0;
 };
 

@@ -16,15 +16,15 @@ Mat3 half_turn(const Mat3& rotation) {
   return Eigen::Quaterniond::Identity().slerp(0.5, Eigen::Quaterniond(rotation)).toRotationMatrix();
 }
 
-/// With S = sum a b^T of the places about their means, a before and b after, and the rotation R of
-/// a unit quaternion q = (w, v), sum b.(R a) = q^T N q is to be greatest: q is an eigenvector of
+/// Maximises sum b.(R a) = q^T N q over rotations R, written as unit quaternions q = (w, v), with
+/// S = sum a b^T of the places about their means, a before and b after: q is an eigenvector of
 ///
 ///     N = (tr S  d^T; d  S + S^T - tr S I),   d = (S_yz - S_zy, S_zx - S_xz, S_xy - S_yx).
 ///
 /// A small addition to its first entry favours w = cos(angle/2).
 RigidMotion nearest_rigid_motion(const Eigen::Ref<const Positions>& before,
                                  const Eigen::Ref<const Positions>& after) {
-  constexpr double kFavour = 1e-6;  // of S; turns the result by about as many radians
+  constexpr double kFavour = 1e-6;  // share of S; turns the result by about as many radians
   PLEAT_CHECK(before.cols() > 0 && before.cols() == after.cols(), "every place goes somewhere");
   RigidMotion motion;
   motion.centre = before.rowwise().mean();

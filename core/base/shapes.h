@@ -1,6 +1,8 @@
 #pragma once
 
-#include "core/base/vec.h"
+#include <array>
+
+#include "core/base/pose.h"
 
 namespace pleat {
 
@@ -27,5 +29,27 @@ struct RoundedCone {
   double half_width_a = 0;  ///< [m], not negative
   double half_width_b = 0;  ///< [m], not negative
 };
+
+/// Throws ContractError for a radius that is not positive, directions that are not unit vectors, a
+/// cone's width that is not across its axis, anything not finite.
+void validate(const Plane& plane);
+void validate(const Sphere& sphere);
+void validate(const RoundedCone& cone);
+
+/// The shape that a rigid motion takes it to.
+Plane placed(const Plane& plane, const Pose& pose);
+Sphere placed(const Sphere& sphere, const Pose& pose);
+RoundedCone placed(const RoundedCone& cone, const Pose& pose);
+
+/// Radii of the balls that fill the shape [m]: at a rounded cone's ends, else twice the same;
+/// infinite for a plane.
+std::array<double, 2> end_radii(const Plane& plane);
+std::array<double, 2> end_radii(const Sphere& sphere);
+std::array<double, 2> end_radii(const RoundedCone& cone);
+
+/// A ball about the middle of the shape that holds all of it; an infinite one of a plane.
+Sphere ball_around(const Plane& plane);
+Sphere ball_around(const Sphere& sphere);
+Sphere ball_around(const RoundedCone& cone);
 
 }  // namespace pleat

@@ -4,7 +4,7 @@ namespace pleat {
 
 /// The parts of a computation that can be timed from outside.
 enum class Stage {
-  convert,   ///< between the shared state and a stepper's own layout
+  convert,   ///< conversion between the shared state and a stepper's own layout
   forces,    ///< forces and right-hand side
   assembly,  ///< matrix values
   factor,    ///< numeric factorisation

@@ -15,7 +15,7 @@ using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 /// Rest coordinates, one column per vertex: along warp, along weft [m].
 using RestCoordinates = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
-/// The same numbers as one long column, as linear solvers take them.
+/// Views the columns as one long vector, as linear solvers take them.
 inline Eigen::Map<Eigen::VectorXd> flat(Positions& columns) {
   return {columns.data(), columns.size()};
 }

@@ -44,17 +44,15 @@ bool is_plain(const Collider& collider) {
   return is_no_cone(collider) && collider.motion.kind != Motion::Kind::follow;
 }
 
-/// A ball that holds the solid; about nothing, and infinite, of a plane.
-Sphere ball_around(const SolidShape& shape, const Pose& pose) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return {pose * sphere->centre, sphere->radius};
-  if (const auto* cone = std::get_if<RoundedCone>(&shape)) {
-    const double half_length = (cone->centre_b - cone->centre_a).norm() / 2;
-    const double half_width = std::max(cone->half_width_a, cone->half_width_b);
-    return {pose * ((cone->centre_a + cone->centre_b) / 2),
-            std::hypot(half_length, half_width) + std::max(cone->radius_a, cone->radius_b)};
-  }
-  return {Vec3::Zero(), std::numeric_limits<double>::infinity()};
+/// Calls the action with the one of the solids that it is, as std::visit does, but inline: that
+/// goes through a table of functions, and this runs for every vertex.
+template <class... Solids, class Action>
+void with_solid(const std::variant<Solids...>& solid, const Action& action) {
+  const auto with = [&](const auto* one) {
+    if (one) action(*one);
+    return one != nullptr;
+  };
+  (with(std::get_if<Solids>(&solid)) || ...);
 }
 
 /// Share of the tangential motion that friction leaves: the tangential velocity changes by at most
@@ -121,7 +119,7 @@ auto ContactStage::with_held(const Solid& solid, const Shape& shape, VertexId ve
   return action(own);
 }
 
-/// Of a place when the substep ends, from where the solid holds the vertex.
+/// Gap of a place when the substep ends, from where the solid holds the vertex.
 Gap ContactStage::held_gap(const Solid& solid, VertexId vertex, const Vec3& place) const {
   return with_held(solid, solid.swept, vertex,
                    [&](const SweptSolid& held) { return gap(held, place); });
@@ -182,23 +180,13 @@ void ContactStage::Meeting::keep_earlier(const Solid& other, const std::optional
   impact = *met;
 }
 
-// Not std::visit: it goes through a table of functions, and this runs for every vertex.
-template <class Action>
-void ContactStage::with_plane_or_sphere(const Solid& solid, const Action& action) {
-  if (const auto* plane = std::get_if<SweptPlane>(&solid.swept)) {
-    action(*plane);
-  } else if (const auto* sphere = std::get_if<SweptSphere>(&solid.swept)) {
-    action(*sphere);
-  }
-}
-
 void ContactStage::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
                                const Solid* skipped, Meeting& earliest) {
   for (std::size_t k = first_framed_; k < first_cone_; ++k) {
     const Solid& solid = solids_[k];
     if (&solid == skipped) continue;
     const Vec3 from = solid.turns ? solid.carry * begin : begin;
-    with_plane_or_sphere(solid, [&](const auto& shape) {
+    with_solid(solid.swept, [&](const auto& shape) {
       earliest.keep_earlier(solid, with_held(solid, shape, vertex, [&](const auto& held) {
                               return first_impact(held, from, end, slack);
                             }));
@@ -225,7 +213,7 @@ ContactStage::Meeting ContactStage::earliest_meeting(VertexId vertex, const Vec3
   for (std::size_t k = 0; k < first_framed_; ++k) {
     const Solid& solid = solids_[k];
     if (&solid == skipped) continue;
-    with_plane_or_sphere(solid, [&](const auto& shape) {
+    with_solid(solid.swept, [&](const auto& shape) {
       if (may_touch(shape, begin, end))
         earliest.keep_earlier(solid, with_held(solid, shape, vertex, [&](const auto& held) {
                                 return first_impact(held, begin, end, slack);
@@ -345,23 +333,23 @@ void ContactStage::outlines(std::vector<Outline>& outlines) const {
     const bool is_plain = k < first_framed_;
     Outline outline;
     outline.friction = solid.friction;
-    if (const auto* plane = std::get_if<SweptPlane>(&solid.swept); plane && is_plain) {
-      outline.shape = *plane;
+    const auto* plane = std::get_if<SweptPlane>(&solid.swept);
+    const auto* ball = std::get_if<SweptSphere>(&solid.swept);
+    if (is_plain && (plane || ball)) {
+      if (plane) outline.shape = *plane;
+      if (ball) outline.shape = *ball;
       outline.is_exact = rests && !is_graded_;
-      outline.longest_shift = (plane->shift - drift()).norm();
-    } else if (const auto* ball = std::get_if<SweptSphere>(&solid.swept); ball && is_plain) {
-      outline.shape = *ball;
-      outline.is_exact = rests && !is_graded_;
-      outline.longest_shift = (ball->shift - drift()).norm();
+      outline.longest_shift = ((plane ? plane->shift : ball->shift) - drift()).norm();
     } else {
       const double turn = solid.turns ? (solid.carry.rotation - Mat3::Identity()).norm() : 0;
-      const Sphere begin = ball_around(colliders_[k].shape, poses_begin_[k]);
-      const Sphere end = ball_around(colliders_[k].shape, poses_end_[k]);
+      const Sphere around = ball_around(colliders_[k].shape);
+      const Vec3 begin = poses_begin_[k] * around.centre;
+      const Vec3 end = poses_end_[k] * around.centre;
       const Clearance held = clearance(solid.radii, largest_face_radius_);
-      const double shift = (end.centre - begin.centre).norm();
-      const double radius = (end.radius + std::max(held.at_a, held.at_b)) / (1 - turn) + shift;
-      outline.shape = SweptSphere{(begin.centre + end.centre) / 2,
-                                  turn > kLargestTurn ? kEverywhere : radius, Vec3::Zero()};
+      const double shift = (end - begin).norm();
+      const double radius = (around.radius + std::max(held.at_a, held.at_b)) / (1 - turn) + shift;
+      outline.shape =
+          SweptSphere{(begin + end) / 2, turn > kLargestTurn ? kEverywhere : radius, Vec3::Zero()};
       outline.cone = std::get_if<SweptCone>(&solid.swept);
       if (outline.cone) {
         outline.is_exact = rests && turn <= kLargestTurn;

@@ -13,8 +13,8 @@
 
 namespace pleat {
 
-/// What becomes of the velocity with which a vertex comes down on a solid, and of the force that
-/// presses it there.
+/// Fate of the velocity with which a vertex comes down on a solid, and of the force that presses it
+/// there.
 enum class ContactResponse {
   resting,  ///< both end: the vertex rests on the solid
   uniform,  ///< both are turned round: the vertex bounces. For comparison.
@@ -29,13 +29,13 @@ struct ContactOptions {
   ContactResponse response = ContactResponse::resting;
 };
 
-/// How far from where a solid holds it a vertex still counts as on it [m]: contact puts vertices
-/// there to rounding, so this is generous.
+/// Distance from where a solid holds it at which a vertex still counts as on it [m]: contact puts
+/// vertices there to rounding, so this is generous.
 constexpr double kTouchDistance = 1e-6;
 
-/// How deep a cloth is inside of solids.
+/// Depth of a cloth inside of solids.
 struct Penetration {
-  double depth = 0;  ///< of the deepest vertex below a solid's own surface [m]; 0 when none is
+  double depth = 0;  ///< depth of the deepest below a solid's own surface [m]; 0 when none is
   VertexId deepest;  ///< invalid when none is
   int n_inside = 0;  ///< vertices inside of any solid
 };
@@ -61,16 +61,16 @@ class ContactStage {
   /// Throws ContractError for negative sizes.
   void set_options(const ContactOptions& options);
 
-  /// How far off the solid's surface the vertex is held [m]: half the thickness, and off a ball of
-  /// radius R also the sagitta sqrt(R^2 + c^2) - R of a face of radius c; off a rounded cone that
-  /// of the balls at its ends, linearly between.
+  /// Distance off the solid's surface at which the vertex is held [m]: half the thickness, and off
+  /// a ball of radius R also the sagitta sqrt(R^2 + c^2) - R of a face of radius c; off a rounded
+  /// cone that of the balls at its ends, linearly between.
   Clearance clearance(const Collider& collider, VertexId vertex) const;
 
   /// Places the solids at both ends of a substep [s]. Throws ContractError unless time_end >
   /// time_begin.
   void begin_substep(double time_begin, double time_end);
 
-  /// How a solid acted on a vertex. It names the solid, whose velocity is asked for anew in the
+  /// Action of a solid on a vertex. It names the solid, whose velocity is asked for anew in the
   /// substep after.
   struct Touch {
     VertexId vertex;
@@ -95,8 +95,8 @@ class ContactStage {
                                  std::span<const char> is_exempt, Eigen::Ref<Positions> positions,
                                  Eigen::Ref<Positions> velocities);
 
-  /// The same for one vertex alone, of which `resolve` of the whole state knows nothing; nothing
-  /// where it is not touched.
+  /// Corrects one vertex alone, of which `resolve` of the whole state knows nothing; returns
+  /// nothing where it is not touched.
   std::optional<Touch> resolve(VertexId vertex, const Vec3& position_begin, Vec3& position,
                                Vec3& velocity);
 
@@ -105,31 +105,31 @@ class ContactStage {
     /// The solid itself; of a cone, and of what is not exact, a bound without a shift: no way from
     /// a to b that stays further from it than |a - b| meets the solid.
     std::variant<SweptPlane, SweptSphere> shape;
-    /// Whether contact brings vertices to rest on it, and it is told: by the shape, which holds all
-    /// alike, or by the cone, grown by the largest clearance.
+    /// True where contact brings vertices to rest on it, and it is told: by the shape, which holds
+    /// all alike, or by the cone, grown by the largest clearance.
     bool is_exact = false;
     double friction = 0;
-    double longest_shift = 0;         ///< of its points in the substep, beyond drift() [m]
+    double longest_shift = 0;         ///< way of its points in the substep, beyond drift() [m]
     const SweptCone* cone = nullptr;  ///< until the next substep begins; seen from where it ends
-    std::array<double, 2> radii{};    ///< of the cone without clearance [m]
+    std::array<double, 2> radii{};    ///< end radii of the cone without clearance [m]
     Pose carry;                       ///< the cone's motion over the substep
   };
 
-  /// Those of all solids. Allocates nothing where `outlines` had as many before.
+  /// Outlines of all solids. Allocates nothing where `outlines` had as many before.
   void outlines(std::vector<Outline>& outlines) const;
 
-  /// How far rounded cones go in the substep, in the mean [m].
+  /// Mean way of rounded cones in the substep [m].
   Vec3 drift() const { return first_cone_ < solids_.size() ? budget_.drift() : Vec3::Zero(); }
 
-  /// What is further from a cone than this times both of their ways, beyond drift(), does not meet
-  /// it.
+  /// Factor of both ways, beyond drift(): a vertex that is further from a cone than their sum so
+  /// stretched does not meet it.
   double stretch() const { return budget_.stretch(); }
 
-  /// Those of the last call of resolve, in the order of the vertices.
+  /// Touches of the last call of resolve, in the order of the vertices.
   std::span<const Touch> touches() const { return touches_; }
 
-  /// How far above where solids hold them the nearest of the vertices that are not exempt is at the
-  /// end of the substep [m]; negative below, infinite without solids.
+  /// Least height above where solids hold them of the vertices that are not exempt, at the end of
+  /// the substep [m]; negative below, infinite without solids.
   double least_gap(const Eigen::Ref<const Positions>& positions,
                    std::span<const char> is_exempt) const;
 
@@ -137,16 +137,15 @@ class ContactStage {
   /// begins [m/s].
   Vec3 solid_velocity(const Touch& touch, const Vec3& place_begin) const;
 
-  /// How far from where the touched solid holds the vertex this place [m] is when the substep ends;
-  /// negative below.
+  /// Distance of this place [m] from where the touched solid holds the vertex when the substep
+  /// ends; negative below.
   Gap gap_at_end(const Touch& touch, const Vec3& place) const;
 
-  /// How often, since construction, solids closed in on a vertex from sides so opposed, or so many,
-  /// that it was left inside one of them.
+  /// Number of times since construction that solids closed in on a vertex from sides so opposed, or
+  /// so many, that it was left inside one of them.
   std::int64_t n_unresolved() const { return n_unresolved_; }
 
-  /// How far the vertices are inside of the solids as these are at a time [s], clearance not
-  /// counted.
+  /// Depth of the vertices inside of the solids as these are at a time [s], clearance not counted.
   Penetration penetration(const Eigen::Ref<const Positions>& positions, double time) const;
 
   /// A vertex on a solid that may push it and rub at it.
@@ -160,7 +159,7 @@ class ContactStage {
   /// kTouchDistance; once for each solid. It knows positions alone, and nothing of substeps.
   std::vector<Support> supports(const Eigen::Ref<const Positions>& positions, double time) const;
 
-  /// What its solids and the sizes of faces take, without what it keeps of touches.
+  /// Size of its solids and of the radii of faces, without what it keeps of touches.
   std::size_t bytes() const;
 
   /// Rounded cones come last.
@@ -196,8 +195,6 @@ class ContactStage {
   static Vec3 relative_path(const Solid& solid, const Vec3& begin, const Vec3& end);
   void make_budget();
   void place(const Collider& collider, const Pose& begin, const Pose& end, Solid& solid) const;
-  template <class Action>
-  static void with_plane_or_sphere(const Solid& solid, const Action& action);
   void meet_framed(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,
                    const Solid* skipped, Meeting& earliest);
   Meeting earliest_meeting(VertexId vertex, const Vec3& begin, const Vec3& end, double slack,

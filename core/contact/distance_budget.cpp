@@ -17,7 +17,8 @@ double turn_between(const Pose& from, const Pose& to) {
   return (to.rotation - from.rotation).norm() / std::sqrt(2.0);
 }
 
-/// How far any point of the hull moves from one pose to another [m], seen from a frame that drifts.
+/// The farthest that any point of the hull moves from one pose to another [m], seen from a frame
+/// that drifts.
 /// |to q - from q| is convex in q, so greatest at the corners' balls.
 double farthest_move(const DistanceBudget::Hull& hull, const Pose& from, const Pose& to,
                      const Vec3& drift) {
@@ -43,9 +44,9 @@ DistanceBudget::DistanceBudget(std::vector<Hull> hulls)
       spent_(hulls_.size(), 0) {}
 
 // All is seen from a frame that drifts along with the solids' mean, so that nothing is spent while
-// a figure and its clothes walk on. Let F be the distance of a vertex from a solid at the begin of
+// a body and its clothes walk on. Let F be the distance of a vertex from a solid at the begin of
 // a substep, a the way it goes, m the most that any of the solid's points goes, and theta = |R - 1|
-// for the solid's turn R. F changes by at most a + m from begin to end, hence, with the sums of a
+// for the solid's turn R. F changes by at most a + m from start to end, hence, with the sums of a
 // and m, path and moved, since F was F',
 //   F >= F' - (path - path') - (moved - moved').
 // Within the substep, seen from the solid, the vertex goes by at most a + m + theta F: the solid's

@@ -30,7 +30,7 @@ class DistanceBudget {
   /// Poses of all solids at both ends of a substep.
   void begin_substep(std::span<const Pose> begin, std::span<const Pose> end);
 
-  /// How far the solids' mean goes in the substep [m].
+  /// Way of the solids' mean in the substep [m].
   Vec3 drift() const { return drift_end_ - drift_begin_; }
   /// The furthest that any point of a solid goes in the substep, seen from that mean [m].
   double move(std::size_t solid) const { return moves_[solid]; }
@@ -41,7 +41,7 @@ class DistanceBudget {
   ///
   /// begin, end  of the way [m]
   /// look        called as double(std::size_t solid); returns how far `begin` is from the solid's
-  ///             surface [m] where the solid is at the begin, or minus infinity
+  ///             surface [m] where the solid is at the start, or minus infinity
   /// Allocates for a vertex that comes for the first time.
   template <class Look>
   void look_at_near(VertexId vertex, const Vec3& begin, const Vec3& end, const Look& look) {
@@ -59,7 +59,7 @@ class DistanceBudget {
 
  private:
   struct Vertex {
-    Vec3 place{0, 0, 0};  ///< at the begin of the last substep, in the drifting frame [m]
+    Vec3 place{0, 0, 0};  ///< its own at the start of the last substep, in the drifting frame [m]
     double path = 0;      ///< all the way there [m]
   };
 
@@ -68,7 +68,7 @@ class DistanceBudget {
   double bound(const Vertex& vertex, std::size_t solid, double distance) const;
 
   std::vector<Hull> hulls_;
-  std::vector<Pose> poses_;    // at the begin of the substep
+  std::vector<Pose> poses_;    // poses at the start of the substep
   std::vector<double> moved_;  // all that any of a solid's points has moved until then [m]
   std::vector<double> moves_;  // the same in the substep [m]
   std::vector<double> spent_;  // both, the latter stretched [m]

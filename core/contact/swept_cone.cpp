@@ -23,8 +23,8 @@ Vec3 side_normal(const BallRow& row, const Vec3& off) {
 
 /// A place as a row of balls sees it.
 struct RowPlace {
-  double along;  ///< the row, from its begin [m]
-  Vec3 arm;      ///< from the nearest point of the row's line [m]
+  double along;  ///< the row, from its start [m]
+  Vec3 arm;      ///< the place, seen from the nearest point of the row's line [m]
   double off;    ///< its length [m]
 };
 
@@ -37,7 +37,7 @@ RowPlace seen_from(const BallRow& row, const Vec3& place) {
 
 /// The ball of a row nearest to a place, as a share of the row.
 ///
-/// With y along the row and rho off it, sqrt(rho^2 + (y - t)^2) - r - t sin is least where
+/// Let y be along the row and rho off it: sqrt(rho^2 + (y - t)^2) - r - t sin is least where
 /// t = y + rho tan.
 double nearest_share(const BallRow& row, const RowPlace& place) {
   const double share = (place.along + place.off * row.tangent) * row.per_length;
@@ -148,8 +148,8 @@ void shrink(SweptCone& cone, const Clearance& inset) {
   set_radii(cone.edge, radius_a, radius_b);
 }
 
-// Along the path the height is convex too. So the tangent plane at the nearest point of the surface
-// lies below it: Newton's steps from the begin come closer from outside and never pass the surface;
+// The height is convex along the path too. So the tangent plane at the nearest point of the surface
+// lies below it: Newton's steps from the start come closer from outside and never pass the surface;
 // where the tangent is not met within the substep, or does not fall, neither is the solid. Steps
 // converge quadratically, and at a grazing contact, a double root, still halve the rest of the way.
 ConeMeeting meeting(const SweptCone& cone, const Vec3& begin, const Vec3& end, double slack) {

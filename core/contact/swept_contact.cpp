@@ -19,6 +19,14 @@ Impact on_sphere(const Vec3& centre, double radius, double fraction, const Vec3&
 
 }  // namespace
 
+SweptPlane swept(const Plane& plane, const Clearance& clearance, const Vec3& shift) {
+  return {plane.normal, plane.normal.dot(plane.point) + clearance.at_a, shift};
+}
+
+SweptSphere swept(const Sphere& sphere, const Clearance& clearance, const Vec3& shift) {
+  return {sphere.centre, sphere.radius + clearance.at_a, shift};
+}
+
 std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, const Vec3& end,
                                    double slack) {
   const double level = plane.level - slack;
@@ -32,7 +40,7 @@ std::optional<Impact> first_impact(const SweptPlane& plane, const Vec3& begin, c
   return Impact{fraction, plane.normal, met - (plane.normal.dot(met) - plane.level) * plane.normal};
 }
 
-// With a from the centre to the beginning and d the path, |a + s d|^2 = r^2 has its smaller root at
+// Let a be from the centre to the start and d the path: |a + s d|^2 = r^2 has its smaller root at
 // s = (a.a - r^2) / (-a.d + sqrt((a.d)^2 - d.d (a.a - r^2))), a form in which nothing cancels.
 std::optional<Impact> first_impact(const SweptSphere& sphere, const Vec3& begin, const Vec3& end,
                                    double slack) {

@@ -32,8 +32,8 @@ Vec3 middle_of(const TriangleMesh& mesh, double area) {
 
 }  // namespace
 
-/// Over a triangle of area A, the integral of |x|^2 is A/12 (|a|^2 + |b|^2 + |c|^2 + |a + b +
-/// c|^2).
+/// Sums the integral of |x|^2, which is A/12 (|a|^2 + |b|^2 + |c|^2 + |a + b + c|^2) over a
+/// triangle of area A.
 double cloth_extent(const TriangleMesh& mesh) {
   PLEAT_CHECK(!mesh.triangles.empty(), "cloth has triangles");
   const double area = vertex_areas(mesh).sum();

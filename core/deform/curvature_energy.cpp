@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-const Vec3 kTensorWeights(1, 1, 2);  // of ww, ff, wf in the square of a symmetric tensor
+const Vec3 kTensorWeights(1, 1, 2);  // weights of ww, ff, wf in the square of a symmetric tensor
 
 using Corners = std::array<VertexId, 3>;
 
@@ -30,8 +30,8 @@ Corners corners(const CurvatureElement& element) {
   return {element.vertices[0], element.vertices[1], element.vertices[2]};
 }
 
-/// With the sides a, b at the first corner and D = a x b: dD = a x db - b x da and
-/// dn = (I - n n^T) dD/|D|.
+/// Normal and its derivatives. With the sides a, b at the first corner and D = a x b,
+/// dD = a x db - b x da and dn = (I - n n^T) dD/|D|.
 Normal normal_at(const Corners& t, const Eigen::Ref<const Positions>& x) {
   constexpr double kNoArea = 1e-12;  // sine at the first corner; below it the normal is noise
   const Vec3 a = x.col(t[1]) - x.col(t[0]);

@@ -17,7 +17,7 @@ struct CurvatureElement {
   std::vector<VertexId> vertices;                    ///< the corners first; each once
   Eigen::Matrix<double, 3, Eigen::Dynamic> weights;  ///< w, a column per vertex [1/m^2]
   Vec3 normal_part = Vec3::Zero();                   ///< b = n.k_M [1/m]
-  double area = 0;                                   ///< at rest [m^2]
+  double area = 0;                                   ///< rest area [m^2]
 };
 
 /// One element per triangle, from balanced_stencils. Throws ContractError unless each triangle has

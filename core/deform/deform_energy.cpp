@@ -9,7 +9,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kUnitsInExtent = 20;  // of the consistent form's length
+constexpr double kUnitsInExtent = 20;  // units of length in the extent, for the consistent form
 /// lambda = mu = 1 in lambda/2 tr(E)^2 + mu E:E, as the membrane's law writes it.
 constexpr MembraneLaw kIsotropic = {3, 3, 1, 0};
 

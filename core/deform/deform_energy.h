@@ -77,7 +77,7 @@ class DeformEnergy {
     double rest = 0;  // [m]
   };
   struct Dihedral {
-    std::array<VertexId, 4> vertices;  // as in Hinge
+    std::array<VertexId, 4> vertices;  // ordered as in Hinge
     double rest = 0;
   };
 
@@ -95,13 +95,13 @@ class DeformEnergy {
 
   Positions rest_;
   double unit_ = 1;
-  Eigen::VectorXd recovery_factors_;  // of each vertex [1/m^2], as if free
+  Eigen::VectorXd recovery_factors_;  // factor of each vertex [1/m^2], as if free
   Eigen::VectorXd is_free_;           // 1 or 0
   std::vector<EdgeLength> edges_;
   Membrane membrane_;
   std::vector<Dihedral> dihedrals_;
   std::vector<CurvatureElement> curvatures_;
-  SparseMatrix bending_metric_;  // of curvatures_, the same at all positions
+  SparseMatrix bending_metric_;  // metric of curvatures_, the same at all positions
 };
 
 }  // namespace pleat

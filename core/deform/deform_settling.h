@@ -9,7 +9,7 @@ namespace pleat {
 /// DeformSolver::settle a step at a time, so that a page can show the way and give up on it.
 class DeformSettling {
  public:
-  /// Whether a second way, from rest, is tried.
+  /// Choice of trying a second way, from rest.
   enum class Ways { from_here, from_here_and_rest };
 
   /// solver  outlives this; nothing but `step` steps it until done
@@ -26,7 +26,7 @@ class DeformSettling {
   /// Ends a way from rest where it is and keeps the shape of lower energy; nothing on the other.
   void end_trial();
 
-  /// Of the way to the shape that was kept; iterations are those of both ways.
+  /// Report of the way to the shape that was kept; iterations are those of both ways.
   const SolveReport& report() const { return report_; }
 
  private:
@@ -40,9 +40,9 @@ class DeformSettling {
   Ways ways_;
   int max_linearisations_;
   Stage stage_ = Stage::from_here;
-  std::optional<DeformShape> kept_;  // where the first way ended, while the second is tried
+  std::optional<DeformShape> kept_;  // end of the first way, while the second is tried
   double kept_energy_ = 0;
-  SolveReport report_;  // of the first way, then of all
+  SolveReport report_;  // report of the first way, then of all
 };
 
 }  // namespace pleat

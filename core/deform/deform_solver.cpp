@@ -6,6 +6,7 @@
 #include "core/base/rigid_motion.h"
 #include "core/deform/cloth_extent.h"
 #include "core/deform/deform_settling.h"
+#include "core/linalg/make_linear_solver.h"
 
 namespace pleat {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kSufficientDecrease = 1e-4;  // Armijo's: share of what the slo
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 constexpr double kLargestDamping = 1e8;  // the step is then far below rounding
-constexpr double kRounding = 1e-13;      // of the energy, which is a sum over all triangles
+constexpr double kRounding = 1e-13;      // share of the energy, which is a sum over all triangles
 /// A factor serves badly when the last of so many steps is not this much shorter than the first. A
 /// new one costs about as much as five steps, and what was learnt is lost.
 constexpr int kPatience = 25;
@@ -36,7 +37,7 @@ constexpr double kNoStep = 1e-8;  // DeformStep::relative_step
 constexpr int kStepsOfMove = 4;
 constexpr double kWorthAStep = 1e-3;
 
-constexpr double kBulge = 1e-3;  // of the extent
+constexpr double kBulge = 1e-3;  // share of the extent
 /// [rad]; where what is held turns less, the linearised problem strains by less than 1 - cos(30
 /// degrees) = 13 %, and steps find from there.
 constexpr double kLargeTurn = M_PI / 6;
@@ -74,12 +75,12 @@ Positions bulges(const TriangleMesh& mesh, double extent) {
   return result;
 }
 
-/// What steps after `last` have to gain, foretold from the gains of the last steps and of as many
-/// before: where they shrink by a factor q, they have the last ones over 1 - q in them. Before
-/// there are two such spans, what the last step gained.
+/// Estimates the energy that steps after `last` can still gain: where gains shrink by a factor q
+/// from one span of steps to the next, the last span's over 1 - q. Before there are two spans it is
+/// the gain of the last step.
 double left_to_gain(const std::vector<DeformStep>& steps, const DeformStep& last, double before) {
   constexpr std::size_t kLongestSpan = 5;  // steps; single gains go up and down
-  constexpr double kSlowest = 0.999;       // where gains do not shrink, a thousand spans count
+  constexpr double kSlowest = 0.999;       // counts a thousand spans where gains do not shrink
   const std::size_t span = std::min(kLongestSpan, steps.size() / 2);
   if (span == 0) return before - last.energy;
   const double middle = steps[steps.size() - span].energy;
@@ -260,10 +261,10 @@ Positions DeformSolver::descent(const Positions& gradient) {
 bool DeformSolver::descend(const Positions& direction, double slope, double before,
                            DeformStep& step) {
   const StageScope stage(observer_, Stage::forces);
-  const Positions begin = positions_;
+  const Positions start = positions_;
   double share = 1;
   for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {
-    positions_ = begin + share * direction;
+    positions_ = start + share * direction;
     step.terms = terms();
     step.energy = step.terms.weighted(weights_);
     if (!(step.energy <= before + kSufficientDecrease * share * slope)) continue;
@@ -273,7 +274,7 @@ bool DeformSolver::descend(const Positions& direction, double slope, double befo
     step.relative_step = last_change_.norm() / std::sqrt(n_free) / extent_;
     return true;
   }
-  positions_ = begin;
+  positions_ = start;
   return false;
 }
 

@@ -12,10 +12,10 @@ namespace pleat {
 
 /// One step towards the least energy.
 struct DeformStep {
-  double energy = 0;         ///< after it, weighted
-  DeformTerms terms;         ///< after it, unweighted
+  double energy = 0;         ///< weighted energy after the step
+  DeformTerms terms;         ///< unweighted terms after the step
   double relative_step = 0;  ///< RMS change of the free vertices over cloth_extent
-  int halvings = 0;          ///< of the step, until the energy fell
+  int halvings = 0;          ///< halvings of the step until the energy fell
   bool linearised = false;   ///< a metric and its factor were made for it
   double damping = 0;        ///< Levenberg's, over the mean of the metric's diagonal
 };
@@ -43,7 +43,7 @@ struct DeformShape {
 /// Springer 2006, section 7.2; docs/methods/deformation.md.
 class DeformSolver {
  public:
-  static constexpr double kTolerance = 1e-6;  ///< of DeformStep::relative_step
+  static constexpr double kTolerance = 1e-6;  ///< tolerance of DeformStep::relative_step
   static constexpr int kMaxLinearisations = 15;
 
   /// Starts at rest with nothing held. Throws ContractError as DeformEnergy does, and for weights
@@ -70,7 +70,7 @@ class DeformSolver {
   /// than 30 degrees on the whole, rest turned along with it is the other start, and the one of
   /// lower energy is taken.
   void restart(const Eigen::Ref<const Positions>& places);
-  /// The same, to where it is.
+  /// Goes back to rest and moves what is held to its present places.
   void restart() { restart(held_places()); }
 
   /// One step; nothing once converged. Not ok when the energy could not be made smaller.
@@ -96,11 +96,11 @@ class DeformSolver {
   /// The last step was not longer than the tolerance and hardly gained, or rounding hides what is
   /// left to gain.
   bool converged() const { return converged_; }
-  /// Made so far, for steps and for moves.
+  /// Linearisations made so far, for steps and for moves.
   int n_linearisations() const { return n_linearisations_; }
-  /// Those made since something was last moved, held or weighted otherwise.
+  /// Linearisations since something was last moved, held or weighted otherwise.
   int n_recent_linearisations() const { return n_linearisations_ - n_before_; }
-  /// Made since then as well.
+  /// Steps since then.
   const std::vector<DeformStep>& steps() const { return steps_; }
   const Positions& positions() const { return positions_; }
   const std::vector<VertexId>& held() const { return held_; }
@@ -128,14 +128,14 @@ class DeformSolver {
 
   DeformEnergy energy_;
   DeformWeights weights_;
-  double extent_;     // of the cloth at rest [m]
-  Positions bulges_;  // what `restart` adds to rest [m]
+  double extent_;     // extent of the cloth at rest [m]
+  Positions bulges_;  // bends that `restart` adds to rest [m]
   Positions positions_;
   std::vector<VertexId> held_;
-  std::vector<char> is_held_;  // of each vertex
+  std::vector<char> is_held_;  // flag of each vertex
 
   SparseMatrix metric_;                   // lower triangle, n x n
-  std::unique_ptr<LinearSolver> solver_;  // of the metric, with identity rows for what is held
+  std::unique_ptr<LinearSolver> solver_;  // the metric's, with identity rows for what is held
   bool has_pattern_ = false;
   bool has_factor_ = false;
   bool is_stale_ = false;         // the factor serves badly
@@ -143,9 +143,9 @@ class DeformSolver {
   double first_with_factor_ = 0;  // DeformStep::relative_step of the first
   int n_in_vain_ = 0;             // factors in a row whose first step was halved much
   int n_linearisations_ = 0;
-  int n_before_ = 0;  // of them, before something was last moved, held or weighted
+  int n_before_ = 0;  // linearisations before something was last moved, held or weighted
   double damping_ = 0;
-  LbfgsCorrections corrections_{kMaxCorrections};  // to the factor
+  LbfgsCorrections corrections_{kMaxCorrections};  // corrections to the factor
   Positions last_change_;                          // empty where there is no step to learn from
   Positions last_gradient_;
 

@@ -33,11 +33,11 @@ std::vector<int> lowest_in_part(const TriangleMesh& mesh) {
 ///
 /// size  of the part at rest [m]
 Hold hold_of(const std::vector<Vec3>& places, double size) {
-  constexpr double kSame = 1e-6;  // of the size; files often carry six digits
+  constexpr double kSame = 1e-6;  // share of the size; files often carry six digits
   constexpr double kLastDigits = 4 * std::numeric_limits<double>::epsilon();
   if (places.empty()) return Hold::none;
   Vec3 arm = Vec3::Zero();
-  double reach = 0;  // from the origin
+  double reach = 0;  // distance from the origin
   for (const Vec3& place : places) {
     if ((place - places[0]).norm() > arm.norm()) arm = place - places[0];
     reach = std::max(reach, place.norm());

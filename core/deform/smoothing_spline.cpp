@@ -22,11 +22,11 @@ constexpr int kStepsPerDecade = 4;
 /// Points by x, and what does not depend on lambda.
 struct SplineProblem {
   std::vector<CurvePoint> points;
-  std::vector<Eigen::Index> knots;  // of each point
-  double width = 1;                 // of the range of x
-  Eigen::VectorXd x;                // of the knots
-  Eigen::VectorXd counts;           // of points per knot: w
-  Eigen::VectorXd means;            // of y per knot
+  std::vector<Eigen::Index> knots;  // knot of each point
+  double width = 1;                 // width of the range of x
+  Eigen::VectorXd x;                // x of the knots
+  Eigen::VectorXd counts;           // number of points per knot: w
+  Eigen::VectorXd means;            // mean y per knot
   Eigen::MatrixXd Q;                // Q^T f: jumps of slope at the inner knots of a polygon f(u)
   Eigen::MatrixXd R;                // Gram matrix of the hat functions of the inner knots
 };
@@ -100,9 +100,9 @@ SmoothingSpline mean_curve(const SplineProblem& problem) {
   return curve;
 }
 
-/// With W = diag(w) and the means m, the sum of squares is (m - f)^T W (m - f) and what does not
-/// depend on f, hence W (m - f) = lambda Q gamma with R gamma = Q^T f (Reinsch). With t =
-/// lambda/(1 + lambda) and gamma = (1 - t) c,
+/// Solves for f. With W = diag(w) and the means m, the sum of squares is (m - f)^T W (m - f) and
+/// what does not depend on f, hence W (m - f) = lambda Q gamma with R gamma = Q^T f (Reinsch). With
+/// t = lambda/(1 + lambda) and gamma = (1 - t) c,
 ///
 ///     ((1 - t) R + t Q^T W^-1 Q) c = Q^T m,     f = m - t W^-1 Q c,
 ///
@@ -186,8 +186,8 @@ double best_decade(const SplineProblem& problem) {
 
 }  // namespace
 
-/// Between two knots a before and b after x, f is the chord and a cubic that has f'' as it is and
-/// vanishes at both: -(x - a)(b - x)/6 ((1 + (x - a)/h) f''_b + (1 + (b - x)/h) f''_a).
+/// Value of f. Between two knots a before and b after x, f is the chord and a cubic that has f'' as
+/// it is and vanishes at both: -(x - a)(b - x)/6 ((1 + (x - a)/h) f''_b + (1 + (b - x)/h) f''_a).
 double SmoothingSpline::value(double x) const {
   PLEAT_CHECK(!std::isnan(x), "a number");
   x = std::clamp(x, low(), high());

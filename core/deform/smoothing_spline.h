@@ -23,9 +23,9 @@ struct SmoothingSpline {
   struct Knot {
     double x = 0;
     double value = 0;
-    double second_derivative = 0;  ///< with respect to x
+    double second_derivative = 0;
   };
-  std::vector<Knot> knots;  ///< at every x that a point has, ascending
+  std::vector<Knot> knots;  ///< knots at every x that a point has, ascending
   CurveShape shape = CurveShape::curved;
   double smoothing = 0;  ///< lambda, from 0 to infinity
   /// Root of the mean over all points of (y_i - f_i(x_i))^2, f_i fitted to the others with the same

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/hierarchy/mesh_hierarchy.h"
 #include "core/linalg/linear_solver.h"
-#include "core/multigrid/mesh_hierarchy.h"
 
 namespace pleat {
 
@@ -15,6 +15,8 @@ extern const StepperType kImplicitEuler, kImex, kProjective, kXpbd, kPbd, kHpbd,
 
 /// The most substeps of a step: with steps of 1/60 s, 17 ns each.
 constexpr int kMaxSubsteps = 1000000;
+/// As many as the stability bound asks for.
+constexpr int kStableSubsteps = 0;
 
 enum class Constraints {
   compliant,  ///< compliance 1/k
@@ -94,7 +96,7 @@ constexpr double kMostCarried = 0.4;
 struct MethodOptions {
   const StepperType* stepper = &steppers::kImplicitEuler;  ///< not null
   double step = 1.0 / 60;                                  ///< [s], positive
-  int substeps = 1;  ///< at least 1; 0, where the stepper has a stability bound: as many as it asks
+  int substeps = 1;    ///< at least 1, or kStableSubsteps where the stepper has a stability bound
   int iterations = 1;  ///< projective: local/global rounds; xpbd and pbd: sweeps; hpbd and
                        ///< multigrid: cycles; at least 1
   SolverKind solver = SolverKind::cg;

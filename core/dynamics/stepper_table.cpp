@@ -4,14 +4,16 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/dynamics/pbd/cycle_projections.h"
-#include "core/dynamics/stepper_explicit.h"
-#include "core/dynamics/stepper_imex.h"
-#include "core/dynamics/stepper_implicit.h"
-#include "core/dynamics/stepper_newton.h"
-#include "core/dynamics/stepper_projective.h"
-#include "core/dynamics/stepper_rk4.h"
-#include "core/dynamics/xpbd/stepper_xpbd.h"
+#include "core/dynamics/explicit/stepper_explicit.h"
+#include "core/dynamics/explicit/stepper_rk4.h"
+#include "core/dynamics/implicit/stepper_imex.h"
+#include "core/dynamics/implicit/stepper_implicit.h"
+#include "core/dynamics/implicit/stepper_newton.h"
+#include "core/dynamics/implicit/stepper_projective.h"
+#include "core/dynamics/method_settings.h"
+#include "core/dynamics/position_based/levels/cycle_projections.h"
+#include "core/dynamics/position_based/stepper_position_based.h"
+#include "core/linalg/make_linear_solver.h"
 
 namespace pleat {
 namespace {
@@ -22,49 +24,38 @@ std::unique_ptr<Stepper> make(ClothModel& model, const MethodOptions& options) {
 }
 
 std::unique_ptr<Stepper> make_position_based(ClothModel& model, const MethodOptions& options) {
-  return std::make_unique<StepperXpbd>(model, options, options.stepper->make_projections);
+  return std::make_unique<StepperPositionBased>(model, options, options.stepper->make_projections);
 }
 
-constexpr std::array kExplicitSettings = {MethodSetting::substeps, MethodSetting::beyond_bound,
-                                          MethodSetting::euler, MethodSetting::first_contact};
-constexpr std::array kRk4Settings = {MethodSetting::substeps, MethodSetting::beyond_bound,
-                                     MethodSetting::first_contact};
-constexpr std::array kImplicitSettings = {MethodSetting::substeps, MethodSetting::solver,
-                                          MethodSetting::tolerance, MethodSetting::preconditioner,
-                                          MethodSetting::first_contact};
-constexpr std::array kImexSettings = {MethodSetting::substeps,       MethodSetting::solver,
-                                      MethodSetting::tolerance,      MethodSetting::omega,
-                                      MethodSetting::preconditioner, MethodSetting::split,
-                                      MethodSetting::explicit_share, MethodSetting::first_contact};
-constexpr std::array kProjectiveSettings = {MethodSetting::substeps, MethodSetting::iterations,
-                                            MethodSetting::solver, MethodSetting::acceleration};
-constexpr std::array kXpbdSettings = {MethodSetting::substeps, MethodSetting::iterations,
-                                      MethodSetting::constraints};
-constexpr std::array kPbdSettings = {MethodSetting::substeps,    MethodSetting::iterations,
-                                     MethodSetting::constraints, MethodSetting::smoother,
-                                     MethodSetting::omega,       MethodSetting::attachments};
-constexpr std::array kHpbdSettings = {MethodSetting::substeps,   MethodSetting::iterations,
-                                      MethodSetting::levels,     MethodSetting::level_lengths,
-                                      MethodSetting::smoother,   MethodSetting::omega,
-                                      MethodSetting::attachments};
-constexpr std::array kMultigridSettings = {
-    MethodSetting::substeps,      MethodSetting::iterations,
-    MethodSetting::levels,        MethodSetting::ratio,
-    MethodSetting::level_lengths, MethodSetting::smoother_before,
-    MethodSetting::smoother,      MethodSetting::omega,
-    MethodSetting::attachments,   MethodSetting::carried_acceleration};
-constexpr std::array kNewtonSettings = {MethodSetting::substeps, MethodSetting::solver,
-                                        MethodSetting::tolerance, MethodSetting::preconditioner,
-                                        MethodSetting::rule};
+constexpr auto kExplicitSettings =
+    method_settings("substeps", "beyond_bound", "euler", "first_contact_m");
+constexpr auto kRk4Settings = method_settings("substeps", "beyond_bound", "first_contact_m");
+constexpr auto kImplicitSettings =
+    method_settings("substeps", "solver", "tolerance", "preconditioner", "first_contact_m");
+constexpr auto kImexSettings =
+    method_settings("substeps", "solver", "tolerance", "omega", "preconditioner", "split",
+                    "explicit_share", "first_contact_m");
+constexpr auto kProjectiveSettings =
+    method_settings("substeps", "iterations", "solver", "acceleration");
+constexpr auto kXpbdSettings = method_settings("substeps", "iterations", "constraints");
+constexpr auto kPbdSettings =
+    method_settings("substeps", "iterations", "constraints", "smoother", "omega", "attachments");
+constexpr auto kHpbdSettings = method_settings("substeps", "iterations", "levels", "level_lengths",
+                                               "smoother", "omega", "attachments");
+constexpr auto kMultigridSettings =
+    method_settings("substeps", "iterations", "levels", "ratio", "level_lengths", "smoother_before",
+                    "smoother", "omega", "attachments", "carried_acceleration");
+constexpr auto kNewtonSettings =
+    method_settings("substeps", "solver", "tolerance", "preconditioner", "rule");
 
-constexpr std::array<MethodCounts, 1> kStable = {{{0, 1}}};
+constexpr std::array<MethodCounts, 1> kStable = {{{kStableSubsteps, 1}}};
 constexpr std::array<MethodCounts, 2> kOneOrFour = {{{1, 1}, {4, 1}}};
 constexpr std::array<MethodCounts, 2> kFiveRounds = {{{1, 5}, {4, 5}}};
 constexpr std::array<MethodCounts, 2> kTenSweeps = {{{1, 10}, {4, 10}}};
 constexpr std::array<MethodCounts, 3> kSmallSteps = {{{10, 1}, {30, 1}, {100, 1}}};
 
 constexpr const char* kDampedSubsteps = "More substeps damp less and cost more.";
-constexpr const char* kStableSubsteps = "0: as many as its stability bound asks for.";
+constexpr const char* kZeroIsStable = "0: as many as its stability bound asks for.";
 
 }  // namespace
 
@@ -233,8 +224,8 @@ constinit const StepperType steppers::kExplicitEuler = {
     .title = "Explicit",
     .meaning = "Forces give velocities, velocities give positions. Only stable in tiny substeps.",
     .settings = kExplicitSettings,
-    .substeps_meaning = kStableSubsteps,
-    .start = {0, 1},
+    .substeps_meaning = kZeroIsStable,
+    .start = {kStableSubsteps, 1},
     .has_stability_bound = true,
     .usual_counts = kStable,
     .is_usual_for_springs = true,
@@ -251,8 +242,8 @@ constinit const StepperType steppers::kRk4 = {
     .title = "Runge-Kutta 4",
     .meaning = "Explicit, with four looks at the forces a substep. Very exact, and slow.",
     .settings = kRk4Settings,
-    .substeps_meaning = kStableSubsteps,
-    .start = {0, 1},
+    .substeps_meaning = kZeroIsStable,
+    .start = {kStableSubsteps, 1},
     .has_stability_bound = true,
     .usual_counts = kStable,
     .finest_usual_level = 1,
@@ -293,52 +284,10 @@ StepperTable standard_steppers() {
   return kTable;
 }
 
-const char* key(MethodSetting setting) {
-  switch (setting) {
-    case MethodSetting::substeps:
-      return "substeps";
-    case MethodSetting::iterations:
-      return "iterations";
-    case MethodSetting::solver:
-      return "solver";
-    case MethodSetting::tolerance:
-      return "tolerance";
-    case MethodSetting::omega:
-      return "omega";
-    case MethodSetting::preconditioner:
-      return "preconditioner";
-    case MethodSetting::split:
-      return "split";
-    case MethodSetting::constraints:
-      return "constraints";
-    case MethodSetting::rule:
-      return "rule";
-    case MethodSetting::acceleration:
-      return "acceleration";
-    case MethodSetting::explicit_share:
-      return "explicit_share";
-    case MethodSetting::euler:
-      return "euler";
-    case MethodSetting::beyond_bound:
-      return "beyond_bound";
-    case MethodSetting::first_contact:
-      return "first_contact_m";
-    case MethodSetting::levels:
-      return "levels";
-    case MethodSetting::ratio:
-      return "ratio";
-    case MethodSetting::level_lengths:
-      return "level_lengths";
-    case MethodSetting::smoother_before:
-      return "smoother_before";
-    case MethodSetting::smoother:
-      return "smoother";
-    case MethodSetting::attachments:
-      return "attachments";
-    case MethodSetting::carried_acceleration:
-      return "carried_acceleration";
-  }
-  return "";
+const MethodSetting* StepperType::setting(std::string_view key) const {
+  for (const MethodSetting* known : settings)
+    if (key == known->key) return known;
+  return nullptr;
 }
 
 MethodOptions StepperType::usual_method() const {
@@ -358,6 +307,15 @@ const StepperType* find_stepper(StepperTable table, std::string_view name) {
   return at == table.end() ? nullptr : *at;
 }
 
+std::vector<const MethodSetting*> all_settings(StepperTable table) {
+  std::vector<const MethodSetting*> all;
+  for (const MethodSetting& setting : kMethodSettings) all.push_back(&setting);
+  for (const StepperType* type : table)
+    for (const MethodSetting* setting : type->settings)
+      if (std::find(all.begin(), all.end(), setting) == all.end()) all.push_back(setting);
+  return all;
+}
+
 std::string stepper_names(StepperTable table) {
   std::string names;
   for (const StepperType* type : table)
@@ -372,8 +330,8 @@ std::string stepper_help(StepperTable table) {
     std::string line = "  " + std::string(type->name);
     line.resize(std::max(line.size() + 1, kIndent), ' ');
     help += line + type->meaning + "\n" + std::string(kIndent, ' ') + "reads";
-    for (const MethodSetting setting : type->settings)
-      help += (setting == type->settings.front() ? " " : ", ") + std::string(key(setting));
+    for (const MethodSetting* setting : type->settings)
+      help += (setting == type->settings.front() ? " " : ", ") + std::string(setting->key);
     help += "\n";
   }
   return help;

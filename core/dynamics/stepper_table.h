@@ -1,130 +1,15 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "core/dynamics/method_options.h"
 #include "core/dynamics/stepper.h"
-#include "core/dynamics/xpbd/projections.h"
-#include "core/mesh/quad_mesh.h"
+#include "core/dynamics/stepper_type.h"
 
 namespace pleat {
-
-/// The settings of a scene's section "method" beside stepper and step.
-enum class MethodSetting {
-  substeps,
-  iterations,
-  solver,
-  tolerance,
-  omega,
-  preconditioner,
-  split,
-  constraints,
-  rule,
-  acceleration,
-  explicit_share,
-  euler,
-  beyond_bound,
-  first_contact,
-  levels,
-  ratio,
-  level_lengths,
-  smoother_before,
-  smoother,
-  attachments,
-  carried_acceleration
-};
-
-constexpr std::array<MethodSetting, 21> kMethodSettings = {MethodSetting::substeps,
-                                                           MethodSetting::iterations,
-                                                           MethodSetting::solver,
-                                                           MethodSetting::tolerance,
-                                                           MethodSetting::omega,
-                                                           MethodSetting::preconditioner,
-                                                           MethodSetting::split,
-                                                           MethodSetting::constraints,
-                                                           MethodSetting::rule,
-                                                           MethodSetting::acceleration,
-                                                           MethodSetting::explicit_share,
-                                                           MethodSetting::euler,
-                                                           MethodSetting::beyond_bound,
-                                                           MethodSetting::first_contact,
-                                                           MethodSetting::levels,
-                                                           MethodSetting::ratio,
-                                                           MethodSetting::level_lengths,
-                                                           MethodSetting::smoother_before,
-                                                           MethodSetting::smoother,
-                                                           MethodSetting::attachments,
-                                                           MethodSetting::carried_acceleration};
-
-/// Spelled as in scenes.
-const char* key(MethodSetting setting);
-
-/// How often a stepper works in a step.
-struct MethodCounts {
-  int substeps = 1;  ///< 0: as many as the stability bound asks for
-  int iterations = 1;
-};
-
-/// How a stepper is drawn in charts.
-struct StepperMark {
-  const char* path;         ///< SVG path about the origin, about 10 px wide
-  const char* colour;       ///< "#rrggbb", on a light ground
-  const char* dark_colour;  ///< on a dark ground
-};
-
-/// One way to advance cloth. Whatever a scene, a sweep, a chart, the command or the page says of a
-/// stepper comes from here.
-struct StepperType {
-  const char* name;     ///< as scenes write it
-  const char* title;    ///< for people
-  const char* meaning;  ///< for people, a sentence
-  /// The settings that it reads; others are refused in a scene.
-  std::span<const MethodSetting> settings;
-  const char* substeps_meaning = "";    ///< what more substeps do, a sentence
-  const char* iterations_meaning = "";  ///< the same of iterations, where it reads them
-  /// Used where a scene says nothing.
-  MethodCounts start = {};
-  SolverKind solver = SolverKind::cg;  ///< where it has no use for a factor
-  double tolerance = MethodOptions{}.tolerance;
-  double largest_tolerance = 1;  ///< excluded when 1
-  /// What else it starts from; null: from the defaults of MethodOptions.
-  void (*set_start)(MethodOptions& method) = nullptr;
-
-  bool has_stability_bound = false;    ///< takes 0 substeps, refuses too few
-  bool needs_surface = false;          ///< makes coarser levels of the cloth's triangles
-  bool needs_springs = false;          ///< works on springs with quadratic bending alone
-  bool takes_bend_friction = false;    ///< asks it for each substep
-  bool needs_factor = false;           ///< its solver is a direct one
-  bool is_single_precision = false;    ///< inside a step
-  bool prefers_factor = false;         ///< the same where a scene says nothing
-  bool solves_equations = false;       ///< to an end: much that is left unsolved is a fault
-  bool solves_whole_substeps = false;  ///< at once, so that its error is that of its substeps
-
-  /// Worth comparing in a sweep, each about three times as dear as the one before.
-  std::span<const MethodCounts> usual_counts;
-  bool is_usual_for_springs = false;    ///< taken by sweeps that name no stepper
-  bool is_usual_for_membranes = false;  ///< the same
-  int finest_usual_level = kMaxLevel;   ///< at finer ones the page's sweep leaves it out
-  /// Rough cost of a substep per vertex, in units of what the forces of explicit cost.
-  double (*substep_cost)(const MethodOptions& options);
-
-  StepperMark mark;
-
-  MakeProjections make_projections = nullptr;  ///< of position-based steppers
-  /// Throws InputError when the method cannot run on this model.
-  std::unique_ptr<Stepper> (*make)(ClothModel& model, const MethodOptions& options);
-
-  bool reads(MethodSetting setting) const {
-    return std::find(settings.begin(), settings.end(), setting) != settings.end();
-  }
-  /// The options of a scene that names this stepper and nothing else.
-  MethodOptions usual_method() const;
-};
 
 /// Steppers in the order in which people are shown them.
 using StepperTable = std::span<const StepperType* const>;
@@ -134,6 +19,9 @@ StepperTable standard_steppers();
 
 /// Null when the table has none of this name.
 const StepperType* find_stepper(StepperTable table, std::string_view name);
+
+/// Pleat's own settings, and then what else steppers of the table read.
+std::vector<const MethodSetting*> all_settings(StepperTable table);
 
 /// "implicit, projective, ...".
 std::string stepper_names(StepperTable table);

@@ -67,6 +67,13 @@ bool StrainLimitStage::exceeds(const Edge<EndsKind>& edge, double squared_length
 }
 
 template <class EndsKind>
+bool StrainLimitStage::is_beyond(const Edge<EndsKind>& edge,
+                                 const Eigen::Ref<const Positions>& positions) const {
+  return exceeds(edge, edge.ends.difference(positions).squaredNorm()) &&
+         inverse_mass(edge.ends) > 0;
+}
+
+template <class EndsKind>
 double StrainLimitStage::inverse_mass(const EndsKind& ends) const {
   double sum = 0;
   ends.for_each([&](VertexId v, double factor) { sum += factor * factor * inverse_masses_[v]; });
@@ -139,12 +146,12 @@ void StrainLimitStage::demand(const Line& line, const Positions& positions) {
   }
 }
 
-/// Between pins that are farther apart than the limit allows, nothing can keep it: impulses would
+/// Gives up the edges between pins that are farther apart than the limit allows: impulses would
 /// only add up.
 void StrainLimitStage::leave_overstretched(const Line& line, const Positions& positions) {
   std::size_t first = line.begin;  // edge after the last pinned vertex
   VertexId pinned;
-  double length = 0;  // of the line since then, at its limits
+  double length = 0;  // length of the line since then, at its limits
   if (inverse_masses_[edges_[first].ends.a] == 0) pinned = edges_[first].ends.a;
   for (std::size_t e = line.begin; e < line.end; ++e) {
     length += limits_.longest * edges_[e].rest_length;
@@ -161,9 +168,9 @@ void StrainLimitStage::leave_overstretched(const Line& line, const Positions& po
   }
 }
 
-/// Between two pins the system of a line is singular, or nearly so; a diagonal larger by about its
-/// smallest other eigenvalue cures that.
-double StrainLimitStage::regular_factor(const Line& line) const {
+/// The factor on the diagonal of a line's system. A line between two pins has a system that is
+/// singular or nearly so: its diagonal grows by about its smallest other eigenvalue.
+double StrainLimitStage::diagonal_factor(const Line& line) const {
   int n_pinned = inverse_masses_[edges_[line.begin].ends.a] == 0 ? 1 : 0;
   for (std::size_t e = line.begin; e < line.end; ++e)
     if (inverse_masses_[edges_[e].ends.b] == 0) ++n_pinned;
@@ -174,7 +181,7 @@ double StrainLimitStage::regular_factor(const Line& line) const {
 // An impulse p_k shortens edge k by (w_a + w_b) p_k and lengthens its neighbour, with which it
 // shares a vertex of inverse mass w, by w cos(angle) p_k: a tridiagonal system, in which inactive
 // edges have no impulse and spent ones give back what they had.
-void StrainLimitStage::eliminate(const Line& line, double regular) {
+void StrainLimitStage::eliminate(const Line& line, double diagonal_factor) {
   const std::size_t n_edges = line.end - line.begin;
   for (std::size_t k = 0; k < n_edges; ++k) {
     Demand& demand = demands_[k];
@@ -183,7 +190,7 @@ void StrainLimitStage::eliminate(const Line& line, double regular) {
       demand.impulse = -edges_[line.begin + k].impulse;
       continue;
     }
-    double pivot = regular * demand.inverse_mass;
+    double pivot = diagonal_factor * demand.inverse_mass;
     double right = demand.shortening;
     if (k > 0) {
       const Demand& before = demands_[k - 1];
@@ -264,22 +271,19 @@ void StrainLimitStage::place_ends(const Line& line, Positions& positions) {
 }
 
 bool StrainLimitStage::correct(const Line& line, Positions& positions) {
-  const auto is_beyond = [&](const Edge<Ends>& edge) {
-    return exceeds(edge, edge.ends.difference(positions).squaredNorm()) &&
-           inverse_mass(edge.ends) > 0;
-  };
+  const auto is_out = [&](const Edge<Ends>& edge) { return is_beyond(edge, positions); };
   const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(line.begin);
   const auto end = edges_.begin() + static_cast<std::ptrdiff_t>(line.end);
-  const bool has_exceeded = std::any_of(begin, end, is_beyond);
+  const bool has_exceeded = std::any_of(begin, end, is_out);
   const bool is_guessed = is_first_sweep_ && std::any_of(begin, end, [](const Edge<Ends>& edge) {
                             return edge.was_active;
                           });
   if (!has_exceeded && !is_guessed) return false;
   demand(line, positions);
   leave_overstretched(line, positions);
-  const double regular = regular_factor(line);
+  const double factor = diagonal_factor(line);
   for (int solve = 0; solve < kMaxSolves; ++solve) {
-    eliminate(line, regular);
+    eliminate(line, factor);
     if (!change_active(line)) break;
   }
   if (is_touched_ || !is_first_sweep_ || pushes(line)) {
@@ -316,15 +320,15 @@ void StrainLimitStage::sweep_until_within(State& state, double travel) {
   if (options_.law != StrainLimitLaw::velocity) return;
   const bool has_helped = !is_capped || largest_excess(state.positions) < largest_excess(proposed_);
   proposed_ = (state.positions - proposed_) / travel;  // the change of velocities
-  const double share = is_capped ? braking_share(state.velocities) : 1;
+  const double share = is_capped ? share_of_least_energy(state.velocities) : 1;
   state.velocities += share * proposed_;
   if (!has_helped) state.positions -= (1 - share) * travel * proposed_;
 }
 
-// Impulses that end at limits only brake. Of those that were still on their way to limits which
-// cannot all be kept, the share counts that leaves the least kinetic energy; of places too, where
-// the edge that was worst has become no better.
-double StrainLimitStage::braking_share(const Positions& velocities) const {
+// Sweeps that ran out leave impulses on their way to limits which cannot all be kept: whole, they
+// may add energy. The share s of the changes dv that leaves least kinetic energy |v + s dv|^2
+// counts.
+double StrainLimitStage::share_of_least_energy(const Positions& velocities) const {
   double along = 0;
   double squared = 0;
   for (Eigen::Index i = 0; i < velocities.cols(); ++i) {
@@ -334,18 +338,16 @@ double StrainLimitStage::braking_share(const Positions& velocities) const {
   return squared > 0 ? std::clamp(-along / squared, 0.0, 1.0) : 0;
 }
 
-template <class EndsKind>
-void StrainLimitStage::begin_substep(std::vector<Edge<EndsKind>>& edges) {
-  for (Edge<EndsKind>& edge : edges) {
-    edge.was_active = edge.impulse != 0;
-    edge.impulse = 0;
-  }
-}
-
 void StrainLimitStage::limit(State& state, double travel) {
   set_inverse_masses();
-  begin_substep(edges_);
-  begin_substep(shared_edges_);
+  const auto restart = [](auto& edges) {
+    for (auto& edge : edges) {
+      edge.was_active = edge.impulse != 0;
+      edge.impulse = 0;
+    }
+  };
+  restart(edges_);
+  restart(shared_edges_);
   proposed_ = state.positions;
   is_first_sweep_ = true;
   sweep_until_within(state, travel);
@@ -374,12 +376,9 @@ double StrainLimitStage::largest_excess(const Positions& positions) const {
 }
 
 bool StrainLimitStage::is_exceeded(const Eigen::Ref<const Positions>& positions) const {
-  const auto is_beyond = [&](const auto& edge) {
-    return exceeds(edge, edge.ends.difference(positions).squaredNorm()) &&
-           inverse_mass(edge.ends) > 0;
-  };
-  return std::any_of(edges_.begin(), edges_.end(), is_beyond) ||
-         std::any_of(shared_edges_.begin(), shared_edges_.end(), is_beyond);
+  const auto is_out = [&](const auto& edge) { return is_beyond(edge, positions); };
+  return std::any_of(edges_.begin(), edges_.end(), is_out) ||
+         std::any_of(shared_edges_.begin(), shared_edges_.end(), is_out);
 }
 
 }  // namespace pleat

@@ -35,14 +35,16 @@ class StrainLimitStage {
   /// travel  how far a change of velocity by dv moves a vertex in the substep, over dv [s]
   void limit(State& state, double travel);
 
-  /// The same once more in that substep, after contact touched vertices, which are then not pulled
+  /// Corrects once more in that substep, after contact touched vertices, which are then not pulled
   /// into solids.
   void limit_again(State& state, double travel, std::span<const ContactStage::Touch> touches);
 
-  /// Whether an edge is beyond its limits that is not pinned at both ends.
+  /// True where an edge that is not pinned at both ends is beyond its limits.
   bool is_exceeded(const Eigen::Ref<const Positions>& positions) const;
 
-  std::int64_t n_sweeps() const { return n_sweeps_; }  ///< over all edges, since construction
+  std::int64_t n_sweeps() const {
+    return n_sweeps_;
+  }  ///< sweeps over all edges, since construction
   /// Calls that ended with an edge beyond its limits for want of sweeps, since construction.
   std::int64_t n_capped() const { return n_capped_; }
 
@@ -75,13 +77,13 @@ class StrainLimitStage {
     EndsKind ends;
     double rest_length;  // [m]
     double impulse =
-        0;  // of this substep, times the travel it makes: pulls the ends together [kg m]
-    bool was_active = false;  // at the end of the last substep
+        0;  // this substep's, times the travel it makes: pulls the ends together [kg m]
+    bool was_active = false;  // had an impulse at the end of the last substep
   };
   struct Line {
-    std::size_t begin, end;  // of its edges in edges_
+    std::size_t begin, end;  // range of its edges in edges_
   };
-  /// What an edge asks for where the sweeps have come to.
+  /// The demand of an edge where the sweeps have come to.
   struct Demand {
     bool is_active = false;   // its impulse may change
     bool is_spent = false;    // it gave all of its impulse back
@@ -89,19 +91,19 @@ class StrainLimitStage {
     double length = 0;        // [m]
     double shortening = 0;    // wanted [m]
     Vec3 direction{0, 0, 0};  // unit, from b to a
-    double inverse_mass = 0;  // against an impulse [1/kg]
-    double coupling = 0;      // with the next edge of the line [1/kg]
-    double after = 0;         // of the next edge's impulse, when this edge's is eliminated
-    double impulse = 0;       // change of it [kg m]
+    double inverse_mass = 0;  // inverse mass against an impulse [1/kg]
+    double coupling = 0;      // coupling with the next edge of the line [1/kg]
+    double after = 0;    // share of the next edge's impulse in this one, once that is eliminated
+    double impulse = 0;  // change of it [kg m]
   };
   /// A vertex of a line on the way to its end.
   struct LineEnd {
     Vec3 place{0, 0, 0};  // [m]
-    double pull = 0;      // on the next vertex, over the length of the edge to it [kg]
-    double next = 0;      // of the next vertex's place, when this one is eliminated
+    double pull = 0;      // pull on the next vertex, over the length of the edge to it [kg]
+    double next = 0;      // share of the next vertex's place, once this one is eliminated
   };
   struct Range {
-    double shortest, longest;  // in shares of a rest length
+    double shortest, longest;  // shares of a rest length
   };
 
   void set_inverse_masses();
@@ -110,17 +112,19 @@ class StrainLimitStage {
   template <class EndsKind>
   bool exceeds(const Edge<EndsKind>& edge, double squared_length) const;
   template <class EndsKind>
+  bool is_beyond(const Edge<EndsKind>& edge, const Eigen::Ref<const Positions>& positions) const;
+  template <class EndsKind>
   void pull(const EndsKind& ends, const Vec3& impulse, Positions& positions) const;
   template <class EndsKind>
   Demand demand_of(const Edge<EndsKind>& edge, const Positions& positions) const;
   bool correct(const Line& line, Positions& positions);
   void demand(const Line& line, const Positions& positions);
   void leave_overstretched(const Line& line, const Positions& positions);
-  void eliminate(const Line& line, double regular);
+  void eliminate(const Line& line, double diagonal_factor);
   bool change_active(const Line& line);
   bool pushes(const Line& line) const;
   void place_ends(const Line& line, Positions& positions);
-  double regular_factor(const Line& line) const;
+  double diagonal_factor(const Line& line) const;
   template <class EndsKind>
   bool correct(Edge<EndsKind>& edge, Positions& positions);
   template <class EndsKind>
@@ -130,22 +134,20 @@ class StrainLimitStage {
   bool sweep(Positions& positions);
   void sweep_until_within(State& state, double travel);
   double largest_excess(const Positions& positions) const;
-  double braking_share(const Positions& velocities) const;
-  template <class EndsKind>
-  void begin_substep(std::vector<Edge<EndsKind>>& edges);
+  double share_of_least_energy(const Positions& velocities) const;
 
   const ClothModel& model_;
   StrainLimitOptions options_;
-  Range limits_;  // beyond them an edge exceeds
+  Range limits_;  // an edge exceeds beyond them
   Range goals_;   // just inside, where an edge that exceeds is put
   std::vector<Edge<Ends>> edges_;
   std::vector<Line> lines_;
   std::vector<Edge<SharedEnds>> shared_edges_;
-  std::vector<Demand> demands_;     // of a line's edges
-  std::vector<LineEnd> line_ends_;  // of a line's vertices
+  std::vector<Demand> demands_;     // one for each edge of a line
+  std::vector<LineEnd> line_ends_;  // one for each vertex of a line
   Eigen::VectorXd inverse_masses_;  // 0 where a vertex is pinned or hangs [1/kg]
-  Positions proposed_;              // before the sweeps [m], and then what they add to velocities
-  Positions normals_;  // of solids that touch a vertex, else zero; empty without contact
+  Positions proposed_;  // places before the sweeps [m], and then what they add to velocities
+  Positions normals_;   // normals of solids that touch a vertex, else zero; empty without contact
   bool is_touched_ = false;
   bool is_first_sweep_ = false;
   std::int64_t n_sweeps_ = 0;

@@ -50,7 +50,7 @@ Eigen::Matrix<double, 2, 3> thread_directions(const TriangleMesh& mesh, std::siz
 /// Boxes of the rest shape, kRegionsAlongSide along each of its sides, numbered from 0 without
 /// gaps.
 std::vector<int> box_regions(const Positions& points, int& n_regions) {
-  constexpr double kFlat = 1e-6;  // of the longest side; a sheet's thickness by rounding
+  constexpr double kFlat = 1e-6;  // share of the longest side; a sheet's thickness by rounding
   const Vec3 low = points.rowwise().minCoeff();
   const Vec3 sides = points.rowwise().maxCoeff() - low;
   const double flat = kFlat * sides.maxCoeff();
@@ -152,8 +152,8 @@ BendError BendMeasure::error(const Eigen::Ref<const Positions>& positions,
   return {wasserstein_distance(own, theirs, areas_), differences.lpNorm<1>() / areas_.sum()};
 }
 
-// In one dimension it is the area between the cumulative distributions. Both are stepped through in
-// ascending order; `ahead` is the weight by which a is ahead of b below `value`.
+// Area between the cumulative distributions, which the distance is in one dimension. Both are
+// stepped through in ascending order; `ahead` is the weight by which a is ahead of b below `value`.
 double wasserstein_distance(const Eigen::Ref<const Eigen::VectorXd>& values_a,
                             const Eigen::Ref<const Eigen::VectorXd>& values_b,
                             const Eigen::Ref<const Eigen::VectorXd>& weights) {

@@ -39,7 +39,7 @@ class BendMeasure {
   /// Smoothed magnitude of curvature of each triangle [1/m].
   Eigen::VectorXd curvatures(const Eigen::Ref<const Positions>& positions) const;
 
-  const Eigen::VectorXd& areas() const { return areas_; }  ///< of each triangle at rest [m^2]
+  const Eigen::VectorXd& areas() const { return areas_; }  ///< rest area of each triangle [m^2]
 
  private:
   struct Neighbour {
@@ -49,9 +49,9 @@ class BendMeasure {
 
   std::vector<CurvatureStencil> stencils_;
   Eigen::VectorXd areas_;
-  std::vector<Neighbour> neighbours_;  // of each triangle in turn, its weights summing to one
-  std::vector<std::size_t> ends_;      // by triangle: where its neighbours end
-  std::vector<int> regions_;           // by triangle
+  std::vector<Neighbour> neighbours_;  // one triangle's after the other's; its weights sum to one
+  std::vector<std::size_t> ends_;      // end of each triangle's neighbours
+  std::vector<int> regions_;           // region of each triangle
   int n_regions_ = 0;
 };
 

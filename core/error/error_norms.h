@@ -37,7 +37,7 @@ double position_error_95(const Eigen::Ref<const Positions>& positions,
 struct MeshLimit {
   Positions positions;              ///< [m], of the vertices of the coarsest mesh
   double rate = 0;                  ///< distances fall by two to this power at each halving
-  std::array<double, 2> distances;  ///< from each mesh to the next [m]
+  std::array<double, 2> distances;  ///< distances from each mesh to the next [m]
 };
 
 /// Richardson's extrapolation at the observed rate log2(d1/d2) of the distances d1 and d2 between

@@ -14,8 +14,8 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 
 /// Points of a plane's cut through edges, and through which triangle each goes on to which other.
 struct Cut {
-  std::map<std::uint64_t, std::vector<std::uint64_t>> beside;  // by edge
-  std::map<std::uint64_t, Vec3> points;                        // by edge
+  std::map<std::uint64_t, std::vector<std::uint64_t>> beside;  // neighbours of each edge
+  std::map<std::uint64_t, Vec3> points;                        // point on each edge
 };
 
 Cut cut_at(const TriangleMesh& mesh, double height) {
@@ -40,10 +40,10 @@ Cut cut_at(const TriangleMesh& mesh, double height) {
 }
 
 /// Takes a line out of the cut. Where it is closed the first point is the last one, too.
-std::vector<Vec3> taken_line(Cut& cut, std::uint64_t begin) {
+std::vector<Vec3> taken_line(Cut& cut, std::uint64_t start) {
   std::vector<Vec3> line;
-  std::uint64_t last = begin;
-  for (std::uint64_t at = begin;;) {
+  std::uint64_t last = start;
+  for (std::uint64_t at = start;;) {
     line.push_back(cut.points[at]);
     const auto place = cut.beside.find(at);
     if (place == cut.beside.end()) return line;
@@ -119,7 +119,7 @@ std::vector<Positions> rest_rings(const TriangleMesh& mesh, double height, int n
 
 std::vector<Positions> garment_rings(const TriangleMesh& mesh) {
   constexpr int kPoints = 256;                     // six for each of the narrowest folds
-  constexpr double kShares[] = {0.5, 0.25, 0.01};  // of the height; the hem itself is no cut
+  constexpr double kShares[] = {0.5, 0.25, 0.01};  // shares of the height; the hem itself is no cut
   const double low = mesh.rest_positions.row(1).minCoeff();
   const double high = mesh.rest_positions.row(1).maxCoeff();
   std::vector<Positions> rings;

@@ -17,10 +17,10 @@ class MaterialMap {
   /// The points' places when the mesh is at `positions` [m].
   Positions of(const Eigen::Ref<const Positions>& positions) const;
 
-  /// Of the triangles that the points are on, not of unit length [m^2].
+  /// Normals of the triangles that the points are on, not of unit length [m^2].
   Positions normals_of(const Eigen::Ref<const Positions>& positions) const;
 
-  double farthest() const { return farthest_; }  ///< of a point from the mesh at rest [m]
+  double farthest() const { return farthest_; }  ///< largest distance from the mesh at rest [m]
 
  private:
   struct Place {

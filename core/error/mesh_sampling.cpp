@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// In the fine mesh all splits of the other were made too.
+/// True when all splits of the mesh were made in the fine one too.
 bool refines(const QuadMesh& fine, const QuadMesh& mesh) {
   if (base_fingerprint(fine) != base_fingerprint(mesh)) return false;
   int coarsest = kMaxLevel;

@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-/// What a shape loses by being shown on another mesh.
+/// Error of a shape that is shown on another mesh.
 struct SamplingError {
   double distance = 0;      ///< root mean square over the cloth, between the same points [m]
   double normal_angle = 0;  ///< root mean square over the cloth, between normals [rad]
@@ -29,16 +29,16 @@ class MeshSampling {
   /// Places [m], or velocities, of the mesh's vertices, from the fine ones.
   Positions sampled(const Eigen::Ref<const Positions>& fine_columns) const;
 
-  /// Where the fine mesh's vertices are when the mesh's are at these places [m].
+  /// Places of the fine mesh's vertices when the mesh's are at these places [m].
   Positions shown(const Eigen::Ref<const Positions>& columns) const;
 
-  /// Between a fine shape and what the mesh shows at the same points when its vertices are at
-  /// `columns` [m]. By rest area; a normal is the fine triangle's, against the mesh's own facet
-  /// there: one through points on several facets would be smoother than what is seen.
+  /// Error between a fine shape and the mesh at the same points when its vertices are at `columns`
+  /// [m]. By rest area; a normal is the fine triangle's, against the mesh's own facet there: one
+  /// through points on several facets would be smoother than what is seen.
   SamplingError error(const Eigen::Ref<const Positions>& fine_positions,
                       const Eigen::Ref<const Positions>& columns) const;
 
-  /// Between a fine shape and its own sample.
+  /// Error between a fine shape and its own sample.
   SamplingError error(const Eigen::Ref<const Positions>& fine_positions) const {
     return error(fine_positions, sampled(fine_positions));
   }
@@ -46,14 +46,14 @@ class MeshSampling {
  private:
   QuadMesh mesh_;
   QuadMesh fine_;
-  Eigen::VectorXd areas_;             // of the fine vertices at rest [m^2]
-  std::vector<Triangle> triangles_;   // of the fine mesh
-  std::optional<MeshSample> sample_;  // where the fine mesh refines the other
+  Eigen::VectorXd areas_;             // rest areas of the fine vertices [m^2]
+  std::vector<Triangle> triangles_;   // triangles of the fine mesh
+  std::optional<MeshSample> sample_;  // set where the fine mesh refines the other
   std::optional<MaterialMap> to_mesh_;
   std::vector<HangingVertex> hanging_;
   QuadMesh cut_;  // the mesh in cells no larger than the fine one's
   std::optional<MaterialMap> to_fine_;
-  std::optional<MaterialMap> to_facets_;  // in the middles of the fine triangles
+  std::optional<MaterialMap> to_facets_;  // points in the middles of the fine triangles
 };
 
 }  // namespace pleat

@@ -80,7 +80,7 @@ std::vector<std::vector<double>> restart_errors(const Scene& fine, const std::ve
   const std::int64_t n_between = std::max(n_after, whole_steps(options.begin, step)) - n_after;
   const std::int64_t n_all = whole_steps(options.duration, step);
   std::vector<std::vector<double>> errors(runs.size());
-  // The fine run waits for the others at each begin and end. It starts anew as they do, since a
+  // The fine run waits for the others at each start and end. It starts anew as they do, since a
   // stepper forgets how solids touched the cloth.
   for (std::int64_t begin = n_between; begin + n_after <= n_all; begin += n_between + n_after) {
     if (!run(reference, n_between)) break;

@@ -9,13 +9,13 @@ namespace pleat {
 struct RestartOptions {
   double begin = 1;     ///< first restart, and from one to the next [s], longer than `after`
   double after = 0.25;  ///< how long each runs [s], a whole number of steps
-  double duration = 5;  ///< of the fine run, in which each restart ends [s]
+  double duration = 5;  ///< duration of the fine run, in which each restart ends [s]
 
   /// Throws InputError naming the value that is out of range.
   void validate() const;
 };
 
-/// What a mesh makes wrong before chance does: again and again it starts from the state of a fine
+/// Errors of a mesh before chance adds its own: again and again it starts from the state of a fine
 /// run, sampled on it, and is held against the fine run, started anew alike, sampled on it a while
 /// later.
 ///

@@ -19,8 +19,8 @@ struct RunErrors {
   double position_95 = kUnknown;        ///< mean over times of position_error_95 [m]
   double surface_rms = kUnknown;        ///< RMS over times of SurfaceError::rms [m]
   double surface_95 = kUnknown;         ///< mean over times of SurfaceError::percentile_95 [m]
-  double bend_distribution = kUnknown;  ///< mean over times of BendError [1/m]
-  double bend_regions = kUnknown;       ///< the same [1/m]
+  double bend_distribution = kUnknown;  ///< mean over times of BendError::distribution [1/m]
+  double bend_regions = kUnknown;       ///< mean over times of BendError::regions [1/m]
 };
 
 /// Compares runs of one cloth at two levels of refinement.
@@ -55,9 +55,9 @@ class RunComparison {
   RestCloth own_;
   RestCloth reference_;
   bool own_is_finer_;
-  Eigen::VectorXd areas_;                         // of the vertices that both have
-  std::vector<std::array<VertexId, 2>> middles_;  // of a triangle mesh, coarser to finer
-  std::optional<MaterialMap> map_;                // of the reference's vertices to its own mesh
+  Eigen::VectorXd areas_;                         // areas of the vertices that both have
+  std::vector<std::array<VertexId, 2>> middles_;  // edges halved from a triangle mesh to the finer
+  std::optional<MaterialMap> map_;  // places of the reference's vertices on its own mesh
   std::optional<BendMeasure> bend_;
 };
 

@@ -30,7 +30,7 @@ class SelfCrossings {
   struct Member {
     Triangle corners;
     std::array<bool, 3> owns;  // each edge is that of one triangle; edge k begins at corner k
-    Eigen::AlignedBox3d box;   // of the triangle
+    Eigen::AlignedBox3d box;   // box around the triangle
   };
 
   bool are_neighbours(VertexId v, const Triangle& triangle) const;
@@ -41,13 +41,13 @@ class SelfCrossings {
 
   Positions positions_;
   double slack_ = 0;  // how far vertices may be from where they were meant [m]
-  std::vector<std::array<VertexId, 2>> parents_;  // of each vertex; invalid unless it hangs
+  std::vector<std::array<VertexId, 2>> parents_;  // parents of each vertex; invalid unless it hangs
   std::optional<TriangleBoxes> boxes_;            // none without triangles
-  std::vector<Member> members_;                   // as the boxes order them
+  std::vector<Member> members_;                   // members in the order of the boxes
   std::vector<Corners> corners_;
 };
 
-/// The same for one shape.
+/// Counts the crossings of one shape.
 std::int64_t self_crossings(const std::vector<Triangle>& triangles,
                             const Eigen::Ref<const Positions>& positions,
                             std::span<const HangingVertex> hanging = {});

@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a frame
+constexpr double kRounding = 1e-9;  // share of a frame
 
 bool is_whole(double ratio) { return std::abs(ratio - std::round(ratio)) < kRounding * ratio; }
 
@@ -101,13 +101,13 @@ struct SideBySide::Run {
   ContestantResult summary() const;
 
   Contestant entry;
-  std::int64_t n_steps;  // of a frame
+  std::int64_t n_steps;  // steps of a frame
   std::unique_ptr<MovingCloth> cloth;
   AdaptiveRun* adaptive;  // the cloth, or null
   TimedRun steps;
   std::optional<FitMonitor> monitor;
   std::vector<Sample> samples;
-  double n_vertices_sum = 0;  // over frames
+  double n_vertices_sum = 0;  // sum over frames
   ContestantResult result;
 };
 

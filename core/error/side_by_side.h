@@ -24,8 +24,8 @@ struct Contestant {
 struct FrameOptions {
   double frame_time = 1.0 / 30;  ///< [s], a whole number of every scene's steps
   double duration = 10;          ///< [s]
-  double begin = 5;              ///< of what is timed and compared [s]
-  double settled = 2;            ///< when the monitors begin to look [s]
+  double begin = 5;              ///< start of what is timed and compared [s]
+  double settled = 2;            ///< time at which the monitors start to look [s]
   int error_every = 5;           ///< frames from one that is compared to the next
 
   int n_frames() const;
@@ -41,32 +41,32 @@ struct FitSummary {
 
 /// Vertices inside of solids, over frames.
 struct Insides {
-  int n_frames = 0;    ///< with any
-  int most = 0;        ///< in one frame
+  int n_frames = 0;    ///< frames with any
+  int most = 0;        ///< maximum of one frame
   double deepest = 0;  ///< [m]
 
   void add(const Penetration& frame);
 };
 
-/// What a run showed; times are of frames from FrameOptions::begin on.
+/// Result of a run; times are of frames from FrameOptions::begin on.
 struct ContestantResult {
-  int n_vertices = 0;  ///< of an adaptive mesh the mean over all frames
+  int n_vertices = 0;  ///< number of vertices; the mean over all frames of an adaptive mesh
   SolveReport report;  ///< ok, or what ended the run; residual the largest, iterations the sum
   int n_frames = 0;    ///< whole ones
-  std::vector<double> frame_ms;                 ///< by the clock, refinement included
-  std::array<double, kStageCount> parts_ms{};   ///< of a frame, mean
-  std::vector<double> refinement_ms;            ///< of each frame; empty unless adaptive
-  RunErrors errors;                             ///< against the first contestant, means over times
+  std::vector<double> frame_ms;                ///< wall time of each frame, refinement included
+  std::array<double, kStageCount> parts_ms{};  ///< mean time of the parts of a frame
+  std::vector<double> refinement_ms;  ///< time of each frame's refinement; empty unless adaptive
+  RunErrors errors;                   ///< means over times of the distance to the first contestant
   double bend_over_time = RunErrors::kUnknown;  ///< see RunComparison [1/m]
-  /// Of the first contestant's shapes sampled on this one's mesh, root mean square over the frames
-  /// that are compared: the mesh's own fault. Not of an adaptive mesh.
+  /// Error of the first contestant's shapes sampled on this one's mesh, root mean square over the
+  /// frames that are compared: the mesh's own fault. Unknown for an adaptive mesh.
   SamplingError sampling{RunErrors::kUnknown, RunErrors::kUnknown};
   Eigen::MatrixXd folds;    ///< FoldSpectrum::amplitudes over garment_rings, of those frames [m]
   double rms_stretch = 0;   ///< mean over the frames that are compared
   double longest_edge = 0;  ///< largest l/L - 1 of all frames, 0 where all edges are shorter
-  Insides all_inside;       ///< of all frames
-  Insides unpinned_inside;  ///< of the vertices that no pin takes along
-  std::optional<FitSummary> fit;  ///< on a mesh of a plan with limits
+  Insides all_inside;       ///< vertices inside, over all frames
+  Insides unpinned_inside;  ///< vertices inside that no pin takes along
+  std::optional<FitSummary> fit;  ///< fit of a mesh of a plan with limits
 };
 
 /// Runs that take turns frame by frame, so that a change of the machine's speed meets all alike.

@@ -12,7 +12,7 @@ namespace pleat {
 namespace {
 
 constexpr double kPercentile = 0.95;
-constexpr double kPointsPerTriangle = 4;  // of the finer mesh
+constexpr double kPointsPerTriangle = 4;  // points per triangle of the finer mesh
 
 double area(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]).norm() / 2; }
 

@@ -9,8 +9,8 @@ namespace pleat {
 /// How far two surfaces are from each other, whatever their meshes [m].
 struct SurfaceError {
   double rms = 0;
-  double percentile_95 = 0;  ///< of both surfaces together, this share is nearer to the other
-  double largest = 0;        ///< of all points
+  double percentile_95 = 0;  ///< distance that this share of both surfaces together does not exceed
+  double largest = 0;        ///< largest over all points
 };
 
 /// Distances from points of each surface to the nearest point of the other, exact to rounding.

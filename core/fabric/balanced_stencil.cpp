@@ -30,8 +30,8 @@ class Combination {
 /// first triangle and into the second, both in the plane of the triangle at hand.
 struct EdgeSide {
   FaceId face;
-  Vec2 t, n;    // in thread directions
-  Vec2 corner;  // the opposite one, from the middle of the edge [m]
+  Vec2 t, n;    // unit vectors in thread directions
+  Vec2 corner;  // opposite corner, from the middle of the edge [m]
 };
 
 EdgeSide edge_side(const TriangleMesh& mesh, const MeshEdge& edge, std::size_t side) {
@@ -77,9 +77,9 @@ Combination<Vec3> second_derivatives(const std::vector<EdgeSide>& sides,
 /// g_t is (w_b - w_a)/l.
 Combination<double> slope_across(const MeshEdge& edge, const std::vector<EdgeSide>& sides,
                                  double length, const Combination<Vec3>& H) {
-  Vec2 reach = sides[0].corner;  // of g
+  Vec2 reach = sides[0].corner;  // factors of g
   Vec3 squares(reach.x() * reach.x(), 2 * reach.x() * reach.y(), reach.y() * reach.y());
-  Combination<double> rise;  // what g.reach + H.squares/2 is equal to
+  Combination<double> rise;  // value of g.reach + H.squares/2
   rise.add(edge.across[0], 1);
   if (edge.is_border()) {
     rise.add(edge.a, -0.5);

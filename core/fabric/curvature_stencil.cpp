@@ -156,7 +156,7 @@ Mat3 congruence(const Eigen::Matrix2d& T) {
 
 /// The quadratic nearest to the values at some places.
 struct Fit {
-  Eigen::Matrix<double, 3, Eigen::Dynamic> weights;  ///< of its second derivatives
+  Eigen::Matrix<double, 3, Eigen::Dynamic> weights;  ///< rows: second derivatives per value
   bool is_determined = false;
 };
 

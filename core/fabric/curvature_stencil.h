@@ -12,7 +12,7 @@ struct CurvatureStencil {
   std::vector<VertexId> vertices;  ///< each once
   /// Rows: along warp twice, along weft twice, along warp and weft; a column per vertex [1/m^2].
   Eigen::Matrix<double, 3, Eigen::Dynamic> weights;
-  double area = 0;  ///< of the triangle at rest [m^2]
+  double area = 0;  ///< rest area of the triangle [m^2]
 };
 
 /// One stencil per triangle: a quadratic through its corners and those of the three triangles

@@ -3,7 +3,7 @@
 namespace pleat {
 namespace {
 
-/// Inside the moment loop friction holds M between B kappa - 2HB/2 and B kappa + 2HB/2. A purely
+/// Friction holds M between B kappa - 2HB/2 and B kappa + 2HB/2 inside the moment loop. A purely
 /// elastic sheet that shall carry the upper branch M = B kappa + 2HB/2 at kappa0 needs the slope B
 /// + (2HB/2)/kappa0.
 double static_rigidity(double bend, double hysteresis) {

@@ -9,7 +9,7 @@ namespace pleat {
 
 enum class Confidence {
   measured,   ///< taken from, or bracketed by, measured specimens of the category
-  typical,    ///< inside ranges reported for the category
+  typical,    ///< lies inside ranges reported for the category
   estimated,  ///< inferred; read as plus or minus a factor of two
 };
 
@@ -25,9 +25,9 @@ struct SourcedValue {
 /// One number for each way in which a fabric is measured by its shape: a ratio of lengths or areas,
 /// or what such ratios are normalised to.
 struct GeometricMeasures {
-  double recovery = 0;  ///< by the projected area after crumpling
-  double stretch = 0;   ///< by the length of the diagonal when pulled
-  double bending = 0;   ///< by the height of wrinkles
+  double recovery = 0;  ///< measured by the projected area after crumpling
+  double stretch = 0;   ///< measured by the length of the diagonal when pulled
+  double bending = 0;   ///< measured by the height of wrinkles
 };
 
 /// One measured fabric. Definitions and conversions: assets/SOURCES.md.
@@ -35,31 +35,31 @@ struct Fabric {
   int id = 0;
   std::string name;
   std::string construction;        ///< the cloth that the numbers assume
-  std::string colour;              ///< as the source names it
-  std::string use;                 ///< what is made of it, as the source has it
+  std::string colour;              ///< name in the source
+  std::string use;                 ///< clothes made of it, in the source
   SourcedValue areal_density;      ///< [kg/m^2]
   SourcedValue thickness;          ///< [m]
   SourcedValue stretch_warp;       ///< secant membrane stiffness near 100 N/m [N/m]
   SourcedValue stretch_weft;       ///< [N/m]
-  SourcedValue shear;              ///< per radian of shear angle [N/m]
+  SourcedValue shear;              ///< shear stiffness per radian of shear angle [N/m]
   SourcedValue bend_warp;          ///< slope of moment over curvature, per width [N m]
   SourcedValue bend_weft;          ///< [N m]
   SourcedValue bend_hysteresis;    ///< width of the moment loop, 2HB [N]
-  SourcedValue damping_ratio;      ///< of critical
+  SourcedValue damping_ratio;      ///< share of critical damping
   SourcedValue friction_fabric;    ///< Coulomb, fabric on fabric
   SourcedValue friction_solid;     ///< Coulomb, fabric on a smooth dry solid
   SourcedValue drape_coefficient;  ///< Cusick, 30 / 18 cm [%]
 
   GeometricMeasures measured;       ///< v, each positive
   GeometricMeasures normalised;     ///< v', each within [0, 1], not all zero
-  DeformWeights published_weights;  ///< as printed, slips and all (docs/methods/fabric_weights.md)
+  DeformWeights published_weights;  ///< uncorrected print (docs/methods/fabric_weights.md)
 };
 
-/// Which bending rigidity an elastic model gets.
+/// Bending rigidity that an elastic model gets.
 enum class BendSource {
   at_rest,   ///< B + (2HB/2)/kappa0: friction inside the fabric holds a draped shape
   moving,    ///< the measured slope B alone
-  friction,  ///< the same slope, and the friction itself beside it
+  friction,  ///< measured slope, with the friction itself beside it
 };
 
 /// The plain numbers that a simulation needs.

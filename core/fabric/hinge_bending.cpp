@@ -105,7 +105,7 @@ struct Fold {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         sum.block<3, 3>(kPlaces[i], kPlaces[j]) -= other.block<3, 3>(3 * i, 3 * j);
-    return (sum + sum.transpose()) / 2;  // what rounding left unlike
+    return (sum + sum.transpose()) / 2;  // evens out what rounding left unlike
   }
 };
 

@@ -84,7 +84,8 @@ Tensor positive_part(const Tensor& S) {
   return {scale * (S.uu - smaller), scale * (S.vv - smaller), scale * S.uv};
 }
 
-/// With the gradients (a, b) of vertex i and (c, d) of vertex j, strains change by
+/// Second derivative of the energy. With the gradients (a, b) of vertex i and (c, d) of vertex j,
+/// strains change by
 ///
 ///     dE11 = a x_u.dx_i,   dE22 = b x_v.dx_i,   2 dE12 = (a x_v + b x_u).dx_i,
 ///

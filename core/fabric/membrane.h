@@ -23,7 +23,7 @@ struct MembraneElement {
   Triangle vertices;
   /// Derivatives of the three shape functions along warp (u) and weft (v) [1/m]; a row per vertex.
   Eigen::Matrix<double, 3, 2> gradients;
-  double area = 0;  ///< at rest [m^2]
+  double area = 0;  ///< rest area [m^2]
 };
 
 /// Cloth in its own surface: triangles of an orthotropic St. Venant-Kirchhoff material.

@@ -37,7 +37,7 @@ void append_bends(const QuadMesh& mesh, const ThreadEdges& edges, const FabricCo
     return thread == Thread::warp ? fabric.bend_warp : fabric.bend_weft;
   };
   for (const LineChord& chord : line_chords(mesh, edges)) {
-    // Where a line turns from one thread into the other it bends like both.
+    // A line that turns from one thread into the other bends like both.
     const double B = (rigidity(chord.thread_before) + rigidity(chord.thread_after)) / 2;
     if (B == 0) continue;
     if (law == BendingLaw::quadratic) {
@@ -45,9 +45,7 @@ void append_bends(const QuadMesh& mesh, const ThreadEdges& edges, const FabricCo
       continue;
     }
     const double arm = 0.5 * (chord.arm_before + chord.arm_after);
-    lattice.chord_bends.push_back(
-        chord_bend(chord.before, chord.after, arm, B * chord.width,
-                   law == BendingLaw::arc ? ChordLaw::arc : ChordLaw::linear));
+    lattice.chord_bends.push_back(chord_bend(chord.before, chord.after, arm, B * chord.width));
   }
 }
 

@@ -32,7 +32,7 @@ struct Spring {
 /// Quadratic bending of three consecutive vertices of a mesh line: E = 1/2 s |w0 x0 + w1 x1 + w2
 /// x2|^2, the sum being the curvature vector [1/m]. Its Hessian is constant.
 struct BendElement {
-  std::array<VertexId, 3> vertices;  ///< before, middle, after
+  std::array<VertexId, 3> vertices;  ///< consecutive vertices of a line
   std::array<double, 3> weights;     ///< second difference [1/m^2]; they sum to zero
   double stiffness = 0;              ///< s = B * width * mean arm [N m^3]
 };
@@ -41,14 +41,13 @@ struct BendElement {
 enum class BendingLaw {
   none,
   quadratic,  ///< BendElement
-  arc,        ///< ChordBend of that law
-  linear,     ///< ChordBend of that law
+  linear,     ///< ChordBend
 };
 
 struct SpringLattice {
   std::vector<Spring> springs;         ///< warp, then weft, then shear
-  std::vector<BendElement> bends;      ///< for the quadratic law
-  std::vector<ChordBend> chord_bends;  ///< for the other laws
+  std::vector<BendElement> bends;      ///< elements of the quadratic law
+  std::vector<ChordBend> chord_bends;  ///< elements of the linear law
   Eigen::VectorXd masses;  ///< a quarter of each face per corner, none where one hangs [kg]
 };
 

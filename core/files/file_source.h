@@ -17,8 +17,8 @@ inline std::string place_in(const std::string& file, const std::string& where) {
   return where.empty() ? file : file + ": " + where;
 }
 
-/// What `read` makes of the text of the file that stands at `reader`. What is wrong in that text is
-/// told with the file's name; `files` tells itself of one that cannot be had.
+/// Result of `read` on the text of the file named at `reader`. Errors in that text are told with
+/// the file's name; `files` tells itself of one that cannot be had.
 template <class Read>
 auto read_named_file(const JsonReader& reader, const FileSource& files, Read&& read) {
   const std::string& name = reader.text();

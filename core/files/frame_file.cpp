@@ -14,9 +14,9 @@ namespace pleat {
 namespace {
 
 constexpr const char* kBinaryName = "frames.bin";
-constexpr const char* kBinaryPart = "frames.bin.part";  // until the last frame is in it
+constexpr const char* kBinaryPart = "frames.bin.part";  // name until the last frame is in it
 constexpr std::string_view kNumberedName = "frame_";
-constexpr std::size_t kDigits = 6;  // of a frame's number, enough for kMaxFrames
+constexpr std::size_t kDigits = 6;  // digits of a frame's number, enough for kMaxFrames
 constexpr const char* kBinaryFormat = "pleat frames 1";
 
 template <class Unsigned>

@@ -74,16 +74,18 @@ std::size_t JsonReader::only_one_of(std::span<const char* const> keys) const {
   return *found;
 }
 
+std::size_t JsonReader::one_of(std::span<const char* const> words) const {
+  const auto at = json_->is_string() ? std::find(words.begin(), words.end(), text()) : words.end();
+  if (at == words.end()) fail("one of " + listed(words));
+  return static_cast<std::size_t>(at - words.begin());
+}
+
 double JsonReader::number(const NumberRange& range) const {
   if (!json_->is_number()) fail(description(range));
   const double number = json_->get<double>();
   if (!std::isfinite(number) || std::abs(number) > kLargestNumber)
     fail("a number of at most 1e12 in size");
-  const bool above =
-      range.ends == NumberRange::Ends::included ? number >= range.low : number > range.low;
-  const bool below =
-      range.ends == NumberRange::Ends::excluded ? number < range.high : number <= range.high;
-  if (!above || !below) fail(description(range));
+  if (!range.contains(number)) fail(description(range));
   return number;
 }
 

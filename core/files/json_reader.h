@@ -8,24 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/number_range.h"
 #include "core/base/vec.h"
 #include "core/files/json_text.h"
 
 namespace pleat {
-
-/// No quantity of a scene is larger in SI units; squares and products of two stay finite.
-constexpr double kLargestNumber = 1e12;
-
-/// Which numbers a key takes.
-struct NumberRange {
-  enum class Ends { included, low_excluded, excluded };
-  double low = -kLargestNumber;
-  double high = kLargestNumber;
-  Ends ends = Ends::included;
-};
-constexpr NumberRange kAnyNumber{};
-constexpr NumberRange kNotNegative{0, kLargestNumber, NumberRange::Ends::included};
-constexpr NumberRange kPositive{0, kLargestNumber, NumberRange::Ends::low_excluded};
 
 /// A word of the file format and what it stands for.
 template <class Value>
@@ -67,7 +54,7 @@ class JsonReader {
   }
 
   double number(const NumberRange& range = kAnyNumber) const;
-  /// What was computed may be of any size. JSON has neither NaN nor infinity: null is `missing`.
+  /// Number of any size, for computed values. JSON has neither NaN nor infinity: null is `missing`.
   double number_or(double missing) const;
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;
@@ -84,14 +71,13 @@ class JsonReader {
   /// The values of an object with their keys, in the order of the file.
   std::vector<std::pair<std::string, JsonReader>> members() const;
 
+  /// The index into `words` of the text that stands here.
+  std::size_t one_of(std::span<const char* const> words) const;
   template <class Value, std::size_t n>
   Value word(const std::array<Word<Value>, n>& words) const {
-    std::string expected = "one of";
-    for (const Word<Value>& candidate : words) {
-      if (json_->is_string() && text() == candidate.text) return candidate.value;
-      expected += (&candidate == words.data() ? " \"" : ", \"") + std::string(candidate.text) + '"';
-    }
-    fail(expected);
+    std::array<const char*, n> texts;
+    for (std::size_t i = 0; i < n; ++i) texts[i] = words[i].text;
+    return words[one_of(texts)].value;
   }
 
   /// Throws InputError "expected <expected>, got <this value>".

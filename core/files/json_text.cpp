@@ -12,7 +12,7 @@
 namespace pleat {
 namespace {
 
-constexpr std::size_t kMaxDepth = 32;  // of nesting; a scene needs 7, and recursion stays shallow
+constexpr std::size_t kMaxDepth = 32;      // levels of nesting; a scene needs 7
 constexpr std::size_t kLineLength = 100;   // columns
 constexpr std::size_t kMaxQuotation = 60;  // bytes of a value or key repeated in a sentence
 

@@ -52,7 +52,7 @@ ChannelKeys read_channels(const JsonReader& angles, const JsonReader& path) {
   angles.allow_keys(keys.first(kAngleChannels));
   path.allow_keys(keys.subspan(kAngleChannels));
   std::array<std::vector<double>, kMotionChannels> channels;
-  std::size_t n_keys = 0;  // of the first channel that has several
+  std::size_t n_keys = 0;  // keys of the first channel that has several
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const bool is_angle = c < kAngleChannels;
     const JsonReader reader = (is_angle ? angles : path).at(kKeys[c]);

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/figure/body_motion.h"
+#include "core/body/body_motion.h"
 #include "core/files/file_source.h"
 #include "core/files/json_reader.h"
 

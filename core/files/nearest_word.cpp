@@ -28,12 +28,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest_word(std::string_view word, std::span<const char* const> known) {
   constexpr std::size_t kLongestWord = 64;  // letters worth comparing; the comparison is quadratic
-  const std::string_view begin = word.substr(0, kLongestWord);
+  const std::string_view start = word.substr(0, kLongestWord);
   std::string_view best;
-  std::size_t best_distance = (begin.size() + 1) / 3 + 1;  // with more wrong it is another word
+  std::size_t best_distance = (start.size() + 1) / 3 + 1;  // a word as wrong as this is another one
   for (const std::string_view candidate : known) {
-    const bool is_begin = !begin.empty() && candidate.substr(0, begin.size()) == begin;
-    const std::size_t distance = is_begin ? 0 : edit_distance(begin, candidate);
+    const bool is_start = !start.empty() && candidate.substr(0, start.size()) == start;
+    const std::size_t distance = is_start ? 0 : edit_distance(start, candidate);
     if (distance >= best_distance) continue;
     best = candidate;
     best_distance = distance;

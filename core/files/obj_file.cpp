@@ -36,7 +36,7 @@ std::string as_utf8(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// The line up to a comment, which a "#" at the begin of a word begins.
+/// Words of a line up to a comment, which a "#" at the start of a word opens.
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   std::size_t at = line.find_first_not_of(kBlanks);
@@ -103,12 +103,12 @@ class ObjParser {
   void take_names();
 
   int line_ = 0;
-  std::vector<std::string_view> words_;  // of the line
+  std::vector<std::string_view> words_;  // words of the line
   std::vector<double> coordinates_;
   std::vector<int> vertex_lines_;
   std::vector<Eigen::Vector2d> texture_coordinates_;
   std::string object_;                    // empty when none is named
-  std::vector<std::string> group_names_;  // of the elements that come
+  std::vector<std::string> group_names_;  // groups of the elements that come
   std::map<std::string, std::size_t> group_places_;
   std::map<std::string, int> skipped_;  // statements by their keyword
   ObjMesh mesh_;
@@ -206,7 +206,7 @@ void ObjParser::check_fan(const std::vector<Corner>& face) const {
     sum += doubled_areas.back();
   }
   // A quad that crosses itself is two triangles that face each other, and their areas cancel.
-  constexpr double kCancelled = 0.1;  // of all areas; two triangles then meet at 11 degrees
+  constexpr double kCancelled = 0.1;  // share of all areas; two triangles then meet at 11 degrees
   double total = 0;
   for (const Vec3& doubled_area : doubled_areas) total += doubled_area.norm();
   const bool is_cancelled = sum.norm() < kCancelled * total;

@@ -20,11 +20,11 @@ struct SkippedStatements {
 /// A mesh as its OBJ file gives it.
 struct ObjMesh {
   Positions positions;                                 ///< [m]
-  std::vector<Triangle> triangles;                     ///< without any fault (mesh_fault)
+  std::vector<Triangle> triangles;                     ///< sound (mesh_fault)
   std::vector<std::optional<CornerTexture>> textures;  ///< one per triangle
-  std::vector<VertexGroup> groups;                     ///< in the order of their first element
-  std::vector<int> lines;                  ///< of the text, one per triangle: where its face begins
-  std::vector<SkippedStatements> skipped;  ///< that are none of OBJ, the most frequent first
+  std::vector<VertexGroup> groups;  ///< groups in the order of their first element
+  std::vector<int> lines;           ///< lines of the text, one per triangle: where its face begins
+  std::vector<SkippedStatements> skipped;  ///< statements unknown to OBJ, the most frequent first
 };
 
 /// Reads Wavefront OBJ: v, vt, f, l, p, g and o. Polygons are split into fans about their first

@@ -38,7 +38,7 @@ std::error_code last_error() { return {errno, std::generic_category()}; }
   throw FileError(path, "expected a file of at most 1 GiB, got more");
 }
 
-/// What opening it cannot tell.
+/// Refuses names and kinds of file whose faults opening them would not tell.
 void check_readable_kind(const fs::path& path) {
   if (path.native().find('\0') != fs::path::string_type::npos)
     throw FileError(path, "expected the name of a file, got one with a zero byte");
@@ -98,7 +98,7 @@ class PartFile {
   PartFile& operator=(const PartFile&) = delete;
 
   std::error_code write(std::string_view bytes) const {
-    errno = EIO;  // for a failure without a cause
+    errno = EIO;  // cause of a failure that names none
     std::ofstream file(part_, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     file.close();
@@ -137,11 +137,11 @@ std::string read_file(const fs::path& path) {
   std::error_code error;
   if (!file || fs::is_directory(path, error)) throw_unreadable(path, cause);
   std::string bytes;
-  while (file) {  // whatever its size was said to be: it may grow meanwhile
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + kBlock);
-    file.read(bytes.data() + begin, kBlock);
-    bytes.resize(begin + static_cast<std::size_t>(file.gcount()));
+  while (file) {  // the file may grow meanwhile, whatever its size was said to be
+    const std::size_t start = bytes.size();
+    bytes.resize(start + kBlock);
+    file.read(bytes.data() + start, kBlock);
+    bytes.resize(start + static_cast<std::size_t>(file.gcount()));
     if (bytes.size() > kMostBytesOfFile) throw_too_large(path);
   }
   if (file.bad()) throw FileError(path, "expected a file that can be read to its end");

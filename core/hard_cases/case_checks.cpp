@@ -17,54 +17,54 @@ double largest_distance(const Positions& a, const Positions& b) {
   return (a - b).colwise().norm().maxCoeff();
 }
 
-/// A figure that is the largest of what it saw.
-class LargestFigure : public CaseFigure {
+/// A measure that is the largest of what it saw.
+class LargestMeasure : public CaseMeasure {
  public:
   void look(const Simulation& simulation, const SolveReport&) override {
-    const double seen = figure(simulation);
+    const double seen = measure(simulation);
     if (!(seen <= largest_)) largest_ = seen;  // NaN too, and it stays
   }
   double value() const override { return largest_; }
 
  protected:
-  virtual double figure(const Simulation& simulation) = 0;
+  virtual double measure(const Simulation& simulation) = 0;
 
  private:
   double largest_ = 0;
 };
 
 /// The largest of a plain function of the cloth's state.
-class LargestOf final : public LargestFigure {
+class LargestOf final : public LargestMeasure {
  public:
-  explicit LargestOf(std::function<double(const Simulation&)> figure)
-      : figure_(std::move(figure)) {}
+  explicit LargestOf(std::function<double(const Simulation&)> measure)
+      : measure_(std::move(measure)) {}
 
  private:
-  double figure(const Simulation& simulation) override { return figure_(simulation); }
+  double measure(const Simulation& simulation) override { return measure_(simulation); }
 
-  std::function<double(const Simulation&)> figure_;
+  std::function<double(const Simulation&)> measure_;
 };
 
-/// What a function of the state was when it was last seen.
-class LastOf final : public CaseFigure {
+/// Value of a function of the state when it was last seen.
+class LastOf final : public CaseMeasure {
  public:
-  explicit LastOf(double (*figure)(const Simulation&)) : figure_(figure) {}
+  explicit LastOf(double (*measure)(const Simulation&)) : measure_(measure) {}
   void look(const Simulation& simulation, const SolveReport&) override {
-    last_ = figure_(simulation);
+    last_ = measure_(simulation);
   }
   double value() const override { return last_; }
 
  private:
-  double (*figure_)(const Simulation&);
+  double (*measure_)(const Simulation&);
   double last_ = 0;
 };
 
 /// How many warnings of some kinds a run raises.
-class Warnings final : public CaseFigure {
+class Warnings final : public CaseMeasure {
  public:
   using Selection = bool (*)(const RunWarning&);
 
-  Warnings(const Simulation& begin, Selection counts) : watch_(begin), counts_(counts) {}
+  Warnings(const Simulation& start, Selection counts) : watch_(start), counts_(counts) {}
   void look(const Simulation& simulation, const SolveReport& step) override {
     if (simulation.n_steps() > 0) watch_.look(simulation, step);
   }
@@ -85,51 +85,51 @@ class Warnings final : public CaseFigure {
 };
 
 CaseCheck no_warnings(const char* what, Warnings::Selection counts) {
-  return {what, 0, [counts](const Simulation& begin, double) {
-            return std::make_unique<Warnings>(begin, counts);
+  return {what, 0, [counts](const Simulation& start, double) {
+            return std::make_unique<Warnings>(start, counts);
           }};
 }
 
-class Unrest final : public LargestFigure {
+class Unrest final : public LargestMeasure {
  public:
-  Unrest(double begin, double step) : begin_(begin - step / 2) {}
+  Unrest(double start, double step) : start_(start - step / 2) {}
 
  private:
-  double figure(const Simulation& simulation) override {
-    if (simulation.time() < begin_) return 0;
+  double measure(const Simulation& simulation) override {
+    if (simulation.time() < start_) return 0;
     const Positions& positions = simulation.state().positions;
     if (first_.cols() == 0) first_ = positions;
     return largest_distance(positions, first_);
   }
 
-  double begin_;     // [s]
-  Positions first_;  // since then [m]
+  double start_;     // [s]
+  Positions first_;  // positions at that time [m]
 };
 
-class EnergyGrowth final : public CaseFigure {
+class EnergyGrowth final : public CaseMeasure {
  public:
-  explicit EnergyGrowth(double begin) : begin_(begin) {}
+  explicit EnergyGrowth(double start) : start_(start) {}
   void look(const Simulation& simulation, const SolveReport&) override {
     const double energy = total_energy(simulation.model(), simulation.state());
     if (simulation.n_steps() == 0) first_ = least_ = energy;
     least_ = std::min(least_, energy);
-    if (simulation.time() < begin_) return;
+    if (simulation.time() < start_) return;
     recent_least_ = std::min(recent_least_, energy);
     growth_ = std::max(growth_, energy - recent_least_);
   }
   double value() const override { return growth_ > 0 ? growth_ / (first_ - least_) : 0; }
 
  private:
-  double begin_;      // from when on it counts [s]
+  double start_;      // time from which it counts [s]
   double first_ = 0;  // [J]
   double least_ = 0;
   double recent_least_ = std::numeric_limits<double>::infinity();
   double growth_ = 0;
 };
 
-/// For each vertex the one that is at rest where its mirror image is.
+/// Vertex at rest at the mirror image of each one.
 std::vector<Eigen::Index> mirror_images(const Positions& rest, double diagonal) {
-  constexpr double kTolerance = 1e-9;  // of the diagonal
+  constexpr double kTolerance = 1e-9;  // share of the diagonal
   std::vector<Eigen::Index> images;
   for (Eigen::Index i = 0; i < rest.cols(); ++i) {
     const Vec3 image(-rest(0, i), rest(1, i), rest(2, i));
@@ -141,14 +141,14 @@ std::vector<Eigen::Index> mirror_images(const Positions& rest, double diagonal) 
   return images;
 }
 
-class Asymmetry final : public LargestFigure {
+class Asymmetry final : public LargestMeasure {
  public:
-  explicit Asymmetry(const Simulation& begin)
-      : diagonal_(begin.scene().cloth->rest_diagonal()),
-        images_(mirror_images(begin.rest_positions(), diagonal_)) {}
+  explicit Asymmetry(const Simulation& start)
+      : diagonal_(start.scene().cloth->rest_diagonal()),
+        images_(mirror_images(start.rest_positions(), diagonal_)) {}
 
  private:
-  double figure(const Simulation& simulation) override {
+  double measure(const Simulation& simulation) override {
     const Positions& x = simulation.state().positions;
     double largest = 0;
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -162,9 +162,9 @@ class Asymmetry final : public LargestFigure {
   std::vector<Eigen::Index> images_;
 };
 
-class VelocityJump final : public LargestFigure {
+class VelocityJump final : public LargestMeasure {
  private:
-  double figure(const Simulation& simulation) override {
+  double measure(const Simulation& simulation) override {
     const Positions& now = simulation.state().velocities;
     const Eigen::Index shared = std::min(now.cols(), last_.cols());
     const double jump =
@@ -187,15 +187,15 @@ double depth_in_solids(const Simulation& simulation) {
 }
 
 /// Largest |now - first| / scale of a vector.
-std::unique_ptr<CaseFigure> largest_change(const std::function<Vec3(const Simulation&)>& vector,
-                                           const Simulation& begin, double scale) {
+std::unique_ptr<CaseMeasure> largest_change(const std::function<Vec3(const Simulation&)>& vector,
+                                            const Simulation& start, double scale) {
   return std::make_unique<LargestOf>(
-      [vector, first = vector(begin), scale](const Simulation& simulation) {
+      [vector, first = vector(start), scale](const Simulation& simulation) {
         return (vector(simulation) - first).norm() / scale;
       });
 }
 
-/// Where the vertices are about the place of the first at rest, in rest diagonals.
+/// Places of the vertices relative to that of the first at rest, in rest diagonals.
 Positions in_own_size(const Simulation& simulation) {
   const Vec3 origin = simulation.rest_positions().col(0);
   return (simulation.state().positions.colwise() - origin) /
@@ -242,8 +242,8 @@ CaseCheck end_strain_at_most(double strain) {
 
 CaseCheck rests(double window, double distance) {
   return {"move since " + std::to_string(std::lround(window)) + " s before the end [m]", distance,
-          [window](const Simulation& begin, double duration) {
-            return std::make_unique<Unrest>(duration - window, begin.scene().method.step);
+          [window](const Simulation& start, double duration) {
+            return std::make_unique<Unrest>(duration - window, start.scene().method.step);
           },
           true};
 }
@@ -257,23 +257,23 @@ CaseCheck energy_grows_at_most(double share) {
 
 CaseCheck stays_symmetric(double share) {
   return {"asymmetry, of the diagonal", share,
-          [](const Simulation& begin, double) { return std::make_unique<Asymmetry>(begin); }};
+          [](const Simulation& start, double) { return std::make_unique<Asymmetry>(start); }};
 }
 
 CaseCheck momentum_kept(double share) {
-  return {"change of the momentum", share, [](const Simulation& begin, double) {
-            const double speed = begin.state().velocities.colwise().norm().maxCoeff();
+  return {"change of the momentum", share, [](const Simulation& start, double) {
+            const double speed = start.state().velocities.colwise().norm().maxCoeff();
             return largest_change(
-                [](const Simulation& s) { return momentum(s.model(), s.state()); }, begin,
-                speed * begin.model().masses.sum());
+                [](const Simulation& s) { return momentum(s.model(), s.state()); }, start,
+                speed * start.model().masses.sum());
           }};
 }
 
 CaseCheck angular_momentum_kept(double share) {
-  return {"change of the angular momentum", share, [](const Simulation& begin, double) {
+  return {"change of the angular momentum", share, [](const Simulation& start, double) {
             return largest_change(
-                [](const Simulation& s) { return angular_momentum(s.model(), s.state()); }, begin,
-                angular_momentum(begin.model(), begin.state()).norm());
+                [](const Simulation& s) { return angular_momentum(s.model(), s.state()); }, start,
+                angular_momentum(start.model(), start.state()).norm());
           }};
 }
 
@@ -288,9 +288,9 @@ CaseCheck tears() {
 }
 
 CaseCheck mass_kept(double share) {
-  return {"change of the mass", share, [](const Simulation& begin, double) {
+  return {"change of the mass", share, [](const Simulation& start, double) {
             return std::make_unique<LargestOf>(
-                [first = begin.model().masses.sum()](const Simulation& simulation) {
+                [first = start.model().masses.sum()](const Simulation& simulation) {
                   return std::abs(simulation.model().masses.sum() / first - 1);
                 });
           }};

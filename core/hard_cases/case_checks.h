@@ -7,7 +7,7 @@ namespace pleat {
 /// Signs of finite nonsense (RunWatch): none.
 CaseCheck no_nonsense();
 
-/// Vertices faster than falling, pulling and what was stored at the beginning explain (RunWatch):
+/// Vertices faster than falling, pulling and what was stored at the start explain (RunWatch):
 /// none.
 CaseCheck speeds_explained();
 
@@ -17,7 +17,7 @@ CaseCheck stays_within(double distance);
 /// Largest |l/L - 1| of mesh edges, at any time.
 CaseCheck strain_at_most(double strain);
 
-/// The same at the end.
+/// Largest |l/L - 1| of mesh edges, at the end.
 CaseCheck end_strain_at_most(double strain);
 
 /// How far any vertex gets from where it was `window` [s] before the end, at any time since [m].
@@ -31,7 +31,7 @@ CaseCheck energy_grows_at_most(double share);
 /// positions are symmetric.
 CaseCheck stays_symmetric(double share);
 
-/// Change of the momentum in shares of the mass times the fastest vertex's speed at the beginning.
+/// Change of the momentum in shares of the mass times the fastest vertex's speed at the start.
 /// No outer forces.
 CaseCheck momentum_kept(double share);
 

@@ -113,7 +113,7 @@ void add_asked(const Checks& checks, std::string& text) {
     text += (text.empty() ? "" : "; ") + check.what + " <= " + digits(check.bound);
 }
 
-/// Of a case without a stepper its outcome tells.
+/// Checks of a case; its outcome tells those of a case without a stepper.
 std::string asked_of(const HardCase& hard_case, const CaseOutcome* outcome) {
   if (hard_case.is_bad_input) return "a refusal that names what is wrong";
   std::string text;

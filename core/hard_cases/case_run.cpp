@@ -6,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/files/whole_file.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {
@@ -23,14 +23,14 @@ struct VariantRun {
   std::string label;
   Json json;  // its scene
   std::unique_ptr<Simulation> simulation;
-  std::vector<std::unique_ptr<CaseFigure>> figures;  // one per check
+  std::vector<std::unique_ptr<CaseMeasure>> measures;  // one per check
   VertexId in_hand;
 };
 
 Json case_scene(const HardCase& hard_case, const StepperType& type, CaseLength length,
                 const CaseVariant& variant, const CaseFiles& files) {
   Json scene = parse_json(files.files(hard_case.name + ".json"));
-  const StepperTable steppers = files.parts.steppers;
+  const StepperTable steppers = files.tables.steppers;
   override_scene(scene, std::array{SceneOverride{"/method/stepper", type.name}}, steppers);
   for (const StepperSetting& setting : hard_case.settings)
     if (setting.stepper == type.name) override_scene(scene, {&setting.change, 1}, steppers);
@@ -41,7 +41,7 @@ Json case_scene(const HardCase& hard_case, const StepperType& type, CaseLength l
 
 std::unique_ptr<Simulation> simulation_of(const Json& scene, const CaseFiles& files) {
   return std::make_unique<Simulation>(
-      read_scene(JsonReader(scene), files.fabrics, files.files, files.parts));
+      read_scene(JsonReader(scene), files.fabrics, files.files, files.tables));
 }
 
 VariantRun begun(const HardCase& hard_case, const StepperType& type, CaseLength length,
@@ -57,7 +57,7 @@ VariantRun begun(const HardCase& hard_case, const StepperType& type, CaseLength 
 
 double step_of(const VariantRun& run) { return run.simulation->scene().method.step; }
 
-/// Of a second of it.
+/// Work for a second of a run.
 double work_rate(const VariantRun& run) {
   const MethodOptions& method = run.simulation->scene().method;
   return method.stepper->substep_cost(method) * run.simulation->substeps() *
@@ -92,18 +92,18 @@ struct EventHandler {
   }
   void operator()(const HandLetsGo&) const { simulation().release_grab(); }
   void operator()(const SceneSwitch& scene) const {
-    override_scene(run.json, scene.changes, files.parts.steppers);
+    override_scene(run.json, scene.changes, files.tables.steppers);
     auto next = simulation_of(run.json, files);
     next->carry_over(simulation());
     run.simulation = std::move(next);
   }
 };
 
-/// Those checks that say something of a run, with what they saw at its beginning.
+/// Starts those checks that say something of a run, with what they saw at its start.
 void begin_checks(const HardCase& hard_case, double duration, VariantRun& run) {
   for (const CaseCheck& check : hard_case.checks) {
-    run.figures.push_back(check.figure(*run.simulation, duration));
-    run.figures.back()->look(*run.simulation, {});
+    run.measures.push_back(check.measure(*run.simulation, duration));
+    run.measures.back()->look(*run.simulation, {});
   }
 }
 
@@ -119,7 +119,7 @@ SolveReport run_variant(const HardCase& hard_case, double duration, const CaseFi
       std::visit(EventHandler{run, files}, event->what);
     SolveReport report = run.simulation->step();
     if (report.ends_run()) return report;
-    for (const auto& figure : run.figures) figure->look(*run.simulation, report);
+    for (const auto& measure : run.measures) measure->look(*run.simulation, report);
     if (progress) progress(static_cast<double>(s + 1) / static_cast<double>(n_steps));
   }
   return {};
@@ -138,7 +138,7 @@ const CaseException* exception_of(const HardCase& hard_case, const std::string& 
   return at == hard_case.exceptions.end() ? nullptr : &*at;
 }
 
-/// What the stepper has to keep of a check; nothing where it is not asked.
+/// Bound of a check for the stepper; nothing where it is not asked.
 template <class Check>
 std::optional<double> bound_of(const HardCase& hard_case, const Check& check,
                                const CaseOutcome& outcome) {
@@ -167,7 +167,7 @@ void judge(std::vector<CaseFinding> findings, CaseOutcome& outcome) {
   }
 }
 
-/// What the checks found that the runs have to keep.
+/// Findings of the checks that the runs have to keep.
 std::vector<CaseFinding> findings_of(const HardCase& hard_case, std::vector<VariantRun>& runs,
                                      const CaseOutcome& outcome) {
   std::vector<CaseFinding> findings;
@@ -175,8 +175,8 @@ std::vector<CaseFinding> findings_of(const HardCase& hard_case, std::vector<Vari
     for (std::size_t c = 0; c < hard_case.checks.size(); ++c) {
       const CaseCheck& check = hard_case.checks[c];
       if (const auto bound = bound_of(hard_case, check, outcome))
-        findings.push_back({labelled(check.what, run.label), run.figures[c]->value(), *bound,
-                            run.figures[c]->detail()});
+        findings.push_back({labelled(check.what, run.label), run.measures[c]->value(), *bound,
+                            run.measures[c]->detail()});
     }
   std::vector<std::unique_ptr<Simulation>> ends;
   ends.reserve(runs.size());
@@ -210,7 +210,7 @@ void refuse(const InputError& error, std::string excuse, CaseOutcome& outcome) {
   outcome.excuse = std::move(excuse);
 }
 
-/// Of bad input that was not refused.
+/// Fails bad input that was not refused.
 void fail_as_accepted(CaseOutcome& outcome) {
   outcome.status = CaseStatus::failed;
   outcome.sentence = "expected to be refused as bad input, and was not";

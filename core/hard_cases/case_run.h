@@ -10,21 +10,21 @@ namespace pleat {
 enum class CaseStatus {
   ok,       ///< it ran and kept what was asked of it
   stopped,  ///< the numbers ended the run
-  refused,  ///< as bad input, before it began
+  refused,  ///< it was refused as bad input, before it started
   failed,   ///< it ran and did not keep what was asked
 };
 
 const char* name(CaseStatus status);
 
-/// What became of a case with one stepper.
+/// Outcome of a case with one stepper.
 struct CaseOutcome {
   std::string case_name;
   std::string stepper = {};  ///< empty where the case has none
   CaseStatus status = CaseStatus::ok;
-  std::string sentence = {};  ///< what stopped it, refused it or was not kept; empty when ok
-  std::string excuse = {};    ///< why that is as it should be; empty where it is not
+  std::string sentence = {};  ///< cause of a stop or refusal, or the failed check; empty when ok
+  std::string excuse = {};    ///< reason why that is as it should be; else empty
   double asked = 0;           ///< simulated time that the case has [s]
-  double reached = 0;         ///< that it was given, or came to [s]
+  double reached = 0;         ///< time that it was given, or came to [s]
   std::vector<CaseFinding> findings = {};
 
   /// Ok, or excused.
@@ -36,7 +36,7 @@ struct CaseOutcome {
 /// Told how far a run has come, in [0, 1]; may be empty.
 using CaseProgress = std::function<void(double share)>;
 
-/// Runs a case with one stepper of files.parts. Runs that would cost more than a case may,
+/// Runs a case with one stepper of files.tables. Runs that would cost more than a case may,
 /// by StepperType::substep_cost, are cut to a shorter time: at least one step.
 ///
 /// Throws InputError for a scene's file that cannot be had or is not JSON.

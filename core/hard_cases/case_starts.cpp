@@ -20,7 +20,7 @@ Vec3 random_direction(Random& random) {
   return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized();
 }
 
-/// From 2 to 20 cm long, a quarter as high.
+/// Random wave 2 to 20 cm long, a quarter as high.
 Wave random_wave(double share, Random& random) {
   const double length = 0.02 * std::pow(10, share);
   return {2 * pi / length * random_direction(random), length / 4 * random_direction(random),
@@ -65,7 +65,7 @@ Positions rolled_up(const Positions& rest) {
 
 Positions crumpled(const Positions& rest) {
   constexpr int kWaves = 24;
-  constexpr double kSize = 0.5;  // of the cloth's
+  constexpr double kSize = 0.5;  // share of the cloth's size
   Random random(1);
   const Vec3 centre = rest.rowwise().mean();
   Positions heap = (kSize * (rest.colwise() - centre)).colwise() + centre;

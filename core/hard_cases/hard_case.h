@@ -11,29 +11,29 @@
 #include "core/files/fabric_file.h"
 #include "core/files/file_source.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_override.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/format/scene_override.h"
+#include "core/scene/format/scene_tables.h"
 
 namespace pleat {
 
 /// A number of one run that is to stay small.
-class CaseFigure {
+class CaseMeasure {
  public:
-  virtual ~CaseFigure() = default;
-  /// At the beginning of the run, with an empty report, and after each step.
+  virtual ~CaseMeasure() = default;
+  /// Looks at the start of the run, with an empty report, and after each step.
   virtual void look(const Simulation& simulation, const SolveReport& step) = 0;
   virtual double value() const = 0;
-  /// What a reader wants to know of a value that is too large, a sentence; mostly empty.
+  /// Sentence for a reader on a value that is too large; mostly empty.
   virtual std::string detail() const { return {}; }
 };
 
-/// What each run of a case has to keep.
+/// Bound that each run of a case has to keep.
 struct CaseCheck {
-  std::string what;  ///< the figure, with its unit, for people; no two of a case are called alike
+  std::string what;  ///< the measure, with its unit, for people; no two of a case are called alike
   double bound;      ///< the largest value that passes
-  /// Given the run at its beginning and how long it will be [s].
-  std::function<std::unique_ptr<CaseFigure>(const Simulation& begin, double duration)> figure;
-  /// Of a run that is cut short it says nothing.
+  /// Makes the measure from the run at its start and its length [s].
+  std::function<std::unique_ptr<CaseMeasure>(const Simulation& start, double duration)> measure;
+  /// True when it says nothing of a run that is cut short.
   bool needs_whole_run = false;
 };
 
@@ -66,11 +66,11 @@ struct SceneSwitch {
 };
 
 struct CaseEvent {
-  double time;  ///< the begin of the step in which it happens [s]
+  double time;  ///< start of the step in which it happens [s]
   std::variant<HandGrabs, HandMoves, HandLetsGo, SceneSwitch> what;
 };
 
-/// What people would set for a stepper in this case, where its usual setting is not made for it.
+/// Setting for a stepper in this case, where its usual one is not made for it.
 struct StepperSetting {
   std::string stepper;
   SceneOverride change;
@@ -95,16 +95,16 @@ struct CaseFinding {
   std::string what;  ///< the check, with the variant's label
   double found;
   double bound;
-  std::string detail = {};  ///< see CaseFigure::detail
+  std::string detail = {};  ///< see CaseMeasure::detail
 
   bool is_kept() const { return found <= bound; }
 };
 
-/// What the scenes of cases are read from.
+/// Sources of the cases' scenes.
 struct CaseFiles {
   const FabricLibrary& fabrics;
-  FileSource files;  ///< of the folder of the cases' scenes
-  SceneParts parts = all_scene_parts();
+  FileSource files;  ///< files in the folder of the cases' scenes
+  SceneTables tables = {};
 };
 
 /// A case has a short length, for tests, and a full one.
@@ -112,14 +112,14 @@ enum class CaseLength { brief, full };
 
 /// A scene that breaks cloth systems, and what is asked of its run.
 struct HardCase {
-  std::string name;    ///< of its scene's file too, without ".json"
-  std::string breaks;  ///< what goes wrong elsewhere, a sentence
+  std::string name;    ///< name of its scene's file too, without ".json"
+  std::string breaks;  ///< fault of other systems, a sentence
   double brief = 0;    ///< simulated [s]
   double full = 0;
-  std::vector<SceneOverride> brief_changes = {};  ///< to the scene where it is run short
+  std::vector<SceneOverride> brief_changes = {};  ///< changes to the scene where it is run short
   std::vector<StepperSetting> settings = {};
   std::vector<CaseVariant> variants = {{}};
-  /// Where it begins instead of at rest [m].
+  /// Makes the places where it starts instead of at rest [m].
   Positions (*start)(const Positions& rest) = nullptr;
   std::vector<CaseEvent> events = {};
   std::vector<CaseCheck> checks = {};
@@ -127,8 +127,8 @@ struct HardCase {
   std::vector<CaseException> exceptions = {};
   std::vector<AllowedStop> stops = {};
   bool is_bad_input = false;  ///< it has to be refused
-  /// What is done instead of a run, in a case that no stepper has to do with; of the scene's file
-  /// it may need none.
+  /// Does something else than run, in a case that no stepper has to do with; it may need nothing of
+  /// the scene's file.
   std::function<std::vector<CaseFinding>(const CaseFiles& files)> still = nullptr;
 };
 

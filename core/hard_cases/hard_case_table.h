@@ -17,7 +17,7 @@ std::vector<HardCase> element_cases();
 std::vector<HardCase> holding_cases();
 /// Solids that are met fast, or from inside.
 std::vector<HardCase> contact_cases();
-/// What has to come to rest, to go on for ever, or to stay as it is.
+/// Motions that have to come to rest, to go on for ever, or to stay as they are.
 std::vector<HardCase> lasting_cases();
 /// Runs that have to agree.
 std::vector<HardCase> likeness_cases();

@@ -10,7 +10,7 @@ constexpr const char* kDragGrows =
 }  // namespace
 
 std::vector<HardCase> holding_cases() {
-  constexpr int kLowerRight = 80;  // of 9x9 vertices
+  constexpr int kLowerRight = 80;  // vertex of 9x9
   return {
       {.name = "contradicting_pins",
        .breaks = "Two pins pull a sheet to three times its length, which no fabric follows.",

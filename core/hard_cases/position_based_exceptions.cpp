@@ -8,7 +8,7 @@
 namespace pleat {
 namespace {
 
-/// For several steppers and cases the same.
+/// Exception that several steppers and cases share.
 struct SharedException {
   std::vector<std::string> steppers, cases;
   std::string check;
@@ -36,7 +36,7 @@ std::vector<SharedException> shared_exceptions() {
   const char* limited =
       "rigid links, a limit and pins contradict each other: places jump by up to a link within a "
       "substep, however short";
-  // Faults, with what experiments showed of them: docs/methods/multigrid.md, Limits.
+  // Faults, with what experiments showed of them: docs/log/multigrid.md.
   const char* turning =
       "a fault: a pull lies between a link's directions before and in the substep, and turns what "
       "hangs by one corner";

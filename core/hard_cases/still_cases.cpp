@@ -6,7 +6,7 @@
 #include "core/mesh/sheet_pattern.h"
 #include "core/modal/shown_modes.h"
 #include "core/refinement/k_means.h"
-#include "core/scene/deform_scene.h"
+#include "core/scene/deform/deform_scene.h"
 
 namespace pleat {
 namespace {

@@ -43,7 +43,7 @@ class BlockMatrix {
   /// y = A x, both in the order of the rows. x and y do not overlap.
   void multiply(const double* x, double* y) const;
 
-  int n_rows() const { return n_rows_; }  ///< in blocks
+  int n_rows() const { return n_rows_; }  ///< number of rows of blocks
   const double* diagonal_block(int row) const { return values_.data() + row * kPackedSize; }
   double* diagonal_block(int row) { return values_.data() + row * kPackedSize; }
   /// Index into the sparse matrix of the first entry of a row.
@@ -60,10 +60,10 @@ class BlockMatrix {
 
  private:
   int n_rows_ = 0;
-  std::vector<int> source_rows_;   // of each row, in the sparse matrix's blocks
-  std::vector<int> row_begins_;    // into columns_, one more than there are rows
-  std::vector<int> columns_;       // of each block below the diagonal
-  std::vector<int> destinations_;  // into values_, for each entry of the sparse matrix
+  std::vector<int> source_rows_;   // row of each one in the sparse matrix's blocks
+  std::vector<int> row_begins_;    // first of each row in columns_, one more than there are rows
+  std::vector<int> columns_;       // column of each block below the diagonal
+  std::vector<int> destinations_;  // place in values_ of each entry of the sparse matrix
   std::vector<double> values_;     // packed diagonal blocks, then the others
 };
 

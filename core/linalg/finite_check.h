@@ -13,7 +13,7 @@ namespace pleat {
 /// there is one.
 std::optional<SolveReport> report_not_finite(const SparseMatrix& lower);
 
-/// The same for right-hand sides (`what` names them in the message).
+/// Report on right-hand sides that are not finite (`what` names them in the message).
 std::optional<SolveReport> report_not_finite(const Eigen::Ref<const Eigen::MatrixXd>& columns,
                                              const char* what);
 

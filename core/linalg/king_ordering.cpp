@@ -65,7 +65,7 @@ class KingOrdering {
 
   const std::vector<std::vector<int>>& neighbours_;
   std::vector<int> n_unreached_;  // neighbours of each node
-  std::vector<int> reached_;      // by which search, or kTaken into the front
+  std::vector<int> reached_;      // search that reached each node, or kTaken into the front
   int search_ = 0;
   std::vector<int> front_;  // reached, not yet in the order
   std::vector<int> order_;

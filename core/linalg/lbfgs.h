@@ -7,8 +7,7 @@
 
 namespace pleat {
 
-/// What the last steps of a descent told about how its gradient changes, beyond what its metric
-/// knows.
+/// Changes of a descent's gradient in its last steps, beyond what its metric knows.
 ///
 /// Source: Nocedal & Wright, Numerical optimization, 2nd ed., Springer 2006, section 7.2.
 class LbfgsCorrections {
@@ -31,7 +30,7 @@ class LbfgsCorrections {
  private:
   struct Correction {
     Positions change, gradient_change;
-    double product;  // of the two
+    double product;  // inner product of the two
   };
 
   std::size_t most_;

@@ -1,16 +1,7 @@
 #include "core/linalg/linear_solver.h"
 
-#include <utility>
-
 #include "core/base/check.h"
-#include "core/linalg/conjugate_gradient.h"
-#include "core/linalg/eigen_solver.h"
 #include "core/linalg/finite_check.h"
-#include "core/linalg/successive_overrelaxation.h"
-#include "core/linalg/supernodal_solver.h"
-#ifdef PLEAT_HAS_CHOLMOD
-#include "core/linalg/cholmod_solver.h"
-#endif
 
 namespace pleat {
 
@@ -53,32 +44,10 @@ SolveReport LinearSolver::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
   return do_solve(rhs, solution);
 }
 
-const char* name(SolverKind kind) {
-  switch (kind) {
-    case SolverKind::cholmod:
-      return "cholmod";
-    case SolverKind::supernodal:
-      return "supernodal";
-    case SolverKind::eigen:
-      return "eigen";
-    case SolverKind::cg:
-      return "cg";
-    case SolverKind::sor:
-      return "sor";
-  }
-  return "";
-}
+const char* name(SolverKind kind) { return kSolverNames[static_cast<std::size_t>(kind)]; }
 
 const char* name(Preconditioner preconditioner) {
-  switch (preconditioner) {
-    case Preconditioner::automatic:
-      return "automatic";
-    case Preconditioner::incomplete_factor:
-      return "incomplete_factor";
-    case Preconditioner::multigrid:
-      return "multigrid";
-  }
-  return "";
+  return kPreconditionerNames[static_cast<std::size_t>(preconditioner)];
 }
 
 bool is_direct(SolverKind kind) { return kind != SolverKind::cg && kind != SolverKind::sor; }
@@ -87,50 +56,6 @@ void SolverOptions::validate() const {
   PLEAT_CHECK(tolerance > 0 && tolerance < 1, "the solver's tolerance must lie in (0, 1)");
   PLEAT_CHECK(max_iterations >= 1, "the solver's iteration cap must be at least 1");
   PLEAT_CHECK(omega >= 0 && omega < 2, "sor's omega must lie in (0, 2), or be 0 for an estimate");
-}
-
-bool is_available(SolverKind kind) {
-#ifdef PLEAT_HAS_CHOLMOD
-  static_cast<void>(kind);
-  return true;
-#else
-  return kind != SolverKind::cholmod;
-#endif
-}
-
-bool is_available(Preconditioner preconditioner) {
-#ifdef PLEAT_HAS_MULTIGRID
-  static_cast<void>(preconditioner);
-  return true;
-#else
-  return preconditioner != Preconditioner::multigrid;
-#endif
-}
-
-SolverKind best_direct_solver() {
-  return is_available(SolverKind::cholmod) ? SolverKind::cholmod : SolverKind::eigen;
-}
-
-std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind, const SolverOptions& options) {
-  options.validate();
-  switch (kind) {
-    case SolverKind::cholmod:
-#ifdef PLEAT_HAS_CHOLMOD
-      return make_cholmod_solver();
-#else
-      break;
-#endif
-    case SolverKind::supernodal:
-      return make_supernodal_solver();
-    case SolverKind::eigen:
-      return make_eigen_solver();
-    case SolverKind::cg:
-      return make_conjugate_gradient(options);
-    case SolverKind::sor:
-      return make_successive_overrelaxation(options);
-  }
-  PLEAT_CHECK(false, "this solver is not part of this build");
-  return nullptr;
 }
 
 }  // namespace pleat

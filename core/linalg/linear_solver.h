@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string_view>
-
 #include "core/linalg/solve_report.h"
 #include "core/linalg/sparse.h"
 
@@ -25,8 +22,8 @@ class LinearSolver {
   /// `lower` has the pattern last analysed.
   SolveReport factorize(const SparseMatrix& lower);
 
-  /// Where the vertices are to which the unknowns belong, three each [m]: some solvers are faster
-  /// for it. Of effect from the next factorisation on; sizes that differ count as not known.
+  /// Sets the places of the vertices to which the unknowns belong, three each [m]: some solvers are
+  /// faster for it. Of effect from the next factorisation on; sizes that differ count as not known.
   virtual void set_places(const Eigen::Ref<const Eigen::VectorXd>& /*places*/) {}
 
   /// rhs       n x m right-hand sides
@@ -35,7 +32,7 @@ class LinearSolver {
                     Eigen::Ref<Eigen::MatrixXd> solution);
 
  protected:
-  /// The same, once order and sizes are known to be right, n and m positive, and the entries of
+  /// Do the work once order and sizes are known to be right, n and m positive, and the entries of
   /// matrix and right-hand sides finite.
   virtual void do_analyze(const SparseMatrix& lower) = 0;
   virtual SolveReport do_factorize(const SparseMatrix& lower) = 0;
@@ -49,18 +46,21 @@ class LinearSolver {
 };
 
 enum class SolverKind { cholmod, supernodal, eigen, cg, sor };
+inline constexpr const char* kSolverNames[] = {"cholmod", "supernodal", "eigen", "cg", "sor"};
 
 /// False for those that come nearer to the solution step by step.
 bool is_direct(SolverKind kind);
 
 const char* name(SolverKind kind);
 
-/// What cg has for an approximate inverse.
+/// Approximate inverse in cg.
 enum class Preconditioner {
   automatic,          ///< an incomplete factor; multigrid where that turns out to take too long
   incomplete_factor,  ///< cheap, but the finer the mesh the less it helps
   multigrid,          ///< dear, and equally good on all meshes
 };
+inline constexpr const char* kPreconditionerNames[] = {"automatic", "incomplete_factor",
+                                                       "multigrid"};
 
 const char* name(Preconditioner preconditioner);
 
@@ -73,19 +73,5 @@ struct SolverOptions {
 
   void validate() const;  ///< throws ContractError
 };
-
-/// False for cholmod where SuiteSparse's source could not be had when this was built.
-bool is_available(SolverKind kind);
-
-/// False for multigrid in the page's modules, for the room that it takes.
-bool is_available(Preconditioner preconditioner);
-
-/// The direct solver to prefer: cholmod where there is one, else eigen.
-SolverKind best_direct_solver();
-
-/// cg and sor work on 3 x 3 blocks: n must be a multiple of 3.
-/// Throws ContractError when the kind is not available.
-std::unique_ptr<LinearSolver> make_linear_solver(SolverKind kind,
-                                                 const SolverOptions& options = {});
 
 }  // namespace pleat

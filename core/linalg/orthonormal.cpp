@@ -3,7 +3,7 @@
 namespace pleat {
 
 Eigen::MatrixXd orthonormal_in_order(const Eigen::MatrixXd& columns) {
-  constexpr double kDependent = 1e-14;  // of a column's length
+  constexpr double kDependent = 1e-14;  // share of a column's length
   Eigen::MatrixXd base(columns.rows(), columns.cols());
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
     const auto before = base.leftCols(j);

@@ -17,7 +17,7 @@ const char* name(SolveStatus status);
 struct SolveReport {
   SolveStatus status = SolveStatus::ok;
   int iterations = 0;            ///< 0 for direct methods
-  double relative_residual = 0;  ///< of the equations that the task solves
+  double relative_residual = 0;  ///< residual of the equations that the task solves
   std::string message;           ///< empty when ok
 
   bool ok() const { return status == SolveStatus::ok; }

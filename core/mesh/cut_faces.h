@@ -22,7 +22,7 @@ class CutFaces {
   /// n_corners  of each face, 3 or 4
   CutFaces(std::vector<VertexId> corners, int n_corners, int n_vertices);
 
-  /// Around a vertex, ascending.
+  /// Faces around a vertex, ascending.
   std::span<const FaceId> faces_at(VertexId vertex) const { return faces_at_[vertex]; }
   std::span<const VertexId> corners_of(FaceId face) const {
     return std::span(corners_).subspan(n_corners_ * static_cast<std::size_t>(face), n_corners_);
@@ -34,13 +34,13 @@ class CutFaces {
   /// is held that would split.
   ///
   /// far      faces around the vertex
-  /// is_held  for each vertex that there was at the beginning
+  /// is_held  for each vertex that there was at the start
   std::vector<VertexId> cut(VertexId vertex, std::span<const FaceId> far,
                             std::span<const char> is_held);
 
-  /// As they were given, with the vertices of now.
+  /// Corners of one face after the other, in the order given, with the present vertices.
   const std::vector<VertexId>& corners() const { return corners_; }
-  /// For each appended vertex the one that it was split from.
+  /// Vertex that each appended one was split from.
   const std::vector<VertexId>& origins() const { return origins_; }
 
  private:

@@ -12,7 +12,7 @@ inline std::uint64_t directed_edge_key(VertexId from, VertexId to) {
          static_cast<std::uint32_t>(to.value);
 }
 
-/// The same for both directions of an edge.
+/// Key of an edge, equal for both directions.
 inline std::uint64_t edge_key(VertexId a, VertexId b) {
   return a < b ? directed_edge_key(a, b) : directed_edge_key(b, a);
 }

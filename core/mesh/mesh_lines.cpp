@@ -47,7 +47,7 @@ struct Arm {
   int edge = kNone;
   VertexId to;
   double width = 0;
-  std::array<FaceId, 2> faces;  // beside it at the vertex
+  std::array<FaceId, 2> faces;  // faces beside the arm at the vertex
 };
 
 struct VertexArms {
@@ -61,8 +61,8 @@ bool share_face(const Arm& a, const Arm& b) {
   return false;
 }
 
-/// Along the border of two levels the two edges from a vertex to the hanging one and to the end of
-/// the coarser edge are one arm, which goes to the end.
+/// Finds the arms of every vertex. Along the border of two levels the two edges from a vertex to
+/// the hanging one and to the end of the coarser edge are one arm, which goes to the end.
 std::vector<VertexArms> arms_of_vertices(const QuadMesh& mesh, const ThreadEdges& edges) {
   std::vector<VertexArms> vertices(static_cast<std::size_t>(mesh.n_vertices()));
   for (const QuadFace& face : mesh.faces())
@@ -100,7 +100,7 @@ std::vector<VertexArms> arms_of_vertices(const QuadMesh& mesh, const ThreadEdges
 
 struct ArmPair {
   std::size_t a, b;
-  double cosine;  // between their directions
+  double cosine;  // cosine of the angle between their directions
 };
 
 /// The pairs of arms that are one line, by the faces where these say it and by the angle elsewhere.

@@ -13,10 +13,10 @@ enum class Thread : std::uint8_t { warp, weft };
 /// An edge of one or two active faces. Along the border of two levels the coarser face's edge and
 /// the halves of the finer ones lie side by side.
 struct ThreadEdge {
-  VertexId from, to;  ///< as its first face's coordinates grow
+  VertexId from, to;  ///< ends in the direction in which its first face's coordinates grow
   Thread thread = Thread::warp;
-  int level = 0;                ///< of its faces
-  double length = 0;            ///< at rest [m]
+  int level = 0;                ///< level of its faces
+  double length = 0;            ///< rest length [m]
   double width = 0;             ///< half of its faces' widths across, summed [m]
   std::array<FaceId, 2> faces;  ///< the second is invalid at a border
 };
@@ -34,7 +34,7 @@ ThreadEdges thread_edges(const QuadMesh& mesh);
 struct LineChord {
   VertexId before, middle, after;
   double arm_before = 0, arm_after = 0;  ///< rest lengths of the two edges [m]
-  double width = 0;                      ///< of the strip that the line stands for [m]
+  double width = 0;                      ///< width of the strip that the line stands for [m]
   Thread thread_before = Thread::warp, thread_after = Thread::warp;
 };
 

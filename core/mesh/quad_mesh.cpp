@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kDirectionTolerance = 1e-9;  // of unit length and right angle
+constexpr double kDirectionTolerance = 1e-9;  // relative to unit length and a right angle
 
 void check_shape(const SheetShape& shape) {
   PLEAT_CHECK(shape.width > 0 && shape.height > 0, "a sheet has positive width and height");
@@ -21,11 +21,10 @@ void check_shape(const SheetShape& shape) {
               "warp and weft directions are orthonormal");
 }
 
-/// The weft coordinate of the middle between two vertices. Where a tube round along weft closes, it
-/// falls from its end to its begin though the way is short: the middle goes on from the end.
+/// Weft coordinate of the middle between two vertices. Where a tube round along weft closes, it
+/// jumps from the end to the start: the middle goes on from the end.
 double middle_coordinate(const Positions& x, const RestCoordinates& uv, int a, int b) {
-  constexpr double kSeam =
-      2;  // in lengths of the edge, which is longer than its share when slanted
+  constexpr double kSeam = 2;  // lengths of the edge; coordinates differ by more at a seam only
   const double length = (x.col(a) - x.col(b)).norm();
   if (std::abs(uv(1, a) - uv(1, b)) <= kSeam * length) return (uv(1, a) + uv(1, b)) / 2;
   return std::max(uv(1, a), uv(1, b)) + length / 2;

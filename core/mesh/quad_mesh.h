@@ -45,8 +45,8 @@ struct HangingVertex {
 
 /// A flat rectangular sheet of cells. u runs along warp, v along weft.
 struct SheetShape {
-  double width = 1;               ///< along weft [m], positive
-  double height = 1;              ///< along warp [m], positive
+  double width = 1;               ///< extent along weft [m], positive
+  double height = 1;              ///< extent along warp [m], positive
   int columns = 1;                ///< cells along weft, at least 1
   int rows = 1;                   ///< cells along warp, at least 1
   Vec3 origin{0, 0, 0};           ///< place of u = v = 0 [m]
@@ -108,7 +108,7 @@ class QuadMesh {
   /// coarser face's edge is straight, so that nothing gapes.
   std::vector<Triangle> triangles() const;
 
-  /// The same triangles with the thread directions.
+  /// Mesh of triangles() with the thread directions.
   TriangleMesh triangle_mesh() const;
 
   /// Four per active face, wound like it: its two triangles by either diagonal, so that the face is
@@ -133,15 +133,15 @@ class QuadMesh {
   VertexId append_mean(const VertexParents& parents);
   void trim();
 
-  std::optional<Vec3> warp_direction_;  // of a flat sheet
+  std::optional<Vec3> warp_direction_;  // warp direction of a flat sheet
   int n_base_faces_ = 0;
   Positions rest_positions_;
   RestCoordinates rest_coordinates_;
   std::vector<VertexParents> parents_;
   std::vector<QuadFace> faces_;
   std::vector<double> base_areas_;
-  std::unordered_map<std::uint64_t, VertexId> midpoints_;  // by edge; only looked up, never walked
-  std::optional<EdgeFaces> edge_faces_;  // of all faces, once a single face was refined
+  std::unordered_map<std::uint64_t, VertexId> midpoints_;  // only looked up, never walked
+  std::optional<EdgeFaces> edge_faces_;  // faces at each edge, once a single face was refined
 };
 
 }  // namespace pleat

@@ -11,8 +11,8 @@ namespace pleat {
 /// Quads as a garment's pattern gives them, the base of a QuadMesh.
 struct QuadPatch {
   Positions rest_positions;  ///< [m]
-  /// 2 x n: down along warp, round along weft [m]. Where a tube closes the latter falls from its
-  /// end to its begin.
+  /// Coordinates down along warp and round along weft [m], 2 x n. Where a tube closes the latter
+  /// falls from its end to its start.
   RestCoordinates rest_coordinates;
   /// Corners run around the face, all wound alike; edges 0-1 and 3-2 lie along warp, 0-3 and 1-2
   /// along weft.

@@ -55,7 +55,7 @@ TriangleMesh equilateral(const SheetShape& shape) {
   Vertices above;
   for (int r = 0; r <= shape.rows; ++r) {
     const double u = shape.height * (static_cast<double>(r) / shape.rows);
-    const double shift = r % 2 == 1 ? 0.5 : 0;  // of a cell
+    const double shift = r % 2 == 1 ? 0.5 : 0;  // share of a cell
     Vertices row;
     for (int c = 0; c <= shape.columns + r % 2; ++c) {
       const double cells = std::clamp(c - shift, 0.0, static_cast<double>(shape.columns));

@@ -8,7 +8,7 @@
 
 namespace pleat {
 
-using Corners = std::array<Vec3, 3>;  ///< of a triangle [m]
+using Corners = std::array<Vec3, 3>;  ///< corners of a triangle [m]
 
 std::vector<Corners> triangle_corners(std::span<const Triangle> triangles,
                                       const Eigen::Ref<const Positions>& positions);
@@ -19,7 +19,7 @@ class TriangleBoxes {
   /// Children of node n are n + 1 and `second`; a leaf has none.
   struct Node {
     Eigen::AlignedBox3d box;
-    std::size_t begin = 0;  ///< of its triangles in `order`
+    std::size_t begin = 0;  ///< first of its triangles in `order`
     std::size_t end = 0;
     std::size_t second = 0;
 

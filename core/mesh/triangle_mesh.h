@@ -24,9 +24,9 @@ struct TriangleMesh {
   Positions rest_positions;           ///< [m]
   std::vector<Triangle> triangles;    ///< at most two at an edge, none without area
   std::vector<Vec3> warp_directions;  ///< one per triangle: unit, in its plane
-  /// Where the corners of each triangle lie in the pattern that it is cut from, along warp and weft
-  /// [m], as the triangle is wound and none without area. Triangles that meet at a seam may lie
-  /// apart in it. Empty: cut to the positions.
+  /// Corners of each triangle in the pattern that it is cut from, along warp and weft [m], wound as
+  /// the triangle and none without area. Triangles that meet at a seam may lie apart in it. Empty:
+  /// cut to the positions.
   std::vector<CornerTexture> pattern{};
 
   int n_vertices() const { return static_cast<int>(rest_positions.cols()); }
@@ -34,7 +34,7 @@ struct TriangleMesh {
 
 /// An edge with the triangles beside it.
 struct MeshEdge {
-  VertexId a, b;                   ///< as the first triangle has them, walking around it
+  VertexId a, b;                   ///< ends, in the direction in which the first triangle is wound
   std::array<FaceId, 2> faces;     ///< the second is invalid at a border
   std::array<VertexId, 2> across;  ///< opposite corner in each of them
 
@@ -45,14 +45,13 @@ struct MeshEdge {
 /// than two triangles meet.
 std::vector<MeshEdge> mesh_edges(const std::vector<Triangle>& triangles);
 
-/// Where the corners of a triangle lie, from the first one, when it is laid flat without strain:
-/// along warp and weft [m].
+/// Corners of a triangle laid flat without strain, relative to the first: along warp and weft [m].
 CornerTexture flat_corners(const TriangleMesh& mesh, FaceId face);
 
-/// Of an unstrained triangle [m^2].
+/// Area of an unstrained triangle [m^2].
 double rest_area(const TriangleMesh& mesh, FaceId face);
 
-/// Of an unstrained edge [m]: the mean of its triangles, whose sides may differ along a seam.
+/// Length of an unstrained edge [m]: the mean over its triangles, whose sides may differ at a seam.
 double rest_length(const TriangleMesh& mesh, const MeshEdge& edge);
 
 /// Rest area of each vertex: a third of each triangle around it [m^2]. 0 for one that is in none.

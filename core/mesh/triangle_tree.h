@@ -27,8 +27,8 @@ class TriangleTree {
   void search(std::size_t index, const Vec3& p, double& nearest);
 
   TriangleBoxes boxes_;
-  std::vector<Corners> corners_;  // as the boxes order them
-  std::size_t last_nearest_ = 0;  // of corners_
+  std::vector<Corners> corners_;  // corners in the order of the boxes
+  std::size_t last_nearest_ = 0;  // index in corners_
 };
 
 }  // namespace pleat

@@ -38,7 +38,7 @@ MiddleShape middle_shape(const ArapBlend& blend, double scale) {
                (shared - 2 * kEqualHalves * excess) * gradient_b;
     return sum * (1 + kEqualHalves * excess * excess);
   };
-  problem.solve = [&](const ShapeCoordinates& gradient) { return blend.answer(gradient); };
+  problem.solve = [&](const ShapeCoordinates& gradient) { return blend.preconditioned(gradient); };
   problem.least_share = kEnoughGain;
   problem.least_gain = kRigid * scale;
   middle.shape = blend.half_turned();
@@ -65,8 +65,7 @@ void turn_half_way(const ShapeCoordinates& a, const ShapeCoordinates& b,
 }
 
 Vec3 shift_half_way(const Positions& a, const Positions& b, const Positions& x) {
-  constexpr double kStill =
-      1e-2;  // of the extent: moves so short do not count more than each other
+  constexpr double kStill = 1e-2;  // share of the extent; shorter moves all count alike
   const double still = kStill * std::max(box_diagonal(a), box_diagonal(b));
   const Eigen::VectorXd weights =
       ((a - b).colwise().squaredNorm().array() + still * still).inverse().matrix().transpose();

@@ -25,30 +25,27 @@ class ArapBlend {
   /// Sets the gradients of both distances as well [m^2].
   virtual Distances distances(const ShapeCoordinates& x, ShapeCoordinates& gradient_a,
                               ShapeCoordinates& gradient_b) const = 0;
-  /// Where the sum of both would be least if every piece turned half way from a to b, about the
-  /// origin. Pieces take the short way round each, so that a and b must not be turned against each
-  /// other as a whole.
+  /// Shape of least sum if every piece turned half way from a to b, about the origin. Pieces take
+  /// the short way round each, so that a and b must not be turned against each other as a whole.
   virtual ShapeCoordinates half_turned() const = 0;
-  /// The move that takes this gradient away from D(a -> x) + D(b -> x) while no piece turns.
-  virtual ShapeCoordinates answer(const ShapeCoordinates& gradient) const = 0;
+  /// Gradient through the inverse Hessian of D(a -> x) + D(b -> x) while no piece turns [m].
+  virtual ShapeCoordinates preconditioned(const ShapeCoordinates& gradient) const = 0;
 };
 
 /// A shape half way between two others.
 struct MiddleShape {
   ShapeCoordinates shape;  ///< its place and its turn as a whole are nobody's choice
   ArapBlend::Distances distances{0, 0};
-  int steps = 0;          ///< of the descent
+  int steps = 0;          ///< steps of the descent
   bool converged = true;  ///< false where the cap on steps ended it
 
   /// |D(a -> x) - D(b -> x)| over the larger one; 0 where a and b are rigid motions of each other.
   double unequal_halves() const;
 };
 
-/// Where
+/// Minimises, by L-BFGS,
 ///
 ///     D(a -> x) + D(b -> x) + kEqualHalves (D(a -> x) - D(b -> x))^2 / (D(a -> x) + D(b -> x))
-///
-/// is least, by L-BFGS.
 ///
 /// scale  three times the volume: D of what shrinks to nothing
 MiddleShape middle_shape(const ArapBlend& blend, double scale);

@@ -16,7 +16,7 @@ using Vec9 = Eigen::Matrix<double, 9, 1>;
 ///
 ///     t_k = U (e_i e_j' - e_j e_i') V' / sqrt 2.
 Mat9 distance_hessian(const Mat3& F) {
-  constexpr double kLeastSum = 1e-8;  // where no rotation is the nearest, the Hessian has a pole
+  constexpr double kLeastSum = 1e-8;  // keeps off the pole where no rotation is the nearest
   const RotationSvd svd = rotation_svd(F);
   Mat9 hessian = 2 * Mat9::Identity();
   for (int k = 0; k < 3; ++k) {

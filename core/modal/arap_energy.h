@@ -24,9 +24,9 @@ class ArapEnergy {
   double energy(const Positions& positions) const;
   /// The energy; sets `gradient` [N].
   double energy_and_gradient(const Positions& positions, Positions& gradient) const;
-  /// Of flat(positions), its lower triangle, rotations differentiated [N/m]. Indefinite under
-  /// compression; at rest positive semidefinite, with the rigid motions of each part that hangs
-  /// together by faces in its null space and nothing else.
+  /// Hessian by flat(positions), its lower triangle, rotations differentiated [N/m]. Indefinite
+  /// under compression; at rest positive semidefinite, with the rigid motions of each part that
+  /// hangs together by faces in its null space and nothing else.
   ///
   /// Source: Smith, de Goes & Kim, Analytic eigensystems for isotropic distortion energies, ACM
   /// Transactions on Graphics 38, 2019.

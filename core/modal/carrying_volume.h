@@ -47,7 +47,7 @@ CarryingVolume shell_volume(const Positions& surface, const std::vector<Triangle
 /// The part that each vertex belongs to, from 0: those of a part hang together by edges.
 std::vector<int> surface_parts(Eigen::Index n_vertices, const std::vector<Triangle>& triangles);
 
-/// Of all edges of the triangles, each once [m].
+/// Mean length of the triangles' edges, each counted once [m].
 double mean_edge_length(const Positions& surface, const std::vector<Triangle>& triangles);
 
 }  // namespace pleat

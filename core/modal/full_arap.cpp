@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/rigid_motion.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/modal/nearest_rotation.h"
 
 namespace pleat {
@@ -47,7 +48,7 @@ class FullBlend : public ArapBlend {
     return solve(pulls);
   }
 
-  ShapeCoordinates answer(const ShapeCoordinates& gradient) const override {
+  ShapeCoordinates preconditioned(const ShapeCoordinates& gradient) const override {
     return solve(gradient) / 4;
   }
 

@@ -23,7 +23,7 @@ class FullArap {
 
  private:
   std::vector<TetElement> elements_;
-  Eigen::VectorXd masses_;  // of each vertex, of sum 1
+  Eigen::VectorXd masses_;  // mass of each vertex; they sum to 1
   std::unique_ptr<LinearSolver> solver_;
   double scale_;
 };

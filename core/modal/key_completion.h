@@ -20,7 +20,7 @@ class KeyCompletion {
   struct Frame {
     double time;           ///< the first key is at 0, the next at 1
     int left;              ///< the key at its time or the last one before
-    double share_of_next;  ///< of the time to the next key, in [0, 1)
+    double share_of_next;  ///< share of the time to the next key, in [0, 1)
     std::vector<ModalBody::Shape> bodies;
 
     bool is_key() const { return share_of_next == 0; }
@@ -34,7 +34,8 @@ class KeyCompletion {
   /// Every second time between keys that are farther apart than others is filled first. At least
   /// the keys.
   std::vector<Frame> frames(int count) const;
-  /// Until no vertex moves farther from one frame to the next [m], or there are `most` frames.
+  /// Fills in frames until no vertex moves farther from one to the next than `step` [m], or there
+  /// are `most` of them.
   std::vector<Frame> frames_by_step(double step, int most) const;
 
   Positions surface(const Frame& frame) const;
@@ -45,7 +46,7 @@ class KeyCompletion {
   std::vector<Frame> key_frames() const;
   Frame middle(const Frame& a, const Frame& b) const;
 
-  std::vector<std::vector<VertexId>> vertices_;  // of each body
+  std::vector<std::vector<VertexId>> vertices_;  // vertices of each body
   std::vector<ModalBody> bodies_;
   Eigen::Index n_vertices_;
 };

@@ -38,7 +38,7 @@ class Lattice {
   double edge() const { return edge_; }
   Vec3 corner(const Cell& cell) const { return origin_ + edge_ * Vec3(cell[0], cell[1], cell[2]); }
   Vec3 centre(const Cell& cell) const { return corner(cell) + Vec3::Constant(edge_ / 2); }
-  /// In cells from the lattice's corner.
+  /// Coordinates in cells from the lattice's corner.
   Vec3 coordinates(const Vec3& place) const { return (place - origin_) / edge_; }
 
   bool is_used(const Cell& cell) const { return is_used_[index(cell)] != 0; }
@@ -62,7 +62,7 @@ class Lattice {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Whether a triangle and a box about the origin share more than a touch.
+/// True when a triangle and a box about the origin share more than a touch.
 /// Source: Akenine-Moeller, Fast 3D triangle-box overlap testing, J. Graphics Tools 6, 2001.
 bool overlap(const Corners& corners, double half) {
   const auto is_apart = [&](const Vec3& axis) {
@@ -111,7 +111,7 @@ void use_passed_cells(Lattice& lattice, const Positions& surface,
   }
 }
 
-/// Whether a place p in the plane of y and z is to the left of the line from a to b, and not to
+/// True when a place p in the plane of y and z is to the left of the line from a to b, and not to
 /// that of the line from b to a. One on the line counts as moved by a little along z and by far
 /// less along y: of triangles around a vertex just one then holds it. Source: Edelsbrunner &
 /// Muecke, Simulation of simplicity, ACM Transactions on Graphics 9, 1990.
@@ -124,7 +124,7 @@ bool is_left(const Positions& surface, VertexId a, VertexId b, double y, double 
   return left != is_turned;
 }
 
-/// Where a line along x through the centres of cells meets the surface: in front or behind.
+/// Crossing of the surface by a line along x through the centres of cells, from in front or behind.
 struct Crossing {
   double x;
   int sign;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kCubes = 4000;
 constexpr int kUsualModes = 40;
-constexpr int kPoints = 256;  // that tell what stays; as many for any mesh
+constexpr int kPoints = 256;  // points that tell what stays; as many for any mesh
 double enclosed_volume(const Positions& surface, const std::vector<Triangle>& triangles) {
   const Vec3 origin = surface.rowwise().mean();
   double six_volumes = 0;
@@ -61,7 +61,7 @@ VolumeKind volume_kind(const std::vector<Triangle>& triangles, const ModalOption
 CarryingVolume carrying_volume(const Positions& surface, const std::vector<Triangle>& triangles,
                                const ModalOptions& options) {
   if (volume_kind(triangles, options) == VolumeKind::lattice) {
-    if (options.size > 0 || !is_closed(triangles))  // which the lattice refuses
+    if (options.size > 0 || !is_closed(triangles))  // it refuses an open surface
       return lattice_volume(surface, triangles, options.size > 0 ? options.size : 1);
     const double volume = enclosed_volume(surface, triangles);
     if (!(volume > 0)) throw InputError("", "expected a surface that encloses a volume");
@@ -85,7 +85,7 @@ SolveReport volume_modes(const TetMesh& rest, int count, Modes& modes) {
 }
 
 VolumeFit usual_fit(const CarryingVolume& carrying) {
-  constexpr double kAttachment = 1e4;  // over the square of the body's size
+  constexpr double kAttachment = 1e4;  // factor over the square of the body's size
   const double extent = box_diagonal(carrying.volume.rest_positions);
   return {carrying, kAttachment / (extent * extent)};
 }
@@ -94,7 +94,7 @@ std::vector<Positions> key_volumes(const CarryingVolume& carrying, const VolumeF
                                    const std::vector<Positions>& keys) {
   std::vector<Positions> volumes{carrying.volume.rest_positions};
   for (std::size_t k = 1; k < keys.size(); ++k) {
-    // Whatever turns as a whole need not be found step by step.
+    // The rigid part of the motion need not be found step by step.
     volumes.push_back(nearest_rigid_motion(keys[k - 1], keys[k]).of(volumes.back()));
     const SolveReport fitted = fit.fit(keys[k], volumes.back());
     if (fitted.ends_run())

@@ -11,11 +11,11 @@ namespace pleat {
 enum class VolumeKind { lattice, shell };
 
 struct ModalOptions {
-  std::optional<VolumeKind> volume;  ///< without: lattice for closed surfaces, shell for open ones
-  double size = 0;           ///< edge of the lattice or thickness of the shell [m]; 0 for the usual
-  int n_modes = 0;           ///< of each key, beside the rigid ones; 0: 40, or all that there are
-  int n_functions = 64;      ///< of the space
-  int n_clusters = 64;       ///< of tetrahedra
+  std::optional<VolumeKind> volume;  ///< default: lattice for closed surfaces, shell for open ones
+  double size = 0;  ///< edge of the lattice or thickness of the shell [m]; 0 for the usual
+  int n_modes = 0;  ///< number for each key, beside the rigid ones; 0: 40, or all that there are
+  int n_functions = 64;      ///< size of the space
+  int n_clusters = 64;       ///< number of clusters of tetrahedra
   bool exact_keys = false;   ///< adds the keys to the space
   double detail_beyond = 0;  ///< patches nearer to the space have no detail [m]
 };
@@ -62,7 +62,7 @@ class ModalBody {
   /// A shape between two keys.
   struct Shape {
     ReducedArap::Key key;
-    ArapBlend::Distances distances{0, 0};  ///< from its neighbours when it was made
+    ArapBlend::Distances distances{0, 0};  ///< distances from its neighbours when it was made
     bool converged = true;
   };
 
@@ -84,12 +84,12 @@ class ModalBody {
   const ShapeSpace& space() const { return space_; }
   const ReducedArap& arap() const { return *arap_; }
   const std::vector<int>& cluster_of_tet() const { return cluster_of_tet_; }
-  const std::vector<Modes>& modes() const { return modes_; }  ///< of each key, of the volume
+  const std::vector<Modes>& modes() const { return modes_; }  ///< modes of each key's volume
 
  private:
   struct Key {
     Positions volume;
-    Positions residual;  // of the surface
+    Positions residual;  // part of the surface that the space does not have
     Shape shape;
   };
 
@@ -104,7 +104,7 @@ class ModalBody {
   std::unique_ptr<ReducedArap> arap_;
   std::unique_ptr<SurfaceDetail> detail_;
   Eigen::MatrixXd surface_functions_;  // k x vertices of the surface
-  Eigen::MatrixXd points_;             // those of some that are spread over it
+  Eigen::MatrixXd points_;             // columns of points that are spread over it
   std::vector<Key> keys_;
 };
 

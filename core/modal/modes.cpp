@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "core/base/check.h"
-#include "core/linalg/linear_solver.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/linalg/orthonormal.h"
 
 namespace pleat {
 namespace {
 
-/// Below the stiffness of what resists at all, as a share of the stiffest row over its mass: the
-/// factor then is positive definite, and loses as many digits of its sixteen. Where something
-/// resists less than nothing, ten times as much is tried, and so on.
+/// Shift as a share of the stiffest row over its mass, below the stiffness of all that resists: the
+/// factor then is positive definite, and loses half of its sixteen digits. Where something resists
+/// less than nothing, ten times as much is tried, and so on.
 constexpr double kShift = 1e-8;
 constexpr double kShiftGrowth = 10;
 constexpr int kShiftHalvings = 4;
@@ -92,10 +92,10 @@ struct Pairs {
 
   Eigen::Index size() const { return values.size(); }
 
-  /// As many as before, the softest of both. False when none of `others` is softer than the
+  /// Keeps the softest of both, as many as before. False when none of `others` is softer than the
   /// stiffest here.
   bool take_softer(const Pairs& others) {
-    constexpr double kRounding = 1e-9;  // of equal modes
+    constexpr double kRounding = 1e-9;  // rounding of equal modes
     const double stiffest = values[size() - 1];
     if (others.size() == 0 || others.values[0] >= stiffest - kRounding * std::abs(stiffest))
       return false;

@@ -23,7 +23,7 @@ RotationSvd rotation_svd(const Mat3& F) {
 // Newton's iteration for X' X = I converges to the orthogonal factor of F, which is a rotation
 // where F keeps its orientation. It doubles its digits each time: a move of 1e-8 is the last.
 Mat3 nearest_rotation(const Mat3& F) {
-  constexpr double kLeastVolume = 1e-3;  // of |F|^3
+  constexpr double kLeastVolume = 1e-3;  // relative to |F|^3
   constexpr double kLastMove = 1e-8;
   constexpr int kMostMoves = 20;
   const double size = F.norm();

@@ -52,7 +52,7 @@ class ReducedBlend : public ArapBlend {
     return 0.5 * (halves * a_.pulls.transpose() + backwards * b_.pulls.transpose()) * compliance_;
   }
 
-  ShapeCoordinates answer(const ShapeCoordinates& gradient) const override {
+  ShapeCoordinates preconditioned(const ShapeCoordinates& gradient) const override {
     return gradient * (compliance_ / 4);
   }
 

@@ -23,22 +23,22 @@ class ReducedArap {
   struct Key {
     ShapeCoordinates shape;
     Eigen::MatrixXd pulls;  ///< k x 3 clusters: the stiffness of each times the shape
-    double square;          ///< of the shape, in the stiffness of all
+    double square;          ///< square of the shape in the stiffness of all
   };
   Key key(const ShapeCoordinates& shape) const;
 
   /// Both keys and this outlive it.
   std::unique_ptr<ArapBlend> blend(const Key& a, const Key& b) const;
 
-  /// The same key, turned as a whole.
+  /// Key turned as a whole.
   static Key turned(const Key& key, const Mat3& rotation);
 
   /// How each cluster turned from a key to a shape.
   static std::vector<Mat3> rotations(const Key& from, const ShapeCoordinates& to);
 
  private:
-  std::vector<Eigen::MatrixXd> stiffnesses_;  // of each cluster, k x k
-  Eigen::MatrixXd stiffness_;                 // of all
+  std::vector<Eigen::MatrixXd> stiffnesses_;  // stiffness of each cluster, k x k
+  Eigen::MatrixXd stiffness_;                 // stiffness of all
   Eigen::MatrixXd compliance_;                // its inverse beside the constant function
   double scale_;
 };

@@ -81,7 +81,7 @@ void move_to_means(const Points& points, const std::vector<int>& cluster_of, Poi
     if (counts[c] > 0) centres.col(c) = sums.col(c) / static_cast<float>(counts[c]);
 }
 
-/// Without gaps, in the order in which they first occur.
+/// Numbers clusters without gaps, in the order in which they first occur.
 void renumber(std::vector<int>& cluster_of, int count) {
   std::vector<int> numbers(static_cast<std::size_t>(count), -1);
   int n_used = 0;

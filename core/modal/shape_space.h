@@ -16,12 +16,12 @@ struct ShapeSpace {
   /// k x n, orthonormal in the masses: the constant, three that make it affine with that, then by
   /// falling weight.
   Eigen::MatrixXd functions;
-  Eigen::VectorXd weights;  ///< of each function, singular values; 0 for the first four
-  Eigen::VectorXd masses;   ///< of each vertex
+  Eigen::VectorXd weights;  ///< singular value of each function; 0 for the first four
+  Eigen::VectorXd masses;   ///< mass of each vertex
 
   int size() const { return static_cast<int>(functions.rows()); }
   Positions positions(const ShapeCoordinates& coordinates) const { return coordinates * functions; }
-  /// Of the shape of the space that is nearest in the masses.
+  /// Coordinates of the space's shape that is nearest in the masses.
   ShapeCoordinates coordinates(const Positions& positions) const {
     return positions * masses.asDiagonal() * functions.transpose();
   }

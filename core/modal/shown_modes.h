@@ -8,27 +8,27 @@ namespace pleat {
 struct SurfaceModes {
   /// 3 n x modes, each as large as lets the farthest vertex move by 1.
   Eigen::MatrixXd moves;
-  Eigen::VectorXd stiffness;  ///< of each, as in Modes
-  Eigen::VectorXd residuals;  ///< the same
-  int n_rigid = 0;            ///< that are left out
-  /// Left out as well: others that cost next to nothing, as a free cloth's turns do, or a flat
+  Eigen::VectorXd stiffness;  ///< stiffness of each, as in Modes
+  Eigen::VectorXd residuals;  ///< residual of each, as in Modes
+  int n_rigid = 0;            ///< number of rigid modes left out
+  /// Number of others left out that cost next to nothing, as a free cloth's turns do, or a flat
   /// surface's twist, which its own energy does not see.
   int n_costless = 0;
-  int n_tets = 0;  ///< of the volume that carries the surface; 0 without
+  int n_tets = 0;  ///< tetrahedra of the volume that carries the surface; 0 without
 
   Eigen::Index size() const { return moves.cols(); }
 };
 
-/// Of modes whose unknowns are the surface's own.
+/// Modes whose unknowns are the surface's own.
 SurfaceModes whole_surface_modes(const Modes& modes);
 
-/// Of the volume that carries the surface, under the energy of 1 Pa and 1 kg/m^3.
+/// Modes of the volume that carries the surface, under the energy of 1 Pa and 1 kg/m^3.
 ///
 /// Throws InputError where no volume can carry it, and where it has fewer modes than are asked for.
 SurfaceModes volume_surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,
                                   const ModalOptions& options);
 
-/// Of the surface alone, under its own energy of 1 N/m and with 1 kg/m^2.
+/// Modes of the surface alone, under its own energy of 1 N/m and with 1 kg/m^2.
 ///
 /// Throws InputError for a vertex in no triangle and where it has fewer modes than `count`.
 SurfaceModes surface_modes(const Positions& surface, const std::vector<Triangle>& triangles,

@@ -17,7 +17,7 @@ double cotangent(const Vec3& a, const Vec3& b) {
   return area > 0 ? a.dot(b) / area : 0;
 }
 
-/// Around each vertex, the edges with half the cotangents of the angles across.
+/// Edges around each vertex, with half the cotangents of the angles across.
 std::vector<std::vector<Spoke>> spokes(const Positions& x, const std::vector<Triangle>& triangles) {
   std::vector<std::vector<Spoke>> around(static_cast<std::size_t>(x.cols()));
   for (const MeshEdge& edge : mesh_edges(triangles)) {

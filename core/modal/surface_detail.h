@@ -4,7 +4,7 @@
 
 namespace pleat {
 
-/// What the surface of a key has that the space of shapes has not, carried along by the patches
+/// Carries along the part of a key's surface that the space of shapes does not have, by the patches
 /// that the clusters of tetrahedra cut the surface into: each patch has a frame that turns with its
 /// cluster, and a vertex between patches follows the mean of their frames.
 class SurfaceDetail {

@@ -2,13 +2,14 @@
 
 #include "core/base/check.h"
 #include "core/linalg/lbfgs.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/modal/nearest_rotation.h"
 
 namespace pleat {
 namespace {
 
 constexpr int kMostSteps = 1000;
-constexpr double kStillness = 1e-8;  // of the extent
+constexpr double kStillness = 1e-8;  // share of the extent
 
 }  // namespace
 

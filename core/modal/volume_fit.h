@@ -32,7 +32,7 @@ class VolumeFit {
 
  private:
   SparseMatrix embedding_;
-  double pull_;  // on each surface vertex [m]
+  double pull_;  // weight of each surface vertex [m]
   std::vector<TetElement> elements_;
   std::unique_ptr<LinearSolver> solver_;
 };

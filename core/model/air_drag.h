@@ -44,24 +44,24 @@ class AirDrag {
                   const Eigen::Ref<const Positions>& velocities,
                   std::span<const HangingVertex> hanging, Eigen::Ref<Positions> forces);
 
-  /// The same for steps of h [s], positive, that do not solve for drag: adds F instead of the law's
-  /// f, with F <- F + (I + h D/m)^-1 (f - F) from step to step. First-order consistent, stable for
-  /// any h, and equal to f where motion is steady. In still air F begins at zero in each step, so
-  /// that drag never turns motion round.
+  /// Adds F in place of the law's f, for steps of h [s], positive, that do not solve for drag: F <-
+  /// F + (I + h D/m)^-1 (f - F) from step to step. First-order consistent, stable for any h, and
+  /// equal to f where motion is steady. In still air F is zero at the start of each step, so that
+  /// drag never turns motion round.
   ///
-  /// applied  F, one column a vertex, zero to begin with [N]; not used in still air
+  /// applied  F, one column a vertex, zero at first [N]; not used in still air
   void add_damped_forces(const Eigen::Ref<const Positions>& positions,
                          const Eigen::Ref<const Positions>& velocities,
                          const Eigen::VectorXd& masses, std::span<const HangingVertex> hanging,
                          double h, Positions& applied, Eigen::Ref<Positions> forces);
 
-  /// Factor on the force, 1 to begin with: lets drag keep up while motion is carried over to cloth
-  /// of another weight.
+  /// Sets a factor on the force, 1 at first: lets drag keep up while motion is carried over to
+  /// cloth of another weight.
   void set_strength(double factor) { strength_ = factor; }
   double strength() const { return strength_; }
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// What its triangles, forces and resistances take.
+  /// Memory of its triangles, forces and resistances.
   std::size_t bytes() const;
 
  private:

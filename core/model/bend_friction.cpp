@@ -62,7 +62,7 @@ BendFriction::BendFriction(std::vector<BendElement> bends, double hysteresis,
 }
 
 /// Moments go on to the bit when normals turn: e is kept, and kappa looked up anew.
-void BendFriction::look(const Positions& positions, const Positions& places_of_normals) {
+void BendFriction::find_curvatures(const Positions& positions, const Positions& places_of_normals) {
   normals_.setZero();
   for (const Triangle& t : surface_) {
     const auto& x = places_of_normals;
@@ -82,7 +82,7 @@ void BendFriction::look(const Positions& positions, const Positions& places_of_n
 void BendFriction::restart(const Positions& positions) {
   for (Element& element : elements_) element.strain = 0;
   dissipated_ = 0;
-  look(positions, positions);
+  find_curvatures(positions, positions);
 }
 
 void BendFriction::take_moments(const BendFriction& other, const Positions& positions) {
@@ -95,7 +95,7 @@ void BendFriction::take_moments(const BendFriction& other, const Positions& posi
         found == known.end() ? 0 : limited(other.elements_[found->second].strain * share, kYield);
   }
   dissipated_ = other.dissipated_;
-  look(positions, positions);
+  find_curvatures(positions, positions);
 }
 
 void BendFriction::keep(Kept& kept) const {
@@ -113,14 +113,14 @@ void BendFriction::restore(const Kept& kept, const Positions& positions) {
   dissipated_ = kept.dissipated;
   knee_ = kYield;
   reach_ = 1;
-  look(positions, positions);
+  find_curvatures(positions, positions);
 }
 
 // A normal that stays in space sees cloth that turns by an angle a lose kappa a^2/2 when it is that
-// of the begin, and nothing, up to a^4/24, when it is that of the middle.
+// of the start, and nothing, up to a^4/24, when it is that of the middle.
 void BendFriction::begin_substep(const State& state, double h, Knee knee) {
   middle_ = state.positions + h / 2 * state.velocities;
-  look(state.positions, middle_);
+  find_curvatures(state.positions, middle_);
   reach_ = knee == Knee::in_middle ? 0.5 : 1;
   if (knee != Knee::foreseen) return;
   knee_ = std::numeric_limits<double>::infinity();

@@ -35,17 +35,17 @@ class BendFriction {
   /// Friction where three vertices follow each other on a mesh line.
   struct Element {
     BendElement bend;         ///< its stiffness: B_f w L [N m^3]
-    Vec3 normal{0, 0, 0};     ///< of the surface, unit or zero
-    double strain = 0;        ///< e at the last look [1/m]
-    double curvature = 0;     ///< along the normal, there [1/m]
-    double share = 1;         ///< of the stiffness, within a substep
+    Vec3 normal{0, 0, 0};     ///< unit normal of the surface, or zero
+    double strain = 0;        ///< e at the last evaluation [1/m]
+    double curvature = 0;     ///< curvature along the normal, there [1/m]
+    double share = 1;         ///< share of the stiffness, within a substep
     std::uint64_t place = 0;  ///< tells its three vertices at rest from others
   };
 
   /// How a substep takes the knee.
   enum class Knee {
     exact,      ///< the potential itself, at the end of the substep
-    in_middle,  ///< the same in its middle
+    in_middle,  ///< the potential in the middle of the substep
     /// Its secant through the strain to which the present velocities lead: a parabola that touches
     /// the potential there and is nowhere below it, for one linear solve.
     foreseen,
@@ -64,7 +64,7 @@ class BendFriction {
   /// vertices follow each other; none elsewhere, and none larger than this cloth's.
   void take_moments(const BendFriction& other, const Positions& positions);
 
-  /// What `restore` needs.
+  /// Copy of the state, for `restore`.
   struct Kept {
     std::vector<double> strains;  ///< one per element [1/m]
     double dissipated = 0;        ///< [J]
@@ -72,12 +72,12 @@ class BendFriction {
   void keep(Kept& kept) const;
   void restore(const Kept& kept, const Positions& positions);
 
-  /// From here to end_substep energy and forces are those of the substep.
+  /// Starts a substep: until end_substep energy and forces are those of the substep.
   void begin_substep(const State& state, double h, Knee knee);
   /// Slips to these places. No more is stored than moments did work, so that cloth never gains.
   void end_substep(const Positions& positions);
 
-  /// [J]; at the places of the last look it is what is stored.
+  /// Energy [J]; at the places of the last evaluation it is what is stored.
   double energy(const Eigen::Ref<const Positions>& positions) const;
   void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
   /// The second derivative of an element's energy by its curvature, never negative [N m^3].
@@ -89,7 +89,7 @@ class BendFriction {
   std::size_t bytes() const;
 
  private:
-  void look(const Positions& positions, const Positions& places_of_normals);
+  void find_curvatures(const Positions& positions, const Positions& places_of_normals);
   double bent(const Element& element, const Eigen::Ref<const Positions>& positions) const;
 
   std::vector<Element> elements_;
@@ -99,7 +99,7 @@ class BendFriction {
   double reach_ = 1;  // share of the way at which a substep takes its moments
   double dissipated_ = 0;  // [J]
   Positions normals_;
-  Positions middle_;  // of the substep
+  Positions middle_;  // places in the middle of the substep
 };
 
 }  // namespace pleat

@@ -20,14 +20,14 @@ namespace pleat {
 /// A vertex whose place is prescribed: a constraint, not an infinite mass.
 struct Pin {
   VertexId vertex;
-  Vec3 place{0, 0, 0};  ///< at time 0 of its motion [m]
+  Vec3 place{0, 0, 0};  ///< place at time 0 of its motion [m]
   Motion motion;
 
   Vec3 position(double time) const { return motion.pose(time) * place; }
   Vec3 velocity(double time) const { return motion.velocity(place, time); }
 };
 
-/// Which part of the relative velocity of a spring's ends its damper resists.
+/// Part of the relative velocity of a spring's ends that its damper resists.
 enum class DampingDirection {
   along_spring,  ///< does not brake rotation
   isotropic,     ///< every relative velocity
@@ -42,7 +42,7 @@ struct ClothModel {
   std::vector<Spring> taut_springs;  ///< pull beyond their rest length and never push; no damping
   std::vector<BendElement> bends;
   std::vector<ChordBend> chord_bends;
-  std::optional<BendFriction> bend_friction;  ///< with state; for steppers that take it
+  std::optional<BendFriction> bend_friction;  ///< carries state; only for steppers that take it
   Membrane membrane;
   double membrane_relaxation = 0;  ///< tau of the membrane's Kelvin-Voigt damping [s]
   SparseMatrix fitted_bending;     ///< n x n, lower triangle [N/m]; 0 x 0 without it
@@ -52,7 +52,7 @@ struct ClothModel {
   std::optional<AirDrag> air;
   std::optional<ContactStage> contact;
   std::optional<StrainLimit> strain_limit;
-  TriangleMesh surface;  ///< what steppers make coarser levels of; empty unless the method asks
+  TriangleMesh surface;  ///< base of coarser levels; empty unless the method asks for it
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it
 
   int n_vertices() const { return static_cast<int>(masses.size()); }

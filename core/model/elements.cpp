@@ -65,11 +65,6 @@ void add_bend_sums(const BendElement& bend, RowSums& sums) {
     sums.stiffness[bend.vertices[k]] += bend.stiffness * std::abs(w[k]) * sum / 2;
 }
 
-/// The largest that either law reaches, at any chord [N/m].
-double largest_stiffness(const ChordBend& bend) {
-  return bend.law == ChordLaw::linear ? bend.stiffness : bend.stiffness / std::pow(bend.length, 3);
-}
-
 /// The material part of an unstrained element's stiffness: its shape lies in the gradients.
 Eigen::Matrix<double, 9, 9> rest_stiffness(const MembraneLaw& law, MembraneElement element) {
   const Eigen::Matrix2d ends = element.gradients.bottomRows<2>().inverse();  // columns x1, x2
@@ -181,7 +176,7 @@ void ChordElements::add_forces(const Eigen::Ref<const Positions>& positions,
 
 void ChordElements::add_row_sums(RowSums& sums) const {
   for (const ChordBend& bend : model_.chord_bends)
-    for (const VertexId v : {bend.a, bend.b}) sums.stiffness[v] += largest_stiffness(bend);
+    for (const VertexId v : {bend.a, bend.b}) sums.stiffness[v] += bend.stiffness;
 }
 
 void BendFrictionElements::add_energy(const Eigen::Ref<const Positions>& positions,

@@ -16,7 +16,7 @@ std::size_t bytes_of(const std::vector<Element>& elements) {
 /// nowhere.
 struct SpringAxis {
   double length;   ///< [m]
-  Vec3 direction;  ///< from b to a, unit or zero
+  Vec3 direction;  ///< direction from b to a, unit or zero
 };
 
 inline SpringAxis spring_axis(const Spring& spring, const Eigen::Ref<const Positions>& positions) {
@@ -248,7 +248,7 @@ struct BendFrictionElements : ElementKind {
     if (empty()) return;
     for (const BendFriction::Element& element : model_.bend_friction->elements()) {
       const double s = shares.stiffness * model_.bend_friction->tangent(element, positions);
-      Eigen::Matrix<double, 9, 1> slope;  // of the curvature
+      Eigen::Matrix<double, 9, 1> slope;  // derivative of the curvature
       for (int k = 0; k < 3; ++k)
         slope.segment<3>(3 * k) = element.bend.weights[k] * element.normal;
       const Eigen::Matrix<double, 9, 9> block = s * slope * slope.transpose();

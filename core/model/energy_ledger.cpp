@@ -42,7 +42,7 @@ double EnergyLedger::friction_loss() const {
   return model_.bend_friction ? model_.bend_friction->dissipated() : 0;
 }
 
-/// The model has the moments of the end: puts those of the begin in their place.
+/// Replaces the moments of the end, which the model has, by those of the start.
 void EnergyLedger::exchange_friction(const State& begin) {
   part_.setZero();
   model_.bend_friction->add_forces(begin.positions, part_);

@@ -17,7 +17,7 @@ namespace pleat {
 /// to the step, except where motion jumps.
 class EnergyLedger {
  public:
-  /// Works done on the cloth since the beginning [J].
+  /// Works done on the cloth since the start [J].
   struct Works {
     double damping = 0;
     double bend_friction = 0;  ///< minus what its law loses along the way, by its own account
@@ -31,18 +31,18 @@ class EnergyLedger {
 
   /// model  outlives the ledger; its pins and colliders may move as their motions say, and tears
   ///        may change it (record_tear)
-  /// state  at the beginning.
+  /// state  at the start
   EnergyLedger(const ClothModel& model, const State& state);
 
   /// time_end  of the step [s];  step  its length [s], positive.
   void record(const State& begin, const State& end, double time_end, double step);
 
   /// The model has become that of torn cloth; what its threads no longer store is work of the tear.
-  /// state  that of the last record or of the beginning, on the vertices of now
+  /// state  that of the last record or of the start, on the present vertices
   void record_tear(const State& state);
 
   const Works& works() const { return works_; }
-  const EnergyParts& parts() const { return parts_; }  ///< after the last step
+  const EnergyParts& parts() const { return parts_; }  ///< energies after the last step
   const EnergyParts& first_parts() const { return first_parts_; }
   double drift() const;  ///< change of the energy minus the works [J]
   /// |drift| over the largest kinetic energy seen, 0 while nothing moved.
@@ -70,7 +70,7 @@ class EnergyLedger {
   Loads end_;
   Positions part_;  // force of one kind [N]
   std::vector<char> is_pinned_;
-  std::optional<BendFriction> friction_begin_;  // with the moments after the last record
+  std::optional<BendFriction> friction_begin_;  // moments after the last record
   double first_friction_loss_;                  // [J]
   Works works_;
   EnergyParts first_parts_;

@@ -8,7 +8,7 @@ namespace pleat {
 /// Linear momentum [kg m/s].
 Vec3 momentum(const ClothModel& model, const State& state);
 
-/// About the centre of mass [kg m^2/s].
+/// Angular momentum about the centre of mass [kg m^2/s].
 Vec3 angular_momentum(const ClothModel& model, const State& state);
 
 }  // namespace pleat

@@ -17,7 +17,7 @@ struct StrainLimitOptions {
   double stretch = 0.1;  ///< tau: an edge is at most (1 + tau) L long; positive
   double compression =
       1;  ///< an edge is at least (1 - this) L long; in (0, 1], 1: as short as can be
-  int max_sweeps = 100;  ///< over all edges in a substep, at least 1
+  int max_sweeps = 100;  ///< sweeps over all edges in a substep, at least 1
 
   /// Throws ContractError.
   void validate() const;

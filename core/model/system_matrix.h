@@ -54,7 +54,7 @@ class SystemMatrix {
   };
   struct PrescribedBlock {
     Slot slot;
-    int row_index, column_index;  // into the prescribed values, or -1 when that vertex is free
+    int row_index, column_index;  // indices of the prescribed values, -1 for a free vertex
   };
 
   /// The block that a hanging vertex shares with another, and those that its parents share with
@@ -84,10 +84,10 @@ class SystemMatrix {
   void add_to_diagonal(VertexId vertex, double factor);
 
   const ClothModel& model_;
-  std::vector<std::vector<VertexId>> below_;  // by column: rows of its blocks, ascending
+  std::vector<std::vector<VertexId>> below_;  // rows of the blocks in each column, ascending
   SparseMatrix matrix_;
   std::vector<Slot> slots_;  // one for each pair that an element joins, in the order of assembly
-  std::vector<HangingBlocks> hanging_blocks_;  // in the order of their elimination
+  std::vector<HangingBlocks> hanging_blocks_;  // blocks in the order of their elimination
   std::vector<VertexId> prescribed_;
   std::vector<PrescribedBlock> prescribed_blocks_;
 };

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLowest = 0.02;  // [Hz]
-constexpr double kCorner = 0.1;   // of the spectrum [Hz]
+constexpr double kCorner = 0.1;   // corner of the spectrum [Hz]
 constexpr double kHighest = 5;    // [Hz]
 constexpr int kSinesPerDirection = 16;
-/// Of the gusts along the mean.
+/// Relative strengths of the gusts along the wind, across it and upward.
 constexpr std::array<double, 3> kStrengths = {1, 0.80, 0.52};
 
 /// The integral of the spectrum, which is 1 at its corner, from zero to a frequency [Hz].
@@ -22,7 +22,7 @@ double power_below(double frequency) {
   return kCorner + 1.5 * kCorner * (1 - std::pow(frequency / kCorner, -2.0 / 3));
 }
 
-/// Along the wind, across it, and upward where the wind is level.
+/// Axes along the wind, across it, and upward where the wind is level.
 std::array<Vec3, 3> directions(const Vec3& velocity) {
   const Vec3 along = velocity.normalized();
   Vec3 across = along.cross(Vec3::UnitY());

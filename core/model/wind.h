@@ -11,7 +11,7 @@ struct WindOptions {
   Vec3 velocity{0, 0, 0};  ///< mean [m/s]
   /// Standard deviation of the gusts along the mean, in shares of its speed; not negative.
   double gust_intensity = 0;
-  std::uint64_t seed = 1;  ///< of the gusts
+  std::uint64_t seed = 1;  ///< seed of the gusts
 
   bool is_still() const { return velocity.isZero(0); }
 };
@@ -26,7 +26,7 @@ class Wind {
  public:
   explicit Wind(const WindOptions& options);
 
-  Vec3 velocity(double time) const;  ///< at a time [s], [m/s]
+  Vec3 velocity(double time) const;  ///< velocity at a time [s], [m/s]
 
  private:
   struct Sine {

@@ -10,8 +10,7 @@ namespace pleat {
 namespace {
 
 constexpr double kRightAngleTolerance = 1e-9;  // cosine
-constexpr int kFirstStepsPerLink =
-    100;  // per second of motion; a chain's fastest swing grows with its links
+constexpr int kFirstStepsPerLink = 100;        // steps a second; the fastest swing grows with links
 constexpr int kMaxDoublings = 6;
 
 const SheetShape& swinging_sheet(const Scene& scene) {

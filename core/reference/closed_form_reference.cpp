@@ -6,7 +6,7 @@
 #include "core/base/check.h"
 #include "core/reference/closed_forms.h"
 #include "core/run/scene_model.h"
-#include "core/scene/particle_cloth.h"
+#include "core/scene/cloth/particle_cloth.h"
 
 namespace pleat {
 namespace {
@@ -140,8 +140,8 @@ struct Chain {
   std::vector<VertexId> particles;  // one more
 };
 
-/// The chain from the end `begin` on; empty unless it passes every particle.
-Chain chain_from(VertexId begin, const ParticleCloth& cloth) {
+/// The chain from the end `start` on; empty unless it passes every particle.
+Chain chain_from(VertexId start, const ParticleCloth& cloth) {
   const auto n_particles = static_cast<std::size_t>(cloth.positions.cols());
   std::vector<std::array<const Spring*, 2>> ends_at(n_particles, {nullptr, nullptr});
   for (const Spring& spring : cloth.springs) {
@@ -151,9 +151,9 @@ Chain chain_from(VertexId begin, const ParticleCloth& cloth) {
       (first == nullptr ? first : second) = &spring;
     }
   }
-  if (ends_at[begin][1] != nullptr) return {};
-  Chain chain{{}, {begin}};
-  for (const Spring* spring = ends_at[begin][0]; spring != nullptr;) {
+  if (ends_at[start][1] != nullptr) return {};
+  Chain chain{{}, {start}};
+  for (const Spring* spring = ends_at[start][0]; spring != nullptr;) {
     chain.particles.push_back(spring->a == chain.particles.back() ? spring->b : spring->a);
     chain.springs.push_back(spring);
     const auto& [first, second] = ends_at[chain.particles.back()];
@@ -184,8 +184,8 @@ RestShape particles_at_rest(const Scene& scene, const ParticleCloth& cloth,
   RestShape rest{"chain of " + std::to_string(links.size()) + " springs in closed form",
                  Positions(3, model.n_vertices()),
                  {}};
-  const Vec3 begin = model.pins.front().position(0);
-  const Vec3 apart = model.pins.back().position(0) - begin;
+  const Vec3 start = model.pins.front().position(0);
+  const Vec3 apart = model.pins.back().position(0) - start;
   const Vec3 level_part = apart - apart.dot(down(scene)) * down(scene);
   const double span = level_part.norm();
   Eigen::Matrix2Xd nodes = Eigen::Matrix2Xd::Zero(2, model.n_vertices());
@@ -202,7 +202,7 @@ RestShape particles_at_rest(const Scene& scene, const ParticleCloth& cloth,
   const Vec3 sideways = span > 0 ? Vec3(level_part / span) : Vec3::Zero();
   for (std::size_t i = 0; i < chain.particles.size(); ++i) {
     const Eigen::Vector2d node = nodes.col(static_cast<Eigen::Index>(i));
-    rest.positions.col(chain.particles[i]) = begin + node.x() * sideways + node.y() * down(scene);
+    rest.positions.col(chain.particles[i]) = start + node.x() * sideways + node.y() * down(scene);
   }
   rest.stretch = stretch(gauge_edges(cloth.springs), rest.positions);
   return rest;

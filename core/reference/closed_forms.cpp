@@ -37,12 +37,12 @@ double slope(const Series& series, double t) {
   return sum;
 }
 
-/// Series about one arc length `begin`, in units of the strip's length.
+/// Series about the arc length `start`, in units of the strip's length.
 struct ElasticaPiece {
-  double begin = 0;
-  Series angle{};   // from straight down [rad]
-  Series across{};  // from the tip
-  Series up{};      // from the tip
+  double start = 0;
+  Series angle{};   // angle from straight down [rad]
+  Series across{};  // distance from the tip
+  Series up{};      // height over the tip
 };
 
 /// Fills the series from their first terms, two of the angle's and one of each other.
@@ -52,7 +52,7 @@ void expand(double load, ElasticaPiece& piece) {
   for (int k = 0; k < kOrder; ++k) {
     if (k + 2 <= kOrder)
       piece.angle[k + 2] =
-          load * (piece.begin * sine[k] + (k > 0 ? sine[k - 1] : 0)) / ((k + 1) * (k + 2));
+          load * (piece.start * sine[k] + (k > 0 ? sine[k - 1] : 0)) / ((k + 1) * (k + 2));
     double sine_sum = 0;
     double cosine_sum = 0;
     for (int j = 0; j <= k; ++j) {
@@ -77,7 +77,7 @@ std::vector<ElasticaPiece> shoot(double load, double tip_angle, int n_steps) {
     pieces.push_back(next);
     const ElasticaPiece& last = pieces.back();
     next = {};
-    next.begin = static_cast<double>(pieces.size()) / n_steps;
+    next.start = static_cast<double>(pieces.size()) / n_steps;
     next.angle[0] = value(last.angle, step);
     next.angle[1] = slope(last.angle, step);
     next.across[0] = value(last.across, step);
@@ -173,8 +173,8 @@ template <class EndOf>
 std::optional<Eigen::Vector2d> solve_pull(const EndOf& end_of, const Eigen::Vector2d& far_support,
                                           double scale, Eigen::Vector2d pull) {
   constexpr int kMostSteps = 200;
-  constexpr double kTolerance = 1e-12;      // of the scale
-  constexpr double kSmallestShare = 1e-10;  // of a Newton step
+  constexpr double kTolerance = 1e-12;      // share of the scale
+  constexpr double kSmallestShare = 1e-10;  // share of a Newton step
   EndPlace end = end_of(pull);
   Eigen::Vector2d miss = end.place - far_support;
   for (int i = 0; i < kMostSteps && miss.norm() > kTolerance * scale; ++i) {
@@ -224,7 +224,7 @@ Eigen::Matrix2Xd heavy_elastica(const Cantilever& strip, std::span<const double>
   const std::vector<ElasticaPiece> pieces = shoot(load, tip_angle(load, n_steps), n_steps);
   const auto place = [&](double from_tip) {
     const auto at = std::min(static_cast<std::size_t>(from_tip * n_steps), pieces.size() - 1);
-    const double t = from_tip - pieces[at].begin;
+    const double t = from_tip - pieces[at].start;
     return Eigen::Vector2d(value(pieces[at].across, t), value(pieces[at].up, t));
   };
   const Eigen::Vector2d clamp = place(1);

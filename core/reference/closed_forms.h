@@ -13,7 +13,7 @@ namespace pleat {
 /// An inextensible strip clamped horizontally at one end.
 struct Cantilever {
   double length = 1;    ///< free [m], positive
-  double weight = 0;    ///< per area [N/m^2], not negative
+  double weight = 0;    ///< weight per area [N/m^2], not negative
   double rigidity = 1;  ///< B, per width [N m], positive
 
   double load() const { return weight * length * length * length / rigidity; }  ///< w L^3/B
@@ -35,7 +35,7 @@ Eigen::Matrix2Xd heavy_elastica(const Cantilever& strip, std::span<const double>
 /// A limp rope with a weight.
 struct Rope {
   double length = 1;      ///< unstretched [m], positive
-  double weight = 1;      ///< per unstretched length [N/m], positive
+  double weight = 1;      ///< weight per unstretched length [N/m], positive
   double compliance = 0;  ///< strain per tension [1/N], not negative; 0: inextensible
 };
 
@@ -54,7 +54,7 @@ std::optional<Eigen::Matrix2Xd> catenary(const Rope& rope, const Eigen::Vector2d
 
 /// A linear spring and the weight at its far end.
 struct ChainLink {
-  double length = 0;     ///< at rest [m], not negative
+  double length = 0;     ///< rest length [m], not negative
   double stiffness = 1;  ///< [N/m], positive
   double weight = 0;     ///< [N], not negative
 };
@@ -77,8 +77,8 @@ enum class StretchLaw {
 
 /// A strip that hangs under its own weight, free to keep its width.
 struct HangingStrip {
-  double length = 1;                   ///< at rest [m], positive
-  double weight = 0;                   ///< per rest area [N/m^2], not negative
+  double length = 1;                   ///< rest length [m], positive
+  double weight = 0;                   ///< weight per rest area [N/m^2], not negative
   double stiffness = 1;                ///< K, per width [N/m], positive
   StretchLaw law = StretchLaw::hooke;  ///< force per width N at the stretch F
 };

@@ -9,7 +9,7 @@
 
 #include "core/base/check.h"
 #include "core/files/json_reader.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {

@@ -19,10 +19,11 @@ namespace pleat {
 struct ReferenceLabel {
   std::string id;           ///< names the content; never empty
   std::string description;  ///< a phrase for people
-  /// Halving its step, or its mesh where that is part of the error, changes it by less than a
-  /// quarter of the errors shown.
+  /// True when halving its step, or its mesh where that is part of the error, changes it by less
+  /// than a quarter of the errors shown.
   bool converged = false;
-  double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< by how much [m]; NaN: unknown
+  /// Change by that halving [m]; NaN: unknown.
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// {"id", "description", "converged", "uncertainty_m": a number or null}.
@@ -40,9 +41,9 @@ constexpr int kPhysicsVersion = 2;
 /// Positions at given times that are taken for right.
 struct Reference {
   ReferenceLabel label;
-  std::vector<Sample> samples;    ///< of all vertices of the run, or of a coarser mesh's
+  std::vector<Sample> samples;    ///< samples of all vertices of the run, or of a coarser mesh's
   std::string content{};          ///< content_id of the scene, or empty
-  int physics = kPhysicsVersion;  ///< that made it
+  int physics = kPhysicsVersion;  ///< version that made it
 };
 
 /// Keeps the first vertices alone: those of a coarser mesh.

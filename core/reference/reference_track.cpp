@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/run/carry_over.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {
@@ -42,7 +42,7 @@ std::optional<ReferenceTrack::Distance> ReferenceTrack::distance(const Simulatio
   const std::size_t after = sample_after(simulation.time());
   if (after == reference_.samples.size()) return std::nullopt;
   const Sample& next = reference_.samples[after];
-  // Before the first sample it starts from where the simulation does.
+  // The simulation's own start counts as the sample before the first.
   const double time_before = after > 0 ? reference_.samples[after - 1].time : 0;
   const double share =
       std::clamp((simulation.time() - time_before) / (next.time - time_before), 0.0, 1.0);

@@ -25,8 +25,8 @@ class ReferenceTrack {
   double end() const { return reference_.samples.back().time; }  ///< [s]
 
   struct Distance {
-    double rms = 0;          ///< over material points, by area [m]
-    double uncertainty = 0;  ///< of the reference then [m]; NaN: unknown
+    double rms = 0;          ///< RMS over material points, by area [m]
+    double uncertainty = 0;  ///< uncertainty of the reference then [m]; NaN: unknown
   };
 
   /// Measured from the simulation's present state to the reference at its time; nothing beyond its

@@ -38,7 +38,7 @@ const Eigen::VectorXd& RigidChain::angular_accelerations(const Eigen::VectorXd& 
     sines_[i] = std::sin(angles[i]);
     cosines_[i] = std::cos(angles[i]);
   }
-  const auto off_diagonal = [&](int i) {  // between links i-1 and i
+  const auto off_diagonal = [&](int i) {  // entry for links i-1 and i
     return -(sines_[i - 1] * sines_[i] + cosines_[i - 1] * cosines_[i]) / masses_[i - 1];
   };
   for (int i = 0; i < n; ++i) {

@@ -48,7 +48,7 @@ class RigidChain {
   Eigen::VectorXd sines_;
   Eigen::VectorXd cosines_;
   Eigen::VectorXd pulls_;     // tension of each link [N]
-  Eigen::VectorXd diagonal_;  // of the tridiagonal system, then of its factor
+  Eigen::VectorXd diagonal_;  // diagonal of the tridiagonal system, then of its factor
   Eigen::VectorXd accelerations_;
 };
 

@@ -29,7 +29,7 @@ class BendFeatureSum {
   VertexCurvature curvature_;
   int n_frames_ = 0;
   Eigen::VectorXd mean_;     // [1/m]
-  Eigen::VectorXd squares_;  // of the distances from the mean, summed [1/m^2]
+  Eigen::VectorXd squares_;  // summed squares of the distances from the mean [1/m^2]
 };
 
 }  // namespace pleat

@@ -11,9 +11,9 @@ struct PatternOptions {
   int n_patterns = 3;      ///< 1 to kMaxPatterns
   bool normalised = true;  ///< both components count alike, however strongly the fabric bends
   std::uint64_t seed = 1;
-  /// Of k-means, at least 1; the best counts. Where one run finds the best clusters with
-  /// probability p, all miss them with (1 - p)^n_runs: of 16 runs 61 % where p is 3 %, as for hard
-  /// features.
+  /// Runs of k-means, at least 1; the best counts. Where one run finds the best clusters with
+  /// probability p, all miss them with (1 - p)^n_runs: 16 runs miss with 61 % where p is 3 %, as
+  /// for hard features.
   int n_runs = 16;
 
   /// Throws InputError naming the value out of range.
@@ -25,8 +25,8 @@ constexpr int kMaxPatterns = 16;
 struct BendPatterns {
   std::vector<int> of_vertices;
   BendFeatures centres;        ///< a column for each pattern [1/m]
-  Eigen::Vector2d low{0, 0};   ///< what was 0 when clustering [1/m]
-  Eigen::Vector2d high{1, 1};  ///< what was 1 [1/m]
+  Eigen::Vector2d low{0, 0};   ///< features that clustering maps to 0 [1/m]
+  Eigen::Vector2d high{1, 1};  ///< features that clustering maps to 1 [1/m]
 };
 
 /// Clusters features, ranked by the length of their centre as it was clustered. Same features, same

@@ -57,7 +57,7 @@ void FaceLossSum::add(const Eigen::Ref<const Positions>& positions) {
     const QuadFace& face = fine_.faces()[f];
     const std::vector<VertexId>& grid = grids_[f];
     const int n = side_of(grid.size()) - 1;
-    int own = 0;  // which child of its parent it is
+    int own = 0;  // number among its parent's children
     std::array<Vec3, 2> shifts{Vec3::Zero(), Vec3::Zero()};
     if (face.parent.valid()) {
       const QuadFace& parent = fine_.faces()[face.parent];
@@ -70,8 +70,8 @@ void FaceLossSum::add(const Eigen::Ref<const Positions>& positions) {
       }
     }
     double squares = 0;
-    double hat_squares = 0;   // of either corner
-    double hat_products = 0;  // of both
+    double hat_squares = 0;   // sum for either corner
+    double hat_products = 0;  // sum for both corners
     std::array<Vec3, 2> pulls{Vec3::Zero(), Vec3::Zero()};
     for (int j = 0; j <= n; ++j) {
       for (int i = 0; i <= n; ++i) {

@@ -6,8 +6,8 @@
 
 namespace pleat {
 
-/// What faces lose of shapes: the rest area of each times the mean squared distance between the
-/// shape's points on it and what the face's corners show there, by area and over frames [m^4]. A
+/// Losses of faces against shapes [m^4]: the rest area of each times the mean squared distance
+/// between the shape's points on it and the face drawn from its corners, by area and over frames. A
 /// column for each face of a uniform mesh, split or not.
 ///
 /// A face shows the bilinear patch of its corners. Child k of a face may stand with its corners
@@ -32,7 +32,7 @@ class FaceLossSum {
 
  private:
   QuadMesh fine_;
-  std::vector<std::vector<VertexId>> grids_;  // of each face, row by row from corner 0 to corner 1
+  std::vector<std::vector<VertexId>> grids_;  // vertices of each face in rows from corner 0 to 1
   FaceLosses sums_;
   int n_frames_ = 0;
 };

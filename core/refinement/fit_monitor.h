@@ -18,7 +18,7 @@ class FaceCurvature {
   Eigen::VectorXd of(const Eigen::Ref<const Positions>& positions) const;
   Eigen::Index n_faces() const { return static_cast<Eigen::Index>(corners_.size()); }
 
-  /// Of one value per face the largest of those that touch it, and its own.
+  /// Maximum over a face and those that touch it, from one value per face.
   Eigen::VectorXd largest_around(const Eigen::Ref<const Eigen::VectorXd>& values) const;
 
  private:
@@ -45,15 +45,15 @@ class ExampleEnvelope {
  private:
   MeshSample sample_;
   FaceCurvature curvature_;
-  std::vector<Eigen::VectorXd> seen_;  // of each frame, by face [1/m]
+  std::vector<Eigen::VectorXd> seen_;  // curvature of the faces in each frame [1/m]
 };
 
 /// How a running motion fits a plan's examples.
 struct FitReport {
-  double share = 0;        ///< of the active faces that bend beyond their limit
+  double share = 0;        ///< share of the active faces that bend beyond their limit
   double worst_share = 0;  ///< the largest so far
   int n_in_a_row = 0;      ///< frames, up to this one, with too large a share
-  bool fires = false;      ///< that is too many frames
+  bool fires = false;      ///< true after too many such frames
   int n_frames = 0;
   std::optional<int> first_fired;  ///< frame, counted from 0
 };
@@ -61,8 +61,8 @@ struct FitReport {
 /// Says when a motion is no longer of the examples' kind.
 class FitMonitor {
  public:
-  static constexpr double kLargestShare = 0.05;  ///< of the active faces
-  static constexpr int kFrames = 10;             ///< in a row beyond that fire
+  static constexpr double kLargestShare = 0.05;  ///< share of the active faces
+  static constexpr int kFrames = 10;             ///< frames in a row beyond that fire
 
   /// Throws ContractError for a mesh that is not the plan's, InputError at /curvature_limits_per_m
   /// for a plan without a limit for each face.
@@ -73,7 +73,7 @@ class FitMonitor {
 
  private:
   FaceCurvature curvature_;
-  Eigen::VectorXd limits_;  // of each active face [1/m]
+  Eigen::VectorXd limits_;  // limit of each active face [1/m]
   FitReport report_;
 };
 

@@ -7,8 +7,8 @@
 
 namespace pleat {
 
-/// The same for every refinement of one base mesh, another for another: FNV-1a over the base quads'
-/// corners and the base vertices' rest positions, these to a micrometre.
+/// Fingerprint of a base mesh, equal for all its refinements: FNV-1a over the base quads' corners
+/// and the base vertices' rest positions, these to a micrometre.
 std::uint64_t base_fingerprint(const QuadMesh& mesh);
 
 /// The face of a finer mesh that covers the same cloth, for each face, split or not.
@@ -17,7 +17,7 @@ std::uint64_t base_fingerprint(const QuadMesh& mesh);
 ///        ContractError otherwise
 std::vector<FaceId> matching_faces(const QuadMesh& mesh, const QuadMesh& finer);
 
-/// The same vertex of a finer mesh, for each vertex. Errors as above.
+/// Vertex of a finer mesh that is the same, for each vertex. Errors as above.
 std::vector<VertexId> matching_vertices(const QuadMesh& mesh, const QuadMesh& finer);
 
 /// Values at the first vertices of a mesh, a column each, continued to all of them: a later vertex

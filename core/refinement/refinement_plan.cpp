@@ -39,7 +39,7 @@ Eigen::VectorXd largest_means(std::span<const BendExample> examples) {
   return largest;
 }
 
-/// What each face loses in the example where it loses most [m^4].
+/// Loss of each face in the example where it is largest [m^4].
 FaceLosses largest_losses(std::span<const BendExample> examples, std::size_t n_faces) {
   FaceLosses largest = FaceLosses::Zero(4, static_cast<Eigen::Index>(n_faces));
   for (const BendExample& example : examples) {
@@ -55,22 +55,22 @@ double corner_sum(const QuadFace& face, const Eigen::VectorXd& values) {
   return sum;
 }
 
-/// Splits a face and tells the story of everything that is split for it.
+/// Splits a face with what balance needs, and appends the splits to `splits`.
 template <class IsWanted>
-void split_and_tell(QuadMesh& mesh, FaceId face, const Eigen::VectorXd& demands,
-                    const IsWanted& is_wanted, std::vector<PlannedSplit>& story) {
+void split_balanced(QuadMesh& mesh, FaceId face, const Eigen::VectorXd& demands,
+                    const IsWanted& is_wanted, std::vector<PlannedSplit>& splits) {
   const std::size_t n_before = mesh.faces().size();
   mesh.refine(std::array{face});
   for (std::size_t f = n_before; f < mesh.faces().size(); f += 4) {
     const FaceId split = mesh.faces()[f].parent;
     const double sum = corner_sum(mesh.faces()[split], demands);
-    story.push_back({split, sum, !is_wanted(split, sum)});
+    splits.push_back({split, sum, !is_wanted(split, sum)});
   }
 }
 
 std::vector<PlannedSplit> split_by_demand(QuadMesh& mesh, Eigen::VectorXd demands,
                                           const PlanOptions& options) {
-  std::vector<PlannedSplit> story;
+  std::vector<PlannedSplit> splits;
   const auto is_wanted = [&](FaceId, double sum) { return sum > options.demand; };
   for (;;) {
     std::vector<FaceId> wanted;
@@ -81,8 +81,8 @@ std::vector<PlannedSplit> split_by_demand(QuadMesh& mesh, Eigen::VectorXd demand
           is_wanted(id, corner_sum(face, demands)))
         wanted.push_back(id);
     }
-    if (wanted.empty()) return story;
-    for (const FaceId face : wanted) split_and_tell(mesh, face, demands, is_wanted, story);
+    if (wanted.empty()) return splits;
+    for (const FaceId face : wanted) split_balanced(mesh, face, demands, is_wanted, splits);
     const Eigen::RowVectorXd corrected = (demands.array() - 1).cwiseMax(0);
     demands = continued(corrected, mesh).transpose();
   }
@@ -166,7 +166,7 @@ class BudgetSplitter {
           mesh_.n_vertices() + n_added(mesh_, face) <= *options_.max_vertices)
         split(face);
     }
-    return std::move(story_);
+    return std::move(splits_);
   }
 
  private:
@@ -182,7 +182,7 @@ class BudgetSplitter {
   void split(FaceId face) {
     const std::size_t n_before = mesh_.faces().size();
     const auto is_wanted = [&](FaceId id, double) { return id == face; };
-    split_and_tell(mesh_, face, demands_, is_wanted, story_);
+    split_balanced(mesh_, face, demands_, is_wanted, splits_);
     demands_ = continued(demands_.transpose(), mesh_).transpose();
     for (std::size_t f = n_before; f < mesh_.faces().size(); ++f) {
       const FaceId parent = mesh_.faces()[f].parent;
@@ -196,9 +196,9 @@ class BudgetSplitter {
   const QuadMesh& fine_;
   CoveredMeans means_;
   const PlanOptions& options_;
-  std::vector<FaceId> fine_faces_;  // the same cloth as each face
+  std::vector<FaceId> fine_faces_;  // fine face that covers each face's cloth
   std::priority_queue<Candidate> queue_;
-  std::vector<PlannedSplit> story_;
+  std::vector<PlannedSplit> splits_;
 };
 
 }  // namespace

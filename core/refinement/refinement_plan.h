@@ -15,29 +15,29 @@ namespace pleat {
 /// A motion of the fine mesh, analysed.
 struct BendExample {
   std::string name;
-  BendFeatures features;  ///< of the fine mesh's vertices [1/m]
+  BendFeatures features;  ///< features of the fine mesh's vertices [1/m]
   BendPatterns patterns;
-  FaceLosses losses;  ///< of the fine mesh's faces; only PlanCriterion::shape reads them
+  FaceLosses losses;  ///< losses of the fine mesh's faces; only PlanCriterion::shape reads them
 };
 
-/// What faces are split for.
+/// Measure by which faces are split.
 enum class PlanCriterion {
-  shape,      ///< what they lose of the example's shapes
+  shape,      ///< loss of the example's shapes
   curvature,  ///< the patterns of their corners
 };
 
-/// Lengths that are demanded are shorter: cloth in folds has lost its shape long before [m].
+/// Bound on the allowed loss [m]: cloth in folds has lost its shape long before.
 constexpr double kLargestLossEnd = 0.1;
 
 struct PlanOptions {
   PlanCriterion criterion = PlanCriterion::shape;
-  /// Of `shape`: so much may be lost, root mean square over the cloth and the frames of any example
-  /// [m]. From 0, which splits all, to below kLargestLossEnd.
+  /// Allowed loss of `shape`, root mean square over the cloth and the frames of any example [m].
+  /// From 0, which splits all, to below kLargestLossEnd.
   double largest_loss = 0.002;
-  /// Of `curvature`: a face is split where the demands of its corners sum to more: lower, more
-  /// vertices. From 0 to below 4 (number of patterns - 1).
+  /// Threshold of `curvature`: a face is split where the demands of its corners sum to more; lower,
+  /// more vertices. From 0 to below 4 (number of patterns - 1).
   double demand = 3;
-  /// Instead of either: as many vertices as possible up to this number.
+  /// Largest number of vertices, in place of either; as many as possible are made.
   std::optional<int> max_vertices;
   std::optional<int> level_cap;  ///< finest level; else that of the fine mesh, which is the most
 };
@@ -52,14 +52,14 @@ void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMe
 struct PlanExample {
   std::string name;
   BendFeatures centres;        ///< a column for each pattern [1/m]
-  Eigen::Vector2d low{0, 0};   ///< what was 0 when clustering [1/m]
-  Eigen::Vector2d high{1, 1};  ///< what was 1 [1/m]
+  Eigen::Vector2d low{0, 0};   ///< features that clustering maps to 0 [1/m]
+  Eigen::Vector2d high{1, 1};  ///< features that clustering maps to 1 [1/m]
 };
 
-/// One line of a plan's story.
+/// A split of a plan, and the reason for it.
 struct PlannedSplit {
   FaceId face;
-  /// When it was split: of its corners, summed; of PlanCriterion::shape what it lost, root mean
+  /// Sum of its corners' demands when it was split; with PlanCriterion::shape its loss, root mean
   /// square [m].
   double demand = 0;
   bool for_balance = false;  ///< only because a neighbour needed it
@@ -69,10 +69,10 @@ struct PlannedSplit {
 struct RefinementPlan {
   std::vector<PlanExample> examples;
   int n_patterns = 3;
-  std::vector<int> patterns;         ///< of each base vertex, from 0, the calmest
-  PlanOptions options;               ///< with the level cap
-  std::vector<PlannedSplit> splits;  ///< in the order in which they make the mesh
-  int n_vertices = 0;                ///< of the mesh
+  std::vector<int> patterns;         ///< pattern of each base vertex, from 0, the calmest
+  PlanOptions options;               ///< options with the level cap
+  std::vector<PlannedSplit> splits;  ///< splits in the order in which they make the mesh
+  int n_vertices = 0;                ///< number of vertices of the planned mesh
   std::uint64_t base_mesh = 0;       ///< its fingerprint
   /// Mean curvature of a face's corners that the examples hardly exceeded thereabouts, one value
   /// per face that is not split, ExampleEnvelope::limits [1/m]; empty while these were not

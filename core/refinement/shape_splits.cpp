@@ -37,7 +37,7 @@ std::vector<std::array<FaceId, 4>> faces_beyond(const QuadMesh& fine) {
 
 /// Splits in an order that keeps the mesh balanced, and what they change.
 struct Step {
-  double saved = 0;  // of the loss [m^4]
+  double saved = 0;  // loss saved [m^4]
   int n_added = 0;   // vertices
   std::vector<FaceId> splits;
   std::vector<FaceId> wanted;  // the others are for balance
@@ -93,7 +93,7 @@ class ShapeSplitter {
       else
         make(step);
     }
-    return std::move(story_);
+    return std::move(splits_);
   }
 
  private:
@@ -106,7 +106,7 @@ class ShapeSplitter {
     return is_split_[face];
   }
 
-  /// Whether the middle of a split face's edge hangs.
+  /// True when the middle of a split face's edge hangs.
   bool hangs(FaceId face, int edge) {
     const FaceId other = beyond_[face][edge];
     return other.valid() && !is_split(other);
@@ -126,7 +126,7 @@ class ShapeSplitter {
     return losses_(row, face.value);
   }
 
-  /// Of the faces with corners on this one's edges.
+  /// Sum of the losses of faces with corners on this one's edges.
   double loss_beside(FaceId face) {
     double sum = 0;
     for (const FaceId other : beyond_[face]) {
@@ -205,9 +205,9 @@ class ShapeSplitter {
     for (const FaceId face : step.splits) {
       const bool is_wanted =
           std::find(step.wanted.begin(), step.wanted.end(), face) != step.wanted.end();
-      story_.push_back({ids_[face], std::sqrt(loss(face) / fine_.area(face)), !is_wanted});
+      splits_.push_back({ids_[face], std::sqrt(loss(face) / fine_.area(face)), !is_wanted});
       is_split_[face] = true;
-      std::int64_t next = fine_.n_base_faces() + 4 * static_cast<std::int64_t>(story_.size() - 1);
+      std::int64_t next = fine_.n_base_faces() + 4 * static_cast<std::int64_t>(splits_.size() - 1);
       for (const FaceId child : fine_.faces()[face].children) {
         ids_[child] = FaceId(next++);
         changed.push_back(child);
@@ -226,13 +226,13 @@ class ShapeSplitter {
   const PlanOptions& options_;
   std::vector<std::array<FaceId, 4>> beyond_;
   std::vector<bool> is_split_;
-  std::vector<int> versions_;                 // of each face's offer
-  std::vector<std::vector<FaceId>> readers_;  // whose offers change when a face is split
-  FaceId reader_;                             // whose offer is looked at, if any
-  std::vector<FaceId> ids_;                   // in the planned mesh
+  std::vector<int> versions_;                 // version of each face's offer
+  std::vector<std::vector<FaceId>> readers_;  // faces whose offers change when a face is split
+  FaceId reader_;                             // face whose offer is looked at, if any
+  std::vector<FaceId> ids_;                   // numbers in the planned mesh
   std::priority_queue<Candidate> queue_;
-  std::vector<PlannedSplit> story_;
-  double loss_ = 0;          // of the mesh on the way [m^4]
+  std::vector<PlannedSplit> splits_;
+  double loss_ = 0;          // loss of the mesh planned so far [m^4]
   double allowed_loss_ = 0;  // [m^4]
   int n_vertices_ = 0;
 };

@@ -38,7 +38,7 @@ double series(double e) {
 /// series begins below the root, and from there each step stays below it.
 double half_angle(double e) {
   constexpr int kMaxSteps = 5;         // three are enough at e = 1
-  constexpr double kRounding = 1e-15;  // of t
+  constexpr double kRounding = 1e-15;  // relative to t
   double t = series(e);
   if (e < kSeriesEnd) return std::sqrt(t);
   for (int step = 0; step < kMaxSteps; ++step) {

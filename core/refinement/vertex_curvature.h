@@ -32,7 +32,7 @@ class VertexCurvature {
  private:
   struct Arc {
     VertexId a, b;
-    double length = 0;  // of the cloth between them [m]
+    double length = 0;  // length of cloth between them [m]
   };
 
   std::vector<Arc> arcs_;

@@ -35,7 +35,7 @@ Membrane tensile_part(const Membrane& resultants, double largest) {
   if (major <= 0) return Membrane::Zero();
   const double scale = std::min(1.0, largest / major);
   if (mean >= radius) return scale * resultants;
-  // What is left is major n n, with n at half the angle of (half, uv).
+  // The rest is major n n, with n at half the angle of (half, uv).
   const double cosine = half / radius;
   return scale * major / 2 * Membrane(1 + cosine, 1 - cosine, resultants[2] / radius);
 }
@@ -170,14 +170,14 @@ bool join_the_same(const std::vector<Spring>& springs, const std::vector<Spring>
                     [](const Spring& p, const Spring& q) { return p.a == q.a && p.b == q.b; });
 }
 
-/// Without shear springs nothing answers a shear: the least strain then is the one to take.
+/// Least strain per resultant: without shear springs nothing answers a shear.
 Mat3 strain_per_resultant(const MovingSheet& sheet) {
   return membrane_stiffness(sheet).completeOrthogonalDecomposition().pseudoInverse();
 }
 
-/// How far each new spring is stretched to begin with [m], on the same mesh: by its own tension,
-/// compression included. Where it is softer per mass, so that it would be stretched further, at
-/// most by the largest resultant both ways.
+/// First stretch of each new spring [m] on the same mesh: by its own tension, compression included.
+/// Where it is softer per mass, so that it would be stretched further, at most by the largest
+/// resultant both ways.
 std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fresh) {
   const double ratio = mass_ratio(old, fresh);
   const double largest = ratio * largest_resultant(old, old.mesh.vertex_areas().sum());
@@ -198,7 +198,7 @@ std::vector<double> same_stretches(const MovingSheet& old, const MovingSheet& fr
   return stretches;
 }
 
-/// The same on another mesh: by the tensile resultants at both ends.
+/// First stretch of each spring on another mesh [m]: by the tensile resultants at both ends.
 std::vector<double> smoothed_stretches(const MovingSheet& old, const MovingSheet& fresh) {
   const double ratio = mass_ratio(old, fresh);
   const Resultants resultants = carried_means(vertex_resultants(old), fresh.mesh);

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/files/json_text.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {

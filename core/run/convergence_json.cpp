@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/dynamics/stepper_table.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 
 namespace pleat {
 namespace {

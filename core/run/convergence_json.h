@@ -5,11 +5,11 @@
 
 namespace pleat {
 
-/// What a page wishes of a study: "time_s", "constraints", "most_rounds", "longest_solve_s",
-/// "repeat", and "methods", each as the section "method" of a scene.
+/// Reads a page's request: "time_s", "constraints", "most_rounds", "longest_solve_s", "repeat", and
+/// "methods", each as the section "method" of a scene.
 ConvergenceOptions read_convergence_options(const JsonReader& reader);
 
-/// What is not known is null.
+/// The study as JSON; unknown numbers are null.
 Json json_convergence(const ConvergenceStudy& study);
 
 }  // namespace pleat

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/dynamics/pbd/converged_step.h"
-#include "core/dynamics/pbd/step_solve.h"
+#include "core/dynamics/position_based/converged_step.h"
+#include "core/dynamics/position_based/spring_law.h"
+#include "core/dynamics/position_based/step_solve.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/dynamics/xpbd/spring_law.h"
 #include "core/run/simulation.h"
 #include "core/run/stage_timer.h"
 
@@ -39,7 +39,8 @@ void keep_one_diagonal(ClothModel& model) {
     }
 }
 
-/// What takes the time: the run until the step, the rounds, and the time of each number of them.
+/// Parts that take the time: the run until the step, the rounds, and the time of each number of
+/// them.
 constexpr int kRunPart = 0, kRoundsPart = 1, kTimesPart = 2, kParts = 3;
 
 /// So many of a part's pieces are done.
@@ -96,12 +97,12 @@ class Contestant {
  public:
   virtual ~Contestant() = default;
   virtual void solve(int rounds) = 0;
-  virtual ConvergencePoint look(int rounds) = 0;  // after solve
+  virtual ConvergencePoint look(int rounds) = 0;  // requires a solve before
   virtual bool takes_rounds() const = 0;
   virtual bool has_error() const = 0;
 };
 
-/// What a method's own equations come to; no columns where that is not known.
+/// Solution of a method's own equations; no columns where that is not known.
 struct Converged {
   Positions positions;
   double distance_begin = std::nan("");
@@ -152,7 +153,7 @@ class WholeStep final : public Contestant {
         rms_distance(model_, state_.positions, converged_.positions) / converged_.distance_begin;
     return point;
   }
-  bool takes_rounds() const override { return method_.stepper->reads(MethodSetting::iterations); }
+  bool takes_rounds() const override { return method_.stepper->reads("iterations"); }
   bool has_error() const override { return false; }
 
  private:
@@ -222,7 +223,7 @@ std::vector<ConvergencePoint> points_of(Contestant& contestant, const Convergenc
   return points;
 }
 
-/// Of one solve, in a batch of many [ms].
+/// Time of one solve, in a batch of many [ms].
 double timed(Contestant& contestant, int rounds) {
   contestant.solve(rounds);
   int n = 0;
@@ -234,7 +235,7 @@ double timed(Contestant& contestant, int rounds) {
   return 1e3 * watch.elapsed() / n;
 }
 
-/// Of an even number of values, the lower one in the middle.
+/// Median; of an even number of values, the lower one in the middle.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -264,12 +265,6 @@ void add_times(std::vector<ConvergenceSeries>& series,
 }
 
 }  // namespace
-
-const ConvergencePoint* ConvergenceSeries::first_below(double relative_error) const {
-  for (const ConvergencePoint& point : points)
-    if (point.relative_error <= relative_error) return &point;
-  return nullptr;
-}
 
 ConvergenceStudy study_convergence(const Scene& scene, const ConvergenceOptions& options) {
   PLEAT_CHECK(options.time >= 0 && options.most_rounds >= 1 && options.repeat >= 1,

@@ -9,19 +9,19 @@
 
 namespace pleat {
 
-/// Which diagonals of quads are springs. Rigid springs on both contradict each other: four corners
+/// Diagonals of quads that are springs. Rigid springs on both contradict each other: four corners
 /// with six lengths stay flat, and the error ends at a plateau.
 enum class Diagonals {
-  one,  ///< those of the surface's triangles, each as stiff as two
+  one,  ///< sides of the surface's triangles, each as stiff as two
   both,
 };
 
 struct ConvergenceOptions {
   std::vector<MethodOptions> methods;
-  Constraints constraints = Constraints::rigid;  ///< of position-based methods
+  Constraints constraints = Constraints::rigid;  ///< kind of constraints for position-based methods
   Diagonals diagonals = Diagonals::one;
   double time = 0;         ///< the step begins at the step of the scene nearest to it [s]
-  int most_rounds = 1025;  ///< of each method
+  int most_rounds = 1025;  ///< limit for each method
   /// A method that took longer for a solve is not given more rounds [s].
   double longest_solve = std::numeric_limits<double>::infinity();
   /// Relative errors whose rounds are found, in (0, 1).
@@ -30,10 +30,10 @@ struct ConvergenceOptions {
   std::function<void(double)> hear;  ///< told how much of the study is done, 0 to 1
 };
 
-/// What so many rounds of a method make of the step.
+/// Measures of a step after so many rounds of a method.
 struct ConvergencePoint {
   int rounds = 0;
-  double sweeps = std::numeric_limits<double>::quiet_NaN();  ///< of the finest mesh
+  double sweeps = std::numeric_limits<double>::quiet_NaN();  ///< sweeps of the finest mesh
   double ms = 0;                                             ///< median of the batches
   /// See StepSolve::relative_error; NaN of other than position-based methods.
   double relative_error = std::numeric_limits<double>::quiet_NaN();
@@ -44,19 +44,16 @@ struct ConvergencePoint {
 
 struct ConvergenceSeries {
   MethodOptions method;
-  std::vector<ConvergencePoint> points;  ///< by rounds
+  std::vector<ConvergencePoint> points;  ///< points ordered by rounds
   double distance_begin = 0;    ///< RMS, of the predicted places from the converged ones [m]
   double distance_unknown = 0;  ///< how far those may be off [m]; NaN where none were found
-
-  /// The first point with no more relative error; null without one.
-  const ConvergencePoint* first_below(double relative_error) const;
 };
 
 struct ConvergenceStudy {
   double time = 0;  ///< when the step begins [s]
   double step = 0;  ///< [s]
   int n_vertices = 0, n_springs = 0, n_bends = 0;
-  std::vector<ConvergenceSeries> series;  ///< in the order of the methods
+  std::vector<ConvergenceSeries> series;  ///< results in the order of the methods
 };
 
 /// One step of a scene, solved by each method from the same predicted places, without air and

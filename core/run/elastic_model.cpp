@@ -13,8 +13,6 @@ BendingLaw lattice_law(BendingModel bending) {
   switch (bending) {
     case BendingModel::quadratic:
       return BendingLaw::quadratic;
-    case BendingModel::arc:
-      return BendingLaw::arc;
     case BendingModel::linear:
       return BendingLaw::linear;
     default:

@@ -45,7 +45,7 @@ class ExampleStudy {
   QuadMesh fine_;
   std::vector<BendExample> examples_;
   std::vector<Positions> frames_;
-  FaceLossSum losses_;  // of the next example's frames
+  FaceLossSum losses_;  // losses in the next example's frames
 };
 
 }  // namespace pleat

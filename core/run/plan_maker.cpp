@@ -6,12 +6,12 @@
 #include "core/base/check.h"
 #include "core/files/json_text.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/cloth_section.h"
+#include "core/scene/format/cloth_section.h"
 
 namespace pleat {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a frame
+constexpr double kRounding = 1e-9;  // share of a frame
 
 std::vector<double> frame_times(const Scene& scene, const PlanRecipe& recipe) {
   std::vector<double> times;
@@ -59,8 +59,8 @@ std::vector<Scene> checked(std::vector<Scene> examples) {
 }  // namespace
 
 double settled_time(const Scene& scene) {
-  constexpr double kSettling = 1.0;  // [s] after a figure has begun to move as it will
-  return scene.figure ? scene.figure->playback.blend_time + kSettling : 0;
+  constexpr double kSettling = 1.0;  // [s] after a body has begun to move as it will
+  return scene.body ? scene.body->playback.blend_time + kSettling : 0;
 }
 
 PlanMaker::PlanMaker(std::vector<Scene> examples, const PlanRecipe& recipe)

@@ -9,7 +9,7 @@
 
 namespace pleat {
 
-/// Which frames of an example are analysed, and how a plan is made of them.
+/// Choice of the frames of an example that are analysed, and of how a plan is made of them.
 struct PlanRecipe {
   double frame_time = 1.0 / 30;  ///< [s], positive
   double begin = 0;              ///< frames before are of the cloth finding its shape [s]
@@ -17,12 +17,12 @@ struct PlanRecipe {
   PlanOptions plan;
 };
 
-/// What a plan cost.
+/// Cost of a plan.
 struct PlanCost {
-  double example_seconds = 0;   ///< of running the examples on the fine mesh, by the clock
-  double planning_seconds = 0;  ///< of features, patterns, plan and limits
-  double megabytes = 0;         ///< of the frames that were kept
-  int n_frames = 0;             ///< of all examples
+  double example_seconds = 0;   ///< time of running the examples on the fine mesh, by the clock
+  double planning_seconds = 0;  ///< time of features, patterns, plan and limits
+  double megabytes = 0;         ///< size of the frames that were kept
+  int n_frames = 0;             ///< frames of all examples
   double frame_time = 0;        ///< [s]
 };
 
@@ -37,7 +37,7 @@ class ExampleError : public InputError {
   std::size_t example_;
 };
 
-/// When cloth has settled into the scene's motion [s]: a while after a figure moves as it will.
+/// When cloth has settled into the scene's motion [s]: a while after a body moves as it will.
 double settled_time(const Scene& scene);
 
 /// Runs examples on their fine mesh and plans from what is seen there, in slices.
@@ -52,11 +52,11 @@ class PlanMaker {
   /// Runs until done or `budget` [s] is spent, at least a step. Throws ExampleError for an
   /// example whose numbers end the run, and as refinement_plan and bend_patterns do.
   void advance(double budget);
-  double progress() const;  ///< in [0, 1]
+  double progress() const;  ///< share done, in [0, 1]
 
   const RefinementPlan& plan() const { return plan_; }  ///< once done
   const PlanCost& cost() const { return cost_; }
-  /// What each example that has run shows that its scene cannot explain.
+  /// Warnings of each example that has run: signs that its scene cannot explain.
   const std::vector<std::vector<RunWarning>>& warnings() const { return warnings_; }
 
   /// Another plan from the same frames, once done. Throws InputError as refinement_plan does.

@@ -30,7 +30,7 @@ void check_scene(const Scene& scene) {
     if (scene.colliders[k].motion.kind != Motion::Kind::hold)
       throw InputError("/world/colliders/" + std::to_string(k) + "/motion",
                        "expected hold, as responses are compared on solids at rest");
-  if (!scene.method.stepper->reads(MethodSetting::first_contact))
+  if (!scene.method.stepper->reads("first_contact_m"))
     throw InputError("/method/stepper", std::string("expected one that parts a substep at first "
                                                     "contact, got ") +
                                             scene.method.stepper->name);
@@ -46,7 +46,7 @@ Scene with_short_steps(Scene scene) {
   return scene;
 }
 
-/// What a touched vertex's velocity becomes, by the law alone.
+/// Velocity of a vertex after a touch, by the law alone.
 Vec3 answered(const Vec3& velocity, const Vec3& normal, double friction, ContactResponse response) {
   const double down = std::max(0.0, -normal.dot(velocity));
   const double change = response == ContactResponse::uniform ? 2 * down : down;
@@ -147,7 +147,7 @@ class TouchedVertices {
   static constexpr int kUntouched = -1;
 
   const Simulation& simulation_;
-  std::vector<int> solids_;  // that touched each vertex last
+  std::vector<int> solids_;  // solid that touched each vertex last
   double sum_ = 0;
   std::int64_t n_ = 0;
 };

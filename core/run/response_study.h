@@ -20,14 +20,15 @@ struct FrictionCheck {
 struct ResponseRun {
   std::vector<double> normal_velocities;  ///< RMS over the vertices touched so far, after each
                                           ///< substep [m/s]
-  double rms_normal_velocity = 0;         ///< of all these samples [m/s]
+  double rms_normal_velocity = 0;         ///< RMS over all these samples [m/s]
   int n_touched = 0;                      ///< vertices
-  double contact_share = 0;               ///< of the time of a step
-  /// Of steppers that put the forces of solids into the next substep's equations: none.
+  double contact_share = 0;               ///< share of the time of a step
+  /// Check of friction; none for steppers that put the forces of solids into the next substep's
+  /// equations.
   std::optional<FrictionCheck> friction;
 };
 
-/// What a cloth does after its first contact, by what contact makes of the normal velocity.
+/// Motion of a cloth after its first contact, by the contact's effect on the normal velocity.
 struct ResponseStudy {
   double first_contact = 0;  ///< [s]
   double substep = 0;        ///< [s]

@@ -13,7 +13,7 @@
 namespace pleat {
 namespace {
 
-/// Below this the stretch of one edge is no nonsense, whatever its load: trousers on a walk reach a
+/// Stretch of one edge that is no nonsense yet, whatever its load: trousers on a walk reach a
 /// quarter at the fork for a moment, where legs wedge them.
 constexpr double kLeastStretch = 0.35;
 /// A fall that is stopped, and a load that one thread of many bears, pull so many times as much as
@@ -51,7 +51,7 @@ double holding_stiffness(const Simulation& simulation) {
   if (simulation.scene().cloth->is_surface()) {
     for (const GaugeEdge& edge : simulation.gauge())
       add(edge.a, edge.b, edge_stiffness(simulation.scene(), edge));
-    // As many edges go through a cut as are in one of the rows and columns that all are in.
+    // A cut goes through as many edges as lie in one of the rows and columns that all are in.
     const auto n_edges = static_cast<double>(simulation.gauge().size());
     return held > 0 ? held : all / std::sqrt(2 * std::max(n_edges, 1.0));
   }
@@ -98,7 +98,7 @@ Fastest fastest_of(const Positions& velocities) {
   return fastest;
 }
 
-/// Against gravity, unit; zero without gravity.
+/// Unit vector against gravity; zero without gravity.
 Vec3 up_of(const ClothModel& model) {
   return model.gravity.isZero(0) ? Vec3(0, 0, 0) : Vec3(-model.gravity.normalized());
 }
@@ -120,20 +120,14 @@ double stretch_between_pins(const Simulation& simulation) {
   return largest;
 }
 
-Vec3 middle_of(const SolidShape& shape) {
-  if (const auto* plane = std::get_if<Plane>(&shape)) return plane->point;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->centre;
-  const auto& cone = std::get<RoundedCone>(shape);
-  return (cone.centre_a + cone.centre_b) / 2;
-}
-
 double driven_speed(const Simulation& simulation) {
   double speed = 0;
   for (const Pin& pin : simulation.model().pins)
     speed = std::max(speed, pin.velocity(simulation.time()).norm());
   for (const Collider& collider : simulation.scene().colliders)
     if (collider.motion.kind != Motion::Kind::hold) {
-      const Vec3 velocity = collider.motion.velocity(middle_of(collider.shape), simulation.time());
+      const Vec3 middle = ball_around(collider.shape).centre;
+      const Vec3 velocity = collider.motion.velocity(middle, simulation.time());
       speed = std::max(speed, velocity.norm());
     }
   return speed;
@@ -146,12 +140,11 @@ std::vector<SettingHint> hints_for(RunWarning::Kind kind, const Scene& scene) {
   std::vector<SettingHint> hints;
   const bool is_unsolved =
       kind == RunWarning::Kind::unsolved || kind == RunWarning::Kind::not_converged;
-  if (is_unsolved && method.stepper->reads(MethodSetting::solver) &&
-      method.solver == SolverKind::cg)
+  if (is_unsolved && method.stepper->reads("solver") && method.solver == SolverKind::cg)
     hints.push_back({"/method/solver", name(SolverKind::supernodal)});
-  if (method.stepper->reads(MethodSetting::iterations) && method.iterations < 10)
+  if (method.stepper->reads("iterations") && method.iterations < 10)
     hints.push_back({"/method/iterations", 4 * method.iterations});
-  if (method.stepper->reads(MethodSetting::substeps) && method.substeps > 0)
+  if (method.stepper->reads("substeps") && method.substeps != kStableSubsteps)
     hints.push_back({"/method/substeps", 4 * method.substeps});
   if (hints.empty()) hints.push_back({"/method/step_s", method.step / 4});
   return hints;

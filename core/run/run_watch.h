@@ -25,30 +25,30 @@ struct RunWarning {
   };
   Kind kind;
   double time;      ///< when it was first seen [s]
-  VertexId vertex;  ///< where, at its worst
-  double value;     ///< at its worst: |l/L - 1|, [m/s], or the relative residual
-  double bound;     ///< that the first one was beyond, in the same unit
+  VertexId vertex;  ///< vertex where it was at its worst
+  double value;     ///< worst value: |l/L - 1|, [m/s], or the relative residual
+  double bound;     ///< limit that the first one exceeded, in the same unit
   std::vector<SettingHint> hints;
 
   bool is_nonsense() const { return kind != Kind::not_converged; }
 };
 
-/// What was seen, where and since when, and what the scene explains.
+/// Sentence on the observation, its place, its time, and what the scene explains.
 std::string sentence(const RunWarning& warning);
 /// "try /method/substeps = 4".
 std::string advice(const RunWarning& warning);
 
 Json json_warning(const RunWarning& warning);
-/// Of each.
+/// JSON of each warning.
 Json json_warnings(std::span<const RunWarning> warnings);
-/// What json_warnings wrote. Throws InputError with the JSON pointer.
+/// Reads the text of json_warnings. Throws InputError with the JSON pointer.
 std::vector<RunWarning> read_warnings(const JsonReader& reader);
 
 /// Looks at a running simulation now and then and tells when it shows what the scene cannot
 /// explain. Costs nothing between looks.
 class RunWatch {
  public:
-  /// simulation  at the beginning of its run
+  /// simulation  at the start of its run
   explicit RunWatch(const Simulation& simulation);
 
   /// step  the report of the steps since the last look
@@ -63,10 +63,10 @@ class RunWatch {
   void look_at_report(const Simulation& simulation, const SolveReport& step);
   void warn(const Simulation& simulation, RunWarning warning);
 
-  double load_stretch_;      // of what the cloth's whole weight pulls at, with room for motion [1]
+  double load_stretch_;      // stretch under the cloth's whole weight, with room for motion [1]
   double start_stretch_;     // [1]
-  double start_height_;      // of the highest vertex against gravity [m]
-  double start_speed_;       // at the start, with what the energy stored there can give [m/s]
+  double start_height_;      // height of the highest vertex against gravity [m]
+  double start_speed_;       // speed at the start, with what the energy stored there can give [m/s]
   double driven_speed_ = 0;  // the largest so far of pins and solids [m/s]
   int n_unsolved_ = 0;       // looks in a row that saw a step left unsolved
   double unsolved_since_ = 0;  // the first of them [s]

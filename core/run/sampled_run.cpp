@@ -10,8 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kTimeTolerance =
-    1e-9;  // of a step: sample times that differ less from its end are at its end
+constexpr double kTimeTolerance = 1e-9;  // share of a step; sample times so near its end are at it
 
 /// Cubic Hermite interpolation between two states `step` [s] apart; share in [0, 1].
 Positions interpolated(const State& begin, const State& end, double step, double share) {

@@ -13,7 +13,7 @@
 
 namespace pleat {
 
-/// What a run looked like at one time.
+/// Shape of the cloth at one time of a run.
 struct Sample {
   double time;          ///< [s]
   Positions positions;  ///< [m]
@@ -22,15 +22,15 @@ struct Sample {
   double uncertainty = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A scene run from its beginning through given times, in slices.
+/// A scene run from its start through given times, in slices.
 ///
 /// When a sample time lies inside a step, positions come from the cubic through both ends'
 /// positions and velocities, whose error is of fourth order in the step. Sampling is outside the
 /// clock, and so is the first step, in which steppers build what they keep.
 class SampledRun {
  public:
-  /// What a run keeps beside its samples. All of it costs time, or memory and caches: the clock's
-  /// seconds are those of the method alone where the run is `untimed`.
+  /// Measurements beside the samples. Each costs time, or memory and caches: the clock's seconds
+  /// are those of the method alone where the run is `untimed`.
   enum class Parts {
     untimed,            ///< nothing
     watched,            ///< warnings
@@ -57,11 +57,10 @@ class SampledRun {
   /// ok, or what ended the run, or not_converged when that ever happened. Its residual is the
   /// largest of all steps, its iterations their sum.
   const SolveReport& report() const { return run_.report(); }
-  double timed_seconds() const { return run_.seconds(); }  ///< by the clock
-  double timed_duration() const;                           ///< simulated meanwhile [s]
-  const StageTimer& parts() const {
-    return run_.parts();
-  }  ///< over the same steps; zero unless timed
+  double timed_seconds() const { return run_.seconds(); }  ///< wall time [s]
+  double timed_duration() const;                           ///< simulated time [s]
+  /// Times of the same steps' parts; zero unless timed.
+  const StageTimer& parts() const { return run_.parts(); }
   /// See EnergyLedger; NaN without it.
   double relative_drift() const;
   /// See RunWatch, which looks at each step; none when untimed.

@@ -13,7 +13,7 @@
 namespace pleat {
 namespace {
 
-/// The frames of the figure's bones, by their numbers; empty without a figure.
+/// The frames of the body's bones, by their numbers; empty without a body.
 using BoneFrames = std::vector<std::shared_ptr<const MovingFrame>>;
 
 Motion following(const BoneFrames& frames, Bone bone) {
@@ -41,17 +41,17 @@ std::vector<Pin> scene_pins(const Scene& scene, const RestCloth& cloth, const Cl
   return pins;
 }
 
-/// The parts of the figure that the scene's cloth meets: garments are of the lower body.
+/// The parts of the body that the scene's cloth meets: garments are of the lower body.
 std::vector<BodyPart> body_parts(const Scene& scene) {
-  std::vector<BodyPart> parts = scene.figure->parts();
+  std::vector<BodyPart> parts = scene.body->parts();
   return scene.cloth->is_worn() ? below_waist(std::move(parts)) : parts;
 }
 
-/// The scene's own solids, then the figure's.
+/// The scene's own solids, then the body's.
 std::vector<Collider> scene_colliders(const Scene& scene, const BoneFrames& frames) {
   std::vector<Collider> colliders = scene.colliders;
-  if (!scene.figure) return colliders;
-  const double friction = scene.figure->friction.value_or(scene.fabric.friction_solid);
+  if (!scene.body) return colliders;
+  const double friction = scene.body->friction.value_or(scene.fabric.friction_solid);
   for (const BodyPart& part : body_parts(scene))
     colliders.push_back(Collider{part.shape, following(frames, part.bone), friction});
   return colliders;
@@ -109,7 +109,7 @@ State scene_state(const RestCloth& cloth) { return {cloth.start, cloth.start_vel
 
 ClothModel scene_model(const Scene& scene, const RestCloth& cloth) {
   ClothModel model;
-  const BoneFrames frames = scene.figure ? scene.figure->bone_frames() : BoneFrames{};
+  const BoneFrames frames = scene.body ? scene.body->bone_frames() : BoneFrames{};
   add_elasticity(model, scene, cloth);
   model.rest_coordinates = cloth.rest_coordinates;
   if (scene.method.stepper->needs_surface) model.surface = cloth.mesh;

@@ -16,11 +16,10 @@ ClothModel scene_model(const Scene& scene, const RestCloth& cloth);
 /// The state at time 0.
 State scene_state(const RestCloth& cloth);
 
-/// What scene_model built, and what it left out because the scene does not ask for it.
+/// Parts that scene_model built, and those left out as the scene does not ask for them.
 struct BuildReport {
   std::vector<std::string> built;
-  std::vector<std::size_t>
-      bytes;  ///< that the model keeps for each part built, without what steppers add
+  std::vector<std::size_t> bytes;  ///< memory of each part built, without what steppers add
   std::vector<std::string> left_out;
 };
 

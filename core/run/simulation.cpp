@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/dynamics/stability_bound.h"
+#include "core/dynamics/explicit/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/refinement/mesh_match.h"
 #include "core/run/content_id.h"
@@ -81,8 +81,8 @@ void Simulation::make_whole() {
   take_cloth(rest_cloth(scene_));
 }
 
-/// What a vertex splits into goes on with its velocity and shares its mass and what held it against
-/// solids: momentum and forces add up to what they were.
+/// Tears the cloth. Each part of a vertex goes on with the vertex's velocity and shares its mass
+/// and what held it against solids: momentum and forces add up to what they were.
 void Simulation::tear() {
   const Tearing& tearing = *scene_.model.tearing;
   std::optional<TornCloth> torn = tearing.torn(cloth_, gauge_, state_.positions, model_.pins);

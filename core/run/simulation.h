@@ -44,7 +44,7 @@ class Simulation final : public MovingCloth {
   /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
   /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
   /// shake the cloth; until then it does not tear. Moments of inner friction go on where the same
-  /// three vertices follow each other, and begin at zero elsewhere. Throws ContractError unless
+  /// three vertices follow each other, and start at zero elsewhere. Throws ContractError unless
   /// both are sheets with the same base mesh, and `old` is whole.
   void carry_over(const Simulation& old);
 
@@ -53,7 +53,7 @@ class Simulation final : public MovingCloth {
   /// the parents. One hand at a time.
   void grab(VertexId vertex);
   bool is_grabbed() const { return grab_.has_value(); }
-  /// Where the grabbed vertex shall be at the end of the next step [m].
+  /// Sets the grabbed vertex's place at the end of the next step [m].
   void move_grab(const Vec3& target);
   void release_grab();
 
@@ -71,8 +71,8 @@ class Simulation final : public MovingCloth {
   const std::vector<Triangle>& triangles() const { return cloth_.mesh.triangles; }
   /// Positions in which the scene starts [m].
   const Positions& rest_positions() const { return cloth_.mesh.rest_positions; }
-  /// For each vertex that tears have appended since the start the one before it that it was split
-  /// from: the vertices before are those of the whole cloth.
+  /// Vertex that each one appended by a tear since the start was split from: the vertices before
+  /// are those of the whole cloth.
   std::span<const VertexId> tear_origins() const { return tear_origins_; }
   /// Pins of the scene, without those of a hand.
   std::span<const Pin> own_pins() const {
@@ -82,9 +82,8 @@ class Simulation final : public MovingCloth {
   std::int64_t topology() const { return topology_; }
   /// The rest area of each vertex [m^2]; particles count by their mass.
   Eigen::VectorXd rest_areas() const { return pleat::rest_areas(cloth_); }
-  std::int64_t n_steps() const {
-    return n_steps_;
-  }  ///< since the start or what it last went on from
+  /// Steps since the start or what it last went on from.
+  std::int64_t n_steps() const { return n_steps_; }
   double time() const override {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
@@ -95,7 +94,7 @@ class Simulation final : public MovingCloth {
   std::optional<double> first_contact() const { return stepper_->first_contact(); }
   /// See Stepper::contact_forces.
   bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
-  /// Those forces over the vertices' masses [m/s^2]; zero where vertices hang.
+  /// Contact forces over the vertices' masses [m/s^2]; zero where vertices hang.
   Positions contact_accelerations() const;
   /// See Stepper::strain_limit.
   const StrainLimitStage* strain_limit() const { return stepper_->strain_limit(); }
@@ -110,7 +109,7 @@ class Simulation final : public MovingCloth {
   struct Grab {
     VertexId vertex;
     std::size_t first_pin;  // its pins are the last of model_.pins
-    Vec3 target;            // of `vertex` at the end of the next step [m]
+    Vec3 target;            // place of `vertex` at the end of the next step [m]
   };
 
   void start();
@@ -138,6 +137,6 @@ class Simulation final : public MovingCloth {
   SolveReport ended_;
 };
 
-constexpr double kHandRadius = 0.03;  ///< of the rest diagonal
+constexpr double kHandRadius = 0.03;  ///< share of the rest diagonal
 
 }  // namespace pleat

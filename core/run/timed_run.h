@@ -17,7 +17,7 @@ class TimedRun {
   /// Timing the parts of a step costs time itself.
   enum class Parts { untimed, timed };
 
-  /// cloth  at the beginning of a run; outlives this, and has no other observer where parts are
+  /// cloth  at the start of a run; outlives this, and has no other observer where parts are
   ///        timed
   TimedRun(MovingCloth& cloth, Parts parts);
   ~TimedRun();
@@ -35,9 +35,9 @@ class TimedRun {
   bool has_ended() const { return report_.ends_run(); }
   /// The reports of all steps, added up (SolveReport::add).
   const SolveReport& report() const { return report_; }
-  std::int64_t n_timed() const { return n_timed_; }   ///< steps on the clock
-  double seconds() const { return seconds_; }         ///< of these steps, parts and all else
-  const StageTimer& parts() const { return parts_; }  ///< over the same steps; zero when untimed
+  std::int64_t n_timed() const { return n_timed_; }  ///< steps on the clock
+  double seconds() const { return seconds_; }  ///< wall time of these steps, parts and all else
+  const StageTimer& parts() const { return parts_; }  ///< times of their parts; zero when untimed
 
   /// Forgets the costs, not the report.
   void clear_costs();

@@ -27,9 +27,9 @@ class Transition {
  private:
   std::vector<Spring> own_springs_;
   ContactOptions own_contact_;
-  std::vector<double> rest_lengths_;  // at the change [m]
-  ContactOptions contact_;            // at the change
-  double drag_strength_;              // at the change
+  std::vector<double> rest_lengths_;  // rest lengths at the change [m]
+  ContactOptions contact_;            // options at the change
+  double drag_strength_;              // strength at the change
 };
 
 }  // namespace pleat

@@ -64,7 +64,7 @@ class ClothSource {
   /// True for one piece with an area: a membrane may fill it, it can be refined, and a hand holds
   /// what is near. False for particles and knits.
   virtual bool is_surface() const { return true; }
-  /// True for what is fixed to a figure's waist and meets its hips and legs alone.
+  /// True for what is fixed to a body's waist and meets its hips and legs alone.
   virtual bool is_worn() const { return false; }
 
   /// The name of a part that a pin gives. Throws InputError for a name that no part has.

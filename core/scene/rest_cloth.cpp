@@ -1,14 +1,39 @@
 #include "core/scene/rest_cloth.h"
 
+#include <algorithm>
+
 #include "core/base/check.h"
-#include "core/scene/scene_parts.h"
+#include "core/refinement/mesh_match.h"
 #include "core/scene/vertex_place.h"
 
 namespace pleat {
 namespace {
 
-RestCloth begun(RestCloth cloth, const Scene& scene) {
-  if (scene.start) scene.start_part->begin(*scene.start, scene, cloth);
+QuadMesh refined(const QuadCloth& cloth, int level) {
+  QuadMesh quads = cloth.base_quads();
+  quads.refine_uniformly(level);
+  return quads;
+}
+
+/// Places and velocities of the start at this cloth's vertices: those that the start's mesh has too
+/// are there, later ones in the mean of their parents, hanging ones in the middle of theirs.
+void start_at(const StartState& start, const Scene& scene, RestCloth& cloth) {
+  cloth.start = start.positions;
+  cloth.start_velocities = start.velocities;
+  if (!cloth.quads && cloth.mesh.rest_positions.cols() != start.positions.cols())
+    throw InputError("/start", "expected no other refinement, as this cloth is not made of quads");
+  if (!cloth.quads || cloth.quads->n_vertices() == start.positions.cols()) return;
+  int level = start.level;
+  for (const QuadFace& face : cloth.quads->faces()) level = std::max(level, int{face.level});
+  const QuadMesh own = refined(*scene.cloth->quads(), start.level);
+  const QuadMesh finer = refined(*scene.cloth->quads(), level);
+  const MeshSample sample(*cloth.quads, finer);
+  cloth.start = sample.of(on_finer_mesh(start.positions, own, finer));
+  cloth.start_velocities = sample.of(on_finer_mesh(start.velocities, own, finer));
+}
+
+RestCloth started(RestCloth cloth, const Scene& scene) {
+  if (scene.start) start_at(*scene.start, scene, cloth);
   return cloth;
 }
 
@@ -23,11 +48,11 @@ RestCloth rest_cloth(const Scene& scene) {
   if (!scene.plan) return rest_cloth(scene, scene.level);
   const QuadCloth* cloth = scene.cloth->quads();
   PLEAT_CHECK(cloth != nullptr, "a plan refines cloth that is made of quads");
-  return begun(cloth->at_rest(scene.plan_part->mesh(cloth->base_quads(), *scene.plan)), scene);
+  return started(cloth->at_rest(planned_mesh(cloth->base_quads(), *scene.plan)), scene);
 }
 
 RestCloth rest_cloth(const Scene& scene, int level) {
-  return begun(scene.cloth->at_rest(level), scene);
+  return started(scene.cloth->at_rest(level), scene);
 }
 
 Eigen::VectorXd rest_areas(const RestCloth& cloth) {

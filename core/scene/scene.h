@@ -11,7 +11,7 @@
 #include "core/files/frame_format.h"
 #include "core/model/cloth_model.h"
 #include "core/refinement/refinement_plan.h"
-#include "core/scene/scene_figure.h"
+#include "core/scene/scene_body.h"
 #include "core/scene/sheet_cloth.h"
 
 namespace pleat {
@@ -31,7 +31,7 @@ struct PinBox {
 struct PinRule {
   std::variant<std::string, std::vector<VertexId>, PinBox> where;
   Motion motion;                            ///< not `follow`
-  std::optional<Bone> bone = std::nullopt;  ///< of the figure, which it follows instead
+  std::optional<Bone> bone = std::nullopt;  ///< of the body, which it follows instead
 };
 
 /// The law that holds a cloth together in its own plane.
@@ -43,13 +43,12 @@ enum class Elasticity {
 enum class BendingModel {
   none,
   quadratic,  ///< of mesh lines, with springs
-  arc,        ///< of mesh lines, by their chords
-  linear,     ///< of mesh lines, exact at one curvature
+  linear,     ///< of mesh lines by their chords, exact at one curvature
   fitted,     ///< of triangles, with a membrane (docs/methods/fitted_bending.md)
   hinge,      ///< of edges, with a membrane: for comparison
 };
 
-class Tearing;
+struct Tearing;
 
 struct ModelOptions {
   Elasticity elasticity = Elasticity::springs;
@@ -76,9 +75,6 @@ struct StartState {
   int level = 0;         ///< of refinement
 };
 
-struct PlanPart;
-struct StartPart;
-
 /// A scene as its file describes it. Every default of the format stands here and in the option
 /// structs it holds, and nowhere else.
 struct Scene {
@@ -92,17 +88,15 @@ struct Scene {
   std::vector<std::string>
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   ModelOptions model;
-  int level = 0;                        ///< uniform refinements, 0 to kMaxLevel; with a plan 0
-  std::optional<RefinementPlan> plan;   ///< where to refine cloth that is made of quads
-  const PlanPart* plan_part = nullptr;  ///< with a plan
+  int level = 0;                       ///< uniform refinements, 0 to kMaxLevel; with a plan 0
+  std::optional<RefinementPlan> plan;  ///< where to refine cloth that is made of quads
   std::optional<StartState> start;
-  const StartPart* start_part = nullptr;  ///< with a start
-  std::shared_ptr<const Figure> figure;   ///< or null
+  std::shared_ptr<const SceneBody> body;  ///< or null
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;
   std::vector<Collider> colliders;
-  ContactResponse contact_response = ContactResponse::resting;  ///< of colliders and figure
+  ContactResponse contact_response = ContactResponse::resting;  ///< of colliders and body
   MethodOptions method;
   double duration = 5;  ///< [s], positive
   RecordOptions record;

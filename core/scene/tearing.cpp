@@ -135,17 +135,18 @@ class Tear {
 
 }  // namespace
 
-Json Tearing::json() const {
+Json json_tearing(const Tearing& tearing) {
   Json json;
-  json["breaking_elongation"] = breaking_elongation;
+  json["breaking_elongation"] = tearing.breaking_elongation;
   return json;
 }
 
-void Tearing::check(const JsonReader& reader, const Scene& scene) const {
+void check_tearing(const JsonReader& reader, const Scene& scene) {
   if (!scene.cloth->is_surface())
     reader.fail("no such key, as particles have no faces that could part");
   if (scene.plan) reader.fail("a uniform mesh, as hanging vertices do not split");
-  if (scene.model.strain_limit && breaking_elongation >= scene.model.strain_limit->stretch)
+  if (scene.model.strain_limit &&
+      scene.model.tearing->breaking_elongation >= scene.model.strain_limit->stretch)
     reader.at("breaking_elongation")
         .fail("a number below the strain limit's stretch, which no edge exceeds");
   if (scene.method.first_contact > 0)

@@ -7,7 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/dynamics/stepper_table.h"
-#include "core/scene/method_section.h"
+#include "core/scene/format/method_section.h"
 #include "core/sweep/pareto.h"
 
 namespace pleat {
@@ -98,7 +98,7 @@ std::string short_number(double value) {
 std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;
   std::string text = method.stepper->name;
-  if (method.stepper->reads(MethodSetting::solver)) text += std::string(" ") + name(method.solver);
+  if (method.stepper->reads("solver")) text += std::string(" ") + name(method.solver);
   if (method.preconditioner != Preconditioner::automatic)
     text += std::string(" with ") + name(method.preconditioner);
   text += ", " + step_phrase(method.step);
@@ -209,7 +209,7 @@ std::string remarks_on(const BenchRow& row) {
   return remarks;
 }
 
-/// What signs and gaps in the table mean, where there are any.
+/// Meaning of signs and gaps in the table, where there are any.
 std::string meaning_of_signs(std::span<const BenchRow> rows) {
   const auto has = [&](auto&& is) { return std::any_of(rows.begin(), rows.end(), is); };
   std::string text;

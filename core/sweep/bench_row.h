@@ -23,50 +23,49 @@ struct BenchRow {
   explicit BenchRow(ReferenceLabel against);
 
   std::string scene;
-  Json setting = Json::object();  ///< what it changes in its plan's scene: {pointer: value}
-  Json fabric = Json::object();   ///< as a scene has it, and so the next
+  Json setting = Json::object();  ///< changes to its plan's scene: {pointer: value}
+  Json fabric = Json::object();   ///< section of the scene, as the next
   Json model = Json::object();
   MethodOptions method;
   int level = 0;
   int n_vertices = 0;
-  int n_substeps = 0;             ///< of a step, as run
+  int n_substeps = 0;             ///< substeps of a step, as run
   int n_unresolved_contacts = 0;  ///< see ContactStage::n_unresolved
 
   double ms_per_frame = kUnknown;  ///< wall time per simulated 1/60 s, median of the runs [ms]
-  double spread_ms = kUnknown;     ///< of ms_per_frame, slowest minus quickest run [ms]
+  double spread_ms = kUnknown;     ///< slowest minus quickest run of ms_per_frame [ms]
   int n_runs = 0;  ///< timed; each from a state built anew, its first step not counted
-  std::array<double, kStageCount> parts_ms{};  ///< per frame, from a run of its own [ms]
+  std::array<double, kStageCount> parts_ms{};  ///< parts of a frame, from a run of its own [ms]
 
   double position_error = kUnknown;          ///< RMS over the cloth and the sample times [m]
-  double position_error_percent = kUnknown;  ///< of the rest diagonal
+  double position_error_percent = kUnknown;  ///< share of the rest diagonal [%]
   double position_error_95 = kUnknown;       ///< see RunErrors [m]
-  /// Position error against the converged motion of the row's own mesh: what its method does
-  /// wrong [m].
+  /// Position error against the converged motion of the row's own mesh: the method's fault [m].
   double method_error = kUnknown;
-  /// How far that motion is from the reference: what the mesh does wrong [m].
+  /// Distance of that motion from the reference: the mesh's fault [m].
   double mesh_error = kUnknown;
   double surface_error = kUnknown;          ///< see RunErrors, as are the next three [m]
   double surface_error_95 = kUnknown;       ///< [m]
-  double bend_error = kUnknown;             ///< of the distribution of curvature [1/m]
+  double bend_error = kUnknown;             ///< error of the distribution of curvature [1/m]
   double bend_error_of_regions = kUnknown;  ///< [1/m]
-  double rms_stretch = kUnknown;            ///< over structural springs and sample times
+  double rms_stretch = kUnknown;            ///< RMS over structural springs and sample times
   double largest_stretch = kUnknown;
   double rms_stretch_error = kUnknown;  ///< minus the reference's
   double largest_stretch_error = kUnknown;
-  /// Of the steps' own equations, the largest; unknown where it was not computed, as by a direct
+  /// Largest residual of the steps' own equations; unknown where none was computed, as by a direct
   /// solver.
   double residual = kUnknown;
   double iterations_per_step = kUnknown;
-  double energy_drift = kUnknown;  ///< what no force explains, of the largest kinetic energy
+  double energy_drift = kUnknown;  ///< unexplained energy over the largest kinetic energy
 
   ReferenceLabel reference;
   std::string status = "ok";  ///< or the name of a SolveStatus, or "refused"
   std::string message;
   std::string target;  ///< "native" or "wasm"
-  std::string commit;  ///< what was measured
-  /// What the run shows that its scene cannot explain, looked for while parts were timed.
+  std::string commit;  ///< commit that was measured
+  /// Signs in the run that its scene cannot explain, looked for while parts were timed.
   std::vector<RunWarning> warnings;
-  /// Of the whole process, with what earlier rows needed [bytes], where the platform tells.
+  /// Peak memory of the whole process, with that of earlier rows [bytes], where the platform tells.
   std::optional<std::int64_t> process_peak_memory;
 
   /// False for a run that was refused or ended early: such a row is on no front.
@@ -90,7 +89,7 @@ BenchRow read_bench_row(const JsonReader& reader, StepperTable steppers = standa
 /// early or shows nonsense is on none.
 std::vector<std::vector<std::size_t>> fronts_of(std::span<const BenchRow> rows);
 
-/// The same in one list, a front behind the other.
+/// Indices of the rows on all fronts, one front behind the other.
 std::vector<std::size_t> front_of(std::span<const BenchRow> rows);
 
 /// A row's setting for people: method, level, and what else it changes.

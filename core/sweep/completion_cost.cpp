@@ -40,8 +40,8 @@ CompletionCost completion_cost(const std::vector<Positions>& keys,
     cost.linear_middles.emplace_back((1 - frame.share_of_next) * keys[left] +
                                      frame.share_of_next * keys[left + 1]);
   }
-  cost.figures = frame_figures(completion, frames);
-  cost.linear_figures = linear_figures(completion, frames);
+  cost.measures = frame_measures(completion, frames);
+  cost.linear_measures = linear_measures(completion, frames);
   return cost;
 }
 

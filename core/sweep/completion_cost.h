@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/modal/frame_figures.h"
+#include "core/modal/frame_measures.h"
 
 namespace pleat {
 
-/// What frames between keys cost, and what they are worth.
+/// Cost and quality of frames between keys.
 struct CompletionCost {
   int n_bodies = 0;
   int n_volume_vertices = 0;
@@ -14,17 +14,17 @@ struct CompletionCost {
   double middles_ms = 0;     ///< all middles, in the space
   double surfaces_ms = 0;    ///< all frames' surfaces, with detail
   int n_unconverged = 0;
-  std::vector<FrameFigures> figures;         ///< of the frames, keys among them
-  std::vector<FrameFigures> linear_figures;  ///< of those on straight ways, at the same times
-  std::vector<Positions> middles;            ///< surfaces of the frames between keys [m]
-  std::vector<Positions> linear_middles;     ///< [m]
+  std::vector<FrameMeasures> measures;         ///< measures of the frames, keys among them
+  std::vector<FrameMeasures> linear_measures;  ///< measures of frames on straight ways, then
+  std::vector<Positions> middles;              ///< surfaces of the frames between keys [m]
+  std::vector<Positions> linear_middles;       ///< [m]
 };
 
 CompletionCost completion_cost(const std::vector<Positions>& keys,
                                const std::vector<Triangle>& triangles, const ModalOptions& options,
                                int n_frames);
 
-/// The same without a space: every vertex of the volumes is free and every tetrahedron turns for
+/// Cost without a space: every vertex of the volumes is free and every tetrahedron turns for
 /// itself.
 struct UnreducedCost {
   double middles_ms = 0;

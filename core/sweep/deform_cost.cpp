@@ -29,19 +29,19 @@ DeformCost deform_cost(const DeformScene& scene) {
 DragCost drag_cost(const DeformScene& scene, int n_moves) {
   PLEAT_CHECK(n_moves > 0, "a hand makes moves");
   const HeldVertices held = held_vertices(scene);
-  Positions begin(3, held.targets.cols());
+  Positions start(3, held.targets.cols());
   for (std::size_t k = 0; k < held.vertices.size(); ++k)
-    begin.col(static_cast<Eigen::Index>(k)) = scene.mesh.rest_positions.col(held.vertices[k]);
+    start.col(static_cast<Eigen::Index>(k)) = scene.mesh.rest_positions.col(held.vertices[k]);
   DeformSolver hand(scene.mesh, scene.form, scene.weights());
   hand.hold(held.vertices);
-  hand.restart(begin);
+  hand.restart(start);
   hand.solve();
   DeformSolver exact(scene.mesh, scene.form, scene.weights());
   exact.hold(held.vertices);
-  exact.restart(begin);
+  exact.restart(start);
   DragCost cost;
   for (int move = 1; move <= n_moves; ++move) {
-    const Positions places = begin + (held.targets - begin) * move / n_moves;
+    const Positions places = start + (held.targets - start) * move / n_moves;
     const Stopwatch watch;
     hand.follow(places);
     cost.update_ms.push_back(1e3 * watch.elapsed());

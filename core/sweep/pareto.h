@@ -6,7 +6,7 @@
 
 namespace pleat {
 
-/// What a setting costs and how wrong it is. NaN in either leaves the setting out.
+/// Cost and error of a setting. NaN in either leaves the setting out.
 struct CostAndError {
   double cost;   ///< [ms]
   double error;  ///< [m]

@@ -9,10 +9,10 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/files/json_reader.h"
-#include "core/scene/cloth_section.h"
-#include "core/scene/fabric_section.h"
-#include "core/scene/method_section.h"
-#include "core/scene/model_section.h"
+#include "core/scene/format/cloth_section.h"
+#include "core/scene/format/fabric_section.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/model_section.h"
 #include "core/sweep/platform.h"
 #include "core/sweep/row_errors.h"
 
@@ -21,16 +21,15 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;  // [s]
 
-constexpr double kTellingShare = 0.05;  // of a run: less says nothing of how long it takes
+constexpr double kTellingShare = 0.05;  // share of a run: less says nothing of how long it takes
 
 /// A row whose run reached its end and took measurable time.
 bool can_be_timed(const BenchRow& row) { return row.finished() && row.ms_per_frame > 0; }
 
 double ms_per_frame(double seconds, double simulated) { return 1e3 * seconds * kFrame / simulated; }
 
-/// By how much more a vertex costs on a mesh of so many: a system that is solved at once takes
-/// about seven times as long with four times the vertices (81 to 4225 of them, in all three
-/// scenes).
+/// Relative cost of a vertex on a mesh of so many: a system that is solved at once takes about
+/// seven times as long with four times the vertices (81 to 4225 of them, in all three scenes).
 double solving_factor(double n_vertices, const MethodOptions& method) {
   constexpr double kExponent = 0.4;  // log(7)/log(4) - 1
   constexpr double kUsual = 1000;    // vertices, where a substep costs what its row says
@@ -39,8 +38,8 @@ double solving_factor(double n_vertices, const MethodOptions& method) {
 
 /// Substeps times vertices times their cost, per second of motion; for progress and estimates.
 double expected_work(double n_vertices, const MethodOptions& method) {
-  constexpr int kStableSubsteps = 100;  // of explicit, where the stability bound chooses
-  const int substeps = method.substeps > 0 ? method.substeps : kStableSubsteps;
+  constexpr int kUsualSubsteps = 100;  // usual number for explicit, where the stability bound chooses
+  const int substeps = method.substeps == kStableSubsteps ? kUsualSubsteps : method.substeps;
   return n_vertices / method.step * substeps * method.stepper->substep_cost(method) *
          solving_factor(n_vertices, method);
 }

@@ -44,8 +44,8 @@ class Sweep {
   bool done() const { return n_done_ == n_runs(); }
   /// Counts the first round, in which parts are timed, and the repeats.
   int n_rounds_done() const { return static_cast<int>(n_done_ / n_settings()); }
-  double progress() const { return passed_share(works()); }  ///< of the expected work, in [0, 1]
-  /// What it takes in all [s], from what it took so far; nothing while there is nothing to tell it
+  double progress() const { return passed_share(works()); }  ///< share of the work, in [0, 1]
+  /// Estimated time in all [s], from what it took so far; nothing while there is nothing to tell it
   /// from.
   std::optional<double> estimated_seconds() const;
   /// Works for about `budget` [s]: a step is never cut.
@@ -54,8 +54,8 @@ class Sweep {
   const SweepPlan& plan() const { return plan_; }
   /// A row for each setting measured so far, in the order of the plan.
   const std::vector<BenchRow>& rows() const { return rows_; }
-  std::string message() const;  ///< what is being worked on, for people; empty when done
-  /// Of the references that rows are compared with.
+  std::string message() const;  ///< work at hand, for people; empty when done
+  /// Ids of the references that rows are compared with.
   std::vector<std::string> reference_ids() const;
 
   /// {"done", "progress", "estimated_s": a number or null, "rows", "front", "message"}.
@@ -66,7 +66,7 @@ class Sweep {
   std::size_t n_runs() const {
     return n_settings() * (1 + static_cast<std::size_t>(plan_.n_repeats));
   }
-  std::size_t setting() const { return n_done_ % n_settings(); }  // of the run at hand
+  std::size_t setting() const { return n_done_ % n_settings(); }  // setting of the run at hand
   std::size_t round() const { return n_done_ / n_settings(); }
   bool in_first_round() const { return round() == 0; }
   bool run_is_left_out() const;
@@ -76,8 +76,8 @@ class Sweep {
   void make_reference(std::size_t index, double budget);
   void work_on_run(double budget);
   std::optional<BenchRow> begin_run();
-  BenchRow new_row(const Scene& scene) const;  // for the setting at hand
-  BenchRow measured_row() const;               // from the run at hand
+  BenchRow new_row(const Scene& scene) const;  // row of the setting at hand
+  BenchRow measured_row() const;               // row of the run at hand
   void put_errors(BenchRow& row) const;
   void keep_row(BenchRow row);
   void keep_time(double ms_per_frame);
@@ -91,20 +91,20 @@ class Sweep {
   ReferenceStore& store_;
   std::string commit_;
   std::function<void(const std::string&)> record_ = [](const std::string&) {};
-  std::vector<double> times_;  // of samples [s]
+  std::vector<double> times_;  // sample times [s]
   SweepReferences references_;
-  std::vector<std::optional<Reference>> made_;  // by recipe
-  std::vector<bool> is_needed_;                 // by recipe: it is compared with, or is to be made
-  bool has_looked_ = false;                     // in the store
-  std::unique_ptr<ReferenceMaker> maker_;       // of the reference at hand
-  std::unique_ptr<SampledRun> run_;             // the run at hand
-  std::size_t n_done_ = 0;                      // runs, round by round
+  std::vector<std::optional<Reference>> made_;  // reference of each recipe
+  std::vector<bool> is_needed_;  // true for recipes that are compared with, or are to be made
+  bool has_looked_ = false;      // true once the store was searched
+  std::unique_ptr<ReferenceMaker> maker_;  // maker of the reference at hand
+  std::unique_ptr<SampledRun> run_;        // the run at hand
+  std::size_t n_done_ = 0;                 // runs, round by round
   std::vector<BenchRow> rows_;
-  std::vector<std::vector<double>> run_times_;  // by setting: ms per frame of its timed runs
+  std::vector<std::vector<double>> run_times_;  // ms per frame of each setting's timed runs
   double seconds_ = 0;                          // worked so far
-  double seconds_at_hand_ = 0;                  // of them on the reference or the run at hand
-  std::vector<std::optional<double>> reference_seconds_;  // by recipe: what it took
-  std::vector<std::optional<double>> row_seconds_;        // by setting: what its first run took
+  double seconds_at_hand_ = 0;                  // time worked on the reference or the run at hand
+  std::vector<std::optional<double>> reference_seconds_;  // time of each recipe
+  std::vector<std::optional<double>> row_seconds_;        // time of each setting's first run
 };
 
 }  // namespace pleat

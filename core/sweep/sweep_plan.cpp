@@ -7,14 +7,14 @@
 #include "core/base/check.h"
 #include "core/files/json_reader.h"
 #include "core/reference/reference.h"
-#include "core/scene/cloth_section.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/cloth_section.h"
+#include "core/scene/format/scene_override.h"
 
 namespace pleat {
 namespace {
 
 constexpr int kMaxRepeats = 1000;
-constexpr const char* kDuration = "/duration_s";  // in the scene as in the plan
+constexpr const char* kDuration = "/duration_s";  // key of the scene and of the plan
 constexpr std::array<Word<ReferenceKind>, 4> kReferenceWords = {
     {{"converged", ReferenceKind::converged},
      {"same_mesh", ReferenceKind::same_mesh},

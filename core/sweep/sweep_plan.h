@@ -12,24 +12,24 @@
 
 namespace pleat {
 
-/// What the settings of a sweep are compared with (sweep_reference.h makes it).
+/// Reference for the settings of a sweep (sweep_reference.h makes it).
 enum class ReferenceKind {
-  /// `newton` with the midpoint rule, its step checked. Where settings differ in level, so that the
-  /// mesh is part of their error, on a mesh finer than any of them, the mesh checked too.
+  /// Run of `newton` with the midpoint rule, its step checked. Where settings differ in level, so
+  /// that the mesh is part of their error, on a mesh finer than any of them, the mesh checked too.
   converged,
-  same_mesh,    ///< the same on the setting's own mesh: what its steps alone do wrong
+  same_mesh,    ///< such a run on the setting's own mesh: what its steps alone do wrong
   rigid_chain,  ///< chain_reference at the finest level
   closed_form,  ///< closed_form_reference at the setting's own level
 };
 
 /// One way to compute the scene of a plan.
 struct SweepSetting {
-  Json changes;  ///< in the plan's scene: {pointer: value}
+  Json changes;  ///< changes to the plan's scene: {pointer: value}
   int level;
-  bool is_planned;  ///< on the mesh of a plan, of level 0
+  bool is_planned;  ///< true on the mesh of a plan, of level 0
   MethodOptions method;
-  std::string family;  ///< the same for settings that differ in level and method alone
-  double n_vertices;   ///< for what it costs, roughly
+  std::string family;  ///< name shared by settings that differ in level and method alone
+  double n_vertices;   ///< number for an estimate of cost
 };
 
 /// Reads a scene from its parsed JSON. Throws InputError with the JSON pointer.
@@ -39,9 +39,9 @@ constexpr std::size_t kMaxSettings = 10'000;
 
 /// A scene and the settings in which it is computed.
 struct SweepPlan {
-  Json scene;  ///< as its file has it, but for its duration, which is the plan's
+  Json scene;  ///< scene of the file, but for its duration, which is the plan's
   SceneReader read;
-  StepperTable steppers;               ///< that its scenes may name
+  StepperTable steppers;               ///< steppers that its scenes may name
   std::vector<SweepSetting> settings;  ///< at least one
   std::string name;                    ///< the scene's
   double duration;                     ///< [s], positive
@@ -69,7 +69,7 @@ struct SweepPlan {
 SweepPlan read_sweep_plan(const JsonReader& reader, const SceneReader& read,
                           StepperTable steppers = standard_steppers());
 
-/// The same plan with its settings in a list and every default written out.
+/// Plan with its settings in a list and every default written out.
 Json json_sweep_plan(const SweepPlan& plan);
 
 /// The times at which a sweep of this duration [s] compares: ten, equally spaced, the last at its

@@ -16,10 +16,11 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"
-#include "core/scene/cloth_section.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/cloth_section.h"
+#include "core/scene/format/scene_file.h"
 
 namespace pleat {
 namespace {
@@ -30,7 +31,7 @@ struct Family {
 
   std::size_t first;       // setting; uniform where any of them is
   bool is_planned = true;  // all meshes are plans
-  std::set<int> levels;    // of uniform meshes
+  std::set<int> levels;    // levels of uniform meshes
   double smallest_step = std::numeric_limits<double>::infinity();     // [s]
   double smallest_substep = std::numeric_limits<double>::infinity();  // [s], see reference_step
 
@@ -168,10 +169,10 @@ class NewtonMaker : public ReferenceMaker {
  private:
   std::string id_;
   std::vector<double> times_;
-  std::array<Scene, 2> scenes_;  // to run, the reference itself last
+  std::array<Scene, 2> scenes_;  // scenes to run, the reference itself last
   std::optional<std::vector<Sample>> coarser_;
   std::vector<std::vector<Sample>> runs_;
-  std::unique_ptr<SampledRun> run_;  // at hand
+  std::unique_ptr<SampledRun> run_;  // run at hand
   std::string failure_;
 };
 

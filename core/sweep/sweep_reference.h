@@ -10,7 +10,7 @@
 
 namespace pleat {
 
-/// What the id of such a reference begins with.
+/// Start of such a reference's id.
 const char* id_prefix(ReferenceKind kind);
 
 /// newton with the midpoint rule and a direct solver: how exact references are run.
@@ -18,22 +18,22 @@ const char* id_prefix(ReferenceKind kind);
 /// step  [s], positive
 MethodOptions exact_method(double step);
 
-/// What one reference of a sweep is made from.
+/// Source of one reference of a sweep.
 struct ReferenceRecipe {
-  std::string id;  ///< of the reference
+  std::string id;  ///< id of the reference
   ReferenceKind kind;
   Scene scene;  ///< whose run it is; the rigid chain stands for its cloth
   /// Index of the recipe of the same run on the next coarser mesh, where the mesh is to be checked.
   std::optional<std::size_t> coarser;
 };
 
-/// What a setting is compared with, as indices into the recipes.
+/// References of a setting, as indices into the recipes.
 struct SettingReferences {
-  std::size_t whole;               ///< what is taken for right
-  std::optional<std::size_t> own;  ///< the same on the setting's own mesh, where that is another
+  std::size_t whole;               ///< reference that is taken for right
+  std::optional<std::size_t> own;  ///< reference on the setting's own mesh, where that is another
 };
 
-/// What the settings of a plan are compared with.
+/// References for the settings of a plan.
 struct SweepReferences {
   std::vector<ReferenceRecipe> recipes;  ///< each once, a coarser one before its finer one
   std::vector<SettingReferences> of_setting;
@@ -65,8 +65,8 @@ std::unique_ptr<ReferenceMaker> make_reference_maker(const ReferenceRecipe& reci
                                                      const std::vector<double>& times,
                                                      const Reference* coarser = nullptr);
 
-/// What make_reference_maker makes of a recipe with a coarser one, without a run: from the same run
-/// as it is kept for its own mesh.
+/// Reference for a recipe with a coarser one, from the same run as it is kept for its own mesh: as
+/// make_reference_maker makes it, without a run.
 Reference checked_on_coarser(const ReferenceRecipe& recipe, Reference same_mesh,
                              const Reference& coarser);
 

@@ -6,7 +6,7 @@
 namespace pleat {
 namespace {
 
-/// Whether the stepper takes the scene, asked on its coarsest mesh.
+/// True when the stepper takes the scene, asked on its coarsest mesh.
 bool takes(const StepperType& type, Scene scene) {
   scene.level = 0;
   scene.method = type.usual_method();

@@ -6,13 +6,13 @@
 
 namespace pleat {
 
-/// The same work, done one time or more.
+/// Work that is done one time or more.
 struct ExpectedWork {
   std::string kind;     ///< work of one kind takes time in proportion to its amount, roughly
-  double amount;        ///< of one time, in any unit, positive
-  double n_times;       ///< that it is to be done
-  double n_passed = 0;  ///< of these, the last one perhaps in part
-  std::optional<double> seconds = {};  ///< that one time takes [s], where that is known
+  double amount;        ///< amount of one time, in any unit, positive
+  double n_times;       ///< times that it is to be done
+  double n_passed = 0;  ///< times done, the last one perhaps in part
+  std::optional<double> seconds = {};  ///< time that one takes [s], where that is known
 };
 
 /// Share of all of the work that has passed, by amount, in [0, 1].

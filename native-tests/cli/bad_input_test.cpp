@@ -73,8 +73,8 @@ struct Desk {
 
 struct Bad {
   Words words;
-  std::string sentence;  // how what is told begins, after "pleat: "
-  Files files;           // beside those of any desk
+  std::string sentence;  // start of what is told, after "pleat: "
+  Files files;           // files beside those of any desk
 };
 
 void check_refused(const Bad& bad) {

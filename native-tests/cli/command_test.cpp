@@ -214,7 +214,7 @@ TEST_CASE("command: more levels than a mesh has are told with the run", "[cli]")
 
 TEST_CASE("command: bad input is one sentence that names the place, and exit status 2", "[cli]") {
   struct Bad {
-    std::vector<std::string> words;  // after the scene's file
+    std::vector<std::string> words;  // words after the scene's file
     std::string place;
   };
   const std::vector<Bad> cases = {
@@ -383,7 +383,7 @@ TEST_CASE("command: no control character of a scene reaches the terminal", "[cli
 TEST_CASE("command: bad input leaves folders that exist as they were", "[cli]") {
   struct Bad {
     std::string text;
-    std::vector<std::string> words;  // after the folders' own
+    std::vector<std::string> words;  // words after the folders' own
   };
   const std::vector<Bad> cases = {
       {scene_with("\"step_s\": 0.02", "\"step_s\": 0"), {}},
@@ -517,7 +517,7 @@ TEST_CASE("command: metrics.json ends with one end of line", "[cli]") {
   CHECK(text.substr(text.size() - 2) == "}\n");
 }
 
-#ifndef PLEAT_SANITIZED  // which needs terabytes of address space itself
+#ifndef PLEAT_SANITIZED  // the sanitizer needs terabytes of address space itself
 TEST_CASE("command: too little memory is told with the number of vertices", "[cli]") {
   const SmallScene scene(
       scene_with("\"columns\": 2, \"rows\": 2", "\"columns\": 999, \"rows\": 999"));

@@ -53,7 +53,7 @@ TEST_CASE("convergence command: a series for each method, from the same error", 
     }
   }
   CHECK(study.at("series")[2].at("method").at("omega") == 1.5);
-  // Of a quad's diagonals one is left: 9 8 2 edges and 64 diagonals.
+  // One of a quad's diagonals is left: 9 8 2 edges and 64 diagonals.
   CHECK(study.at("n_springs") == 208);
 }
 

@@ -55,7 +55,7 @@ TEST_CASE("hard-cases command: an outcome that is not as it should be is exit st
   const ScratchFolder folder;
   Json scene = parse_json(text_of(kScenes + "/zero_length_springs.json"));
   scene["cloth"]["particles"]["velocities_m_per_s"] =
-      Json(16, Json{0, 100, 0});  // out of what it may reach
+      Json(16, Json{0, 100, 0});  // too fast for what it may reach
   write(folder / "zero_length_springs.json", scene.dump());
   const Ending ending =
       pleat_command(folder, {"hard-cases", "--short", "--stepper", "implicit", "--scenes",

@@ -53,7 +53,7 @@ TEST_CASE("hierarchy command: levels halve, are written and told of", "[cli]") {
     const ObjMesh mesh = read_obj(text_of(place.out + "/frame_00000" + std::to_string(k) + ".obj"));
     CHECK(mesh.positions.cols() == levels[k].at("n_vertices"));
     CHECK(mesh.triangles.size() == levels[k].at("n_triangles"));
-    // Of a flat sheet chords are the surface.
+    // Chords of a flat sheet are the surface.
     CHECK(levels[k].at("chord_gap") == Approx(0).margin(1e-12));
   }
   CHECK(levels[0].at("n_vertices") == 441);

@@ -103,7 +103,7 @@ TEST_CASE("inbetween command: frames begin and end with the keys", "[cli]") {
   CHECK(json.at("frames")[2].at("linear_volume_m3") < json.at("frames")[2].at("volume_m3"));
   CHECK(farthest(place.frame("frame_000000.obj").positions, place.box.positions) < 1e-9);
   CHECK(farthest(place.frame("frame_000004.obj").positions, bent(place.box.positions, 1)) < 1e-9);
-  // What stands there is not written over unasked.
+  // Nothing is written over unasked.
   const Ending again = place.run(to_folder);
   CHECK(again.status == 2);
   CHECK_THAT(again.error, Catch::Contains("--overwrite"));

@@ -94,8 +94,8 @@ TEST_CASE("command: the references of a sweep are made alone, and found by anoth
     CHECK(made.out.find(reference.label.id + ": newton") != std::string::npos);
     sizes.insert(reference.samples.at(0).positions.cols());
   }
-  CHECK(files.size() == 3);                       // of both levels, and a finer one
-  CHECK(sizes == std::set<Eigen::Index>{9, 25});  // which has the vertices of level 1 alone
+  CHECK(files.size() == 3);                       // both levels, and a finer one
+  CHECK(sizes == std::set<Eigen::Index>{9, 25});  // the finer one has the vertices of level 1 alone
   const Ending again = sweep({"--ship-references", shipped});
   CHECK(again.status == 2);
   CHECK(again.error.find("--overwrite") != std::string::npos);
@@ -223,7 +223,7 @@ TEST_CASE("command: a sweep killed anywhere goes on and loses no row", "[cli]") 
   if (way == "first round") CHECK(n_lines(kept) < 30);
   if (way == "timed round") CHECK((n_lines(kept) > 30 && n_lines(kept) < 90));
   const auto references = dates_in(sweep.out + "/references");
-  CHECK(references.size() <= 15);  // of five fabrics at three levels
+  CHECK(references.size() <= 15);  // five fabrics at three levels
   CHECK(references.size() >= 5);
 
   const Ending ending = sweep.run();
@@ -263,7 +263,7 @@ TEST_CASE("command: a folder of another sweep is refused or replaced", "[cli]") 
   REQUIRE(sweep({"--duration", "0.3", "--overwrite"}).status == 0);
   CHECK(text_of(out + "/notes.txt") == "mine");
   CHECK(rows_in(text_of(out + "/rows.jsonl")).size() == 2);
-  // The same plan by another core, and files whose plan is lost.
+  // Another core's plan, and files whose plan is lost.
   std::string plan = text_of(out + "/plan.json");
   write(out + "/plan.json", plan.replace(plan.find("core-"), 9, "core-0123"));
   CHECK(sweep({"--duration", "0.3"}).error.find(" of another core; ") != std::string::npos);

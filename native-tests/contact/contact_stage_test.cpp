@@ -275,9 +275,9 @@ TEST_CASE("contact: a vertex on a solid is supported by it", "[contact]") {
   const ContactStage stage({floor_collider(0.4), ball_collider({0, 0.3, 0}, 0.3, 0.2)},
                            {0.001, Eigen::VectorXd::Constant(3, 0.01)});
   Positions positions(3, 3);
-  positions.col(0) = Vec3(2, 0.001, 0);  // on the floor
+  positions.col(0) = Vec3(2, 0.001, 0);  // touches the floor
   positions.col(1) = Vec3(0, 0.6 + stage.clearance(stage.colliders()[1], VertexId(1)).at_a, 0);
-  positions.col(2) = Vec3(2, 0.001 + 2 * kTouchDistance, 0);  // above it
+  positions.col(2) = Vec3(2, 0.001 + 2 * kTouchDistance, 0);  // is above it
   const auto supports = stage.supports(positions, 0);
   REQUIRE(supports.size() == 2);
   CHECK((supports[0].vertex == 0 && supports[0].normal == kUp && supports[0].friction == 0.4));

@@ -123,7 +123,7 @@ TEST_CASE("contact: a vertex leaves a smooth ball at the angle acos 2/3", "[cont
     }
     return cosine;
   };
-  const double exact = 2.0 / 3 * std::cos(0.05);  // from rest at 0.05 rad
+  const double exact = 2.0 / 3 * std::cos(0.05);  // starts from rest at 0.05 rad
   const double error_coarse = std::abs(leaving_cosine(1e-3) - exact);
   const double error_fine = std::abs(leaving_cosine(1e-4) - exact);
   CAPTURE(error_coarse, error_fine);

@@ -185,7 +185,7 @@ TEST_CASE("contact: a floor that tips lifts what lies on it", "[contact]") {
 
 TEST_CASE("contact: of two limbs that close in, the last to act keeps the vertex out",
           "[contact]") {
-  const double aside = GENERATE(0.0, 1e-9, 1e-4, 0.02);  // of the middle between the axes [m]
+  const double aside = GENERATE(0.0, 1e-9, 1e-4, 0.02);  // shift of the middle between axes [m]
   CAPTURE(aside);
   const RoundedCone limb_a{{0, -0.3, 0}, {0, 0.3, 0}, 0.08, 0.08};
   const RoundedCone limb_b{{0.5, -0.3, 0}, {0.5, 0.3, 0}, 0.08, 0.08};
@@ -211,7 +211,7 @@ TEST_CASE("contact: of two limbs that close in, the last to act keeps the vertex
 
 TEST_CASE("contact: between limbs nearer than both clearances a vertex is outside of both",
           "[contact]") {
-  const double aside = GENERATE(0.0, 1e-9);       // of the middle between the axes [m]
+  const double aside = GENERATE(0.0, 1e-9);       // shift of the middle between axes [m]
   const double gap_end = GENERATE(0.004, 0.009);  // less than one clearance [m]
   CAPTURE(aside, gap_end);
   const double way = (0.5 - 2 * 0.08 - gap_end) / 2;
@@ -341,7 +341,7 @@ TEST_CASE("contact: penetration is the deepest vertex below a bare surface", "[c
   places.col(0) = pose * Vec3(0.5, 0, 0);
   places.col(1) = pose * Vec3(0, -0.37, 0);  // 0.03 above the lower end
   places.col(2) = Vec3(0, 1.15, 0);          // 0.05 below the ball's top
-  places.col(3) = Vec3(0, 1.205, 0);         // outside, within the clearance
+  places.col(3) = Vec3(0, 1.205, 0);         // 0.005 outside, within the clearance
   const Penetration found = stage.penetration(places, 0.7);
   CHECK(found.n_inside == 2);
   CHECK(found.deepest == VertexId(2));

@@ -194,8 +194,8 @@ TEST_CASE("contact: the gap between ball and floor is left sideways", "[contact]
 }
 
 TEST_CASE("contact: a groove leaves only the motion along it", "[contact]") {
-  const double slope =
-      GENERATE(0.8, 1.1, 1.4);  // of both walls [rad]; steep: neither throws out of the other
+  // Slope of both walls [rad]; steep: neither throws out of the other.
+  const double slope = GENERATE(0.8, 1.1, 1.4);
   const double sideways = GENERATE(-1.0, 0.0, 0.3);
   CAPTURE(slope, sideways);
   std::vector<Collider> walls(2, floor_collider(0));
@@ -223,7 +223,7 @@ TEST_CASE("contact: a corner of three walls holds a vertex", "[contact]") {
     for (const Collider& wall : walls) REQUIRE(height(wall, particle.position, 0) >= -1e-12);
   }
   CHECK(particle.position.norm() < 1e-3);
-  CHECK(particle.velocity.norm() < 0.05);  // of the 0.29 m/s that each step adds
+  CHECK(particle.velocity.norm() < 0.05);  // each step adds 0.29 m/s
   CHECK(stage.n_unresolved() == 0);
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("deform_energy: the gradient is the energy's derivative", "[deform]") 
     const Eigen::VectorXd expected =
         difference_gradient([&](const Eigen::VectorXd& at) { return energy_at(energy, at); },
                             x.reshaped(), difference_step(1e-2 * kEdge));
-    // At rest there is nothing to be relative to but the stiffness.
+    // The stiffness is all that there is to be relative to at rest.
     const double scale = std::max(expected.norm(), metric_at(energy, x).norm() * kEdge);
     CHECK((found - expected).norm() < 1e-6 * scale);
   }

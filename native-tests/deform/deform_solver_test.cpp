@@ -119,7 +119,7 @@ TEST_CASE("deform_solver: where it has settled an independent optimiser has noth
   solver.move_held(places);
   REQUIRE(solver.settle().ok());
   CHECK(solver.energy() / independent_minimum(solver) - 1 <
-        1.5e-4);  // at kinks it still stops short
+        1.5e-4);  // it still stops short at kinks
 }
 
 TEST_CASE("deform_solver: the least energy is that of an independent optimiser", "[deform][long]") {
@@ -301,7 +301,7 @@ TEST_CASE("deform_solver: held at one point alone it stays finite", "[deform]") 
 TEST_CASE("deform_solver: one fabric has one shape on any mesh", "[deform]") {
   const DeformWeights weights = GENERATE(from_range(kFabrics));
   CAPTURE(weights.recovery);
-  std::vector<double> heights;  // at the middle of one side's quarter, off all that is held
+  std::vector<double> heights;  // heights at the middle of one side's quarter, off all that is held
   for (const Triangulation pattern : {Triangulation::one_way, Triangulation::alternating}) {
     const TriangleMesh mesh = triangulated_sheet(pattern, 20, 20, kSide / 20);
     DeformSolver solver = pulled(mesh, EnergyForm::consistent, weights, Vec3(0, 0, 0.25 * kSide));
@@ -385,7 +385,7 @@ TEST_CASE("deform_solver: cloth that lies askew has the same shape, askew", "[de
     return solver.positions();
   };
   const Positions places = hold.places(level, pull);
-  constexpr double kLastSteps = 1e-4;  // of the side: each may leave off a millionth early
+  constexpr double kLastSteps = 1e-4;  // share of the side: each may leave off a millionth early
   CHECK((shape(askew, turn * places) - turn * shape(level, places)).colwise().norm().maxCoeff() <
         kLastSteps * kSide);
 }

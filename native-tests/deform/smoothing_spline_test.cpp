@@ -47,9 +47,9 @@ double mean_of_squares(const Points& points, const SmoothingSpline& curve) {
   return sum / static_cast<double>(points.size());
 }
 
-/// The same minimiser on its own: f = a + b x + sum theta_j |x - x_j|^3/12 with sum theta = sum
-/// theta x = 0 has the integral of f''^2 sum theta_i theta_j |x_i - x_j|^3/12. One term per point;
-/// of points that share an x, only the first has one. `smoothing` is per x as it is. In long
+/// Computes the same minimiser on its own: f = a + b x + sum theta_j |x - x_j|^3/12 with sum theta
+/// = sum theta x = 0 has the integral of f''^2 sum theta_i theta_j |x_i - x_j|^3/12. One term per
+/// point; of points that share an x, only the first has one. `smoothing` is per x as it is. In long
 /// double, as kernels of near points are nearly alike.
 class CubicKernels {
   using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;

@@ -61,7 +61,7 @@ Swing simulated_swing(const ClothModel& model_in, const MethodOptions& options, 
 /// and i + 1. Columns are mass-normalised, lowest first.
 struct ChainModes {
   Eigen::VectorXd omegas;  // [rad/s]
-  Eigen::MatrixXd shapes;  // without the fixed node
+  Eigen::MatrixXd shapes;  // rows leave out the fixed node
 };
 
 ChainModes chain_modes(const Eigen::VectorXd& stiffness, const Eigen::VectorXd& masses) {

@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/dynamics/stability_bound.h"
+#include "core/dynamics/explicit/stability_bound.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/linalg/make_linear_solver.h"
 #include "core/model/elasticity.h"
 #include "core/model/energy_ledger.h"
 #include "core/model/hanging_vertices.h"
@@ -321,7 +322,7 @@ TEST_CASE("graded: refined everywhere it is the uniform sheet", "[dynamics]") {
 TEST_CASE("graded: the stability bound holds and is at most three times too careful",
           "[dynamics]") {
   const std::uint64_t seed = GENERATE(1u, 2u, 3u, 4u, 5u);
-  const double stiffening = GENERATE(1.0, 1000.0);  // between hanging vertices
+  const double stiffening = GENERATE(1.0, 1000.0);  // factor between hanging vertices
   CAPTURE(seed, stiffening);
   Graded sheet = graded(seed);
   for (Spring& spring : sheet.model.springs)
@@ -390,9 +391,9 @@ TEST_CASE("graded: xpbd gains no energy on a stiff sheet that swings", "[dynamic
   if (rigid) options.constraints = Constraints::rigid;
   const auto stepper = make_stepper(model, options);
   if (rigid)
-    for (Spring& spring : model.springs) spring.stiffness = 0;  // what is rigid stores nothing
+    for (Spring& spring : model.springs) spring.stiffness = 0;  // rigid springs store nothing
   const double before = total_energy(model, state);
-  const double fall = model.masses.sum() * 9.81 * 0.5;  // of the middle by half of its length [J]
+  const double fall = model.masses.sum() * 9.81 * 0.5;  // middle falls by half of its length [J]
   for (int s = 0; s < 120; ++s) {
     REQUIRE(stepper->advance(state, s / 60.0).ok());
     CHECK(total_energy(model, state) - before < 0.01 * fall);

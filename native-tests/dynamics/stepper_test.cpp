@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/check.h"
+#include "core/linalg/make_linear_solver.h"
 #include "native-tests/support/allocation_count.h"
 #include "native-tests/support/models.h"
 

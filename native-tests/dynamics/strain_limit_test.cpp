@@ -140,7 +140,7 @@ TEST_CASE(
     Pair pair({});
     pair.begin.positions(0, 1) = 1.099;
     pair.begin.velocities.setZero();
-    pair.begin.velocities(1, 1) = 3;  // across
+    pair.begin.velocities(1, 1) = 3;  // moves across
     StrainLimitStage stage(pair.model);
     State state = pair.begin;
     const double before = angular_momentum(pair.model, state).norm();
@@ -224,7 +224,7 @@ TEST_CASE("strain limit: out of reach it changes no bit", "[dynamics]") {
       one->advance(a, s * kDisplayStep);
       other->advance(b, s * kDisplayStep);
     }
-    if (method.stepper->is_single_precision)  // which rounds anew what it hands over
+    if (method.stepper->is_single_precision)  // it rounds anew what it hands over
       CHECK((a.positions - b.positions).norm() < 1e-4);
     else
       CHECK(a.positions == b.positions);

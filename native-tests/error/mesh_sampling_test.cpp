@@ -26,7 +26,7 @@ Positions rolled(const QuadMesh& mesh) {
   return x;
 }
 
-/// Of a cylinder on chords of a length, known at n + 1 points of each.
+/// Error of a cylinder on chords of a length, known at n + 1 points of each.
 SamplingError chord_error(double length, int n) {
   const double sagitta = length * length / (8 * kRollRadius);
   const double turn = length / kRollRadius;
@@ -64,7 +64,7 @@ TEST_CASE("mesh sampling: what the mesh itself can show loses nothing", "[error]
 TEST_CASE("mesh sampling: meshes of another base are measured alike", "[error]") {
   const QuadMesh fine = refined_sheet(4, 4);
   const MeshSampling same(refined_sheet(4, 1), fine);
-  const MeshSampling other(lying_sheet(8), fine);  // the same vertices
+  const MeshSampling other(lying_sheet(8), fine);  // has the same vertices
   CHECK(other.error(rolled(fine)).distance ==
         Approx(same.error(rolled(fine)).distance).epsilon(1e-9));
   CHECK(other.error(rolled(fine)).normal_angle ==
@@ -83,7 +83,7 @@ TEST_CASE("mesh sampling: facets that lie across fine triangles are not smoothed
 }
 
 TEST_CASE("mesh sampling: hanging vertices are drawn in the middle", "[error]") {
-  const int cells = GENERATE(4, 5);  // of the fine mesh's base, and of another one
+  const int cells = GENERATE(4, 5);  // cells of the fine mesh's base, and of another one
   QuadMesh graded = lying_sheet(cells);
   graded.refine(std::array{FaceId(5)});
   REQUIRE(!graded.hanging_vertices().empty());

@@ -6,7 +6,6 @@
 #include "core/error/mesh_sampling.h"
 #include "core/model/momentum.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_parts.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
 
@@ -31,7 +30,7 @@ RestartOptions short_options() {
 }  // namespace
 
 TEST_CASE("restarts: a state that is sampled keeps its linear momentum", "[error]") {
-  // Of a velocity that is linear along the sheet, whose parts at vertices add up to its integral.
+  // The parts of a velocity that is linear along the sheet add up to its integral.
   const bool is_graded = GENERATE(false, true);
   Scene fine = canvas_at_level(2);
   fine.pins.clear();
@@ -39,7 +38,6 @@ TEST_CASE("restarts: a state that is sampled keeps its linear momentum", "[error
   coarse.pins.clear();
   Simulation simulation(fine);
   if (is_graded) coarse.plan = patchy_plan(*base_quads(coarse));
-  coarse.plan_part = all_scene_parts().plan;
   Simulation restarted(coarse);
   State state = simulation.state();
   state.velocities = state.positions;

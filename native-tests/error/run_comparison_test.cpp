@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/particle_cloth.h"
+#include "core/scene/cloth/particle_cloth.h"
 #include "native-tests/support/meshes.h"
 #include "native-tests/support/models.h"
 
@@ -22,7 +22,7 @@ std::vector<Sample> bent_run(int level, double turn, const Vec3& shift) {
   const Positions rest = rest_cloth(sheet_scene(level), level).mesh.rest_positions;
   Positions x(3, rest.cols());
   for (Eigen::Index i = 0; i < rest.cols(); ++i) {
-    const double u = rest(2, i);  // along warp
+    const double u = rest(2, i);  // coordinate along warp
     const Vec3 place(rest(0, i), turn > 0 ? (1 - std::cos(turn * u)) / turn : 0,
                      turn > 0 ? std::sin(turn * u) / turn : u);
     x.col(i) = place + shift;
@@ -42,7 +42,7 @@ TEST_CASE("run_comparison: a run is no different from itself, at any level", "[e
 }
 
 TEST_CASE("run_comparison: a shift is seen by positions and surfaces, not by bending", "[error]") {
-  const auto run = bent_run(1, 0, Vec3(0, 0.03, 0));  // across the flat sheet
+  const auto run = bent_run(1, 0, Vec3(0, 0.03, 0));  // shift across the flat sheet
   const auto reference = bent_run(2, 0, Vec3::Zero());
   const RunErrors errors = RunComparison(sheet_scene(1), 2).errors(run, reference);
   CHECK(errors.position == Approx(0.03));

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
@@ -82,7 +82,6 @@ TEST_CASE("side by side: the longest edge of all frames is stretched, however sh
   Scene scene = canvas_scene(1);
   const Positions at_rest = rest_cloth(scene).mesh.rest_positions;
   scene.start = StartState{0.7 * at_rest, Positions::Zero(3, at_rest.cols()), scene.level};
-  scene.start_part = all_scene_parts().start;
   const FrameOptions options = half_a_second();
   Simulation own(scene);
   double longest = 0, shortest = 0;

@@ -30,7 +30,7 @@ Surface square(int cells) {
   return surface;
 }
 
-/// The same, lifted to z = height(x, y).
+/// Square lifted to z = height(x, y).
 template <class Height>
 Surface graph(int cells, Height&& height) {
   Surface surface = square(cells);

@@ -11,8 +11,8 @@ namespace pleat {
 namespace {
 
 constexpr double kMeshWidth = 0.1;  // [m]
-constexpr double kExact =
-    1e-9;  // of 1/kMeshWidth^2 times the values: rounding of second differences
+/// Share of 1/kMeshWidth^2 times the values: rounding of second differences.
+constexpr double kExact = 1e-9;
 
 /// A flat mesh whose warp runs at `angle` [rad] from x.
 TriangleMesh turned_sheet(Triangulation pattern, int rows, int columns, double angle) {

@@ -61,7 +61,7 @@ TEST_CASE("fitted_bending: warp, weft and torsion have their own rigidities", "[
   const SparseMatrix Q = fitted_bending(mesh, warp, weft, twist);
   for (int degrees = 0; degrees <= 180; degrees += 15) {
     CAPTURE(pattern, warp, weft, twist, degrees);
-    const double angle = degrees * kPi / 180;  // between warp and the direction that bends
+    const double angle = degrees * kPi / 180;  // angle between warp and the direction that bends
     const double along = std::pow(std::cos(angle), 2);
     const double across = std::pow(std::sin(angle), 2);
     const double rigidity =

@@ -11,7 +11,7 @@
 namespace pleat {
 namespace {
 
-constexpr int kCells = 12;  // along each side
+constexpr int kCells = 12;  // cells of each side
 
 QuadMesh square_sheet() {
   SheetShape shape;

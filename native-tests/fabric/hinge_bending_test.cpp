@@ -45,8 +45,8 @@ std::vector<Positions> smooth_shapes() {
 double cylinder_ratio(Triangulation pattern, double angle) {
   constexpr int kRowCells = 16;
   constexpr int kFrame = 2;  // cells left out all around; what is left has whole periods
-  constexpr double kCylinderRadius = 100;  // of edges
-  constexpr double kSlack = 1e-9;          // of an edge
+  constexpr double kCylinderRadius = 100;  // edges
+  constexpr double kSlack = 1e-9;          // share of an edge
   const double row_height = pattern == Triangulation::equilateral ? std::sqrt(0.75) : 1;
   const double shift = pattern == Triangulation::equilateral ? 0.5 : 0;
   const TriangleMesh mesh = triangulated_sheet(pattern, kRowCells, kRowCells, 1);
@@ -147,8 +147,8 @@ TEST_CASE("hinge_bending: folded by a half turn it pushes with the full moment",
 TEST_CASE("hinge_bending: a flap without area bends nowhere", "[fabric]") {
   Positions flat = flaps_at(0.5);
   std::vector<Positions> shapes(5, flat);
-  shapes[0].col(2) = 0.3 * flat.col(0) + 0.7 * flat.col(1);  // on the edge
-  shapes[1].col(3) = 2.5 * flat.col(0) - 1.5 * flat.col(1);  // on its line
+  shapes[0].col(2) = 0.3 * flat.col(0) + 0.7 * flat.col(1);  // lies on the edge
+  shapes[1].col(3) = 2.5 * flat.col(0) - 1.5 * flat.col(1);  // lies on its line
   shapes[2].col(1) = flat.col(0);                            // no edge
   shapes[3].col(2) = flat.col(0);                            // no arm
   shapes[4].colwise() = Vec3(flat.col(0));                   // all in a point
@@ -169,7 +169,7 @@ TEST_CASE("hinge_bending: the stiffness of each mesh depends on direction in clo
   const double angle = degrees * kPi / 180;
   const double s = std::sin(2 * angle);
   const double c = std::cos(2 * angle);
-  constexpr double kTurnError = 1e-3;  // what a turn of 0.01 rad over an edge leaves
+  constexpr double kTurnError = 1e-3;  // remainder of a turn of 0.01 rad over an edge
   CHECK(cylinder_ratio(Triangulation::equilateral, angle) == Approx(1).epsilon(kTurnError));
   CHECK(cylinder_ratio(Triangulation::one_way, angle) == Approx(1 - s + s * s).epsilon(kTurnError));
   CHECK(cylinder_ratio(Triangulation::alternating, angle) ==

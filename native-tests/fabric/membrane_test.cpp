@@ -197,7 +197,7 @@ TEST_CASE("membrane: springs store the same in small strain", "[fabric]") {
   const FabricConstants fabric = library_fabric(name);
   const ClothModel springs = sheet_model(sheet, fabric);
   const Membrane membrane = membrane_of(sheet.triangle_mesh(), membrane_law(fabric));
-  constexpr double kStrain = 1e-4;  // what is of its third order cancels between signs
+  constexpr double kStrain = 1e-4;  // terms of its third order cancel between signs
   for (const auto& [u, v, g] : {std::tuple(1.0, 0.0, 0.0),
                                 {0.0, 1.0, 0.0},
                                 {0.0, 0.0, 1.0},
@@ -207,7 +207,7 @@ TEST_CASE("membrane: springs store the same in small strain", "[fabric]") {
     double of_springs = 0;
     double of_membrane = 0;
     for (const double e : {kStrain, -kStrain}) {
-      Mat3 map = Mat3::Zero();  // from (u, v)
+      Mat3 map = Mat3::Zero();  // map from (u, v)
       map.topLeftCorner<2, 2>() << 1 + e * u, e * g / 2, e * g / 2, 1 + e * v;
       const Positions x = map.leftCols<2>() * sheet.rest_coordinates();
       of_springs += elastic_energy(springs, x);

@@ -95,7 +95,7 @@ TEST_CASE("spring_lattice: resultants at an edge are those of the moduli", "[fab
   const QuadMesh mesh = sheet_with_aspect(cells, cells, aspect);
   const FabricConstants fabric = library_fabric("canvas");
   const ClothModel model = sheet_model(mesh, fabric);
-  constexpr double kTolerance = 1e-3;  // of first order in the strain here
+  constexpr double kTolerance = 1e-3;  // error of first order in the strain here
   const Strain stretch{kStrain, 0.5 * kStrain, 0};
   CHECK(
       edge_pull(mesh, model, stretch).x() ==

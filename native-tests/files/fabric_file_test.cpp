@@ -16,7 +16,7 @@ using nlohmann::json;
 json fabric_document() { return json::parse(repository_file("assets/fabrics/fabrics.json")); }
 
 struct BadFabric {
-  const char* pointer;      // of the value that is replaced, or of the object that lacks a key
+  const char* pointer;  // place of the value that is replaced, or of the object that lacks a key
   const char* replacement;  // JSON text, or that key
   const char* where;
   const char* sentence;

@@ -97,7 +97,7 @@ TEST_CASE("frames: binary frames are read back to the bit", "[files]") {
   writer.write(first, 0);
   writer.write(second, 1.0 / 3);
   CHECK(writer.n_frames() == 2);
-  CHECK_FALSE(std::filesystem::exists(folder.file("frames.bin")));  // before the last frame
+  CHECK_FALSE(std::filesystem::exists(folder.file("frames.bin")));  // the last frame is missing
   writer.finish();
   const RecordedFrames recorded = read_frames(folder.file("frames.bin"));
   REQUIRE(recorded.positions.size() == 2);

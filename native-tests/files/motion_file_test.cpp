@@ -14,7 +14,7 @@ using nlohmann::json;
 json walk_document() { return json::parse(repository_file("assets/motions/walk_normal.json")); }
 
 struct BadMotion {
-  const char* pointer;      // of the value that is replaced, or of the object that lacks a key
+  const char* pointer;  // place of the value that is replaced, or of the object that lacks a key
   const char* replacement;  // JSON text, or that key
   const char* where;
   const char* sentence;

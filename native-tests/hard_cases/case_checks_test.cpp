@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/small_scene.h"
 
@@ -45,19 +45,19 @@ Json pulled(const Vec3& offset) {
 
 Scene scene_of(const Json& json) { return read_scene(JsonReader(json), fabric_library()); }
 
-/// What the check's figure is after this time [s].
+/// Value of the check's measure after this time [s].
 double found(const CaseCheck& check, const Json& json, double duration) {
   Simulation simulation(scene_of(json));
-  const auto figure = check.figure(simulation, duration);
-  figure->look(simulation, {});
+  const auto measure = check.measure(simulation, duration);
+  measure->look(simulation, {});
   while (simulation.n_steps() < std::lround(duration / kStep)) {
     const SolveReport report = simulation.step();
-    figure->look(simulation, report);
+    measure->look(simulation, report);
   }
-  return figure->value();
+  return measure->value();
 }
 
-/// What the check says of two sheets after this time [s].
+/// Difference of two sheets after this time [s], by the check.
 double difference(const VariantCheck& check, const Json& a, const Json& b, double duration) {
   std::vector<std::unique_ptr<Simulation>> ends;
   for (const Json& json : {a, b}) {
@@ -145,9 +145,9 @@ TEST_CASE("case checks: cloth that was pulled too far has torn, and weighs what 
   Json heavy = sheet_scene();
   heavy["fabric"]["areal_density_kg_per_m2"] = 0.15;
   const Simulation light(scene_of(sheet_scene()));
-  const auto figure = mass_kept(0).figure(light, 1);
-  figure->look(Simulation(scene_of(heavy)), {});
-  CHECK(figure->value() == Approx(0.5));
+  const auto measure = mass_kept(0).measure(light, 1);
+  measure->look(Simulation(scene_of(heavy)), {});
+  CHECK(measure->value() == Approx(0.5));
 }
 
 TEST_CASE("case checks: a vertex that is held in a ball is as deep as it is", "[hard_cases]") {

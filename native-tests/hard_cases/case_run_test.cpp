@@ -15,8 +15,7 @@ namespace {
 template <bool is_at_once>
 class WildStepper final : public Stepper {
  public:
-  WildStepper(ClothModel& model, const MethodOptions& options)
-      : Stepper(model, options, 1, ContactMemory::none) {}
+  WildStepper(ClothModel& model, const MethodOptions& options) : Stepper(model, options, 1) {}
   void refresh() override {}
 
  private:
@@ -52,13 +51,11 @@ constexpr const char* kSheet = R"({
 
 /// Asks no file but for the one scene.
 CaseFiles files_with(const std::string& scene) {
-  SceneParts parts = all_scene_parts();
-  parts.steppers = kTable;
   const auto source = [scene](const std::string& name) {
     if (name != "sheet.json") throw InputError(name, "no such file");
     return scene;
   };
-  return {fabric_library(), source, parts};
+  return {fabric_library(), source, {.steppers = kTable}};
 }
 
 HardCase sheet_case() {
@@ -169,7 +166,7 @@ TEST_CASE("hard cases: what would take too much work is cut, and told so", "[har
   CHECK(cut.status == CaseStatus::ok);
   CHECK(cut.is_cut());
   CHECK(cut.reached < 1e4);
-  REQUIRE(cut.findings.size() == 1);  // what needs the whole run is not asked
+  REQUIRE(cut.findings.size() == 1);  // checks of the whole run are not asked
   CHECK(cut.findings[0].what == stays_within(2).what);
 }
 

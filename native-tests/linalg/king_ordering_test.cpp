@@ -56,7 +56,7 @@ TEST_CASE("linalg: a shuffled strip is put in order along its length", "[linalg]
     }
   }
   const std::vector<int> order = reverse_king_ordering(graph);
-  CHECK(profile(graph, order) <= profile(graph, name));  // that of its rows
+  CHECK(profile(graph, order) <= profile(graph, name));  // the profile of its rows
   std::vector<int> nodes = order;
   std::sort(nodes.begin(), nodes.end());
   for (std::size_t k = 0; k < nodes.size(); ++k) CHECK(nodes[k] == static_cast<int>(k));

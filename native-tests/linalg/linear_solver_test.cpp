@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/linalg/make_linear_solver.h"
 #include "native-tests/support/allocation_count.h"
 #include "native-tests/support/finite_difference.h"
 #include "native-tests/support/linear_systems.h"

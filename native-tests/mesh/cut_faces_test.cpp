@@ -117,7 +117,7 @@ TEST_CASE("cut_faces: what is held does not split, nor what would cut it off", "
   CutFaces faces = faces_of(sheet);
   const std::vector<VertexId> before = faces.corners();
   std::vector<char> is_held(25, 0);
-  is_held[2] = 1;  // at the border, where x begins
+  is_held[2] = 1;  // a vertex of the border where x starts
   CHECK(cut_along(faces, sheet.rest_positions(), VertexId(2), Vec3::UnitX(), is_held).empty());
   CHECK(cut_along(faces, sheet.rest_positions(), VertexId(7), Vec3::UnitX(), is_held).empty());
   CHECK(faces.corners() == before);

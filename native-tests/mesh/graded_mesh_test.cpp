@@ -148,7 +148,7 @@ TEST_CASE("graded mesh: faces refined one by one make the uniform mesh", "[mesh]
 TEST_CASE("graded mesh: round a tube the coordinate grows up to the seam", "[mesh]") {
   QuadMesh mesh = QuadMesh::from_patch(cone_tube());
   mesh.refine_uniformly(2);
-  std::map<long, std::map<double, double>> rows;  // by coordinate down: angle to coordinate round
+  std::map<long, std::map<double, double>> rows;  // coordinate down: {angle: coordinate round}
   for (int i = 0; i < mesh.n_vertices(); ++i) {
     const Vec3 x = mesh.rest_positions().col(i);
     const double angle = std::atan2(x.x(), x.z());

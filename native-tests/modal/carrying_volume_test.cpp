@@ -92,7 +92,7 @@ TEST_CASE("lattice_volume: a sphere is covered, in one part, by little more than
 
 TEST_CASE("lattice_volume: tetrahedra meet face to face", "[modal]") {
   const CarryingVolume bar = bar_volume({0.2, 0.2, 0.2}, 0.1);
-  // Of 8 cubes: each has 18 faces, 12 of them on its sides; 4 x 6 of 24 sides are outer ones.
+  // Each of 8 cubes has 18 faces, 12 of them on its sides; 4 x 6 of 24 sides are outer ones.
   std::map<std::array<int, 3>, int> faces;
   for (const Tet& tet : bar.volume.tets)
     for (std::size_t left_out = 0; left_out < 4; ++left_out) {

@@ -68,7 +68,7 @@ TEST_CASE("cloth_modes: a hanging chain swings at the zeros of J0", "[modal]") {
   const ClothModel model = chain_model(chain);
   Modes modes;
   CHECK(cloth_modes(model, hanging_state(chain).positions, {}, 6, modes).ok());
-  // To both sides alike.
+  // Modes come in pairs to both sides.
   for (int m = 0; m < 6; ++m) {
     CAPTURE(m);
     CHECK(std::sqrt(modes.stiffness[m]) ==

@@ -32,7 +32,7 @@ Positions moved(const Positions& places, const Mat3& turn, const Vec3& way) {
   return (turn * places).colwise() + way;
 }
 
-/// Of the volumes of all bodies.
+/// Sum of the volumes of all bodies.
 double volume_of(const KeyCompletion& completion, const KeyCompletion::Frame& frame) {
   double volume = 0;
   for (std::size_t i = 0; i < frame.bodies.size(); ++i) {

@@ -26,8 +26,8 @@ Eigen::VectorXd masses_of(const TetMesh& mesh) {
   return masses.replicate(1, 3).transpose().reshaped();
 }
 
-/// Of a slender bar, the lower and the higher of the first bending frequencies [rad/s]:
-/// root^2 sqrt(E I / (rho A L^4)), I / A = side^2 / 12.
+/// Lower and higher first bending frequency [rad/s] of a slender bar: root^2 sqrt(E I / (rho A
+/// L^4)), I / A = side^2 / 12.
 std::array<double, 2> beam_frequencies(double root) {
   const auto of_side = [&](double side) {
     return root * root / (kBar.x() * kBar.x()) * side * std::sqrt(kYoung / (12 * kDensity));

@@ -71,7 +71,7 @@ TEST_CASE("surface_arap: nothing but rigid motions is free", "[modal]") {
   CHECK((hessian * rigid_motions(box.positions, parts)).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-// What a volume is for: the softest mode of a long box's skin squashes what is inside.
+// The use of a volume: the softest mode of a long box's skin squashes what is inside.
 TEST_CASE("surface_arap: a mode of the surface alone squashes what a volume keeps", "[modal]") {
   const FineBox box({1, 0.3, 0.3}, 3);
   const auto squashed = [&](const Positions& shape) {

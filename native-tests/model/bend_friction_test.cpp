@@ -26,7 +26,7 @@ constexpr double kYield = kPreSlidingCurvature;  // [1/m]
 constexpr double kFrictionRigidity = kMoment / kYield;
 constexpr double kRigidity = 1.2e-4;  // B [N m]: moments are in balance at 5 1/m
 
-/// In the plane z = 0, `rows` cells of 1 cm along x (warp) and one across, centred in x.
+/// Strip in the plane z = 0, `rows` cells of 1 cm along x (warp) and one across, centred in x.
 QuadMesh strip(int rows) {
   SheetShape shape;
   shape.height = 0.01 * rows;
@@ -49,14 +49,14 @@ ClothModel strip_model(const QuadMesh& mesh, const Positions& start) {
   return model;
 }
 
-/// Along a parabola; in the middle its normal is z and second differences are exact.
+/// Places along a parabola; in the middle its normal is z and second differences are exact.
 Positions parabola(const QuadMesh& mesh, double kappa) {
   Positions x = mesh.rest_positions();
   for (Eigen::Index i = 0; i < x.cols(); ++i) x(2, i) = kappa / 2 * x(0, i) * x(0, i);
   return x;
 }
 
-/// Along a circle, lengths kept.
+/// Places along a circle, lengths kept.
 Positions arc(const QuadMesh& mesh, double kappa) {
   Positions x = mesh.rest_positions();
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -96,7 +96,7 @@ double moment(const ClothModel& model, const QuadMesh& mesh, const Positions& x)
   return sum / bent_area(model, mesh);
 }
 
-/// Without inertia from one curvature to another.
+/// Bends from one curvature to another without inertia.
 void drive(ClothModel& model, const QuadMesh& mesh, double from, double to, Knee knee) {
   const int n_steps = 400;
   const double change = (to - from) / n_steps;
@@ -218,7 +218,7 @@ TEST_CASE("bend_friction: energy never grows", "[model]") {
   State state{shaken(mesh.rest_positions(), 0.01, random), Positions()};
   state.velocities = shaken(Positions::Zero(3, mesh.n_vertices()), 1, random);
   ClothModel model = strip_model(mesh, state.positions);
-  // Without springs the equations of `implicit` are those of backward Euler to the last digit.
+  // Equations of `implicit` without springs are those of backward Euler to the last digit.
   if (stepper == &steppers::kImplicitEuler) model.springs.clear();
   const auto moving = make_stepper(model, method(stepper));
   double last = std::numeric_limits<double>::infinity();
@@ -300,7 +300,7 @@ TEST_CASE("bend_friction: no more is stored than moments did work", "[model]") {
   CHECK(model.bend_friction->energy(end) > 0);
 }
 
-// Per step a turn by a moves kappa by kappa a^4/24 (core/model/bend_friction.cpp).
+// A turn by a in a step moves kappa by kappa a^4/24 (core/model/bend_friction.cpp).
 TEST_CASE("bend_friction: cloth that turns keeps its moments", "[model]") {
   const QuadMesh mesh = strip(8);
   const double kappa = 12;

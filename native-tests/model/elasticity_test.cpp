@@ -11,7 +11,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kEdge = 0.25;  // of the small sheet [m]
+constexpr double kEdge = 0.25;  // edge of the small sheet [m]
 
 QuadMesh small_sheet() { return sheet_with_aspect(4, 4, 1.2); }
 

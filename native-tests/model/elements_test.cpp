@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kThird = 1.0 / 3;  // of the small sheet [m]
+constexpr double kThird = 1.0 / 3;  // edge of the small sheet [m]
 
 /// A dense matrix that elements put their blocks in.
 class DenseBlocks {

@@ -142,7 +142,7 @@ State unstretched_state(const ClothModel& model) {
 }
 
 struct Account {
-  double largest_drift = 0;  // over all steps [J]
+  double largest_drift = 0;  // maximum over all steps [J]
   double relative_drift = 0;
   EnergyLedger::Works works;
   EnergyParts first_parts;

@@ -32,7 +32,7 @@ SystemMatrix assembled(const ClothModel& model) {
   return matrix;
 }
 
-/// The same sum, element by element into a dense matrix.
+/// Sums element by element into a dense matrix.
 Eigen::MatrixXd expected_sum(const ClothModel& model) {
   const int n = model.n_vertices();
   const Positions x = moved_positions(model);

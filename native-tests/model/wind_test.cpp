@@ -42,10 +42,10 @@ TEST_CASE("wind: drag and lift of a plate at an angle follow from its normal and
   const double angle = GENERATE(0.0, 0.2, 0.7, 1.2, 1.5707963267948966);
   CAPTURE(angle);
   constexpr double kWindSpeed = 5;
-  const Vec3 along(std::cos(angle), 0, std::sin(angle));  // of the wind, seen from the plate
+  const Vec3 along(std::cos(angle), 0, std::sin(angle));  // seen from the plate
   const Vec3 across(-std::sin(angle), 0, std::cos(angle));
   const AirOptions air = air_in(kWindSpeed * along);
-  const double q = 0.5 * air.density * kWindSpeed * kWindSpeed;  // on 1 m^2
+  const double q = 0.5 * air.density * kWindSpeed * kWindSpeed;  // force on 1 m^2
   const double s = std::sin(angle);
   const double c = std::cos(angle);
   const Vec3 total = force(air, Vec3::Zero());

@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/error/error_norms.h"
-#include "core/scene/particle_cloth.h"
+#include "core/scene/cloth/particle_cloth.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 

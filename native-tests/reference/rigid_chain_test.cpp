@@ -30,7 +30,7 @@ Eigen::VectorXd accelerations(RigidChain chain, const Eigen::VectorXd& angles,
   return (chain.rates() - rates) / kInstant;
 }
 
-/// The same from Lagrange's equations with the full mass matrix:
+/// Accelerations from Lagrange's equations with the full mass matrix:
 /// sum_j mu_ij l_i l_j (cos(a_i - a_j) a_j'' + sin(a_i - a_j) a_j'^2) = -mu_ii g l_i sin a_i,
 /// mu_ij the mass beyond the farther of both links.
 Eigen::VectorXd lagrange_accelerations(const std::vector<double>& lengths,
@@ -129,7 +129,7 @@ TEST_CASE("rigid_chain: small swings converge to the Bessel frequencies", "[refe
 TEST_CASE("rigid_chain: energy is kept to the order of the integration", "[reference]") {
   const double coarse = energy_change(10, 2000);
   const double fine = energy_change(10, 4000);
-  CHECK(fine < 1e-8 * 0.2 * kGravity);  // of the energy of a fall by its length
+  CHECK(fine < 1e-8 * 0.2 * kGravity);  // share of the energy of a fall by its length
   CHECK(std::log2(coarse / fine) > 3.5);
 }
 

@@ -2,7 +2,7 @@
 
 #include "core/error/error_norms.h"
 #include "core/reference/reference_track.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep_reference.h"
 #include "native-tests/support/assets.h"
 
@@ -16,7 +16,7 @@ Scene shipped_scene(const std::string& name) {
   return read_scene(scene_text(name), fabric_library());
 }
 
-/// What to do where a file and the core have come apart.
+/// Remedy where a file and the core have come apart.
 std::string remedy(const std::string& name) {
   return "if " + name +
          " is to move otherwise now, raise kPhysicsVersion in "

@@ -5,7 +5,7 @@
 
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "core/sweep/sweep_reference.h"
 #include "native-tests/support/assets.h"
 
@@ -73,14 +73,14 @@ TEST_CASE("sweep ladders: they are of the scenes as they are shipped, and no oth
   }
 }
 
-// What the page says that refinement buys. Until the free end of the sheet whips round, a mesh of
-// half the size is right to less than two thirds: measured 0.4 to 0.5.
+// The gain of refinement that the page tells. Until the free end of the sheet whips round, a mesh
+// of half the size is right to less than two thirds: measured 0.4 to 0.5.
 TEST_CASE("sweep ladders: each level of the swinging sheet is nearer to the finest",
           "[reference]") {
   const Ladder& ladder = kLadders[0];
   const SweepPlan plan = page_plan(ladder);
   const SweepReferences references = sweep_references(plan);
-  std::vector<double> errors;  // of the meshes of each level [m]
+  std::vector<double> errors;  // errors of the meshes of each level [m]
   for (std::size_t s = 0; s < plan.settings.size(); ++s) {
     const auto& [whole, own] = references.of_setting[s];
     REQUIRE(own);

@@ -21,7 +21,7 @@ Scene limp_sheet(const MethodOptions& method) {
   return scene;
 }
 
-/// As many rigid links as the sheet has rows, the last node with half the mass.
+/// Chain of as many rigid links as the sheet has rows, the last node with half the mass.
 RigidChain sheet_chain() {
   std::vector<double> masses(kRows, 1.0 / kRows);
   masses.back() /= 2;
@@ -54,7 +54,7 @@ Distance distance(const Simulation& simulation, const RigidChain& chain) {
 
 /// How far the sheet is from the chain after each of 60 steps of 1/60 s.
 std::vector<Distance> distances(const MethodOptions& method) {
-  constexpr int kChainSteps = 40;  // per step
+  constexpr int kChainSteps = 40;  // steps of the chain per step
   Simulation simulation(limp_sheet(method));
   RigidChain chain = sheet_chain();
   std::vector<Distance> course;

@@ -53,7 +53,7 @@ TEST_CASE("bend features: they are mean and standard deviation over the frames",
 TEST_CASE("bend features: a long calm motion does not drown in rounding", "[refinement]") {
   const QuadMesh mesh = lying_sheet(4);
   BendFeatureSum sum(mesh);
-  // The same two shapes all the time: deviation is half of their difference whatever the length.
+  // Two shapes in turn: deviation is half of their difference whatever the length.
   const VertexCurvature curvature(mesh);
   const Positions a = half_rolled(mesh, 0.3);
   const Positions b = half_rolled(mesh, 0.3 * (1 + 1e-7));

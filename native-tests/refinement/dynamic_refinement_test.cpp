@@ -124,7 +124,7 @@ TEST_CASE("dynamic refinement: faces are split where they bend and merged where 
 
 TEST_CASE("dynamic refinement: between half of the threshold and all of it nothing changes",
           "[refinement]") {
-  // On a cylinder of 0.5 m radius the mean of the chords is 0.8 to 1.2 / m, at borders too.
+  // The mean of the chords on a cylinder of 0.5 m radius is 0.8 to 1.2 / m, at borders too.
   const QuadMesh base = lying_sheet(10);
   QuadMesh mesh = base;
   mesh.refine_uniformly(1);

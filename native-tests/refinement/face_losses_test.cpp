@@ -16,7 +16,7 @@ QuadMesh lying_fine_sheet(int cells, int levels) {
   return fine;
 }
 
-/// Of a mesh that the fine one refines: loss by loss of its faces.
+/// Sum of the losses of a mesh that the fine one refines, face by face.
 double summed(const QuadMesh& mesh, const QuadMesh& fine, const FaceLosses& losses) {
   const std::vector<FaceId> matching = matching_faces(mesh, fine);
   std::vector<bool> hangs(static_cast<std::size_t>(mesh.n_vertices()), false);

@@ -108,7 +108,7 @@ std::map<int, double> least_losses(const QuadMesh& base, const QuadMesh& fine, c
 
 struct Shortfall {
   int n_compared = 0;
-  int n_beyond = 0;  // where more than 5 % more than the least is lost
+  int n_beyond = 0;  // cases that lose over 5 % more than the least
   double worst = 1;
 };
 

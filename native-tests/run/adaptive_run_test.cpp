@@ -6,8 +6,7 @@
 #include "core/base/check.h"
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
-#include "core/scene/particle_cloth.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/cloth/particle_cloth.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/models.h"
 
@@ -56,7 +55,7 @@ TEST_CASE("adaptive run: cycles of refining and merging leave a resting sheet as
   for (int step = 0; step < 600; ++step) REQUIRE(run.step().ok());
   const int n_base = run.model().n_vertices();
   const double energy = total_energy(run.model(), run.state());
-  REQUIRE(energy < -0.1);  // by its weight [J], from pins at the origin's height
+  REQUIRE(energy < -0.1);  // energy of its weight [J], from pins at the origin's height
   for (const double split_curvature : {1.0, kNever, 2.0, kNever, 0.1, kNever}) {
     run.set_options({split_curvature, 2});
     for (int frame = 0; frame < 6; ++frame) {
@@ -94,7 +93,6 @@ TEST_CASE("adaptive run: it begins where the scene starts, as the simulation doe
   Simulation before(scene);
   for (int step = 0; step < 10; ++step) REQUIRE(before.step().ok());
   scene.start = StartState{before.state().positions, before.state().velocities, 0};
-  scene.start_part = all_scene_parts().start;
   AdaptiveRun run(scene, {1e6, 2});
   Simulation simulation(scene);
   CHECK(run.state().positions == simulation.state().positions);

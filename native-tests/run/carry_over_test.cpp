@@ -8,7 +8,7 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 #include "core/run/simulation.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/models.h"
 
@@ -196,7 +196,7 @@ TEST_CASE("carry_over: in the next 0.1 s nothing is 1.5 times as fast, but for w
           "[run]") {
   struct Change {
     const char* scene;
-    int n_steps;  // before the change, of 1/60 s: the cloth is in real motion then
+    int n_steps;  // steps of 1/60 s before the change: the cloth is in real motion then
     int old_level;
     const char* old_fabric;
     int new_level;

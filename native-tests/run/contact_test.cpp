@@ -9,7 +9,7 @@
 namespace pleat {
 namespace {
 
-constexpr double kRadius = 0.3;  // of the ball [m]
+constexpr double kRadius = 0.3;  // radius of the ball [m]
 
 /// A limp horizontal sheet above the origin.
 Scene falling_scene(const MethodOptions& method, double height) {

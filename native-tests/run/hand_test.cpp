@@ -4,8 +4,7 @@
 
 #include "core/dynamics/stepper_table.h"
 #include "core/run/simulation.h"
-#include "core/scene/particle_cloth.h"
-#include "core/scene/scene_parts.h"
+#include "core/scene/cloth/particle_cloth.h"
 #include "native-tests/support/cloth.h"
 #include "native-tests/support/graded_sheets.h"
 #include "native-tests/support/models.h"
@@ -30,7 +29,7 @@ Scene hanging_scene(const MethodOptions& method) {
 
 TEST_CASE("hand: what it holds is at its target after every step, and keeps its speed on release",
           "[run]") {
-  const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
+  const Vec3 velocity(0.3, 0.1, 0.6);  // velocity of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
     CAPTURE(method.stepper->name);
     Simulation simulation(hanging_scene(method));
@@ -50,12 +49,11 @@ TEST_CASE("hand: what it holds is at its target after every step, and keeps its 
 }
 
 TEST_CASE("hand: a vertex that hangs is at its target too, between its parents", "[run]") {
-  const Vec3 velocity(0.3, 0.1, 0.6);  // of the hand [m/s]
+  const Vec3 velocity(0.3, 0.1, 0.6);  // velocity of the hand [m/s]
   for (const MethodOptions& method : everyday_methods()) {
     CAPTURE(method.stepper->name);
     Scene scene = hanging_scene(method);
     scene.plan = patchy_plan(*base_quads(scene));
-    scene.plan_part = all_scene_parts().plan;
     Simulation simulation(scene);
     const HangingVertex held = simulation.model().hanging.back();
     for (const Pin& pin : simulation.model().pins)

@@ -3,6 +3,7 @@
 #include "core/dynamics/stepper_table.h"
 #include "core/run/run_ledger.h"
 #include "core/run/simulation.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/models.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/dynamics/stepper_table.h"
 #include "core/run/timed_run.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_override.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/scene_override.h"
 #include "native-tests/support/assets.h"
 
 using namespace pleat;
@@ -60,10 +60,10 @@ TEST_CASE("run_watch: shipped scenes in their own settings raise no warning", "[
   const auto name = GENERATE(from_range(shipped_scenes()));
   CAPTURE(name);
   const Scene scene = changed(name, Json::object());
-  CHECK(warnings_of(scene, scene.figure ? 0.5 : 1).empty());
+  CHECK(warnings_of(scene, scene.body ? 0.5 : 1).empty());
 }
 
-// What the list holds ends as if all were well: warnings_of checks that.
+// Runs of the list end as if all were well: warnings_of checks that.
 TEST_CASE("run_watch: explosions that end ok are told", "[run][long]") {
   const Json explosions = parse_json(repository_file("native-tests/support/explosions.json"));
   REQUIRE(explosions.size() >= 20);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/base/check.h"
-#include "core/scene/particle_cloth.h"
+#include "core/scene/cloth/particle_cloth.h"
 #include "native-tests/support/models.h"
 
 using namespace pleat;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/particle_cloth.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/cloth/particle_cloth.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/particle.h"
 
@@ -239,7 +239,7 @@ TEST_CASE("simulation: from a state on the way it goes on as the run that was th
   const double time = whole.time();
   run(whole, 12);
   Simulation later(scene);
-  run(later, 3);  // of which nothing is left
+  run(later, 3);  // nothing of these is left
   later.go_on_from(state, time);
   CHECK(later.time() == time);
   CHECK(later.is_disturbed());

@@ -11,7 +11,7 @@
 #include "core/run/run_watch.h"
 #include "core/run/sampled_run.h"
 #include "core/run/simulation.h"
-#include "core/scene/mesh_cloth.h"
+#include "core/scene/cloth/mesh_cloth.h"
 #include "native-tests/support/models.h"
 #include "native-tests/support/topology.h"
 
@@ -40,7 +40,7 @@ Scene pulled_scene(const MethodOptions& method) {
   return scene;
 }
 
-/// The same as a triangle mesh held by a membrane.
+/// Scene of a triangle mesh held by a membrane.
 Scene pulled_mesh_scene(const MethodOptions& method) {
   Scene scene = pulled_scene(method);
   MeshCloth mesh;
@@ -71,7 +71,7 @@ void step(Simulation& simulation) {
 
 std::size_t n_splits(const Simulation& simulation) { return simulation.tear_origins().size(); }
 
-/// For each vertex the one of the whole cloth that it comes from.
+/// Vertex of the whole cloth that each one comes from.
 std::vector<VertexId> roots(const Simulation& simulation) {
   std::vector<VertexId> roots;
   roots.reserve(static_cast<std::size_t>(simulation.model().n_vertices()));

@@ -5,10 +5,11 @@
 #include "core/base/check.h"
 #include "core/files/plan_file.h"
 #include "core/refinement/mesh_match.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_schema.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/solid_section.h"
 #include "native-tests/scene/schema_walk.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/scene_schema.h"
 
 namespace pleat {
 namespace {
@@ -90,7 +91,7 @@ std::string plan_of_unit_sheet() {
   return plan_text(plan);
 }
 
-json schema() { return json::parse(scene_schema_file()); }
+json schema() { return json::parse(repository_file("core/scene/scene_schema.json")); }
 
 json written(const std::string& text) {
   const FileSource files = [](const std::string& name) -> std::string {
@@ -173,6 +174,13 @@ TEST_CASE("scene schema: unknown keys, wrong types and values out of range are n
         "/method/substeps 0 choices");
   CHECK(violation(R"({"cloth": {"sheet": {}}, "method": {"iterations": 2}})") ==
         "/method 0 choices");
+}
+
+TEST_CASE("scene schema: every solid that a scene can name is in it", "[scene]") {
+  for (const char* word : solid_words()) {
+    CAPTURE(word);
+    CHECK(schema()["$defs"]["collider"]["properties"].contains(word));
+  }
 }
 
 TEST_CASE("scene schema: the file has the table's steppers and their settings", "[scene]") {

@@ -26,7 +26,7 @@ inline double farthest(const Positions& a, const Positions& b) {
   return (a - b).colwise().norm().maxCoeff();
 }
 
-/// The same in a lattice of cubes [m].
+/// Bar in a lattice of cubes [m].
 CarryingVolume bar_volume(const Vec3& sides, double edge);
 
 }  // namespace pleat

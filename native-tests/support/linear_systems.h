@@ -23,7 +23,7 @@ Eigen::MatrixXd random_columns(Eigen::Index rows, Eigen::Index columns, Random& 
 /// and a multiple of the identity on the diagonal: the shape of an implicit cloth step.
 SparseMatrix grid_system(int side, std::uint64_t seed);
 
-/// The same of any graph, its edges pairs of vertices.
+/// System of any graph, its edges pairs of vertices.
 SparseMatrix graph_system(int n_vertices, const std::vector<std::array<int, 2>>& edges,
                           std::uint64_t seed);
 

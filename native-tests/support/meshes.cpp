@@ -123,7 +123,7 @@ Positions rolled_along_weft(const QuadMesh& mesh, int columns, double turn) {
 }
 
 TriangleMesh triangulated_sheet(Triangulation pattern, int rows, int columns, double edge) {
-  constexpr double kJitter = 0.25;  // of an edge, each way: no triangle turns over
+  constexpr double kJitter = 0.25;  // share of an edge, each way: no triangle turns over
   const bool is_sheared =
       pattern == Triangulation::equilateral || pattern == Triangulation::jittered;
   TriangleMesh mesh = cut_grid(pattern, rows, columns, is_sheared ? 0.5 : 0);

@@ -11,7 +11,7 @@ namespace pleat {
 /// A sheet of 1 m x 1 m with `cells` x `cells` square cells, hanging from u = 0.
 QuadMesh square_sheet(int cells);
 
-/// The same in the plane z = 0, x along warp from the origin.
+/// Square sheet in the plane z = 0, x along warp from the origin.
 QuadMesh lying_sheet(int cells);
 
 /// A sheet of rows x columns cells, each `aspect` times as long along warp as along weft; 1 m wide.

@@ -76,7 +76,7 @@ ClothModel model_of_everything(const QuadMesh& mesh, const FabricConstants& fabr
   model.bends = springs.bends;
   model.taut_springs = taut_springs(model.springs, 0.02);
   model.membrane.law.stiffening_strain = 0.02;
-  model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::arc).chord_bends;
+  model.chord_bends = spring_lattice(mesh, fabric, BendingLaw::linear).chord_bends;
   model.hinges = hinges(mesh.triangle_mesh(), fabric.bend_warp);
   model.bend_friction.emplace(line_bends(mesh, 1), 1e-3, mesh.crossed_triangles(),
                               mesh.rest_positions());

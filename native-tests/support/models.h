@@ -22,7 +22,7 @@ FabricConstants soft_fabric();
 /// Springs and bending of a sheet; no pins, no gravity, no air.
 ClothModel sheet_model(const QuadMesh& mesh, const FabricConstants& fabric);
 
-/// The same sheet as a membrane with fitted bending; no pins, no gravity, no air.
+/// Sheet as a membrane with fitted bending; no pins, no gravity, no air.
 ClothModel membrane_model(const QuadMesh& mesh, const FabricConstants& fabric);
 
 /// A sheet on which every kind of element acts at once.
@@ -34,9 +34,9 @@ State rest_state(const QuadMesh& mesh);
 /// A chain of equal springs that hangs from a pin at the origin. Vertex 0 is the pin.
 struct Chain {
   int n_springs = 8;
-  double stiffness = 500;  ///< of each spring [N/m]
-  double length = 0.1;     ///< of each spring at rest [m]
-  double mass = 0.02;      ///< of each node [kg]; the last has half of it
+  double stiffness = 500;  ///< stiffness of each spring [N/m]
+  double length = 0.1;     ///< rest length of each spring [m]
+  double mass = 0.02;      ///< mass of each node [kg]; the last has half of it
   double gravity = 9.81;   ///< downward [m/s^2]
   double relaxation = 0;   ///< damping c = relaxation * stiffness [s]
 };

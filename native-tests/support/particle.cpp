@@ -88,7 +88,7 @@ double height(const Collider& collider, const Vec3& place, double time) {
 
 bool resolve(ContactStage& stage, VertexId vertex, const Vec3& begin, Vec3& position,
              Vec3& velocity) {
-  constexpr int kMostVertices = 4;  // on the stack, as allocations are counted
+  constexpr int kMostVertices = 4;  // capacity on the stack, as allocations are counted
   using FewPositions = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostVertices>;
   std::array<char, kMostVertices> is_exempt;
   is_exempt.fill(1);

@@ -6,7 +6,7 @@
 
 namespace pleat {
 
-/// What the triangles of a mesh say of its form.
+/// Form of a mesh, as its triangles tell it.
 struct Topology {
   bool is_manifold = true;  ///< every vertex is one fan, and edges have one or two triangles
   int n_components = 0;

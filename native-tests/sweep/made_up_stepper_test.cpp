@@ -5,20 +5,21 @@
 #include <string>
 
 #include "core/base/check.h"
+#include "core/dynamics/method_settings.h"
 #include "core/run/simulation.h"
-#include "core/scene/method_section.h"
-#include "core/scene/scene_file.h"
-#include "core/scene/scene_override.h"
-#include "core/scene/scene_schema.h"
-#include "core/sweep/front_figure.h"
+#include "core/scene/format/method_section.h"
+#include "core/scene/format/scene_file.h"
+#include "core/scene/format/scene_override.h"
+#include "core/sweep/front_chart.h"
 #include "core/sweep/sweep.h"
 #include "core/sweep/usual_settings.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/scene_schema.h"
 
 namespace pleat {
 namespace {
 
-constexpr std::array kSettings = {MethodSetting::substeps, MethodSetting::iterations};
+constexpr auto kSettings = method_settings("substeps", "iterations");
 constexpr std::array<MethodCounts, 2> kCounts = {{{3, 2}, {7, 2}}};
 
 StepperType made_up() {
@@ -41,15 +42,13 @@ const std::string kScene =
     R"({"cloth": {"sheet": {"columns": 2, "rows": 2}}, "pins": [{"part": "upper_edge"}],
         "method": {"stepper": "made_up"}})";
 
-SceneParts parts() {
-  SceneParts all = all_scene_parts();
-  all.steppers = kTable;
-  return all;
+Scene read(const JsonReader& scene) {
+  return read_scene(scene, fabric_library(), {}, {.steppers = kTable});
 }
 
-Scene read(const JsonReader& scene) { return read_scene(scene, fabric_library(), {}, parts()); }
-
-Scene scene_of(std::string_view text) { return read_scene(text, fabric_library(), {}, parts()); }
+Scene scene_of(std::string_view text) {
+  return read_scene(text, fabric_library(), {}, {.steppers = kTable});
+}
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -86,19 +85,20 @@ TEST_CASE("stepper table: settings that a stepper does not read are refused with
           "[sweep]") {
   for (const StepperType* type : standard_steppers()) {
     const Json usual = json_method(type->usual_method());
-    for (const MethodSetting setting : kMethodSettings) {
-      CAPTURE(type->name, key(setting));
+    for (const MethodSetting& setting : kMethodSettings) {
+      const char* key = setting.key;
+      CAPTURE(type->name, key);
       const bool is_beside_a_factor =
-          setting == MethodSetting::preconditioner && is_direct(type->usual_method().solver);
-      CHECK(usual.contains(key(setting)) == (type->reads(setting) && !is_beside_a_factor));
-      if (type->reads(setting)) continue;
+          key == std::string("preconditioner") && is_direct(type->usual_method().solver);
+      CHECK(usual.contains(key) == (type->reads(key) && !is_beside_a_factor));
+      if (type->reads(key)) continue;
       Json scene = parse_json(kScene);
-      scene["method"] = {{"stepper", type->name}, {key(setting), 1}};
+      scene["method"] = {{"stepper", type->name}, {key, 1}};
       try {
         read_scene(scene.dump(), fabric_library());
         FAIL("accepted");
       } catch (const InputError& error) {
-        CHECK(error.where() == std::string("/method/") + key(setting));
+        CHECK(error.where() == std::string("/method/") + key);
         CHECK(has(error.what(), std::string(type->name) + " does not read it"));
       }
     }
@@ -151,9 +151,9 @@ TEST_CASE("stepper table: a sweep measures an added stepper and its figure draws
   CHECK(sweep.rows()[1].n_substeps == 7);
   const Json row = json_bench_row(sweep.rows()[0]);
   CHECK(read_bench_row(JsonReader(row), kTable).method.stepper == &kMadeUp);
-  const std::string figure = front_figure(sweep.rows());
-  CHECK(has(figure, "M-1-2L3 4Z\" fill=\"#123456\""));
-  CHECK(has(figure, ">made_up</text>"));
+  const std::string chart = front_chart(sweep.rows());
+  CHECK(has(chart, "M-1-2L3 4Z\" fill=\"#123456\""));
+  CHECK(has(chart, ">made_up</text>"));
 
   Sweep again(read_sweep_plan(JsonReader(plan), read, kTable), store, "test");
   CHECK(again.resume(journal) == journal.size());

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/scene/scene_file.h"
+#include "core/scene/format/scene_file.h"
 #include "native-tests/support/assets.h"
 #include "native-tests/support/models.h"
 
@@ -175,7 +175,7 @@ TEST_CASE("sweep: a journal cut anywhere gives every row once, to the bit", "[sw
   CountingStore store;
   const Json plan = plan_of_thirty();
   const std::string journal = journal_of(plan, store);
-  CHECK(store.n_kept == 9);  // for each fabric one of each level, and a finer one
+  CHECK(store.n_kept == 9);  // one of each level for each fabric, and a finer one
   REQUIRE(std::count(journal.begin(), journal.end(), '\n') == 90);
   Sweep whole(plan_of(plan), store, "test");
   CHECK(whole.resume(journal) == journal.size());
@@ -210,7 +210,7 @@ TEST_CASE("sweep: of a journal only the lines of this very sweep are taken", "[s
   const std::string journal = journal_of(plan, store);
   const std::size_t first = journal.find('\n') + 1;
   const std::size_t second = journal.find('\n', first) + 1;
-  std::size_t round_end[3] = {};  // of rounds of four lines
+  std::size_t round_end[3] = {};  // ends of rounds of four lines
   for (std::size_t line = 0, at = 0; line < 12; ++line)
     round_end[line / 4] = at = journal.find('\n', at) + 1;
   const auto n_taken = [&](const std::string& text, const Json& of) {
@@ -230,7 +230,7 @@ TEST_CASE("sweep: of a journal only the lines of this very sweep are taken", "[s
 
 TEST_CASE("sweep: a setting that cannot run is left out when a sweep goes on", "[sweep]") {
   Json plan = small_plan();
-  plan["grid"]["/method"][1] = {{"stepper", "explicit"}, {"substeps", 1}};  // beyond stability
+  plan["grid"]["/method"][1] = {{"stepper", "explicit"}, {"substeps", 1}};  // unstable
   MemoryReferenceStore store;
   const std::string journal = journal_of(plan, store);
   CHECK(std::count(journal.begin(), journal.end(), '\n') == 4 + 2 * 2);
@@ -256,7 +256,7 @@ TEST_CASE("sweep: its identity is that of its plan, scene, fabric, core and comm
     other[key] = value;
     CHECK(sweep_identity(plan_of(other), "test") != identity);
   }
-  // The same name for other numbers.
+  // Equal names for other numbers.
   const auto softer = [](const JsonReader& root) {
     Scene scene = read_any_scene(root);
     scene.fabric.shear /= 2;
@@ -433,7 +433,7 @@ TEST_CASE("sweep: a reference that a scene is not for is told at the scene", "[s
 TEST_CASE("sweep: a method that cannot run is a row that says why", "[sweep]") {
   Json plan = small_plan();
   plan["grid"].erase("/refinement/level");
-  plan["grid"]["/method"][0] = {{"stepper", "explicit"}, {"substeps", 1}};  // beyond stability
+  plan["grid"]["/method"][0] = {{"stepper", "explicit"}, {"substeps", 1}};  // unstable
   const std::vector<BenchRow> rows = rows_of(plan, kLongSlice);
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].status == "refused");

@@ -60,10 +60,8 @@ function readRules(text: string): Rules {
 }
 
 function placeOf(file: string): Place | null {
-  const parts = file.split('/');
-  if (parts.length === 1) return null;
-  const [owner = '', room = ''] = parts;
-  return { owner, room: parts.length > 2 ? room : '' };
+  const [owner, ...inner] = file.split('/').slice(0, -1);
+  return owner === undefined ? null : { owner, room: inner.join('/') };
 }
 
 /** The file of src that is meant, or null when it is none. */
@@ -222,6 +220,20 @@ const PLANTED: Record<string, [text: string, expected: string | null]> = {
     'may not see what puts veil together',
   ],
   'veil/panels/tabbed.ts': ["import { t } from '../../tabs';\n", 'tabs.ts puts the page together'],
+  'veil/panels/chart/axis.ts': ["import type { F } from '../../../shared/bindings/frame';\n", null],
+  'veil/panels/energy/line.ts': ["import { a } from '../chart/axis';\n", null],
+  'veil/panels/contact/beside.ts': [
+    "import { l } from '../energy/line';\n",
+    'veil/panels/contact may not see veil/panels/energy',
+  ],
+  'veil/panels/levels/up.ts': [
+    "import { p } from '../pane';\n",
+    'veil/panels/levels may not see veil/panels',
+  ],
+  'veil/panels/attic/old.ts': [
+    "import { p } from '../pane';\n",
+    'veil/panels/attic stands in no line',
+  ],
   'wrap/wrap-view.ts': ["import '../veil/veil.css';\n", 'wrap may not see veil'],
   'wrap/state/root.ts': ["const m = await import('../../main');\n", 'nobody imports main.ts'],
   'wrap/state/hen.ts': ["import type { Egg } from './egg';\n", null],

@@ -7,7 +7,7 @@ import type { GarmentRunHandle } from '../src/refinement/bindings/refinement-mod
 import { START_S } from '../src/refinement/state/garment-frames.ts';
 
 const NAME = 'virtual:pleat-figure';
-const BUILT = new URL('../src/wasm/refinement.mjs', import.meta.url);
+const BUILT = new URL('../src/wasm/pleat.mjs', import.meta.url);
 const ASSETS = new URL('../../assets/', import.meta.url);
 const FOLDER = 'scenes/garments/';
 const SCENE = 'skirt_fast_walk.json';
@@ -19,7 +19,7 @@ const textOf = (path: string) => readFileSync(new URL(path, ASSETS), 'utf8');
 
 async function figure(): Promise<unknown> {
   const { default: create } = await import(BUILT.href);
-  const binary = new URL('refinement.wasm', BUILT);
+  const binary = new URL('pleat.wasm', BUILT);
   const { GarmentRun } = await create({ wasmBinary: readFileSync(fileURLToPath(binary)) });
   const run: GarmentRunHandle = new GarmentRun(textOf('fabrics/fabrics.json'));
   const scene = { ...JSON.parse(textOf(FOLDER + SCENE)), refinement: { level: 0 } };

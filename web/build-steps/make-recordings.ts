@@ -1,5 +1,6 @@
 // Makes what the view of refinement shows without computing it, by the native command: see
 // assets/recordings/README.md. Run by `npm run recordings`.
+
 import { execFile } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -10,6 +11,7 @@ import { deflateSync } from 'node:zlib';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,
+  RefinementModule,
 } from '../src/refinement/bindings/refinement-module.ts';
 import {
   FINE_LEVEL,
@@ -24,7 +26,7 @@ import {
   type Parents,
   type RecordingHead,
 } from '../src/refinement/worker/recording.ts';
-import createRefinement from '../src/wasm/refinement.mjs';
+import createPleat from '../src/wasm/pleat.mjs';
 
 /** Of the density of air, by which a second run on the fine mesh has another chance. */
 const AIR_CHANGE = 1e-6;
@@ -43,8 +45,8 @@ const command = join(root, 'build/release/cli/pleat');
 const temporary = mkdtempSync(join(tmpdir(), 'pleat-recordings-'));
 const readText = (path: string) => readFileSync(join(root, path), 'utf8');
 const fabrics = readText('assets/fabrics/fabrics.json');
-const module = await createRefinement({
-  wasmBinary: readFileSync(join(root, 'web/src/wasm/refinement.wasm')),
+const module = await createPleat<RefinementModule>({
+  wasmBinary: readFileSync(join(root, 'web/src/wasm/pleat.wasm')),
 });
 
 /** The scene, on its own mesh or so refined, with the files that it names written out. */

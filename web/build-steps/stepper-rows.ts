@@ -24,8 +24,8 @@ async function tables(): Promise<{ steppers: unknown; details: Detail[] }> {
 }
 
 /** What it takes to read a detail, without what people are told of it. */
-function readable({ key, words, least, most }: Detail): object {
-  return words ? { key, words: words.map(({ value }) => value) } : { key, least, most };
+function readable({ key, words, least, most, beside }: Detail): object {
+  return { key, words: words?.map(({ value }) => value), least, most, beside };
 }
 
 export function stepperRows(): Plugin {

@@ -4,21 +4,21 @@ import type { StartShape, View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './fabrics.css';
 import './panel.css';
-import { inputFailure } from '../shared/bindings/answers';
 import type { Collider } from '../shared/bindings/geometry';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createInvitation } from '../shared/panels/invitation';
-import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createKeyList } from '../shared/panels/keys-panel';
+import { openStage } from '../shared/panels/open-stage';
+import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import { createEnergyCurve } from './panels/energy-curve';
 import { createExperimentPanel } from './panels/experiment-panel';
 import { createFabricCard } from './panels/fabric-card';
 import { createFabricGallery } from './panels/fabric-gallery';
-import { createFabricsKeys } from './panels/fabrics-keys';
 import { fabricsSentence } from './panels/fabrics-sentence';
 import { createHoldList } from './panels/hold-list';
 import { createOwnFabricForm } from './panels/own-fabric-form';
@@ -38,7 +38,15 @@ import { decodeFabricsLink, encodeFabricsLink } from './state/fabrics-link';
 import { type FabricsState, initialFabricsState, recordOf } from './state/fabrics-state';
 import { joined, middleOf } from './state/holds';
 
-export type FabricsView = View;
+const KEYS: readonly [string, string][] = [
+  ['G', 'take the cloth at the middle of the chosen picture; then arrows, Page Up and Page Down'],
+  ['G or Escape', 'let go: the handle stays'],
+  ['P', 'change between pulling and pinning'],
+  ['1 to 4', 'choose a picture'],
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
 
 export interface FabricsActions {
   /** Shows that fabric in motion. */
@@ -101,11 +109,9 @@ class Picture {
   /** Opens the stage where the browser can draw it, and follows the store from then on. */
   open(canvas: HTMLCanvasElement, deformer: Deformer): void {
     const { store, box } = this;
-    try {
-      this.stage = createFabricsStage(box, canvas, this.events(deformer));
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+    this.stage = openStage(canvas, store, (pictureLost) =>
+      createFabricsStage(box, canvas, { ...this.events(deformer), pictureLost }),
+    );
     new ResizeObserver(() => this.layOut()).observe(box);
     watch(store, ['panes', 'ownFabric'], () => this.dress());
     watch(store, ['pins', 'handles', 'chosenHold'], (state) =>
@@ -119,23 +125,19 @@ class Picture {
     );
   }
 
-  private events(deformer: Deformer): FabricsStageEvents {
+  private events(deformer: Deformer): Omit<FabricsStageEvents, 'pictureLost'> {
     const { store } = this;
     return {
       press: (vertex, pane) => {
         this.choose(pane);
-        if (store.get().tool === 'pin') deformer.togglePin(vertex, pane);
+        if (store.get().tool === 'pin') deformer.hand.togglePin(vertex, pane);
         return store.get().tool === 'pin';
       },
-      grab: (vertex, pane) => deformer.grab(vertex, pane),
-      moveGrab: (target) => deformer.moveGrab(target),
-      releaseGrab: () => deformer.releaseGrab(),
+      grab: (vertex, pane) => deformer.hand.grab(vertex, pane),
+      moveGrab: (target) => deformer.hand.move(target),
+      releaseGrab: () => deformer.hand.release(),
       key: (name) => this.key(name),
       drawn: ({ x, y }) => this.invitation.place(x, y),
-      pictureLost(isLost) {
-        if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-        else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-      },
     };
   }
 
@@ -192,12 +194,7 @@ function createPanels(
   deformer: Deformer,
   picture: Picture,
 ): void {
-  createExperimentPanel(panel, store, {
-    openExperiment: (id) => deformer.openExperiment(id),
-    openObj: (file) => void deformer.openObj(file),
-    setUnit: (unit) => deformer.setUnit(unit),
-    cancel: () => deformer.cancel(),
-  });
+  createExperimentPanel(panel, store, deformer);
   createFabricGallery(panel, store, {
     compare: (comparison) => deformer.compare(comparison),
     choose: (pane) => picture.choose(pane),
@@ -224,7 +221,7 @@ function createPanels(
     release: (name) => deformer.release(name),
     resetHolds: () => deformer.resetHolds(),
   });
-  createFabricsKeys(panel);
+  createKeyList(panel, KEYS);
 }
 
 function createTools(
@@ -253,11 +250,7 @@ function createTools(
   });
 }
 
-export function createFabricsView(
-  root: HTMLElement,
-  hash: string,
-  actions: FabricsActions,
-): FabricsView {
+export function createFabricsView(root: HTMLElement, hash: string, actions: FabricsActions): View {
   const first = decodeFabricsLink(hash);
   const store = createStore(initialFabricsState(first.link, first.problems));
   let isShown = false;
@@ -277,8 +270,7 @@ export function createFabricsView(
     showFrame: (pane, buffer) => picture.showFrame(pane, buffer),
   });
   picture.open(canvas, deformer);
-  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
-  watch(store, ['problem', 'phase'], showProblem);
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, fabricsSentence);
   createTools(toolBox, store, deformer, () => picture.stage?.homeView(), actions);
   createPanels(panel, store, deformer, picture);

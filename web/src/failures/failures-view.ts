@@ -3,16 +3,16 @@
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './failures.css';
-import { inputFailure } from '../shared/bindings/answers';
 import { frameViews } from '../shared/bindings/frame';
 import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
-import { createKeyList } from '../shared/panels/keys-panel';
-import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createKeyList, RUN_KEYS } from '../shared/panels/keys-panel';
+import { openStage } from '../shared/panels/open-stage';
+import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
-import { createStore, type Store, watch } from '../shared/state/store';
+import { createStore, type Store } from '../shared/state/store';
 import { createCaseList } from './panels/case-list';
 import { createCaseStory } from './panels/case-story';
 import { createDuelTools } from './panels/duel-tools';
@@ -22,15 +22,6 @@ import { Duel, type DuelView } from './run/duel';
 import { createDuelStage, type DuelStage } from './stage/duel-stage';
 import { decodeFailuresLink, encodeFailuresLink } from './state/failures-link';
 import { type FailuresState, initialFailuresState } from './state/failures-state';
-
-const KEYS: readonly [string, string][] = [
-  ['Space', 'play or pause'],
-  ['.', 'one step'],
-  ['R', 'reset'],
-  ['Arrows', 'turn the view'],
-  ['+ and -', 'closer, farther'],
-  ['Home', 'first view'],
-];
 
 /** Panes narrower than this stand one above the other [CSS pixels]. */
 const LEAST_PANE_WIDTH = 240;
@@ -72,24 +63,17 @@ class Picture implements DuelView {
     store: Store<FailuresState>,
     key: (name: string) => boolean,
   ): void {
-    try {
-      const stage = createDuelStage(stageBox, canvas, {
-        key,
-        pictureLost(isLost) {
-          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-        },
-      });
-      stage.setFabric(fabricNamed(SHOWN_FABRIC).id);
-      new ResizeObserver(() => {
-        const nColumns = stageBox.clientWidth < 2 * LEAST_PANE_WIDTH ? 1 : 2;
-        badges.style.setProperty('--columns', String(nColumns));
-        stage.setColumns(nColumns);
-      }).observe(stageBox);
-      this.stage = stage;
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+    const stage = openStage(canvas, store, (pictureLost) =>
+      createDuelStage(stageBox, canvas, { key, pictureLost }),
+    );
+    this.stage = stage;
+    if (!stage) return;
+    stage.setFabric(fabricNamed(SHOWN_FABRIC).id);
+    new ResizeObserver(() => {
+      const nColumns = stageBox.clientWidth < 2 * LEAST_PANE_WIDTH ? 1 : 2;
+      badges.style.setProperty('--columns', String(nColumns));
+      stage.setColumns(nColumns);
+    }).observe(stageBox);
   }
 
   showMesh: DuelView['showMesh'] = (pane, mesh) => {
@@ -136,23 +120,13 @@ export function createFailuresView(root: HTMLElement, hash: string): View {
     keys[name]?.();
     return name in keys;
   });
-  watch(
-    store,
-    ['problem', 'phase'],
-    createFailureBanner(messages, () => store.set({ problem: null })),
-  );
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, sentenceFor);
   createSideBadges(badges, store);
-  createDuelTools(toolBox, store, {
-    play: () => duel.play(),
-    pause: () => duel.pause(),
-    step: () => duel.step(),
-    reset: () => void duel.reset(),
-    homeView: () => picture.homeView(),
-  });
+  createDuelTools(toolBox, store, duel, picture.homeView);
   createCaseList(panel, store);
   createCaseStory(panel, store);
-  createKeyList(panel, KEYS);
+  createKeyList(panel, RUN_KEYS);
 
   const link = () => `#${encodeFailuresLink(store.get())}`;
   const writeLink = createLinkWriter(store, link, () => isShown);

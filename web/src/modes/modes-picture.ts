@@ -1,7 +1,6 @@
 // The picture of the view of modes and what lies on it, all of one store.
-import { inputFailure } from '../shared/bindings/answers';
 import { createInvitation } from '../shared/panels/invitation';
-import { PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { openStage } from '../shared/panels/open-stage';
 import { type Store, watch } from '../shared/state/store';
 import { columnsFor, createEnergyBadges, type EnergyBadges } from './panels/energy-badges';
 import type { Hands } from './run/hands';
@@ -26,21 +25,16 @@ export class Picture {
   /** Opens the stage where the browser can draw it. */
   open(canvas: HTMLCanvasElement, hands: Hands): void {
     const { store, box } = this;
-    try {
-      this.stage = createModesStage(box, canvas, {
+    this.stage = openStage(canvas, store, (pictureLost) =>
+      createModesStage(box, canvas, {
         key: (name) => hands.key(name),
         grab: (vertex, pane) => hands.pull.grab(vertex, pane),
         moveGrab: (target) => hands.pull.move(target),
         releaseGrab: () => hands.pull.release(),
         drawn: ({ x, y }) => this.invitation.place(x, y),
-        pictureLost(isLost) {
-          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-        },
-      });
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+        pictureLost,
+      }),
+    );
     this.badges = createEnergyBadges(box, store, shownEnergies, (energy) => hands.volumeOf(energy));
     new ResizeObserver(() => this.layOut()).observe(box);
     watch(store, ['edges'], ({ edges }) => this.stage?.setEdges(edges));

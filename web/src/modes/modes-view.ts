@@ -7,15 +7,15 @@ import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
+import { createKeyList } from '../shared/panels/keys-panel';
 import { objText, save } from '../shared/panels/saving';
 import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
-import { createStore, type Store, watch } from '../shared/state/store';
+import { createStore, type Store } from '../shared/state/store';
 import { frame, Picture } from './modes-picture';
 import { createCompletionCurves } from './panels/completion-curves';
 import { createModeList } from './panels/mode-list';
 import { createModelPanel } from './panels/model-panel';
-import { createModesKeys } from './panels/modes-keys';
 import { createModesNumbers } from './panels/modes-numbers';
 import { modesSentence } from './panels/modes-sentence';
 import { createModesTools } from './panels/modes-tools';
@@ -27,6 +27,17 @@ import { ModesRun } from './run/modes-run';
 import { firstKeys } from './state/key-shapes';
 import { decodeModesLink, encodeModesLink } from './state/modes-link';
 import { initialModesState, type ModesState } from './state/modes-state';
+
+const KEYS: readonly [string, string][] = [
+  ['Space', 'play or pause'],
+  ['M', 'modes or key frames'],
+  ['1 to 9', 'that mode alone'],
+  [', and .', 'back and on along the keys'],
+  ['K', 'keep the mix as a key'],
+  ['Arrows', 'turn the view'],
+  ['+ and -', 'closer, farther'],
+  ['Home', 'first view'],
+];
 
 function createPanels(
   panel: HTMLElement,
@@ -54,7 +65,7 @@ function createPanels(
     setAmplitude: (mode, amplitude) => hands.setAmplitude(mode, amplitude),
   });
   createShareChart(panel, store);
-  createModesKeys(panel);
+  createKeyList(panel, KEYS);
 }
 
 function createTimeline(
@@ -119,11 +130,7 @@ export function createModesView(root: HTMLElement, hash: string): View {
   const hands = new Hands(store, run);
   picture.open(canvas, hands);
   createWorkingBar(stageBox, store, () => run.cancel());
-  watch(
-    store,
-    ['problem', 'phase'],
-    createFailureBanner(messages, () => store.set({ problem: null })),
-  );
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, modesSentence);
   createModesNumbers(numbers, store, () => hands.move());
   createModesTools(toolBox, store, {

@@ -1,6 +1,6 @@
 // A coarser level over the cloth, with its legend.
 import { type Store, watch } from '../shared/state/store';
-import { createLevelLegend } from './panels/level-legend';
+import { createLevelLegend } from './panels/levels/level-legend';
 import { followLevels } from './run/level-source';
 import type { MotionRun } from './run/motion-run';
 import { createLevelOverlay } from './stage/level-overlay';

@@ -1,12 +1,12 @@
 // The panels that are far down: they come once there is a cloth to be told of.
 import { element } from '../shared/panels/element';
-import { createKeysPanel } from '../shared/panels/keys-panel';
+import { createKeyList, HAND_KEYS } from '../shared/panels/keys-panel';
 import { type Store, watch } from '../shared/state/store';
-import { createConvergencePanel } from './panels/convergence-panel';
-import { createEnergyPanel } from './panels/energy-panel';
-import { later } from './panels/later';
-import { createLevelPanel } from './panels/level-panel';
-import { createSweepPanel } from './panels/sweep-panel';
+import { createConvergencePanel } from './panels/convergence/convergence-panel';
+import { createEnergyPanel } from './panels/energy/energy-panel';
+import { createLevelPanel } from './panels/levels/level-panel';
+import { createSweepPanel } from './panels/speed-error/sweep-panel';
+import { later } from './run/later';
 import type { MotionRun } from './run/motion-run';
 import type { Sweep } from './run/sweep';
 import type { MotionState } from './state/motion-state';
@@ -18,7 +18,7 @@ function createSweepTray(
   run: MotionRun,
 ): () => void {
   const bring = later(store, 'The chart of the sweep', async () => {
-    const { createSpeedErrorView } = await import('./panels/speed-error-view');
+    const { createSpeedErrorView } = await import('./panels/speed-error/speed-error-view');
     return createSpeedErrorView(parent, store, run);
   });
   watch(store, ['sweepOpen'], async ({ sweepOpen }) => {
@@ -44,12 +44,12 @@ function createLaterSweep(store: Store<MotionState>): Sweep {
   };
 }
 
-/** What contact does is told where there are solids. */
+/** Tells what contact does where there are solids. */
 function createLaterContact(parent: HTMLElement, store: Store<MotionState>): void {
   const section = element('section', { 'aria-label': 'Contact' });
   parent.append(section);
   const bring = later(store, 'The panel of contact', async () => {
-    const { createContactPanel } = await import('./panels/contact-panel');
+    const { createContactPanel } = await import('./panels/contact/contact-panel');
     return createContactPanel(section, store);
   });
   watch(store, ['colliders'], ({ colliders }) => {
@@ -69,5 +69,5 @@ export function createLowerPanels(
   createConvergencePanel(panel, store, run);
   const showChart = createSweepTray(tray, store, run);
   createSweepPanel(panel, store, createLaterSweep(store), showChart);
-  createKeysPanel(panel);
+  createKeyList(panel, HAND_KEYS);
 }

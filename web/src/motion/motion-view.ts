@@ -4,30 +4,30 @@ import { fabricNamed } from '../shared/fabric/fabric-data';
 import type { StartShape, View } from '../shared/page/view';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { createDropTarget } from '../shared/panels/drop-target';
+import { element, setText } from '../shared/panels/element';
 import { createInvitation } from '../shared/panels/invitation';
 import { createRunTools } from '../shared/panels/run-tools';
 import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
 import type { Print } from '../shared/stage/fabric-material';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
-import { createCaption } from './panels/caption';
 import { createDrawingPanel } from './panels/drawing-panel';
-import { createFabricPanel } from './panels/fabric-panel';
-import { later } from './panels/later';
 import { createLinkTool } from './panels/link-tool';
-import { createMethodPanel } from './panels/method-panel';
+import { createMethodPanel } from './panels/method/method-panel';
 import { motionSentence } from './panels/motion-sentence';
-import { createNumbersStrip } from './panels/numbers-strip';
+import { createNumbersStrip } from './panels/numbers/numbers-strip';
 import { createProblemBanner } from './panels/problem-banner';
-import { createScenePanel } from './panels/scene-panel';
+import { createFabricPanel } from './panels/scene/fabric-panel';
+import { createScenePanel } from './panels/scene/scene-panel';
 import { createWorkBar } from './panels/work-bar';
+import { later } from './run/later';
 import { MotionRun } from './run/motion-run';
 import { createMotionStage, type MotionStage } from './stage/motion-stage';
 import type { Knit } from './state/knit';
 import { decodeMotionLink, encodeMotionLink, linkTo } from './state/motion-link';
 import { AT_START, initialMotionState, type MotionState, shownHeat } from './state/motion-state';
 import { deformedMesh, holdFor } from './state/obj-mesh';
-import { presetSetting } from './state/setting';
+import { PRESETS, presetSetting } from './state/setting';
 
 export interface MotionView extends View {
   /** The shown scene in that fabric. */
@@ -109,19 +109,14 @@ function createPanels(
   run: MotionRun,
   { homeView, link }: { homeView(): void; link(): string },
 ): void {
-  const actions = {
-    play: () => run.play(),
-    pause: () => run.pause(),
-    step: () => run.step(),
-    reset: () => run.reset(),
-    homeView,
-  };
   createProblemBanner(place('messages'), store, run);
-  createCaption(place('messages'), store);
+  const caption = element('p', { class: 'caption' });
+  place('messages').append(caption);
+  watch(store, ['setting'], ({ setting }) => setText(caption, PRESETS[setting.preset].caption));
   createAnnouncer(place('messages'), store, motionSentence);
   createWorkBar(place('stage'), store, run);
   createNumbersStrip(place('strip'), store, run);
-  createRunTools(place('toolbar'), store, actions, TOOL_WORDS, (phase) => phase !== 'broken');
+  createRunTools(place('toolbar'), store, run, homeView, TOOL_WORDS, (phase) => phase !== 'broken');
   createLinkTool(place('toolbar'), store, { rest: () => run.rest(), link });
   createScenePanel(place('panel'), store, run.obj);
   createFabricPanel(place('panel'), store);
@@ -154,7 +149,7 @@ function drawKnit(store: Store<MotionState>, stage: MotionStage): void {
   });
 }
 
-/** What is drawn over the cloth comes when it is first asked for. */
+/** Brings drawings over the cloth when they are first asked for. */
 function drawOverlays(
   box: HTMLElement,
   store: Store<MotionState>,

@@ -1,17 +1,17 @@
-// The view of refinement: one garment on a walking figure, on a coarse, a planned and a fine mesh. Its
+// The view of refinement: one garment on a walking body, on a coarse, a planned and a fine mesh. Its
 // store, its workers, its stage and its panels, wired together.
-import firstFigure from 'virtual:pleat-figure';
+import firstBody from 'virtual:pleat-figure';
 import type { View } from '../shared/page/view';
 import '../shared/page/panes.css';
 import './refinement.css';
-import { inputFailure } from '../shared/bindings/answers';
 import { fabricNamed } from '../shared/fabric/fabric-data';
 import { createAnnouncer } from '../shared/panels/announcer';
 import { element } from '../shared/panels/element';
 import { createFailureBanner } from '../shared/panels/failure-banner';
 import { createKeyList } from '../shared/panels/keys-panel';
+import { openStage } from '../shared/panels/open-stage';
 import { objText, save } from '../shared/panels/saving';
-import { createStageCanvas, PICTURE_LOST, replaceCanvas } from '../shared/panels/stage-canvas';
+import { createStageCanvas } from '../shared/panels/stage-canvas';
 import { createLinkWriter } from '../shared/state/link-writer';
 import { createStore, type Store, watch } from '../shared/state/store';
 import type { SolidsAnswer } from './bindings/refinement-module';
@@ -51,7 +51,7 @@ const KEYS: readonly [string, string][] = [
   ['Home', 'first view'],
 ];
 
-/** In a narrower pane a person is too small to compare folds [CSS pixels]. */
+/** Least width of a pane: in a narrower one a person is too small to compare folds [CSS pixels]. */
 const LEAST_PANE_WIDTH = 180;
 
 /** The picture of the three panes, all of one store. */
@@ -76,22 +76,17 @@ class Picture {
   /** Opens the stage where the browser can draw it. */
   open(box: HTMLElement, canvas: HTMLCanvasElement, key: (name: string) => boolean): void {
     const { store } = this;
-    try {
-      this.stage = createGarmentStage(box, canvas, {
+    this.stage = openStage(canvas, store, (pictureLost) =>
+      createGarmentStage(box, canvas, {
         press(pane, face) {
           if (PANES[pane] === 'planned') store.set({ face });
         },
         key,
-        pictureLost(isLost) {
-          if (isLost) store.set({ problem: inputFailure(PICTURE_LOST) });
-          else if (store.get().problem?.what === PICTURE_LOST) store.set({ problem: null });
-        },
-      });
-      // Somebody stands there until the clothes have come.
-      this.stage.setSolids(firstFigure as SolidsAnswer);
-    } catch {
-      replaceCanvas(canvas, 'The numbers');
-    }
+        pictureLost,
+      }),
+    );
+    // Somebody stands there until the clothes have come.
+    this.stage?.setSolids(firstBody as SolidsAnswer);
   }
 
   /** Follows the store from now on. */
@@ -146,16 +141,6 @@ class Picture {
   }
 }
 
-function runActions(trio: Trio) {
-  return {
-    play: () => trio.play(),
-    pause: () => trio.pause(),
-    step: () => trio.step(),
-    reset: () => trio.reset(),
-    cancel: () => trio.cancel(),
-  };
-}
-
 /** The boxes of the view, and its canvas. */
 function createBoxes(root: HTMLElement) {
   const messages = element('div');
@@ -182,13 +167,13 @@ function createBoxes(root: HTMLElement) {
 function createPanels(
   { messages, badgeBox, pictureBox, legendBox, toolBox, panel }: ReturnType<typeof createBoxes>,
   store: Store<RefinementState>,
-  run: ReturnType<typeof runActions>,
+  trio: Trio,
   picture: Picture,
 ): void {
   createGarmentBadges(badgeBox, store);
   const stageWork = element('div', { class: 'stage-work' });
   pictureBox.append(stageWork);
-  createWork(stageWork, store, { ...run, isOwn: ({ canCancel }) => !canCancel });
+  createWork(stageWork, store, trio, ({ canCancel }) => !canCancel);
   new ResizeObserver(() => {
     const { clientWidth: width } = pictureBox;
     const nPanes = comparedPanes(store.get()).length;
@@ -196,11 +181,9 @@ function createPanels(
   }).observe(pictureBox);
   createGarmentLegend(legendBox, store);
   picture.follow();
-  const showProblem = createFailureBanner(messages, () => store.set({ problem: null }));
-  watch(store, ['problem', 'phase'], showProblem);
+  createFailureBanner(messages, store);
   createAnnouncer(messages, store, garmentSentence);
-  createGarmentToolbar(toolBox, store, {
-    ...run,
+  createGarmentToolbar(toolBox, store, trio, {
     homeView: () => picture.stage?.homeView(),
     hemView: () => picture.hemView(),
     savePicture: () => picture.savePicture(),
@@ -208,8 +191,8 @@ function createPanels(
   });
   createGarmentPanel(panel, store);
   createNumbersPanel(panel, store);
-  createFitPanel(panel, store, run);
-  createDetailPanel(panel, store, run);
+  createFitPanel(panel, store, trio);
+  createDetailPanel(panel, store, trio);
   createStoryPanel(panel, store, () => picture.meshes.planned ?? null);
   createKeyList(panel, KEYS);
 }
@@ -224,13 +207,12 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     showMesh: (id, mesh) => picture.showMesh(id, mesh),
     showFrames: (frames, solids) => picture.showFrames(frames, solids),
   });
-  const run = runActions(trio);
   picture.open(boxes.pictureBox, boxes.canvas, (name) => {
     const { playing, edges, hanging } = store.get();
     const actions: Record<string, () => void> = {
-      ' ': playing ? run.pause : run.play,
-      '.': run.step,
-      r: run.reset,
+      ' ': () => (playing ? trio.pause() : trio.play()),
+      '.': () => trio.step(),
+      r: () => trio.reset(),
       e: () => store.set({ edges: !edges }),
       h: () => store.set({ hanging: !hanging }),
       m: () => picture.hemView(),
@@ -238,7 +220,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     actions[name]?.();
     return name in actions;
   });
-  createPanels(boxes, store, run, picture);
+  createPanels(boxes, store, trio, picture);
 
   /** The link starts at the shown time, while that rests. */
   const link = () => {
@@ -246,7 +228,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     const isAtTime = state.phase === 'ready' && !state.playing && state.timeS > 0;
     return `#${encodeRefinementLink({ ...state, startS: isAtTime ? state.timeS : state.startS })}`;
   };
-  /** Of a mesh that is in step, from left to right. */
+  /** Pane of a mesh that is in step, from left to right. */
   const paneAt = (place: number) => {
     const id = comparedPanes(store.get())[place];
     return id ? PANES.indexOf(id) : -1;
@@ -262,7 +244,7 @@ export function createRefinementView(root: HTMLElement, hash: string): View {
     },
     setShown(value) {
       isShown = value;
-      if (!value) run.pause();
+      if (!value) trio.pause();
       writeLink();
     },
     probe: {

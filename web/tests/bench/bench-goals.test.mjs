@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { goal } from '../../../native-tests/bench/parts/bench-rows.mjs';
+import { goal, table } from '../../../bench/parts/bench-rows.mjs';
 
 const ok = { status: 'ok' };
 const verdict = (value, direction, bound, rows = [ok]) =>
@@ -27,5 +27,21 @@ describe('bench goals', () => {
     expect(verdict(1, 'at-most', 2, [ok, { status: 'not_converged' }])).toBe('ok');
     for (const status of ['not_finite', 'not_positive_definite', 'refused', undefined])
       expect(verdict(1, 'at-most', 2, [ok, { status }])).toBe('short');
+  });
+});
+
+describe('bench tables', () => {
+  it('have whole numbers as they are, others with three digits, a dash for what is none', () => {
+    const rows = [
+      { name: 'fine', n: 16641, ms: 1.23456 },
+      { name: 'coarse', n: 81, ms: null },
+    ];
+    const columns = { mesh: 'name', vertices: 'n', 'ms/frame': 'ms', half: (row) => row.n / 2 };
+    expect(table(rows, columns).split('\n')).toEqual([
+      '| mesh   | vertices | ms/frame | half |',
+      '| ------ | -------- | -------- | ---- |',
+      '| fine   | 16641    | 1.23     | 8320 |',
+      '| coarse | 81       | -        | 40.5 |',
+    ]);
   });
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { strip, tipErrors, triangulations } from '../../../native-tests/bench/parts/cantilever.mjs';
-import { journalFaults, rowFaults } from '../../../native-tests/bench/parts/killed-sweep.mjs';
+import { strip, tipErrors, triangulations } from '../../../bench/parts/cantilever.mjs';
+import { journalFaults, rowFaults } from '../../../bench/parts/killed-sweep.mjs';
 
 /** Twice the area of a triangle that lies in the plane of x and z, by its sense. */
 const doubleArea = ([a, b, c]) => (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { savingsFigure, ticks } from '../../../native-tests/bench/parts/refinement-figure.mjs';
+import { savingsFigure, ticks } from '../../../bench/parts/charts.mjs';
 import {
   buildRow,
   buildTable,
@@ -16,7 +16,7 @@ import {
   runTable,
   stretchGoals,
   wasmGoals,
-} from '../../../native-tests/bench/parts/refinement-goals.mjs';
+} from '../../../bench/parts/refinement-goals.mjs';
 
 const run = {
   scene: 'skirt',

@@ -145,19 +145,40 @@ export async function eventually(probe, what, patienceMs = PATIENCE_MS) {
   }
 }
 
-/** Waits until the page's state fulfils `test`. */
-export async function until(page, test, patienceMs = PATIENCE_MS) {
-  let state = null;
+/** Waits until what `look` sees on the page is something that fulfils `test`. */
+async function untilSeen(page, look, given, test, patienceMs) {
+  let seen = null;
   await eventually(
     async () => {
-      state = await page.evaluate(() => window.pleat?.state() ?? null);
-      return state !== null && test(state);
+      seen = await page.evaluate(look, given);
+      return seen !== null && test(seen);
     },
     test.toString(),
     patienceMs,
   );
-  return state;
+  return seen;
 }
+
+/** Waits until the page's state fulfils `test`. */
+export const until = (page, test, patienceMs = PATIENCE_MS) =>
+  untilSeen(page, () => window.pleat?.state() ?? null, null, test, patienceMs);
+
+/**
+ * Waits as `until` does, and tells the places and the words of `selector` at the very moment of that state:
+ * what is read a moment later may be of another one.
+ */
+export const momentUntil = (page, test, selector = 'title') =>
+  untilSeen(
+    page,
+    (at) => ({
+      state: window.pleat.state(),
+      places: window.pleat.positions(0),
+      words: document.querySelector(at)?.textContent ?? '',
+    }),
+    selector,
+    ({ state }) => test(state),
+    PATIENCE_MS,
+  );
 
 export const isReady = (page) =>
   until(page, (state) => state.phase === 'ready' && state.ahead === null);

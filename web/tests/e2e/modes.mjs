@@ -30,9 +30,9 @@ export async function checkModes(harness) {
       const { keys, time, completion, ghost } = await stateOf(page);
       expectThat(keys.length === 2 && time === 0.5 && ghost, `${keys.length} keys at ${time}`);
       const rest = completion.frames[0].volume_m3;
-      const { volume_m3, straightVolume_m3 } = completion.frames[8];
+      const { volume_m3, straight_volume_m3 } = completion.frames[8];
       expectThat(Math.abs(volume_m3 / rest - 1) < 0.02, `it has ${volume_m3} m³ of ${rest}`);
-      expectThat(straightVolume_m3 / rest < 0.9, 'the ghost is not pinched');
+      expectThat(straight_volume_m3 / rest < 0.9, 'the ghost is not pinched');
       const [before, still] = [await positionsOf(page), await picture(page)];
       expectThat((await countColours(still)) > 100, 'the picture is blank');
       expectThat(await page.getByText('Pull me').filter({ visible: true }).isVisible(), 'no word');
@@ -266,7 +266,7 @@ export async function checkModes(harness) {
 
   await checkWithoutModule(
     '#view=modes',
-    '**/modal*.wasm',
+    '**/pleat*.wasm',
     'the other view works',
     expectMotionWorks,
   );

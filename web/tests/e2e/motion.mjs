@@ -4,6 +4,7 @@ import {
   expectThat,
   isReady,
   largestMove,
+  momentUntil,
   positionsOf,
   stateOf,
   until,
@@ -443,12 +444,13 @@ async function checkInside({ check }, visit) {
       const { x, y, width, height } = await slider.boundingBox();
       const dragTo = async (part) => {
         await page.mouse.move(x + part * width, y + height / 2);
-        const { draggedSubsteps, imexSaving } = await until(
+        const { state, words } = await momentUntil(
           page,
           ({ draggedSubsteps: n, imexSaving: known, setting: { stepS } }) =>
             n !== null && known.substepS === stepS / n,
+          '.imex-saving',
         );
-        return { substeps: draggedSubsteps, ...imexSaving, words: await line.textContent() };
+        return { substeps: state.draggedSubsteps, ...state.imexSaving, words };
       };
       await page.mouse.move(x + 1, y + height / 2);
       await page.mouse.down();

@@ -1,5 +1,5 @@
 // What a visitor can do with cloth that tears: pull until it does, let go, and have it whole again.
-import { expectThat, positionsOf, stateOf, until } from './harness.mjs';
+import { expectThat, momentUntil, positionsOf, stateOf, until } from './harness.mjs';
 import { button, expectAccessible, picture, placeOn } from './visitor.mjs';
 
 /** The vertex in the middle of the lower hem. */
@@ -26,9 +26,11 @@ export async function checkTearing({ check, countColours }, visit) {
           await page.mouse.move(x + 8 * pull, y - 2 * pull);
           await page.waitForTimeout(50);
         }
-        const torn = await until(page, (state) => state.summary.n_vertices > whole + 5);
+        const { state: torn, places } = await momentUntil(
+          page,
+          (state) => state.summary.n_vertices > whole + 5,
+        );
         expectThat(torn.held && torn.problem === null, JSON.stringify(torn.problem));
-        const places = await positionsOf(page);
         expectThat(places.length === 3 * torn.summary.n_vertices, 'a place for each vertex');
         expectThat((await countColours(await picture(page))) > 100, 'the picture is blank');
         await page.mouse.up();

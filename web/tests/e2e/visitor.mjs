@@ -1,7 +1,7 @@
 // What a visitor does and sees, for the checks of every view.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { expectThat, until } from './harness.mjs';
+import { eventually, expectThat, until } from './harness.mjs';
 
 const axeText = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
@@ -129,6 +129,10 @@ export async function expectMotionWorks(page) {
   await page.getByRole('link', { name: /Speed and error/ }).click();
   await until(page, (state) => state.setting && state.phase === 'ready');
 }
+
+/** Another picture than `before` is seen, at once or soon. */
+export const expectOtherPicture = (page, before) =>
+  eventually(async () => !before.equals(await picture(page)), 'another picture');
 
 /** Two more pictures are drawn: what was laid out anew has its size by then. */
 const twoPictures = (page) =>

@@ -14,7 +14,7 @@ import { geometryOf, triple } from '../../src/fabrics/state/fabric-geometry';
 import { holdsOf, joined, placeOf } from '../../src/fabrics/state/holds';
 import type { Triple as Place } from '../../src/shared/bindings/geometry';
 import { fabricNamed, fabrics, fabricsText } from '../../src/shared/fabric/fabric-data';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 const FILES = fileURLToPath(new URL('../../../assets/deform', import.meta.url));
 
@@ -91,9 +91,9 @@ function rankCorrelation(a: readonly number[], b: readonly number[]): number {
   return 1 - (6 * squares) / (n * (n * n - 1));
 }
 
-describe.runIf(isBuilt('deform'))('captions of experiments', () => {
+describe('captions of experiments', () => {
   beforeAll(async () => {
-    module = await loadModule('deform');
+    module = await loadModule();
   });
 
   it('pull: silk lifts narrow peaks, linen most of the sheet', () => {

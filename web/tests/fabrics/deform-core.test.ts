@@ -9,7 +9,7 @@ import { DeformCore } from '../../src/fabrics/worker/deform-core';
 import type { DeformFrame, FromDeform, ToDeform } from '../../src/fabrics/worker/deform-protocol';
 import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricNamed, fabricsText } from '../../src/shared/fabric/fabric-data';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 /** A sheet that is pulled up in its middle, of so many vertices a side. */
 const sceneText = (side = 9) => {
@@ -23,7 +23,7 @@ const weightsOf = (name: string) => geometryOf(fabricNamed(name)).recomputed;
 
 /** A core whose turns are taken by `settle`, one after the other, and a page that gives buffers back. */
 async function serve(nowMs = () => performance.now()) {
-  const module = await loadModule('deform');
+  const module = await loadModule();
   const posted: FromDeform[] = [];
   const grants: string[] = [];
   let isWoken = false;
@@ -84,7 +84,7 @@ function distance(a: Float32Array, b: Float32Array): number {
 const raised = (holds: Hold[], up: number) =>
   holds.map((hold): Hold => (hold.kind === 'handle' ? { ...hold, offset: [0, up, 0] } : hold));
 
-describe.runIf(isBuilt('deform'))('deform-core', () => {
+describe('deform-core', () => {
   it('finds the shape of each pane, in which what is held is where it is held', async () => {
     const { settle, positions, holds } = await opened(['silk', 'linen']);
     const frames = settle();

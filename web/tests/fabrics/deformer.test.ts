@@ -13,7 +13,7 @@ import { frameViews } from '../../src/shared/bindings/frame';
 import { fabricNamed } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 import { workerPort } from '../support/worker-port';
 
 // The worker is a core in this thread. Messages to it and from it come later and in their order.
@@ -83,10 +83,10 @@ async function open(hash: string) {
 const SCENE = '#view=fabrics&scene=terms&fabrics=wool';
 const NO_RECOVERY = { recovery: false, stretch: true, bending: true };
 
-describe.runIf(isBuilt('deform'))('deformer', () => {
+describe('deformer', () => {
   beforeAll(async () => {
     vi.stubGlobal('window', globalThis);
-    module = await loadModule('deform');
+    module = await loadModule();
   });
 
   it('keeps what was moved by hand where it is when a later release is refused', async () => {

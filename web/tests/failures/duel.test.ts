@@ -10,7 +10,7 @@ import { createStore } from '../../src/shared/state/store';
 import { BrokenWorker } from '../../src/shared/workers/asked';
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion } from '../../src/shared/workers/motion-protocol';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 /** A worker's end without a worker: each question is answered a moment later. */
 function clientOf(module: PleatModule): SideClient {
@@ -65,9 +65,9 @@ function createDuel(module: PleatModule, caseId: string) {
   return { duel, store, until, positions, nSprings };
 }
 
-describe.runIf(isBuilt('pleat'))('a duel', () => {
+describe('a duel', () => {
   it('plays to its end, tells the sign, and begins anew', { timeout: 30000 }, async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     const { duel, until, positions } = createDuel(module, 'rest_on_a_ball');
     await until(({ phase }) => phase === 'ready');
     const rest = positions(1);
@@ -87,7 +87,7 @@ describe.runIf(isBuilt('pleat'))('a duel', () => {
   });
 
   it('keeps the last good frame of a side that ended, while the other goes on', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     const { duel, until, positions } = createDuel(module, 'hundredfold_stiffness');
     await until(({ phase }) => phase === 'ready');
     const rest = positions(0);
@@ -103,7 +103,7 @@ describe.runIf(isBuilt('pleat'))('a duel', () => {
   });
 
   it('drops what belonged to the case before', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     const { duel, store, until, nSprings } = createDuel(module, 'needle_cells');
     await until(({ phase }) => phase === 'ready');
     duel.step();

@@ -14,7 +14,7 @@ import { inputFailure, sentenceOf } from '../../src/shared/bindings/answers';
 import { objText } from '../../src/shared/panels/saving';
 import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 import { workerPort } from '../support/worker-port';
 
 let module: ModalModule;
@@ -73,9 +73,9 @@ async function open(hash: string) {
 
 const fileOf = (name: string, text: string) => new File([text], name);
 
-describe.runIf(isBuilt('modal'))('run of modes', () => {
+describe('run of modes', () => {
   beforeAll(async () => {
-    module = await loadModule('modal');
+    module = await loadModule();
   });
 
   it('opens the bar half way between its keys, with a ghost that is elsewhere', async () => {

@@ -12,12 +12,12 @@ function frame(time: number, volume = 1, straight = volume): FilledFrame {
   return {
     time,
     left: Math.floor(time),
-    shareOfNext: time % 1,
-    unequalHalves: 0,
+    share_of_next: time % 1,
+    unequal_halves: 0,
     volume_m3: volume,
-    straightVolume_m3: straight,
+    straight_volume_m3: straight,
     strain: 0,
-    straightStrain: 0,
+    straight_strain: 0,
   };
 }
 

@@ -1,6 +1,6 @@
 // Coarser levels: as the method has them, the same as natively, in a link and in words.
 import { describe, expect, it } from 'vitest';
-import { levelCounts, levelWords } from '../../src/motion/panels/level-words';
+import { levelCounts, levelWords } from '../../src/motion/panels/levels/level-words';
 import { followLevels } from '../../src/motion/run/level-source';
 import { leftOut } from '../../src/motion/stage/level-overlay';
 import { LEVEL_MAKERS, levelWish, makerOf } from '../../src/motion/state/coarse-levels';
@@ -29,7 +29,7 @@ function halved(nMesh: number, nLevels: number): LevelsMessage {
     const vertices = all.filter((v) => v % 2 ** (k + 1) === 0);
     return { vertices, edges: vertices.slice(0, 2) };
   });
-  return { type: 'levels', request: 1, levels, shortage: '' };
+  return { type: 'levels', levels, shortage: '' };
 }
 
 describe('coarser levels', () => {
@@ -46,7 +46,7 @@ describe('coarser levels', () => {
   });
 
   it('of a sheet, drawn curtains and a knit are the same natively', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     for (const preset of ['curtain', 'wool'] as const) {
       const scene = sceneOf(presetSetting(preset));
       const simulation = new module.Simulation(fabricsText);
@@ -164,7 +164,7 @@ describe('details of a method', () => {
   });
 
   it('of every stepper and value can be loaded', async () => {
-    const module = await loadModule('pleat');
+    const module = await loadModule();
     const scene = new module.Scene(fabricsText);
     try {
       const load = (setting: typeof curtain) =>

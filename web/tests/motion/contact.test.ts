@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { contactChart, contactWords } from '../../src/motion/panels/contact-figure';
+import { contactChart, contactWords } from '../../src/motion/panels/contact/contact-chart';
 import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { ResponseSource } from '../../src/motion/run/response-source';
 import { decodeMotionLink, encodeMotionLink } from '../../src/motion/state/motion-link';
@@ -7,9 +7,9 @@ import { initialMotionState } from '../../src/motion/state/motion-state';
 import { presetSetting, sceneOf } from '../../src/motion/state/setting';
 import type { ToStudy } from '../../src/motion/worker/measuring-protocol';
 import { studyResponse } from '../../src/motion/worker/response-core';
+import { Refused } from '../../src/shared/bindings/answers';
 import type { ResponseStudy } from '../../src/shared/bindings/pleat-module';
 import { createStore } from '../../src/shared/state/store';
-import { Refused } from '../../src/shared/workers/asked';
 import { createFakeModule } from '../support/fake-module';
 
 const run = (speeds: number[], rms: number) => ({

@@ -1,7 +1,12 @@
 // Methods compared on one step: which, how it is asked for, and what is read from it.
 import { describe, expect, it } from 'vitest';
-import { storyWords } from '../../src/motion/panels/convergence-figure';
-import { pointWords, readingOf, type Way, waysOf } from '../../src/motion/panels/convergence-words';
+import { storyWords } from '../../src/motion/panels/convergence/convergence-chart';
+import {
+  pointWords,
+  readingOf,
+  type Way,
+  waysOf,
+} from '../../src/motion/panels/convergence/convergence-words';
 import { ConvergenceRun } from '../../src/motion/run/convergence-run';
 import {
   comparedMethods,

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { spread } from '../../src/motion/panels/energy-figure';
-import { linesOf } from '../../src/motion/panels/energy-lines';
-import { energyWords } from '../../src/motion/panels/energy-words';
+import { spread } from '../../src/motion/panels/energy/energy-chart';
+import { linesOf } from '../../src/motion/panels/energy/energy-lines';
+import { energyWords } from '../../src/motion/panels/energy/energy-words';
 import { withSample } from '../../src/motion/state/energy-samples';
 import { ENERGY_NUMBERS, type EnergyNumbers } from '../../src/shared/bindings/pleat-module';
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { BenchRow } from '../../src/motion/bindings/sweep-module';
-import { errorWords } from '../../src/motion/panels/error-words';
+import { errorWords } from '../../src/motion/panels/numbers/error-words';
 import { presetSetting, type Setting, withStepper } from '../../src/motion/state/setting';
 import { NO_SWEEP, sweptScene } from '../../src/motion/state/sweep-state';
 import type { ReferenceNumbers, RunNumbers } from '../../src/shared/bindings/pleat-module';

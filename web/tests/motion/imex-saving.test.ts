@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { savingWords } from '../../src/motion/panels/imex-panel';
+import { savingWords } from '../../src/motion/panels/method/imex-panel';
 import { ImexSavingSource } from '../../src/motion/run/imex-saving-source';
 import type { StartMeasuring } from '../../src/motion/run/measuring-client';
 import { decodeMotionLink } from '../../src/motion/state/motion-link';
@@ -10,7 +10,7 @@ import { race } from '../../src/motion/worker/race-core';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { createStore } from '../../src/shared/state/store';
 import { BrokenWorker } from '../../src/shared/workers/asked';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
 
 const pendulum = presetSetting('pendulum');
@@ -279,8 +279,8 @@ describe('race of imex and implicit', () => {
     expect([alive(), lacking.alive()]).toEqual([0, 0]);
   });
 
-  it.runIf(isBuilt('pleat'))('runs both with the WebAssembly module', async () => {
-    const module = await loadModule('pleat');
+  it('runs both with the WebAssembly module', async () => {
+    const module = await loadModule();
     let ms = 0;
     const now = () => {
       ms += 10;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { boundWords, dampingWords, refusal } from '../../src/motion/panels/knit-form';
+import { boundWords, dampingWords, refusal } from '../../src/motion/panels/scene/knit-form';
 import { remedyFor } from '../../src/motion/run/remedy';
 import { canKeepMotion } from '../../src/motion/run/run-content';
 import { knitCoordinates, knitPixels } from '../../src/motion/stage/knit-drawing';

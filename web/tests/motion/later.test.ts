@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { later } from '../../src/motion/panels/later';
+import { later } from '../../src/motion/run/later';
 import type { MotionState } from '../../src/motion/state/motion-state';
 
 function store() {

@@ -1,13 +1,13 @@
 import { describe, expect, it } from 'vitest';
 import type { BenchRow } from '../../src/motion/bindings/sweep-module';
-import { floorsOf } from '../../src/motion/panels/mesh-floors';
+import { floorsOf } from '../../src/motion/panels/speed-error/mesh-floors';
 import {
   errorName,
   errorSentence,
   headline,
   meshText,
   methodSentence,
-} from '../../src/motion/panels/mesh-words';
+} from '../../src/motion/panels/speed-error/mesh-words';
 
 const row = (level: number, ms: number, mesh_error_m: number | null, patch: object = {}) =>
   ({

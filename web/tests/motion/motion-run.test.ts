@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { errorWords } from '../../src/motion/panels/error-words';
 import { linkSentence } from '../../src/motion/panels/link-tool';
+import { errorWords } from '../../src/motion/panels/numbers/error-words';
 import type { StartMotion, StartObj } from '../../src/motion/run/motion-client';
 import { MotionRun } from '../../src/motion/run/motion-run';
 import { decodeMotionLink, encodeMotionLink, linkTo } from '../../src/motion/state/motion-link';
@@ -15,7 +15,7 @@ import { createStore } from '../../src/shared/state/store';
 import { createAsked } from '../../src/shared/workers/asked';
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 import diverging from '../support/diverging.json';
 import { createFakeModule, FRAGILE_STEPS } from '../support/fake-module';
 import { stubLocks } from '../support/locks';
@@ -109,8 +109,8 @@ describe('motion run of a run that diverges', () => {
     await vi.waitUntil(() => page.store.get().numbers?.step === 1);
   });
 
-  it.runIf(isBuilt('pleat'))('does so with the WebAssembly module', async () => {
-    module = await loadModule('pleat');
+  it('does so with the WebAssembly module', async () => {
+    module = await loadModule();
     changeScene = (scene) => ({ ...scene, ...diverging });
     const page = open('#scene=swinging-sheet&level=0&stepper=explicit');
     await vi.waitUntil(() => phaseOf(page) === 'ready');

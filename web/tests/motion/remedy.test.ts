@@ -11,7 +11,7 @@ import type { RunNumbers } from '../../src/shared/bindings/pleat-module';
 import type { RunWarning } from '../../src/shared/bindings/run-warning';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
 import { warningSentence } from '../../src/shared/panels/warning-words';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 
 const warning = (hints: Record<string, number>): RunWarning => ({
   kind: 'stretch',
@@ -28,7 +28,7 @@ const exploding: Setting = { ...presetSetting('curtain'), stepper: 'xpbd', subst
 
 /** The numbers after a second of a setting. */
 async function numbersOf(setting: Setting): Promise<RunNumbers> {
-  const { Simulation } = await loadModule('pleat');
+  const { Simulation } = await loadModule();
   const simulation = new Simulation(fabricsText);
   try {
     expect(JSON.parse(simulation.load(JSON.stringify(sceneOf(setting, null))))).toMatchObject({
@@ -82,7 +82,7 @@ describe('the remedy for nonsense', () => {
   });
 });
 
-describe.runIf(isBuilt('pleat'))('the warnings of a run', () => {
+describe('the warnings of a run', () => {
   it('tell of an explosion', async () => {
     const { warnings } = await numbersOf(exploding);
     expect(warnings.map(({ kind }) => kind)).toContain('stretch');

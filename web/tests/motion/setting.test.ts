@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { BenchRow } from '../../src/motion/bindings/sweep-module';
-import { weightText } from '../../src/motion/panels/numbers-strip';
+import { weightText } from '../../src/motion/panels/numbers/numbers-strip';
 import {
   isSameMethod,
   modelsOf,

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { BenchRow } from '../../src/motion/bindings/sweep-module';
-import { frontsOf, pointKind } from '../../src/motion/panels/speed-error-plot';
+import { frontsOf, pointKind } from '../../src/motion/panels/speed-error/speed-error-plot';
 import { logScale } from '../../src/shared/chart/log-scale';
 
 const row = (id: string, patch: object = {}) =>

@@ -1,7 +1,7 @@
 // A stepper is one row of a table: a made-up one, added there alone, is found wherever the page has steppers.
 import { describe, expect, it, vi } from 'vitest';
-import { STEPPER_CHOICES } from '../../src/motion/panels/method-panel';
-import { markOf } from '../../src/motion/panels/stepper-mark';
+import { markOf } from '../../src/motion/panels/chart/stepper-mark';
+import { STEPPER_CHOICES } from '../../src/motion/panels/method/method-panel';
 import { decodeMotionLink, encodeMotionLink } from '../../src/motion/state/motion-link';
 import { presetSetting, sceneOf, withModel, withStepper } from '../../src/motion/state/setting';
 import { sweepPlan } from '../../src/motion/state/sweep-plan';

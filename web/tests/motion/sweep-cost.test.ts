@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { expectation } from '../../src/motion/panels/sweep-panel';
+import { expectation } from '../../src/motion/panels/speed-error/sweep-panel';
 import { presetSetting, type Setting } from '../../src/motion/state/setting';
 import { type StepCosts, withCost } from '../../src/motion/state/step-cost';
 import { expectedSweepS } from '../../src/motion/state/sweep-cost';

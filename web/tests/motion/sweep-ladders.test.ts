@@ -19,7 +19,7 @@ const shippedFor = (preset: string) =>
   );
 
 async function wantedIds(plan: object): Promise<string[]> {
-  const { Experiment } = await loadModule('sweep');
+  const { Experiment } = await loadModule();
   const experiment = new Experiment(fabricsText);
   try {
     return JSON.parse(experiment.start(JSON.stringify(plan))).references;

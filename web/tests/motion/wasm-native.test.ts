@@ -76,7 +76,7 @@ const methods: Record<string, { stepper: string; [detail: string]: unknown }> = 
 
 let module: PleatModule;
 beforeAll(async () => {
-  module = await loadModule('pleat');
+  module = await loadModule();
 });
 
 function wasmPositions(scene: object, steps: number): Float64Array {
@@ -205,7 +205,7 @@ describe('WebAssembly against native', () => {
       const names = methods.map(({ method }) => method.stepper).join();
       const words = ['--methods', names, '--constraints', constraints];
       const native = nativeConvergence(scene, [...words, '--at', '0.25', '--rounds', '65']);
-      const { studyConvergence } = await loadModule('convergence');
+      const { studyConvergence } = await loadModule();
       const told: number[] = [];
       const answer = JSON.parse(
         studyConvergence(fabricsText, JSON.stringify(scene), JSON.stringify(wish), (done) =>

@@ -24,7 +24,7 @@ import { exampleClient, garmentClient, recordBytes } from '../support/garment-wo
 
 let module: RefinementModule;
 beforeAll(async () => {
-  module = await loadModule('refinement');
+  module = await loadModule();
 });
 
 const PATIENCE_MS = 60000;

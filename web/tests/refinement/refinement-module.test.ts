@@ -1,21 +1,17 @@
 // The module of garments against its types and against the native command.
 import { beforeAll, describe, expect, it } from 'vitest';
-import {
-  REFINEMENT_METHODS,
-  type RefinementModule,
-} from '../../src/refinement/bindings/refinement-module';
+import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import { sceneFiles } from '../../src/refinement/run/scene-files';
 import { sceneText } from '../../src/refinement/state/garments';
 import { basePatterns, type PlanFile } from '../../src/refinement/state/plan-file';
 import { fabricsText } from '../../src/shared/fabric/fabric-data';
-import { boundMethods } from '../support/bound-methods';
 import { loadModule } from '../support/built-module';
 import { recordBytes } from '../support/garment-workers';
 import { nativePositions } from '../support/native-command';
 
 let module: RefinementModule;
 beforeAll(async () => {
-  module = await loadModule('refinement');
+  module = await loadModule();
 });
 
 function sheet(refinement: object): object {
@@ -91,10 +87,6 @@ describe('the module of garments', () => {
       where: '/criterion',
       what: 'expected shape or curvature',
     });
-  });
-
-  it('binds exactly the classes and methods that the types name', () => {
-    expect(boundMethods(module)).toEqual(REFINEMENT_METHODS);
   });
 
   it('moves cloth with hanging vertices as the native command does', () => {

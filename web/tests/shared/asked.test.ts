@@ -1,6 +1,7 @@
 // A question to a worker has one answer, whatever else the worker says meanwhile.
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { answerOf, BrokenWorker, createAsked, Refused } from '../../src/shared/workers/asked';
+import { Refused } from '../../src/shared/bindings/answers';
+import { answerOf, BrokenWorker, createAsked } from '../../src/shared/workers/asked';
 import type { Core, Post } from '../../src/shared/workers/serve';
 import { stubLocks } from '../support/locks';
 import { workerPort } from '../support/worker-port';

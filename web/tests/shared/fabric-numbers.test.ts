@@ -19,7 +19,7 @@ function pane(name: string, weights: Triple, terms: Triple): PaneState {
     weights.recovery * terms.recovery +
     weights.stretch * terms.stretch +
     weights.bending * terms.bending;
-  const step = { energy, terms, relativeStep: 1e-3, linearised: true };
+  const step = { energy, terms, relative_step: 1e-3, linearised: true };
   return {
     fabric: { kind: 'named', name },
     weights,
@@ -144,9 +144,9 @@ describe('own-fabric-form', () => {
   const own: OwnFabric = {
     weights: of(0.4, 0.2, 0.4),
     normalised: of(0.7, 0.3, 0.7),
-    leaveOneOutError: { ...triple(errorOfMean), recovery: 0.2 },
+    leave_one_out_error: { ...triple(errorOfMean), recovery: 0.2 },
     clamped: ['stretch', 'recovery'],
-    measuredRange: {
+    measured_range: {
       recovery: measuredRange('recovery'),
       stretch: measuredRange('stretch'),
       bending: measuredRange('bending'),

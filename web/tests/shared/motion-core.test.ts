@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { DEFORM_METHODS } from '../../src/fabrics/bindings/deform-module';
+import { MODAL_METHODS } from '../../src/modes/bindings/modal-module';
 import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import { SWEEP_METHODS } from '../../src/motion/bindings/sweep-module';
 import {
@@ -17,6 +18,7 @@ import { readObj } from '../../src/motion/worker/obj-core';
 import type { ObjReadMessage } from '../../src/motion/worker/obj-protocol';
 import { SweepCore } from '../../src/motion/worker/sweep-core';
 import type { FromSweep } from '../../src/motion/worker/sweep-protocol';
+import { REFINEMENT_METHODS } from '../../src/refinement/bindings/refinement-module';
 import type { Failure } from '../../src/shared/bindings/answers';
 import { frameViews } from '../../src/shared/bindings/frame';
 import type { PleatModule, RunNumbers } from '../../src/shared/bindings/pleat-module';
@@ -27,17 +29,10 @@ import { canRun, STEPPER_NAMES, STEPPERS } from '../../src/shared/steppers/stepp
 import { MotionCore } from '../../src/shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../src/shared/workers/motion-protocol';
 import { boundMethods } from '../support/bound-methods';
-import { isBuilt, loadModule } from '../support/built-module';
+import { loadModule } from '../support/built-module';
 import { createFakeModule } from '../support/fake-module';
 
 type AllModules = PleatModule & SweepModule;
-
-const hasModule = (['pleat', 'sweep', 'deform'] as const).every(isBuilt);
-
-async function loadRealModule(): Promise<AllModules> {
-  const [pleat, sweep] = [await loadModule('pleat'), await loadModule('sweep')];
-  return { ...pleat, ...sweep };
-}
 
 type Posted = FromMotion | FromSweep;
 type Sent<Type extends Posted['type']> = Extract<Posted, { type: Type }>;
@@ -74,7 +69,7 @@ function open(module: AllModules) {
   const server = serve(module);
   server.send({ type: 'open', fabricsText });
   server.take('ready');
-  server.send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 1 });
+  server.send({ type: 'load', sceneText: sceneText(), keepMotion: false });
   return { ...server, loaded: server.take('loaded') };
 }
 
@@ -98,14 +93,13 @@ function objText(isFlat: boolean, isTextured = false): string {
 
 const modules: [string, () => Promise<AllModules>][] = [
   ['the stand-in', async () => createFakeModule().module],
+  ['the WebAssembly module', loadModule],
 ];
-if (hasModule) modules.push(['the WebAssembly module', loadRealModule]);
 
 describe.each(modules)('motion-core with %s', (_name, load) => {
   it('answers a load with a mesh, a first frame and numbers that fit together', async () => {
     const { loaded } = open(await load());
     const { positions, scalar } = frameViews(loaded.buffers[0]);
-    expect(loaded.request).toBe(1);
     expect(positions.length).toBe(3 * loaded.summary.n_vertices);
     expect(scalar.length).toBe(loaded.summary.n_vertices);
     expect(loaded.triangles.length).toBe(3 * loaded.summary.n_triangles);
@@ -117,7 +111,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('fills the buffer it was given with the moved cloth', async () => {
     const { send, take, loaded } = open(await load());
     const [first, buffer] = loaded.buffers;
-    send({ type: 'step', count: 5, wantsNumbers: true, request: 1, buffer });
+    send({ type: 'step', count: 5, wantsNumbers: true, buffer });
     const frame = take('frame');
     expect(frame.buffer).toBe(buffer);
     expect(frame.hasEnded).toBe(false);
@@ -131,7 +125,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     const [buffer, other] = loaded.buffers;
     const step = (count: number, wantsEnergy: boolean, into: ArrayBuffer) => {
       const wanted = { wantsNumbers: false, wantsEnergy };
-      send({ type: 'step', count, request: 1, buffer: into, ...wanted });
+      send({ type: 'step', count, buffer: into, ...wanted });
       return take('frame').energy;
     };
     expect(step(3, false, buffer)).toBeNull();
@@ -151,15 +145,15 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('begins the account anew with a load and a reset', async () => {
     const { send, take, loaded } = open(await load());
     const wanted = { wantsNumbers: false, wantsEnergy: true } as const;
-    send({ type: 'step', count: 9, request: 1, buffer: loaded.buffers[1], ...wanted });
+    send({ type: 'step', count: 9, buffer: loaded.buffers[1], ...wanted });
     expect(take('frame').energy?.gravity).not.toBe(0);
     for (const begin of [
-      { type: 'reset', request: 2 },
-      { type: 'load', sceneText: sceneText(), keepMotion: true, request: 2 },
+      { type: 'reset' },
+      { type: 'load', sceneText: sceneText(), keepMotion: true },
     ] as const) {
       send(begin);
       const [buffer] = take('loaded').buffers;
-      send({ type: 'step', count: 0, request: 2, buffer, ...wanted });
+      send({ type: 'step', count: 0, buffer, ...wanted });
       expect(take('frame').energy).toMatchObject({ gravity: 0, damping: 0, drift: 0 });
     }
   });
@@ -167,9 +161,9 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('tells the springs of the mesh, and which of them imex takes implicitly', async () => {
     const { send, take } = open(await load());
     const splitOf = (patch: Partial<Setting>) => {
-      send({ type: 'load', sceneText: sceneText(patch), keepMotion: false, request: 1 });
+      send({ type: 'load', sceneText: sceneText(patch), keepMotion: false });
       const { summary } = take('loaded');
-      send({ type: 'readSprings', request: 1 });
+      send({ type: 'readSprings' });
       const { ends, isImplicit } = take('springs');
       expect(Math.max(...ends)).toBeLessThan(summary.n_vertices);
       return { n: ends.length / 2, summary, isImplicit: Array.from(isImplicit) };
@@ -188,7 +182,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('tells coarser levels, each of vertices of the one before', async () => {
     const { send, take, loaded } = open(await load());
-    const wanted = { selection: 'quadrics', ratio: 0.25, request: 1 } as const;
+    const wanted = { selection: 'quadrics', ratio: 0.25 } as const;
     send({ type: 'readLevels', ...wanted, nCoarser: 2 });
     const { levels, shortage } = take('levels');
     expect(shortage).toBe('');
@@ -212,18 +206,18 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('tells the share of springs that imex takes implicitly in any substep', async () => {
     const { send, take } = open(await load());
     const imex = withStepper(setting, 'imex');
-    send({ type: 'load', sceneText: sceneText(imex), keepMotion: false, request: 1 });
+    send({ type: 'load', sceneText: sceneText(imex), keepMotion: false });
     take('loaded');
     const shareAt = (substeps: number) => {
       const { stepS } = imex;
-      send({ type: 'readImplicitShare', stepS, substeps, explicitShare: 0, request: 1 });
+      send({ type: 'readImplicitShare', stepS, substeps, explicitShare: 0 });
       const answer = take('implicitShare');
       expect(answer.substeps).toBe(substeps);
       return answer.share;
     };
     const { stepS } = imex;
     const wanted = { substeps: 2, explicitShare: 0.75 };
-    send({ type: 'readImplicitShare', stepS, ...wanted, request: 1 });
+    send({ type: 'readImplicitShare', stepS, ...wanted });
     const taken = take('implicitShare');
     expect(taken.share).toBeLessThanOrEqual(0.25);
     expect(shareAt(taken.substeps)).toBe(taken.share);
@@ -233,7 +227,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(shares[0]).toBeGreaterThan(shareAt(64));
     if (_name === 'the stand-in') return;
     expect(shares.at(-1)).toBe(0);
-    send({ type: 'readSprings', request: 1 });
+    send({ type: 'readSprings' });
     const { isImplicit } = take('springs');
     const nImplicit = isImplicit.reduce((sum, one) => sum + one, 0);
     expect(shareAt(imex.substeps)).toBeCloseTo(nImplicit / isImplicit.length, 12);
@@ -241,22 +235,22 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('keeps the motion when the level changes, and forgets it on a load', async () => {
     const { send, take, loaded } = open(await load());
-    send({ type: 'step', count: 20, wantsNumbers: true, request: 1, buffer: loaded.buffers[1] });
+    send({ type: 'step', count: 20, wantsNumbers: true, buffer: loaded.buffers[1] });
     const before = take('frame').report?.numbers.time_s ?? 0;
     expect(before).toBeGreaterThan(0);
-    send({ type: 'load', sceneText: sceneText({ level: 2 }), keepMotion: true, request: 2 });
+    send({ type: 'load', sceneText: sceneText({ level: 2 }), keepMotion: true });
     const carried = take('loaded');
     expect(carried.summary.n_vertices).toBeGreaterThan(loaded.summary.n_vertices);
     expect(carried.numbers.time_s).toBeCloseTo(before, 9);
-    send({ type: 'load', sceneText: sceneText(), keepMotion: false, request: 3 });
+    send({ type: 'load', sceneText: sceneText(), keepMotion: false });
     expect(take('loaded').numbers.time_s).toBe(0);
   });
 
   it('is back at the first frame after a reset', async () => {
     const { send, take, loaded } = open(await load());
-    send({ type: 'step', count: 9, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    send({ type: 'step', count: 9, wantsNumbers: false, buffer: loaded.buffers[1] });
     take('frame');
-    send({ type: 'reset', request: 2 });
+    send({ type: 'reset' });
     const again = take('loaded');
     expect(again.numbers.step).toBe(0);
     expect(frameViews(again.buffers[0])).toEqual(frameViews(loaded.buffers[0]));
@@ -264,11 +258,11 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('runs every stepper of the page from its usual setting', async () => {
     const { send, take } = open(await load());
-    STEPPER_NAMES.forEach((stepper, index) => {
+    STEPPER_NAMES.forEach((stepper) => {
       const text = JSON.stringify(sceneOf(withStepper({ ...setting, level: 0 }, stepper)));
-      send({ type: 'load', sceneText: text, keepMotion: false, request: index });
+      send({ type: 'load', sceneText: text, keepMotion: false });
       const [, buffer] = take('loaded').buffers;
-      send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
+      send({ type: 'step', count: 2, wantsNumbers: true, buffer });
       expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
     });
   });
@@ -278,17 +272,17 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     const membrane = withModel({ ...setting, level: 0 }, 'membrane');
     const possible = STEPPER_NAMES.filter((stepper) => canRun(stepper, 'membrane'));
     expect(possible).not.toContain('xpbd');
-    possible.forEach((stepper, index) => {
+    possible.forEach((stepper) => {
       const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
-      send({ type: 'load', sceneText: text, keepMotion: false, request: index });
+      send({ type: 'load', sceneText: text, keepMotion: false });
       const [, buffer] = take('loaded').buffers;
-      send({ type: 'step', count: 2, wantsNumbers: true, request: index, buffer });
+      send({ type: 'step', count: 2, wantsNumbers: true, buffer });
       expect(take('frame')).toMatchObject({ hasEnded: false, report: { status: 'ok' } });
     });
     for (const stepper of STEPPER_NAMES.filter((one) => !possible.includes(one))) {
       if (_name === 'the stand-in') continue;
       const text = JSON.stringify(sceneOf(withStepper(membrane, stepper)));
-      send({ type: 'load', sceneText: text, keepMotion: false, request: 9 });
+      send({ type: 'load', sceneText: text, keepMotion: false });
       expect(take('refused').failure.kind).toBe('input');
     }
   });
@@ -296,14 +290,12 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('says why a scene is refused and keeps the cloth it had', async () => {
     const { send, take, loaded } = open(await load());
     const refusedText = sceneText({ stepper: 'explicit', substeps: 1 });
-    send({ type: 'load', sceneText: refusedText, keepMotion: false, request: 2 });
-    const refused = take('refused');
-    expect(refused).toMatchObject({ request: 2 });
-    const { failure } = refused;
+    send({ type: 'load', sceneText: refusedText, keepMotion: false });
+    const { failure } = take('refused');
     expect(failure.kind).toBe('input');
     expect(failure.where).toBe('/method/substeps');
     expect(failure.what).toContain('substeps');
-    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    send({ type: 'step', count: 1, wantsNumbers: false, buffer: loaded.buffers[1] });
     expect(take('frame').hasEnded).toBe(false);
   });
 
@@ -318,7 +310,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     ];
     send({ type: 'grab', vertex });
     send({ type: 'moveGrab', target });
-    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: loaded.buffers[1] });
+    send({ type: 'step', count: 1, wantsNumbers: false, buffer: loaded.buffers[1] });
     const moved = frameViews(take('frame').buffer).positions;
     const held = moved.subarray(3 * vertex, 3 * vertex + 3);
     // The stand-in swings what it steps; the module puts a held vertex at its target.
@@ -329,7 +321,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     }
     send({ type: 'releaseGrab' });
     send({ type: 'moveGrab', target: [9, 9, 9] });
-    send({ type: 'step', count: 20, wantsNumbers: false, request: 1, buffer: loaded.buffers[0] });
+    send({ type: 'step', count: 20, wantsNumbers: false, buffer: loaded.buffers[0] });
     const free = frameViews(take('frame').buffer).positions;
     expect(Math.max(...free)).toBeLessThan(8);
     const away = [0, 1, 2].map((axis) => (free[3 * vertex + axis] ?? 0) - (target[axis] ?? 0));
@@ -339,7 +331,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
   it('sends another mesh with the frame in which the cloth tears, and the whole one at a reset', async () => {
     const { send, take } = open(await load());
     const tearing = JSON.stringify(sceneOf({ ...presetSetting('tearing-curtain'), level: 1 }));
-    send({ type: 'load', sceneText: tearing, keepMotion: false, request: 2 });
+    send({ type: 'load', sceneText: tearing, keepMotion: false });
     const { summary, buffers, triangles } = take('loaded');
     const vertex = summary.n_vertices - 1;
     const places = frameViews(buffers[0]).positions;
@@ -350,7 +342,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     let last = triangles;
     for (let s = 1; s <= 60; ++s) {
       send({ type: 'moveGrab', target: [x + 0.01 * s, y, z + 0.01 * s] });
-      send({ type: 'step', count: 1, wantsNumbers: false, request: 2, buffer });
+      send({ type: 'step', count: 1, wantsNumbers: false, buffer });
       const frame = take('frame');
       const { positions, scalar } = frameViews(frame.buffer);
       expect(frame.torn !== null).toBe(scalar.length > nVertices);
@@ -365,8 +357,8 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     expect(nVertices).toBeGreaterThan(summary.n_vertices);
     expect(last.length).toBe(triangles.length);
     expect(Math.max(...last)).toBe(nVertices - 1);
-    send({ type: 'step', count: 1, wantsNumbers: false, request: 2, buffer: buffers[1] });
-    send({ type: 'reset', request: 3 });
+    send({ type: 'step', count: 1, wantsNumbers: false, buffer: buffers[1] });
+    send({ type: 'reset' });
     const whole = take('loaded');
     expect(whole.triangles).toEqual(triangles);
     expect(frameViews(whole.buffers[0]).scalar.length).toBe(summary.n_vertices);
@@ -377,12 +369,12 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     const { send, take } = open(await load());
     const torn = { ...presetSetting('tearing-curtain'), level: 0 };
     const weak = { ...sceneOf(torn), model: { tearing: { breaking_elongation: 1e-6 } } };
-    send({ type: 'load', sceneText: JSON.stringify(weak), keepMotion: false, request: 2 });
+    send({ type: 'load', sceneText: JSON.stringify(weak), keepMotion: false });
     const { buffers } = take('loaded');
-    send({ type: 'step', count: 9, wantsNumbers: false, request: 2, buffer: buffers[1] });
+    send({ type: 'step', count: 9, wantsNumbers: false, buffer: buffers[1] });
     expect(take('frame').torn).not.toBeNull();
     const silk = JSON.stringify(sceneOf({ ...torn, fabric: 'silk' }));
-    send({ type: 'load', sceneText: silk, keepMotion: true, request: 3 });
+    send({ type: 'load', sceneText: silk, keepMotion: true });
     expect(take('loaded').numbers.time_s).toBe(0);
   });
 
@@ -411,7 +403,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     send({ type: 'setReference', bytes: new TextEncoder().encode('<html>').buffer });
     expect(posted).toEqual([]);
     const wanted = { wantsNumbers: true, scalar: 'distance' } as const;
-    send({ type: 'step', count: 1, request: 1, buffer, ...wanted });
+    send({ type: 'step', count: 1, buffer, ...wanted });
     const frame = take('frame');
     expect(frame.scalar).toBe('distance');
     expect(frame.report?.numbers.reference).toBeNull();
@@ -420,7 +412,7 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('drops a buffer of another mesh instead of writing beyond it', async () => {
     const { send, posted } = open(await load());
-    send({ type: 'step', count: 1, wantsNumbers: false, request: 1, buffer: new ArrayBuffer(16) });
+    send({ type: 'step', count: 1, wantsNumbers: false, buffer: new ArrayBuffer(16) });
     expect(posted).toEqual([]);
   });
 
@@ -434,10 +426,10 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
     });
     for (const hold of ['highest', 'nothing', 'group:hem'] as const) {
       const text = JSON.stringify(sceneOf({ ...presetSetting('obj'), hold }, mesh));
-      send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+      send({ type: 'load', sceneText: text, keepMotion: false });
       const { buffers } = take('loaded');
       const [first, buffer] = buffers;
-      send({ type: 'step', count: 3, wantsNumbers: true, request: 2, buffer });
+      send({ type: 'step', count: 3, wantsNumbers: true, buffer });
       const moved = frameViews(take('frame').buffer).positions;
       const [lowest, before] = [moved[4], frameViews(first).positions[4]];
       if (_name === 'the stand-in') continue;
@@ -471,8 +463,8 @@ describe.each(modules)('motion-core with %s', (_name, load) => {
 
   it('turns an exception into a refusal', async () => {
     const { send, take } = serve(await load());
-    send({ type: 'reset', request: 4 });
-    expect(take('refused')).toMatchObject({ request: 4, failure: { kind: 'internal' } });
+    send({ type: 'reset' });
+    expect(take('refused')).toMatchObject({ failure: { kind: 'internal' } });
   });
 });
 
@@ -482,9 +474,9 @@ describe('motion-core', () => {
     send({ type: 'open', fabricsText });
     take('ready');
     const fragile = JSON.stringify({ ...sceneOf(setting), name: 'fragile' });
-    send({ type: 'load', sceneText: fragile, keepMotion: false, request: 1 });
+    send({ type: 'load', sceneText: fragile, keepMotion: false });
     const [, buffer] = take('loaded').buffers;
-    send({ type: 'step', count: 50, wantsNumbers: false, request: 1, buffer });
+    send({ type: 'step', count: 50, wantsNumbers: false, buffer });
     const frame = take('frame');
     expect(frame.hasEnded).toBe(true);
     expect(frame.report?.status).toBe('not_finite');
@@ -530,7 +522,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
     for (const preset of PRESET_IDS) {
       for (const stepper of STEPPER_NAMES) {
         const text = JSON.stringify(sceneOf(withStepper(presetSetting(preset), stepper)));
-        send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+        send({ type: 'load', sceneText: text, keepMotion: false });
         expect(take('loaded').summary.notes).toEqual(['Eigen serves.']);
       }
     }
@@ -551,7 +543,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
     posted.length = 0;
     for (const row of rows) {
       const text = JSON.stringify(sceneOf(settingOfRow(row, setting)));
-      send({ type: 'load', sceneText: text, keepMotion: false, request: 3 });
+      send({ type: 'load', sceneText: text, keepMotion: false });
       take('loaded');
     }
   });
@@ -561,7 +553,7 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
     const scene = sceneOf(withStepper(setting, 'projective'));
     const method = { ...(scene.method as object), solver: 'cholmod' };
     const text = JSON.stringify({ ...scene, method });
-    send({ type: 'load', sceneText: text, keepMotion: false, request: 2 });
+    send({ type: 'load', sceneText: text, keepMotion: false });
     expect(take('refused').failure.where).toBe('/method/solver');
   });
 
@@ -573,22 +565,22 @@ describe('motion-core with a module that lacks CHOLMOD', () => {
 
 const shippedFile = new URL('../../../assets/references/swinging_sheet.reference', import.meta.url);
 
-describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () => {
+describe('the WebAssembly module with a shipped reference', () => {
   const swinging = presetSetting('swinging-sheet');
   const textOf = (patch: Partial<Setting>) => JSON.stringify(sceneOf({ ...swinging, ...patch }));
 
   async function openReferred() {
-    const server = serve(await loadRealModule());
+    const server = serve(await loadModule());
     const { send, take } = server;
     send({ type: 'open', fabricsText });
     take('ready');
     const loadWith = (patch: Partial<Setting>, keepMotion = false) => {
-      send({ type: 'load', sceneText: textOf(patch), keepMotion, request: 1, scalar: 'distance' });
+      send({ type: 'load', sceneText: textOf(patch), keepMotion, scalar: 'distance' });
       return take('loaded');
     };
     const step = (count: number, { buffers }: Sent<'loaded'>) => {
       const wanted = { wantsNumbers: true, scalar: 'distance' } as const;
-      send({ type: 'step', count, request: 1, buffer: buffers[1], ...wanted });
+      send({ type: 'step', count, buffer: buffers[1], ...wanted });
       const { report, buffer } = take('frame');
       return { reference: report?.numbers.reference, distances: frameViews(buffer).scalar };
     };
@@ -643,7 +635,7 @@ describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () 
     const { send, take, loadWith, step, first } = await openReferred();
     send({ type: 'grab', vertex: 40 });
     expect(step(2, first).reference).toMatchObject({ distance_m: null, disturbed: true });
-    send({ type: 'reset', request: 1 });
+    send({ type: 'reset' });
     expect(take('loaded').numbers.reference).toMatchObject({ distance_m: 0, disturbed: false });
     step(5, loadWith({ fabric: 'silk' }));
     const back = loadWith({}, true);
@@ -654,9 +646,9 @@ describe.runIf(hasModule)('the WebAssembly module with a shipped reference', () 
   });
 });
 
-describe.runIf(hasModule)('the cost of a step', () => {
+describe('the cost of a step', () => {
   async function projectiveRun() {
-    const module = await loadRealModule();
+    const module = await loadModule();
     const simulation = new module.Simulation(fabricsText);
     const method = withStepper({ ...setting, level: 3 }, 'projective');
     simulation.load(JSON.stringify(sceneOf({ ...method, iterations: 1 })));
@@ -682,13 +674,14 @@ describe.runIf(hasModule)('the cost of a step', () => {
   });
 });
 
-describe.runIf(hasModule)('the modules', () => {
+describe('the module', () => {
   it('binds exactly the classes and methods that the types name', async () => {
-    const module: object = { ...(await loadRealModule()), ...(await loadModule('deform')) };
-    expect(boundMethods(module)).toEqual({
+    expect(boundMethods(await loadModule())).toEqual({
       ...PLEAT_METHODS,
       ...SWEEP_METHODS,
       ...DEFORM_METHODS,
+      ...REFINEMENT_METHODS,
+      ...MODAL_METHODS,
     });
   });
 });

@@ -1,4 +1,4 @@
-// The WebAssembly modules as they were built.
+// The WebAssembly module as it was built.
 import { existsSync, readFileSync } from 'node:fs';
 import type { DeformModule } from '../../src/fabrics/bindings/deform-module';
 import type { ModalModule } from '../../src/modes/bindings/modal-module';
@@ -7,22 +7,18 @@ import type { SweepModule } from '../../src/motion/bindings/sweep-module';
 import type { RefinementModule } from '../../src/refinement/bindings/refinement-module';
 import type { PleatModule } from '../../src/shared/bindings/pleat-module';
 
-interface Modules {
-  pleat: PleatModule;
-  sweep: SweepModule;
-  convergence: ConvergenceModule;
-  deform: DeformModule;
-  refinement: RefinementModule;
-  modal: ModalModule;
-}
+export type BuiltModule = PleatModule &
+  SweepModule &
+  ConvergenceModule &
+  DeformModule &
+  RefinementModule &
+  ModalModule;
 
 const fileOf = (name: string) => new URL(`../../src/wasm/${name}`, import.meta.url);
 
-export function isBuilt(name: keyof Modules): boolean {
-  return existsSync(fileOf(`${name}.wasm`));
-}
-
-export async function loadModule<Name extends keyof Modules>(name: Name): Promise<Modules[Name]> {
-  const { default: create } = await import(/* @vite-ignore */ fileOf(`${name}.mjs`).href);
-  return create({ wasmBinary: readFileSync(fileOf(`${name}.wasm`)) });
+export async function loadModule(): Promise<BuiltModule> {
+  if (!existsSync(fileOf('pleat.wasm')))
+    throw new Error('The WebAssembly module is not built: ./pleat test and ./pleat demo do.');
+  const { default: create } = await import(/* @vite-ignore */ fileOf('pleat.mjs').href);
+  return create({ wasmBinary: readFileSync(fileOf('pleat.wasm')) });
 }

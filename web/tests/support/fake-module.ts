@@ -217,7 +217,7 @@ class FakeSimulation implements SimulationHandle {
     return Uint32Array.from(corners);
   }
 
-  colliders = () => ok({ colliders: [{ shape: 'sphere', centre: [0, 0, 0], radius_m: 0.2 }] });
+  colliders = () => ok({ colliders: [{ shape: 'sphere', centre_m: [0, 0, 0], radius_m: 0.2 }] });
 
   private ledgerFrom: number | null = null; // the step at which the account began
   openLedger = () => {

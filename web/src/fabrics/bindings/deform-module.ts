@@ -8,7 +8,7 @@ export interface TermNumbers {
   bending: number;
 }
 
-/** What `Deformation.open` finds in an experiment. */
+/** Answer of `Deformation.open`: what it finds in an experiment. */
 export interface ClothAnswer {
   name: string;
   caption: string;
@@ -34,25 +34,25 @@ export interface DeformReport {
   /** Unweighted. */
   terms: TermNumbers;
   converged: boolean;
-  /** Since something was last moved, held or weighted otherwise. */
-  steps: { energy: number; terms: TermNumbers; relativeStep: number; linearised: boolean }[];
+  /** Steps since something was last moved, held or weighted otherwise. */
+  steps: { energy: number; terms: TermNumbers; relative_step: number; linearised: boolean }[];
 }
 
-/** What the measured fabrics make likely for a visitor's own measurements. */
+/** Weights that the measured fabrics make likely for a visitor's own measurements. */
 export interface FitAnswer {
   weights: TermNumbers;
   normalised: TermNumbers;
-  leaveOneOutError: TermNumbers;
-  measuredRange: Record<keyof TermNumbers, [number, number]>;
+  leave_one_out_error: TermNumbers;
+  measured_range: Record<keyof TermNumbers, [number, number]>;
   clamped: (keyof TermNumbers)[];
   nearest: string;
 }
 
-/** What `Deformation.step` answers. */
+/** Answer of `Deformation.step`. */
 export const PROGRESS = { moved: 0, ended: 1 } as const;
 
 /**
- * What `Deformation.settle` answers. Between the ways the first is at its end and the next step goes
+ * Answer of `Deformation.settle`. Between the ways the first is at its end and the next step goes
  * back to rest; the shapes on the way from there count for nothing.
  */
 export const WAY = { fromHere: 0, between: 1, fromRest: 2, done: 3 } as const;

@@ -34,11 +34,11 @@ const WIDE_RATIO = 30;
 /** More steps than this have no number of their own on the axis. */
 const MOST_LABELS = 8;
 
-/** What each step left: the weighted terms add up to the energy. */
+/** Energy that each step left: the weighted terms add up to the energy. */
 export interface WeightedStep {
   energy: number;
   terms: Record<Term, number>;
-  relativeStep: number;
+  relative_step: number;
   linearised: boolean;
 }
 
@@ -153,7 +153,7 @@ function draw(root: SVGElement, steps: readonly WeightedStep[]): void {
 }
 
 function tableRow(step: WeightedStep, index: number): HTMLElement {
-  const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relativeStep];
+  const numbers = [step.energy, ...TERMS.map((term) => step.terms[term]), step.relative_step];
   return element(
     'tr',
     {},

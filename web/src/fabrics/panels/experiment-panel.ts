@@ -1,9 +1,9 @@
 // Which cloth is pulled, what to notice in it, and the visitor's mesh.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
-import { createObjUnit } from '../../shared/panels/obj-unit';
+import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';
 import { createReading } from '../../shared/panels/reading';
-import { OBJ_UNITS, type ObjUnit } from '../../shared/state/obj-file';
+import type { ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import { EXPERIMENTS, OWN } from '../state/experiments';
 import type { FabricsState } from '../state/fabrics-state';
@@ -16,16 +16,11 @@ function captionOf({ experiment, cloth, objName }: FabricsState): string {
   return objName && cloth ? `${objName}: pull it anywhere, or pin it first.` : WAITING;
 }
 
-function meshWords({ cloth, experiment, objUnit, objOdd }: FabricsState): string {
+function meshWords(state: FabricsState): string {
+  const { cloth, experiment } = state;
   if (!cloth) return '';
   const size = `${cloth.n_vertices} vertices, ${cloth.n_triangles} triangles`;
-  if (experiment !== OWN) return `${size}.`;
-  const unit = OBJ_UNITS.find(({ value }) => value === objUnit)?.title;
-  const parts = [`${size}, taken in ${unit}.`];
-  if (objOdd) parts.push(objOdd);
-  if (cloth.skipped) parts.push(`${cloth.skipped}.`);
-  parts.push('It stays on this machine, and no link carries it.');
-  return parts.join(' ');
+  return experiment === OWN ? ownMeshWords(size, state, cloth.skipped) : `${size}.`;
 }
 
 export function createExperimentPanel(
@@ -43,7 +38,7 @@ export function createExperimentPanel(
     ...EXPERIMENTS.map(({ id, title }) => ({ value: id, title })),
     { value: OWN, title: 'Your OBJ' },
   ];
-  const chosen = choice(options, actions.openExperiment);
+  const chosen = choice(options, (id) => actions.openExperiment(id));
   const caption = element('p', { class: 'caption' });
   const size = element('p', { class: 'note' });
   const section = element(
@@ -53,8 +48,8 @@ export function createExperimentPanel(
     caption,
     size,
   );
-  const unit = createObjUnit(actions.setUnit);
-  const reading = createReading(actions.cancel);
+  const unit = createObjUnit((value) => actions.setUnit(value));
+  const reading = createReading(() => actions.cancel());
   section.append(unit.box);
   const closePicker = createObjPicker(section, actions);
   section.append(reading.box);

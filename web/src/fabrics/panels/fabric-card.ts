@@ -1,7 +1,7 @@
 // One fabric: its use, what to expect of it, its weights and measurements, its physical numbers.
 import { type FabricRecord, fabricNamed, fabrics, sources } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { element, setText } from '../../shared/panels/element';
+import { checkBox, element, setText } from '../../shared/panels/element';
 import {
   quantityMeanings,
   quantityRows,
@@ -171,15 +171,9 @@ export function createFabricCard(
   const expectation = element('p', { class: 'caption' });
   const stiffness = element('p', { class: 'note' });
   const { bar, show } = createWeightBar();
-  const printed = element('input', {
-    type: 'checkbox',
-    change: () => setWeightsFrom(printed.checked ? 'published' : 'recomputed'),
-  });
-  const printedLine = element(
-    'label',
-    { class: 'check' },
-    printed,
+  const { input: printed, label: printedLine } = checkBox(
     'Use the weights as they are printed',
+    (isOn) => setWeightsFrom(isOn ? 'published' : 'recomputed'),
   );
   const body = element('div');
   parent.append(

@@ -1,7 +1,13 @@
 // All fabrics as a list: one is shown in the chosen pane, up to four stand side by side.
 import { type FabricRecord, fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
 import { lookOf } from '../../shared/fabric/fabric-look';
-import { choice as choiceOf, element, field, setText } from '../../shared/panels/element';
+import {
+  button as buttonOf,
+  choice as choiceOf,
+  element,
+  field,
+  setText,
+} from '../../shared/panels/element';
 import { quantityText } from '../../shared/panels/fabric-quantities';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type FabricChoice, TERMS } from '../state/deform-state';
@@ -12,7 +18,7 @@ import { TERM_TITLES } from './term-words';
 import { createWeightBar, termKey, weightWords } from './weight-bar';
 
 export interface GalleryActions {
-  /** These fabrics side by side. */
+  /** Shows these fabrics side by side. */
   compare(comparison: Comparison): void;
   /** Another pane's card and numbers. */
   choose(pane: number): void;
@@ -34,7 +40,7 @@ const MEANINGS: Record<Exclude<FabricOrder, 'source'>, string> = {
   stretch: 'the force along the warp that would double the length, for a metre of width',
 };
 
-/** What the panes show, and what the list is ordered by. */
+/** The state by which the panes are filled and the list is ordered. */
 export function orderNote(order: FabricOrder): string {
   if (order === 'source')
     return 'The bars are weights measured in 2015, and the panes show shapes by them: what gives way first inside one fabric. They do not say which of two fabrics is stiffer. Choose another order for that.';
@@ -185,7 +191,7 @@ function renderRows(rows: readonly Row[], state: DeformState): void {
   }
 }
 
-/** What a press on a fabric and a tick at it do; `onRefused` hears why nothing was done. */
+/** Presses on a fabric and ticks at it; `onRefused` hears why nothing was done. */
 function createChoices(
   store: Store<DeformState>,
   actions: GalleryActions,
@@ -233,15 +239,9 @@ export function createFabricGallery(
     { class: 'marks', 'aria-label': 'Bars' },
     ...TERMS.map((term) => element('li', {}, termKey(term), TERM_TITLES[term])),
   );
-  const all = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      click: () => actions.showAll(!store.get().gallery),
-    },
-    'All fifteen at once',
-  );
+  const all = buttonOf('All fifteen at once', () => actions.showAll(!store.get().gallery), {
+    class: 'wide',
+  });
   const hint = element('p', { class: 'note' });
   const refusal = element('p', { class: 'note', role: 'status' });
   parent.append(

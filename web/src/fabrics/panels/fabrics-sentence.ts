@@ -1,4 +1,4 @@
-// What a screen reader says of the view of fabrics.
+// Sentences that a screen reader says of the view of fabrics.
 import { titleOf } from '../state/fabric-choice';
 import type { FabricsState } from '../state/fabrics-state';
 

@@ -1,6 +1,6 @@
 // Every pin and handle: by keys it is moved, and by a press let go.
 import type { Triple } from '../../shared/bindings/geometry';
-import { element } from '../../shared/panels/element';
+import { button, element } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState } from '../state/fabrics-state';
 import type { Hold } from '../state/holds';
@@ -41,16 +41,10 @@ function createRow({ name, kind }: Hold, actions: HoldActions): HTMLElement {
     },
     name,
   );
-  const release = element(
-    'button',
-    {
-      type: 'button',
-      'aria-label': `Release ${name}`,
-      'data-release': '',
-      click: () => actions.release(name),
-    },
-    'Release',
-  );
+  const release = button('Release', () => actions.release(name), {
+    'aria-label': `Release ${name}`,
+    'data-release': '',
+  });
   return element('li', {}, move, release);
 }
 
@@ -65,11 +59,7 @@ export function createHoldList(
   };
   const heads = { handle: element('h3', {}, 'Handles'), pin: element('h3', {}, 'Pins') };
   const none = element('p', { class: 'note' }, 'Nothing holds the cloth: it lies as it rests.');
-  const reset = element(
-    'button',
-    { type: 'button', class: 'wide', click: actions.resetHolds },
-    'Pins and handles as at first',
-  );
+  const reset = button('Pins and handles as at first', actions.resetHolds, { class: 'wide' });
   const section = element(
     'section',
     { 'aria-label': 'Pins and handles' },

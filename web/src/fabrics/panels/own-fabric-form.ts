@@ -1,6 +1,6 @@
 // Three measurements of a visitor's own fabric, and what the measured ones make of them.
 import { fabricNamed, fabrics } from '../../shared/fabric/fabric-data';
-import { element, field, setText } from '../../shared/panels/element';
+import { button, element, field, setText } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import {
@@ -44,7 +44,7 @@ export function readMeasure(term: Term, text: string): number | string {
 
 /** "Your stretch of 1.3000 is outside …"; one sentence for each that was clamped. */
 export function clampedWords(
-  { clamped, measuredRange: ranges }: OwnFabric,
+  { clamped, measured_range: ranges }: OwnFabric,
   measures: Triple,
 ): string[] {
   return clamped.map((term) => {
@@ -58,12 +58,14 @@ export function clampedWords(
 const SAME_ERROR = 1e-3;
 
 /** How far each weight is to be trusted. */
-export function trustWords({ leaveOneOutError }: Pick<OwnFabric, 'leaveOneOutError'>): string[] {
+export function trustWords({
+  leave_one_out_error,
+}: Pick<OwnFabric, 'leave_one_out_error'>): string[] {
   return TERMS.map((term) => {
     const title = TERM_TITLES[term];
-    const error = digits(leaveOneOutError[term], 2);
+    const error = digits(leave_one_out_error[term], 2);
     const ofMean = errorOfMean(term);
-    if (leaveOneOutError[term] > ofMean - SAME_ERROR) {
+    if (leave_one_out_error[term] > ofMean - SAME_ERROR) {
       return `${title}: by ${error}, no better than the mean of all, so what you measure does not change it.`;
     }
     return `${title}: by ${error}; the mean of all misses it by ${digits(ofMean, 2)}.`;
@@ -103,7 +105,7 @@ function headCell(title: string, kind = ''): HTMLElement {
   return element('th', kind === '' ? { scope: 'col' } : { scope: 'col', class: kind }, title);
 }
 
-/** What the measured fabrics make of the measures: weights, and how far they are to be trusted. */
+/** Weights that the measured fabrics suggest for the measures, and how far they are to be trusted. */
 function createResult(showIt: () => void) {
   const { bar, show: showWeights } = createWeightBar();
   const summary = element('p', { role: 'status' });
@@ -126,8 +128,8 @@ function createResult(showIt: () => void) {
     element('p', { class: 'note' }, note),
     trust,
   );
-  const button = element('button', { type: 'button', class: 'wide', click: showIt }, 'Show it');
-  const parts = [summary, bar, table, clamped, trustBox, button];
+  const showing = button('Show it', showIt, { class: 'wide' });
+  const parts = [summary, bar, table, clamped, trustBox, showing];
   const box = element('div', { class: 'own-result' }, ...parts);
 
   function row(term: Term, own: OwnFabric): HTMLElement {
@@ -200,11 +202,7 @@ export function createOwnFabricForm(
 
   const fields = TERMS.map((term) => measureField(term, changed));
   const result = createResult(() => measures && actions.show(measures));
-  const hideIt = element(
-    'button',
-    { type: 'button', class: 'wide', click: actions.hide },
-    'Take it away',
-  );
+  const hideIt = button('Take it away', actions.hide, { class: 'wide' });
   const box = element(
     'details',
     {

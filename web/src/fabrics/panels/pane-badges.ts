@@ -1,7 +1,7 @@
-// What each pane shows: fabric, energy, time; a press on it chooses the pane.
+// Badges of what each pane shows: fabric, energy, time; a press on it chooses the pane.
 
 import { fabricNamed } from '../../shared/fabric/fabric-data';
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { digits, milliseconds } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
 import { titleOf } from '../state/fabric-choice';
@@ -25,7 +25,7 @@ const ENERGY_MEANING =
 const QUANTITY_MEANING =
   'What the fabrics are ordered by; the shape is of the weights and does not show it';
 
-/** What the list is ordered by, or the energy; and what that is. */
+/** The number that the list is ordered by, or the energy, with its name. */
 export function paneNumber(
   { fabric, energy }: Pick<Pane, 'fabric' | 'energy'>,
   order: FabricOrder,
@@ -39,10 +39,10 @@ function createBadge(choose: () => void) {
   const name = element('b');
   const number = element('span');
   const time = element('span');
-  const button = element('button', { type: 'button', class: 'pane-badge', click: choose }, name);
-  button.append(number, time);
+  const badge = button(name, choose, { class: 'pane-badge' });
+  badge.append(number, time);
   return {
-    cell: element('div', { class: 'pane' }, button),
+    cell: element('div', { class: 'pane' }, badge),
     show(pane: Pane, isChosen: boolean, { panes, phase, order }: FabricsState) {
       const isBrief = panes.length > 4;
       const isLoading = phase === 'loading';
@@ -51,9 +51,9 @@ function createBadge(choose: () => void) {
       setText(number, words);
       number.title = meaning;
       setText(time, timeWords(pane, isLoading));
-      button.classList.toggle('brief', isBrief);
+      badge.classList.toggle('brief', isBrief);
       time.hidden = isBrief && !isLoading && pane.status !== 'settling';
-      button.setAttribute('aria-pressed', String(isChosen));
+      badge.setAttribute('aria-pressed', String(isChosen));
     },
   };
 }

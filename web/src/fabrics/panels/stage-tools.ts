@@ -1,5 +1,6 @@
 // The row under the stage: what a press does, the view, and what takes this fabric or this shape into motion.
-import { element } from '../../shared/panels/element';
+import { button, checkBox } from '../../shared/panels/element';
+import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import type { FabricsState, Tool } from '../state/fabrics-state';
 
@@ -9,60 +10,34 @@ export interface StageToolActions {
   start(): void;
 }
 
-const TOOLS: readonly { value: Tool; title: string; meaning: string }[] = [
+const TOOLS: readonly Segment<Tool>[] = [
   { value: 'pull', title: 'Pull', meaning: 'A press takes the cloth at any point' },
   { value: 'pin', title: 'Pin', meaning: 'A press puts a pin into the cloth, or takes it out (P)' },
 ];
 
 const NO_MOTION = 'Three ratios say neither weight nor stiffness: choose a fabric of the list';
 
-function createToolSwitch(choose: (tool: Tool) => void) {
-  const inputs = TOOLS.map(({ value }) =>
-    element('input', { type: 'radio', name: 'tool', change: () => choose(value) }),
-  );
-  const labels = TOOLS.map(({ title, meaning }, index) =>
-    element('label', { title: meaning }, inputs[index] ?? '', element('span', {}, title)),
-  );
-  return {
-    control: element(
-      'div',
-      { class: 'segments tool-switch', role: 'radiogroup', 'aria-label': 'A press on the cloth' },
-      ...labels,
-    ),
-    select(tool: Tool) {
-      TOOLS.forEach(({ value }, index) => {
-        const input = inputs[index];
-        if (input) input.checked = value === tool;
-      });
-    },
-  };
-}
-
 export function createStageTools(
   parent: HTMLElement,
   store: Store<FabricsState>,
   actions: StageToolActions,
 ): () => void {
-  const tools = createToolSwitch((tool) => store.set({ tool }));
-  const edges = element('input', {
-    type: 'checkbox',
-    change: () => store.set({ edges: edges.checked }),
-  });
-  const button = (title: string, meaning: string, click: () => void) =>
-    element('button', { type: 'button', title: meaning, click }, title);
-  const view = button('View', 'Look from the first direction again (Home)', actions.homeView);
-  const wear = button('Carry this fabric over to motion', '', actions.wear);
-  const start = button('Start moving from this shape', '', actions.start);
-  parent.append(
-    tools.control,
-    view,
-    element('label', { class: 'check' }, edges, 'Edges'),
-    wear,
-    start,
+  const tools = createSegments(
+    'tool',
+    { class: 'segments tool-switch', 'aria-label': 'A press on the cloth' },
+    (tool: Tool) => store.set({ tool }),
+    TOOLS,
   );
+  const edges = checkBox('Edges', (isOn) => store.set({ edges: isOn }));
+  const view = button('View', actions.homeView, {
+    title: 'Look from the first direction again (Home)',
+  });
+  const wear = button('Carry this fabric over to motion', actions.wear);
+  const start = button('Start moving from this shape', actions.start);
+  parent.append(tools.control, view, edges.label, wear, start);
   return watch(store, ['tool', 'edges', 'panes', 'chosen', 'phase'], (state) => {
     tools.select(state.tool);
-    edges.checked = state.edges;
+    edges.input.checked = state.edges;
     const isOwn = state.panes[state.chosen]?.fabric.kind === 'own';
     for (const to of [wear, start]) to.disabled = isOwn || state.phase !== 'ready';
     wear.title = isOwn ? NO_MOTION : 'The scene of the other view in this fabric';

@@ -1,4 +1,4 @@
-// What the numbers of a shape say, in sentences.
+// Sentences on the numbers of a shape.
 import { element } from '../../shared/panels/element';
 import { digits, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
@@ -19,11 +19,11 @@ type Counts = Record<Term, boolean>;
 const LITTLE = 0.1;
 const MUCH = 0.6;
 
-/** Below both of these weights a pull is met by recovery alone: bending would round it. */
+/** A pull below both of these weights is met by recovery alone: bending would round it. */
 const SPIKY_STRETCH = 0.01;
 const SPIKY_BENDING = 0.05;
 
-/** Beside this, two fabrics differ in words too. */
+/** Least ratio at which two fabrics are called different. */
 const CLEARLY_LESS = 0.8;
 
 const DOES: Record<Term, { little: string; some: string; much: string }> = {

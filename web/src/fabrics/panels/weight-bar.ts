@@ -4,16 +4,11 @@ import { percent } from '../../shared/panels/quantity';
 import { TERMS, type Triple } from '../state/deform-state';
 import { TERM_TITLES } from './term-words';
 
-export interface WeightBar {
-  bar: HTMLElement;
-  show(weights: Triple): void;
-}
-
-export function createWeightBar(): WeightBar {
+export function createWeightBar() {
   const parts = TERMS.map((term) => element('span', { class: `term-${term}` }));
   return {
     bar: element('span', { class: 'weight-bar', 'aria-hidden': 'true' }, ...parts),
-    show(weights) {
+    show(weights: Triple) {
       TERMS.forEach((term, index) => {
         const part = parts[index];
         if (part) part.style.flexGrow = String(weights[term]);

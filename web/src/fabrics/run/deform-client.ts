@@ -1,5 +1,6 @@
 // Starts the worker that finds the shapes of one cloth in several fabrics.
 import { type Asked, createAsked, type Listener } from '../../shared/workers/asked';
+import { withCore } from '../../shared/workers/compiled-core';
 import type { DeformAnswers, FromDeform, ToDeform } from '../worker/deform-protocol';
 
 export type DeformClient = Asked<ToDeform, DeformAnswers>;
@@ -7,7 +8,9 @@ export type StartDeform = (listener: Listener<FromDeform>) => DeformClient;
 
 export function startDeformWorker(listener: Listener<FromDeform>): DeformClient {
   return createAsked(
-    new Worker(new URL('../worker/deform-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(
+      new Worker(new URL('../worker/deform-worker.ts', import.meta.url), { type: 'module' }),
+    ),
     listener,
   );
 }

@@ -1,17 +1,14 @@
 // Finds the shapes that the view of fabrics shows: turns changes of the state and of the hand into
 // questions to the worker, and answers into state and frames.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  inputFailure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
 import { frameViews } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
+import { brokenFailure } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
 import type { StartShape } from '../../shared/page/view';
+import { createClock } from '../../shared/state/clock';
+import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
   type ObjUnit,
@@ -57,7 +54,7 @@ export interface DeformerView {
   showFrame(pane: number, buffer: ArrayBuffer): void;
 }
 
-/** What is on its way to be shown. */
+/** A cloth on its way to be shown. */
 interface Opening {
   experiment: Experiment;
   link: FabricsLink | null;
@@ -97,12 +94,12 @@ function ownState({ file, unit }: OwnMesh) {
 export class Deformer {
   private client: DeformClient;
   private readonly held: HeldCloth;
-  private readonly hand: Hand;
+  readonly hand: Hand;
   private readonly granted = new LastGranted<Shown | null>(null);
-  private nOpened = 0; // counts what is to be opened: what belongs to an earlier one is dropped
+  private readonly latest = new Latest(); // opening
   private cloth = -1; // the one that is shown
   private shown: (ArrayBuffer | undefined)[] = []; // frame of each pane
-  private lastNumbersMs = 0;
+  private readonly clock = createClock();
   private obj: OwnMesh | null = null; // the visitor's, as it was opened last
 
   constructor(
@@ -154,24 +151,6 @@ export class Deformer {
     this.store.set({ reading: null });
     const state = this.store.get();
     this.openExperiment(state.experiment, decodeFabricsLink(encodeFabricsLink(state)).link);
-  }
-
-  grab(vertex: number, pane: number): void {
-    this.hand.grab(vertex, pane);
-  }
-
-  /** Where the taken vertex is wanted [m]. */
-  moveGrab(target: Triple): void {
-    this.hand.move(target);
-  }
-
-  releaseGrab(): void {
-    this.hand.release();
-  }
-
-  /** Puts a pin around a vertex, or takes out the hold that has it. */
-  togglePin(vertex: number, pane: number): void {
-    this.hand.togglePin(vertex, pane);
   }
 
   release(name: string): void {
@@ -232,7 +211,7 @@ export class Deformer {
   }
 
   private breakDown(reason: string): void {
-    const problem = internalFailure(brokenSentence('The shapes', reason));
+    const problem = brokenFailure('The shapes', reason);
     this.store.set({ phase: 'broken', problem });
   }
 
@@ -259,9 +238,8 @@ export class Deformer {
   }
 
   private async open(wanted: Opening): Promise<void> {
-    this.nOpened += 1;
-    const cloth = this.nOpened;
-    const isCurrent = () => cloth === this.nOpened;
+    const isCurrent = this.latest.start();
+    const cloth = this.latest.nStarted;
     this.store.set({ phase: 'loading' });
     let reason = '';
     const objText = await meshText(wanted).catch((error) => {
@@ -315,9 +293,7 @@ export class Deformer {
     if (old) this.client.tell({ type: 'return', cloth, pane, buffer: old }, [old]);
     if (!panes[pane]) return;
     this.view.showFrame(pane, buffer);
-    const nowMs = performance.now();
-    if (status === 'dragging' && nowMs - this.lastNumbersMs < NUMBERS_EVERY_MS) return;
-    this.lastNumbersMs = nowMs;
+    if (!this.clock.areNumbersDue(NUMBERS_EVERY_MS, status !== 'dragging')) return;
     const { energy, terms, steps } = report;
     const numbers = { energy, terms, steps, status, updateMs };
     this.store.set({

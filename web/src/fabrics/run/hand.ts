@@ -8,7 +8,7 @@ import type { HeldCloth } from './held-cloth';
 /** A press moves nothing until the hand is this part of its grasp away. */
 const LEAST_MOVE = 1e-3;
 
-/** What a hand has taken; `isNew` is a hold that is not there until it is moved. */
+/** The hold that a hand has taken; `isNew` is a hold that is not there until it is moved. */
 interface Taken {
   name: string;
   base: Triple;

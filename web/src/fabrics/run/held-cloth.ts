@@ -1,4 +1,4 @@
-// What holds the cloth: on the page, in the worker, and what the worker has granted of it.
+// The holds of the cloth: on the page, in the worker, and as the worker has granted them.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';

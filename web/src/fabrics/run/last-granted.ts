@@ -1,11 +1,11 @@
-// What the worker has granted last, to go back to when it refuses what came after.
+// Keeps what the worker has granted last, to go back to when it refuses what came after.
 
 export class LastGranted<Value> {
   private nUnanswered = 0;
 
   constructor(public value: Value) {}
 
-  /** What the page shows and what the worker has are the same. */
+  /** True while the page shows what the worker has. */
   isSettled(): boolean {
     return this.nUnanswered === 0;
   }

@@ -5,43 +5,17 @@ import type { Collider, Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
-import { type Box, stepSeen } from '../../shared/stage/grab';
-import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+import { stepSeen } from '../../shared/stage/grab';
+import {
+  createHeldStage,
+  type HeldStageEvents,
+  type HeldStageParts,
+} from '../../shared/stage/held-stage';
+import type { PaneStage } from '../../shared/stage/pane-stage';
 import { createHoldMarks, type HoldMark } from './hold-marks';
 
-export interface FabricsStageEvents {
-  /** True when a press on this vertex is used up otherwise. */
-  press(vertex: number, pane: number): boolean;
-  grab(vertex: number, pane: number): void;
-  moveGrab(target: Triple): void;
-  releaseGrab(): void;
-  /** Keys that are neither the camera's nor the hand's. True when used. */
-  key(name: string): boolean;
-  /** After each picture: where the inviting vertex is in the first pane, in pixels. */
-  drawn(invitation: { x: number; y: number }): void;
-  pictureLost(isLost: boolean): void;
-}
-
-export interface FabricsStage {
-  /** Another cloth in all panes, not yet seen. */
-  showMesh(triangles: Uint32Array, nVertices: number): void;
-  /** Fabrics by id, a pane for each; `nColumns` of them side by side. */
-  setPanes(fabricIds: readonly number[], nColumns: number): void;
-  showFrame(pane: number, buffer: ArrayBuffer): void;
-  setMarks(marks: readonly HoldMark[]): void;
-  setBodies(bodies: Collider[]): void;
-  /** The pane that keys take the cloth in. */
-  choose(pane: number): void;
-  invite(vertex: number): void;
-  setEdges(isShown: boolean): void;
-  /** Sets the view so that these places are seen, three numbers each [m]. */
-  frame(places: readonly number[]): void;
-  homeView(): void;
-  /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */
-  stepFrom(place: Triple, direction: Triple): Triple;
-  positions(pane: number): Float32Array;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
+export interface FabricsStageEvents extends HeldStageEvents {
+  drawn: HeldStageParts['drawn'];
 }
 
 /** Direction of the first view [rad]: from above enough to see a level sheet's shape. */
@@ -136,132 +110,89 @@ function frame({ surroundings, control, camera }: PaneStage, places: readonly nu
   return floor;
 }
 
-/** The stage itself and the hand on it, which is in one pane at a time. */
-class Stage {
-  readonly marks = createHoldMarks();
-  readonly clothes = new PaneClothes(() => this.stage.scene);
-  readonly stage: PaneStage;
-  readonly hand: ReturnType<typeof createStageHand>;
-  inviting = 0;
-  chosen = 0;
-  floor = 0;
-  private active = 0; // pane in which the hand is
-
-  constructor(
-    parent: HTMLElement,
-    canvas: HTMLCanvasElement,
-    private readonly events: FabricsStageEvents,
-  ) {
-    this.stage = createPaneStage(parent, canvas, {
-      fov: 32,
-      objects: [this.marks.object],
-      isReady: () => this.clothes.count > 0,
-      prepare: (pane) => this.prepare(pane),
-      drawn: () => this.drawn(),
-      themed: (colour) => this.setTheme(colour),
-      handKey: (name) => this.hand.key(name),
-      key: events.key,
-      pictureLost: events.pictureLost,
-    });
-    this.hand = createStageHand(this.stage, {
-      picture: (at) => this.pictureAt(at),
-      press: (vertex) => events.press(vertex, this.active),
-      grab: (vertex) => events.grab(vertex, this.active),
-      move: events.moveGrab,
-      release: events.releaseGrab,
-      fallbackVertex: () => this.inviting,
-      cloth: () => ({
-        positions: this.clothes.positions(this.active),
-        triangles: this.clothes.triangles(),
-      }),
-      floor: () => this.floor,
-    });
-    this.stage.open();
-  }
-
-  project(vertex: number, pane: number): { x: number; y: number } {
-    return this.stage.grid.project(this.clothes.positions(pane), vertex, pane);
-  }
-
-  private pictureAt(at: { x: number; y: number } | null): () => Box {
-    const { grid } = this.stage;
-    const pane = at ? grid.paneAt(at) : Math.min(this.chosen, this.clothes.count - 1);
-    this.active = pane;
-    return () => grid.boxOf(pane);
-  }
-
-  private prepare(pane: number): void {
-    this.marks.face(this.stage.camera);
-    this.clothes.show(pane);
-    this.hand.mark(pane === this.active ? this.clothes.positions(pane) : null);
-  }
-
-  private drawn(): void {
-    if (this.clothes.positions(0).length > 0) this.events.drawn(this.project(this.inviting, 0));
-  }
-
-  private setTheme(colour: (name: string) => string): void {
-    this.hand.setColour(colour('--stage-hand'));
-    this.marks.setColours({
-      pin: colour('--stage-hand'),
-      handle: colour('--accent'),
-      chosen: colour('--alarm'),
-    });
-  }
-}
-
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
 export function createFabricsStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: FabricsStageEvents,
-): FabricsStage {
-  const own = new Stage(parent, canvas, events);
-  const { stage, clothes, marks, hand } = own;
+) {
+  const marks = createHoldMarks();
+  const clothes = new PaneClothes(() => held.stage.scene);
+  let chosen = 0;
+  const parts: HeldStageParts = {
+    fov: 32,
+    objects: [marks.object],
+    isReady: () => clothes.count > 0,
+    prepare(pane) {
+      marks.face(held.stage.camera);
+      clothes.show(pane);
+    },
+    positions: (pane) => clothes.positions(pane),
+    triangles: () => clothes.triangles(),
+    chosen: () => Math.min(chosen, clothes.count - 1),
+    drawn(invitation) {
+      if (clothes.positions(0).length > 0) events.drawn(invitation);
+    },
+    themed: (colour) =>
+      marks.setColours({
+        pin: colour('--stage-hand'),
+        handle: colour('--accent'),
+        chosen: colour('--alarm'),
+      }),
+  };
+  const held = createHeldStage(parent, canvas, parts, events);
+  const { stage } = held;
   const { grid, redraw } = stage;
+  stage.open();
+
   return {
-    showMesh(triangles, nVertices) {
+    /** Another cloth in all panes, not yet seen. */
+    showMesh(triangles: Uint32Array, nVertices: number) {
       clothes.setTopology(triangles, nVertices);
-      hand.drop();
+      held.drop();
       redraw();
     },
-    setPanes(fabricIds, columns) {
+    /** Fabrics by id, a pane for each; `nColumns` of them side by side. */
+    setPanes(fabricIds: readonly number[], columns: number) {
       clothes.setFabrics(fabricIds);
       grid.set(clothes.count, columns);
       stage.surroundings.setShadows(clothes.count <= MOST_SHADOWED_PANES);
       stage.refit();
       redraw();
     },
-    showFrame(pane, buffer) {
+    showFrame(pane: number, buffer: ArrayBuffer) {
       clothes.setFrame(pane, buffer);
       redraw();
     },
-    setMarks(newMarks) {
+    setMarks(newMarks: readonly HoldMark[]) {
       marks.set(newMarks);
       redraw();
     },
-    setBodies(bodies) {
+    setBodies(bodies: Collider[]) {
       stage.surroundings.setColliders(bodies);
       redraw();
     },
-    choose(pane) {
-      own.chosen = pane;
+    /** The pane that keys take the cloth in. */
+    choose(pane: number) {
+      chosen = pane;
     },
-    invite(vertex) {
-      own.inviting = vertex;
-      redraw();
-    },
-    setEdges(isShown) {
+    invite: held.invite,
+    setEdges(isShown: boolean) {
       clothes.setEdges(isShown);
       redraw();
     },
-    frame(places) {
-      own.floor = frame(stage, places);
+    /** Sets the view so that these places are seen, three numbers each [m]. */
+    frame(places: readonly number[]) {
+      held.setFloor(frame(stage, places));
     },
     homeView: stage.control.home,
-    stepFrom: (place, direction) =>
+    /** A step to the right, up and away as the viewer sees it, from a place, for one key press [m]. */
+    stepFrom: (place: Triple, direction: Triple) =>
       stepSeen(stage.camera, new Vector3(...place), direction).toArray(),
-    positions: (pane) => clothes.positions(pane),
-    project: (vertex, pane) => own.project(vertex, pane),
+    positions: (pane: number) => clothes.positions(pane),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: held.project,
   };
 }
+
+export type FabricsStage = ReturnType<typeof createFabricsStage>;

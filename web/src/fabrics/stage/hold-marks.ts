@@ -18,15 +18,7 @@ export interface HoldMark {
   isChosen: boolean;
 }
 
-export interface HoldMarks {
-  object: Group;
-  set(marks: readonly HoldMark[]): void;
-  /** Gives all marks their size on the screen. */
-  face(camera: Camera): void;
-  setColours(colours: Record<HoldMark['kind'] | 'chosen', string>): void;
-}
-
-/** As a part of the distance: some 5 pixels on a screen. */
+/** A part of the distance: some 5 pixels on a screen. */
 const RADIUS = 0.0055;
 
 /** Stands on its tip. */
@@ -37,7 +29,7 @@ function pinGeometry(): ConeGeometry {
   return geometry;
 }
 
-export function createHoldMarks(): HoldMarks {
+export function createHoldMarks() {
   const object = new Group();
   const geometries = { pin: pinGeometry(), handle: new SphereGeometry(1, 20, 14) };
   const seen = { depthTest: false, transparent: true, toneMapped: false };
@@ -49,7 +41,7 @@ export function createHoldMarks(): HoldMarks {
   const eye = new Vector3();
   return {
     object,
-    set(marks) {
+    set(marks: readonly HoldMark[]) {
       object.clear();
       for (const { kind, place, isChosen } of marks) {
         const mark = new Mesh(geometries[kind], materials[isChosen ? 'chosen' : kind]);
@@ -59,13 +51,14 @@ export function createHoldMarks(): HoldMarks {
         object.add(mark);
       }
     },
-    face(camera) {
+    /** Gives all marks their size on the screen. */
+    face(camera: Camera) {
       eye.setFromMatrixPosition(camera.matrixWorld);
       for (const mark of object.children) {
         mark.scale.setScalar(RADIUS * eye.distanceTo(mark.position));
       }
     },
-    setColours(colours) {
+    setColours(colours: Record<HoldMark['kind'] | 'chosen', string>) {
       for (const kind of ['pin', 'handle', 'chosen'] as const) {
         materials[kind].color.set(colours[kind]);
       }

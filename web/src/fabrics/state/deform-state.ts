@@ -1,4 +1,4 @@
-// What the view "Fabrics" shows. Only this and the frames travel between its parts.
+// State of the view "Fabrics". Only this and the frames travel between its parts.
 import type { Failure } from '../../shared/bindings/answers';
 import type { FabricOrder } from './fabric-order';
 
@@ -11,22 +11,22 @@ export type Triple = Record<Term, number>;
 /** A fabric of the library, or the visitor's own measurements. */
 export type FabricChoice = { kind: 'named'; name: string } | { kind: 'own'; measures: Triple };
 
-/** What the fit says about the visitor's own measurements. */
+/** The fit's answer to the visitor's own measurements. */
 export interface OwnFabric {
   weights: Triple;
   normalised: Triple;
   /** RMS, in normalised measures. */
-  leaveOneOutError: Triple;
-  /** Those outside the measured range, which were clamped to it. */
+  leave_one_out_error: Triple;
+  /** Measures outside the measured range, which were clamped to it. */
   clamped: Term[];
-  measuredRange: Record<Term, [number, number]>;
+  measured_range: Record<Term, [number, number]>;
   nearest: string;
 }
 
 export interface DeformStep {
   energy: number;
   terms: Triple;
-  relativeStep: number;
+  relative_step: number;
   linearised: boolean;
 }
 
@@ -52,7 +52,7 @@ export interface DeformState {
   experiment: string;
   panes: PaneState[]; // 1 to 4, or 15 in the gallery
   gallery: boolean;
-  /** Of the list, and of the panes when all fabrics are shown. */
+  /** Order of the list, and of the panes when all fabrics are shown. */
   order: FabricOrder;
   form: EnergyForm;
   terms: Record<Term, boolean>;

@@ -22,7 +22,7 @@ const MOTIONS = import.meta.glob<string>('../../../../assets/motions/{arms_out,w
 /** The experiment of the visitor's own mesh. */
 export const OWN = 'own';
 
-/** A posture of a figure; the motion that it is of is named by its file. */
+/** A posture of a body; the motion that it is of is named by its file. */
 interface Moment {
   motion: unknown;
 }
@@ -45,7 +45,7 @@ export interface Experiment {
   text: string;
   /** Where the mesh is that it names. */
   meshUrl: string | null;
-  /** What the cloth is drawn onto. */
+  /** The bodies that the cloth is drawn onto. */
   bodies: Collider[];
 }
 
@@ -60,7 +60,7 @@ const TITLES: readonly [string, string][] = [
   ['t_shirt', 'T-shirt'],
 ];
 
-/** The file with its figure's motions written out, as the module reads no other file but a mesh. */
+/** The file with its body's motions written out, as the module reads no other file but a mesh. */
 function textWithMotions(text: string, { figure, ...rest }: DeformFile): string {
   if (!figure) return text;
   const writtenOut = (moment: Moment): Moment => {
@@ -79,7 +79,7 @@ function experimentFrom(id: string, title: string): Experiment | null {
   const file = JSON.parse(text) as DeformFile;
   const mesh = file.cloth.mesh?.obj.replace(/^.*\//, '');
   const bodies = (file.handles ?? []).flatMap(({ onto_sphere: ball }): Collider[] =>
-    ball ? [{ shape: 'sphere', centre: ball.centre_m, radius_m: ball.radius_m }] : [],
+    ball ? [{ shape: 'sphere', centre_m: ball.centre_m, radius_m: ball.radius_m }] : [],
   );
   const meshUrl = mesh ? (MESHES[`../../../../assets/meshes/${mesh}`] ?? null) : null;
   return {

@@ -1,4 +1,4 @@
-// What to expect of each fabric when a handle is pulled, as its recomputed weights have it.
+// Expectations of each fabric when a handle is pulled, from its recomputed weights.
 //
 // Weights are shares inside one fabric: linen weighs bending most, and wool takes three times the moment to
 // bend. How far a pull reaches goes by the weight of recovery alone, in reverse: the mean move of a sheet

@@ -1,18 +1,6 @@
-// What was measured of the shapes that each fabric takes, and the weights that follow from it.
+// Measurements of the shapes that each fabric takes, and the weights that follow from it.
 import { type FabricRecord, fabrics, type SpelledTerm } from '../../shared/fabric/fabric-data';
 import { TERMS, type Term, type Triple } from './deform-state';
-
-/** What was measured of a fabric's shape, and what it weighs in a deformed one. */
-export interface FabricGeometry {
-  /** Ratios, v. */
-  measures: Triple;
-  /** v', within [0, 1]. */
-  normalised: Triple;
-  /** The shares of v': what the source means. They add up to one. */
-  recomputed: Triple;
-  /** The source's weights as printed, with its slips. */
-  published: Triple;
-}
 
 export function triple(of: (term: Term) => number): Triple {
   return { recovery: of('recovery'), stretch: of('stretch'), bending: of('bending') };
@@ -24,13 +12,17 @@ const SPELLED: Record<Term, SpelledTerm> = {
   bending: 'bend',
 };
 
-export function geometryOf({ seed_table: row }: FabricRecord): FabricGeometry {
+export function geometryOf({ seed_table: row }: FabricRecord) {
   const normalised = triple((term) => row[`vn_${SPELLED[term]}`]);
   const sum = TERMS.reduce((total, term) => total + normalised[term], 0);
   return {
+    /** Ratios, v. */
     measures: triple((term) => row[`v_${SPELLED[term]}`]),
+    /** v', within [0, 1]. */
     normalised,
+    /** The shares of v': what the source means. They add up to one. */
     recomputed: triple((term) => normalised[term] / sum),
+    /** The source's weights as printed, with its slips. */
     published: triple((term) => row[`weight_${SPELLED[term]}_percent`] / 100),
   };
 }

@@ -11,7 +11,7 @@ const QUANTITIES: Record<FabricOrder, FabricQuantity | null> = {
   stretch: 'stretch_warp_n_per_m',
 };
 
-/** What the list is ordered by; null for the numbers of the source. */
+/** The number that the list is ordered by; null for the numbers of the source. */
 export function quantityOf(order: FabricOrder): FabricQuantity | null {
   return QUANTITIES[order];
 }

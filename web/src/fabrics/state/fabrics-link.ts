@@ -24,7 +24,7 @@ const FIRST_FABRICS: readonly FabricChoice[] = ['silk', 'linen'].map((name) => (
   name,
 }));
 
-/** Before the number of a vertex. */
+/** Letter before the number of a vertex. */
 const LETTERS = { pin: 'p', handle: 'h' } as const;
 
 function measuresText({ recovery, stretch, bending }: Record<Term, number>): string {

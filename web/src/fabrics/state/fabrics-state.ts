@@ -17,7 +17,7 @@ import { geometryOf } from './fabric-geometry';
 import { orderedFabrics } from './fabric-order';
 import type { Hold } from './holds';
 
-/** What a press on the cloth does: a hand takes it, or a pin goes in or out. */
+/** Effect of a press on the cloth: a hand takes it, or a pin goes in or out. */
 export type Tool = 'pull' | 'pin';
 
 export interface FabricsState extends DeformState {
@@ -27,13 +27,13 @@ export interface FabricsState extends DeformState {
   holds: readonly Hold[];
   /** The experiment's holds, before a visitor changed them. */
   ownHolds: Hold[];
-  /** What is shown when it is not all fabrics: one to four. */
+  /** The fabrics that are shown when it is not all of them: one to four. */
   compared: FabricChoice[];
   cloth: ClothAnswer | null;
   /** The visitor's mesh, once there is one. */
   objName: string | null;
   objUnit: ObjUnit;
-  /** What is odd about its size, in words. */
+  /** Words on what is odd about its size. */
   objOdd: string | null;
   /** Name of the visitor's file that is being read. */
   reading: string | null;
@@ -118,7 +118,7 @@ export function settlingPanes(panes: readonly PaneState[]): PaneState[] {
   return panes.map((pane) => ({ ...pane, status: 'settling' }));
 }
 
-/** What a link said that could not be followed, after what was known of it already. */
+/** The failure for parts of a link that could not be followed, after what was known of it already. */
 export function linkFailure(problems: readonly string[], known: Failure | null): Failure | null {
   if (problems.length === 0) return known;
   const before = known?.what ?? 'The link could not be read fully.';

@@ -1,4 +1,4 @@
-// What holds a deformed cloth: pins and handles, and where each has its vertices.
+// Holds of a deformed cloth: pins and handles, and where each has its vertices.
 import type { Triple } from '../../shared/bindings/geometry';
 import type { ClothAnswer } from '../bindings/deform-module';
 import type { NamedHold } from './deform-state';
@@ -72,7 +72,7 @@ function connectedParts(vertices: readonly number[], triangles: Uint32Array): nu
   return [...new Set(parts.values())].map((part) => part.sort((a, b) => a - b));
 }
 
-/** What holds an experiment before a visitor does. */
+/** The holds of an experiment before a visitor changes them. */
 export function holdsOf(answer: ClothAnswer, triangles: Uint32Array): Hold[] {
   const named = new Map(
     answer.groups.map(({ name, vertices }) => [vertices.join(), name.replaceAll('_', ' ')]),

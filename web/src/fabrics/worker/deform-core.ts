@@ -26,7 +26,7 @@ export interface Turns {
 }
 
 /**
- * What a pane is at: following the hand, about to settle, on its way to the least energy, on its
+ * State of a pane: following the hand, about to settle, on its way to the least energy, on its
  * way there from rest to see if that ends lower, or done.
  */
 type Stage = 'following' | 'to_settle' | 'from_here' | 'from_rest' | 'done';
@@ -37,7 +37,7 @@ interface Pane {
   isFresh: boolean;
   /** A second way, from rest, may end lower. */
   triesRest: boolean;
-  /** What holds it has moved since. */
+  /** True when its holds have moved since. */
   isBehind: boolean;
   /** It has work to do; while following, until the factor at hand leads no further. */
   isBusy: boolean;

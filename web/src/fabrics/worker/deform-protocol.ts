@@ -33,7 +33,7 @@ export interface DeformFrame {
   type: 'frame';
   cloth: number;
   pane: number;
-  /** As of any frame (frame.ts); it holds no scalar. To be given back. */
+  /** Laid out as any frame (frame.ts), without a scalar. To be given back. */
   buffer: ArrayBuffer;
   status: DeformStatus;
   report: DeformReport;
@@ -48,7 +48,7 @@ export interface OpenedMessage {
   triangles: Uint32Array;
 }
 
-/** What is shown, or what holds the cloth, is as it was asked for. */
+/** The shown fabrics, or the holds, are as they were asked for. */
 export interface GrantedMessage {
   type: 'granted';
   what: 'show' | 'hold';

@@ -1,13 +1,11 @@
 // The cases to choose from.
-import { element } from '../../shared/panels/element';
+import { button, element } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { CASES } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
 
 export function createCaseList(parent: HTMLElement, store: Store<FailuresState>): () => void {
-  const buttons = CASES.map(({ id, title }) =>
-    element('button', { type: 'button', click: () => store.set({ caseId: id }) }, title),
-  );
+  const buttons = CASES.map(({ id, title }) => button(title, () => store.set({ caseId: id })));
   parent.append(
     element(
       'section',

@@ -1,6 +1,6 @@
 // Play, pause, step, reset, speed, view, time: one row under the stage.
 import { element, setText } from '../../shared/panels/element';
-import { createRunTools, type RunActions } from '../../shared/panels/run-tools';
+import { createRunTools, type Playable } from '../../shared/panels/run-tools';
 import { type Store, watch } from '../../shared/state/store';
 import { caseNamed } from '../state/failure-cases';
 import type { FailuresState } from '../state/failures-state';
@@ -15,9 +15,17 @@ const WORDS = {
 export function createDuelTools(
   parent: HTMLElement,
   store: Store<FailuresState>,
-  actions: RunActions,
+  run: Playable,
+  homeView: () => void,
 ): () => void {
-  const stopTools = createRunTools(parent, store, actions, WORDS, (phase) => phase === 'ready');
+  const stopTools = createRunTools(
+    parent,
+    store,
+    run,
+    homeView,
+    WORDS,
+    (phase) => phase === 'ready',
+  );
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
   parent.append(time);
   const stop = watch(store, ['timeS', 'caseId'], ({ timeS, caseId }) => {

@@ -1,4 +1,4 @@
-// Above each pane: whose it is, what it costs, and the sign that it shows.
+// Badges above each pane: whose it is, what it costs, and the sign that it shows.
 import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';

@@ -18,7 +18,7 @@ export interface ShownSign {
   sentence: string;
 }
 
-/** What a side shows by now, the first sign first. */
+/** The signs that a side shows by now, the first one first. */
 export function signsOf({ warnings, ended }: SideState): ShownSign[] {
   const signs = warnings.map(
     (warning): ShownSign => ({

@@ -1,22 +1,25 @@
 // Plays both sides of a case in step.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+
 import type { Collider } from '../../shared/bindings/geometry';
+import { brokenFailure, failureOf } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import { createPacer } from '../../shared/state/pacer';
+import {
+  affordable,
+  type Clock,
+  createClock,
+  DISPLAY,
+  type Display,
+} from '../../shared/state/clock';
+import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import type { FrameMessage } from '../../shared/workers/motion-protocol';
 import { caseNamed, SIDES, type Side, STEP_S, sceneTextOf } from '../state/failure-cases';
 import { type FailuresState, freshSides, type SideState } from '../state/failures-state';
 import { type StartSide, startSideWorker } from './failures-client';
 import { SideRun, type SideStart } from './side-run';
 
-/** What is drawn of a duel. */
+/** The picture of a duel. */
 export interface DuelView {
   showMesh(pane: number, mesh: SideStart): void;
   /** The frame's buffer belongs to the picture until the next; returns the one before. */
@@ -29,18 +32,11 @@ export interface DuelView {
 }
 
 /** The parts of the browser that a duel needs: tests have their own. */
-export interface DuelParts {
+export interface DuelParts extends Display {
   start: StartSide;
-  /** Calls back with the next picture. */
-  later(callback: () => void): void;
-  nowMs(): number;
 }
 
-const BROWSER: DuelParts = {
-  start: startSideWorker,
-  later: (callback) => requestAnimationFrame(callback),
-  nowMs: () => performance.now(),
-};
+const BROWSER: DuelParts = { ...DISPLAY, start: startSideWorker };
 
 function sideAfter(before: SideState, { report, hasEnded }: FrameMessage, msPerStep: number) {
   if (!report) return before;
@@ -54,13 +50,12 @@ function sideAfter(before: SideState, { report, hasEnded }: FrameMessage, msPerS
 }
 
 export class Duel {
-  private readonly pacer = createPacer();
+  private readonly clock: Clock;
   private readonly sides: Record<Side, SideRun>;
-  private wanted = 0; // counts loads and resets: what belongs to an earlier one is dropped
+  private readonly latest = new Latest(); // load or reset
   private work: Promise<unknown> = Promise.resolve();
   private isStepping = false;
   private nSteps = 0;
-  private lastMs = 0;
   private msPerStep: number | null = null;
 
   constructor(
@@ -68,6 +63,7 @@ export class Duel {
     private readonly view: DuelView,
     private readonly parts: DuelParts = BROWSER,
   ) {
+    this.clock = createClock(parts);
     const broken = (reason: string) => this.breakDown(reason);
     const sideRun = () => new SideRun(parts.start({ broken }), fabricsText);
     this.sides = { naive: sideRun(), ours: sideRun() };
@@ -80,10 +76,8 @@ export class Duel {
   play(): void {
     if (this.store.get().phase !== 'ready') return;
     const go = () => {
-      this.lastMs = this.parts.nowMs();
-      this.pacer.clear();
       this.store.set({ playing: true });
-      this.parts.later(() => this.tick());
+      this.clock.start(() => this.tick());
     };
     if (this.isAtEnd()) void this.reset().then(go);
     else go();
@@ -113,14 +107,13 @@ export class Duel {
 
   /** One thing after the other: a step under way ends before cloth begins anew. */
   private begin(start: (side: Side) => Promise<SideStart>, isFramed: boolean): Promise<void> {
-    this.wanted += 1;
-    const { wanted } = this;
+    const isCurrent = this.latest.start();
     this.store.set({ phase: 'loading', playing: false });
     const begun = this.work.then(async () => {
-      if (wanted !== this.wanted) return;
+      if (!isCurrent()) return;
       try {
         const starts = await Promise.all(SIDES.map(start));
-        if (wanted === this.wanted) this.showStarts(starts, isFramed);
+        if (isCurrent()) this.showStarts(starts, isFramed);
       } catch (error) {
         this.giveUp(error);
       }
@@ -143,17 +136,13 @@ export class Duel {
     this.store.set({ phase: 'ready', timeS: 0, sides: freshSides() });
   }
 
-  private tick(): void {
+  private tick(): boolean {
     const { playing, speed } = this.store.get();
-    if (!playing) return;
-    const nowMs = this.parts.nowMs();
-    this.pacer.advance(((nowMs - this.lastMs) / 1000) * speed);
-    this.lastMs = nowMs;
-    if (!this.isStepping) {
-      const count = this.pacer.take(STEP_S, this.msPerStep);
-      if (count > 0) void this.advance(count);
-    }
-    this.parts.later(() => this.tick());
+    this.clock.tick(speed);
+    if (!playing || this.isStepping) return playing;
+    const count = this.clock.take(STEP_S, affordable(this.msPerStep));
+    if (count > 0) void this.advance(count);
+    return true;
   }
 
   private advance(wish: number): Promise<void> {
@@ -172,7 +161,7 @@ export class Duel {
   }
 
   private async stepBoth(count: number): Promise<void> {
-    const { wanted } = this;
+    const isCurrent = this.latest.mark();
     const sides = { ...this.store.get().sides };
     const begunMs = this.parts.nowMs();
     const frames = await Promise.all(
@@ -184,7 +173,7 @@ export class Duel {
       }),
     );
     this.msPerStep = (this.parts.nowMs() - begunMs) / count;
-    if (wanted !== this.wanted) return; // what begins anew has buffers of its own
+    if (!isCurrent()) return; // what begins anew has buffers of its own
     frames.forEach((frame, pane) => {
       const side = SIDES[pane];
       if (!frame || !side) return;
@@ -204,13 +193,11 @@ export class Duel {
 
   private giveUp(error: unknown): void {
     if (error instanceof BrokenWorker) return; // its listener hears
-    const problem: Failure =
-      error instanceof Refused ? error.failure : internalFailure(describe(error));
-    this.store.set({ playing: false, problem });
+    this.store.set({ playing: false, problem: failureOf(error) });
   }
 
   private breakDown(reason: string): void {
-    const problem = internalFailure(brokenSentence('The cloth', reason));
+    const problem = brokenFailure('The cloth', reason);
     this.store.set({ phase: 'broken', playing: false, problem });
   }
 }

@@ -1,5 +1,6 @@
 // Starts the worker of one side.
 import { type Asked, createAsked, type Listener } from '../../shared/workers/asked';
+import { withCore } from '../../shared/workers/compiled-core';
 import type { FromMotion, MotionAnswers, ToMotion } from '../../shared/workers/motion-protocol';
 
 export type SideClient = Asked<ToMotion, MotionAnswers>;
@@ -7,7 +8,9 @@ export type StartSide = (listener: Listener<FromMotion>) => SideClient;
 
 export function startSideWorker(listener: Listener<FromMotion>): SideClient {
   return createAsked(
-    new Worker(new URL('../worker/failures-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(
+      new Worker(new URL('../worker/failures-worker.ts', import.meta.url), { type: 'module' }),
+    ),
     listener,
   );
 }

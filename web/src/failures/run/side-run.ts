@@ -24,12 +24,12 @@ export class SideRun {
   }
 
   async load(sceneText: string): Promise<SideStart> {
-    const question = { type: 'load', sceneText, keepMotion: false, request: 0 } as const;
+    const question = { type: 'load', sceneText, keepMotion: false } as const;
     return this.start(await this.client.ask(question));
   }
 
   async reset(): Promise<SideStart> {
-    return this.start(await this.client.ask({ type: 'reset', request: 0 }));
+    return this.start(await this.client.ask({ type: 'reset' }));
   }
 
   /** The frame after so many steps; null once the run has ended. */
@@ -37,10 +37,9 @@ export class SideRun {
     const buffer = this.spare;
     if (this.hasEnded || !buffer) return null;
     this.spare = null;
-    const answer = await this.client.ask(
-      { type: 'step', count, wantsNumbers: true, request: 0, buffer },
-      [buffer],
-    );
+    const answer = await this.client.ask({ type: 'step', count, wantsNumbers: true, buffer }, [
+      buffer,
+    ]);
     if (answer.type !== 'frame') return null;
     this.hasEnded = answer.hasEnded;
     return answer;
@@ -59,7 +58,7 @@ export class SideRun {
     const springEnds =
       triangles.length > 0
         ? new Uint32Array(0)
-        : (await this.client.ask({ type: 'readSprings', request: 0 })).ends;
+        : (await this.client.ask({ type: 'readSprings' })).ends;
     return { triangles, springEnds, buffer, colliders, nVertices: summary.n_vertices };
   }
 }

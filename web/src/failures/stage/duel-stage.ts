@@ -19,21 +19,6 @@ export interface DuelMesh {
   nVertices: number;
 }
 
-export interface DuelStage {
-  showMesh(pane: number, mesh: DuelMesh): void;
-  showFrame(pane: number, buffer: ArrayBuffer): void;
-  setColliders(colliders: Collider[]): void;
-  /** Shows all of what stands in the first pane. */
-  frame(colliders: Collider[]): void;
-  /** Keeps the middle of what stands in a pane in the middle of the picture. */
-  follow(pane: number): void;
-  /** Panes side by side, or one above the other. */
-  setColumns(nColumns: number): void;
-  setFabric(id: number): void;
-  homeView(): void;
-  positions(pane: number): Float32Array;
-}
-
 const N_PANES = 2;
 
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
@@ -41,7 +26,7 @@ export function createDuelStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: DuelStageEvents,
-): DuelStage {
+) {
   const clothes: readonly [ClothMesh, ClothMesh] = [createClothMesh(), createClothMesh()];
   const clothOf = (pane: number) => clothes[pane === 0 ? 0 : 1];
   const springs: readonly [SpringLines, SpringLines] = [createSpringLines(), createSpringLines()];
@@ -73,7 +58,7 @@ export function createDuelStage(
   stage.open();
 
   return {
-    showMesh(pane, { triangles, springEnds, nVertices }) {
+    showMesh(pane: number, { triangles, springEnds, nVertices }: DuelMesh) {
       clothOf(pane).setTopology(triangles, nVertices);
       hasSprings[pane] = springEnds.length > 0;
       springsOf(pane).setSplit({
@@ -81,32 +66,37 @@ export function createDuelStage(
         isImplicit: new Int8Array(springEnds.length / 2),
       });
     },
-    showFrame(pane, buffer) {
+    showFrame(pane: number, buffer: ArrayBuffer) {
       clothOf(pane).setFrame(buffer, 'stretch');
       redraw();
     },
     setColliders: stage.surroundings.setColliders,
-    frame(colliders) {
+    /** Shows all of what stands in the first pane. */
+    frame(colliders: Collider[]) {
       const sphere = framedSphere(clothOf(0).positions(), colliders);
       const floor = floorHeight(sphere, colliders);
       frame(stage, sphere, floor);
       redraw();
     },
-    follow(pane) {
+    /** Keeps the middle of what stands in a pane in the middle of the picture. */
+    follow(pane: number) {
       const box = new Box3().setFromArray(clothOf(pane).positions());
       stage.control.follow(box.getCenter(new Vector3()));
       redraw();
     },
-    setColumns(nColumns) {
+    /** Panes side by side, or one above the other. */
+    setColumns(nColumns: number) {
       grid.set(N_PANES, nColumns);
       stage.refit();
       redraw();
     },
-    setFabric(id) {
+    setFabric(id: number) {
       for (const cloth of clothes) cloth.setLook(lookOf(id));
       redraw();
     },
     homeView: stage.control.home,
-    positions: (pane) => clothOf(pane).positions(),
+    positions: (pane: number) => clothOf(pane).positions(),
   };
 }
+
+export type DuelStage = ReturnType<typeof createDuelStage>;

@@ -15,7 +15,7 @@ import type { RunWarning } from '../../shared/bindings/run-warning';
 export const SIDES = ['naive', 'ours'] as const;
 export type Side = (typeof SIDES)[number];
 
-/** What tells that a run is no cloth any more: a warning, or that it had to end. */
+/** A sign that a run is no cloth any more: a warning, or that it had to end. */
 export type Sign = RunWarning['kind'] | 'ended';
 
 interface Contestant {
@@ -24,15 +24,15 @@ interface Contestant {
 }
 
 export interface FailureCase extends Record<Side, Contestant> {
-  /** Of its scene in assets/hard_cases, as it stands in links and after `./pleat hard-cases`. */
+  /** Name of its scene in assets/hard_cases, as it stands in links and after `./pleat hard-cases`. */
   id: string;
   title: string;
-  /** What breaks, and why. */
+  /** The thing that breaks, and why. */
   lesson: string;
-  /** What holds it. */
+  /** The method that holds it. */
   remedy: string;
   sceneText: string;
-  /** What the naive side shows; ours shows nothing. */
+  /** Signs that the naive side shows; ours shows none. */
   sign: Sign;
   /** How much of it is played [s]. */
   endS: number;

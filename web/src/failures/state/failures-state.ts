@@ -1,4 +1,4 @@
-// What the view of failures shows.
+// State of the view of failures.
 import type { Failure } from '../../shared/bindings/answers';
 import { inputFailure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
@@ -10,7 +10,7 @@ export interface SideState {
   ended: { sentence: string; timeS: number } | null;
   /** Largest |edge strain| now, as a ratio. */
   stretch: number;
-  /** Of a step, as measured while it ran [ms]. */
+  /** Time of a step, as measured while it ran [ms]. */
   msPerStep: number | null;
 }
 

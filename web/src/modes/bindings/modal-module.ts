@@ -1,21 +1,21 @@
 // The class bound by the module that finds modes and in-betweens, and the shape of the texts it answers with.
 import { methodsOf } from '../../shared/bindings/methods';
 
-/** What measures how much a shape costs: the volume inside, the surface alone, or a cloth's own springs. */
+/** The measure of how much a shape costs: the volume inside, the surface alone, or a cloth's own springs. */
 export type Energy = 'volume' | 'surface' | 'cloth';
 
-/** What carries a surface: as it fits, cubes inside, or the surface thickened. */
+/** The volume that carries a surface: as it fits, cubes inside, or the surface thickened. */
 export type VolumeChoice = 'auto' | 'lattice' | 'shell';
 
-/** What the opening calls find. */
+/** Answer of the opening calls. */
 export interface SurfaceAnswer {
   n_vertices: number;
   n_triangles: number;
   /** True where every edge has two triangles. */
   closed: boolean;
-  /** Of a cloth: what its scene holds. */
+  /** Pinned vertices of a cloth. */
   pins?: number[];
-  /** Of a cloth: one step of its run. */
+  /** One step of a cloth's run. */
   step_s?: number;
   /** Which statements of the OBJ file were skipped, counted, in words; missing or empty when none was. */
   skipped?: string;
@@ -23,13 +23,13 @@ export interface SurfaceAnswer {
 
 export interface RunAnswer {
   time_s: number;
-  /** Of the fastest vertex. */
+  /** Speed of the fastest vertex. */
   speed_m_per_s: number;
 }
 
 export interface ModesAnswer {
   /**
-   * Of each mode beside the rigid ones, ascending: the square of its angular frequency, of a cloth [1/s²], of a
+   * Square of the angular frequency of each mode beside the rigid ones, ascending: of a cloth [1/s²], of a
    * volume under 1 Pa and 1 kg/m³, of a surface under 1 N/m and 1 kg/m².
    */
   stiffness: number[];
@@ -59,13 +59,13 @@ export interface FilledFrame {
   time: number;
   /** The key at its time or the last one before. */
   left: number;
-  shareOfNext: number;
-  unequalHalves: number;
+  share_of_next: number;
+  unequal_halves: number;
   volume_m3: number;
-  straightVolume_m3: number;
+  straight_volume_m3: number;
   /** Root of the mean square of how far each piece is from a turned copy of itself; a ratio. */
   strain: number;
-  straightStrain: number;
+  straight_strain: number;
 }
 
 /** One surface, or one cloth of a scene, its modes and its key shapes. */
@@ -93,7 +93,7 @@ export interface ModalStudyHandle {
   shape(): Float64Array;
   /** The shape that readKey found. */
   key(): Float64Array;
-  /** Of each mode, where the farthest vertex moves by 1. */
+  /** Moves of each mode, where the farthest vertex moves by 1. */
   moves(): Float32Array;
   /** Surfaces of all frames, one after the other. */
   filled(): Float64Array;

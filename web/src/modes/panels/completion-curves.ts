@@ -30,7 +30,7 @@ const VOLUME: Curve = {
   title: 'Volume [% of the first key’s]',
   fromZero: false,
   ours: ({ volume_m3 }, rest) => (100 * volume_m3) / rest,
-  straight: ({ straightVolume_m3 }, rest) => (100 * straightVolume_m3) / rest,
+  straight: ({ straight_volume_m3 }, rest) => (100 * straight_volume_m3) / rest,
 };
 
 const SHELL_VOLUME: Curve = { ...VOLUME, title: 'Volume of the shell [% of the first key’s]' };
@@ -39,7 +39,7 @@ const ENERGY: Curve = {
   title: 'Energy, of soft rubber [J]',
   fromZero: true,
   ours: ({ strain }, rest) => energyOf(strain, rest),
-  straight: ({ straightStrain }, rest) => energyOf(straightStrain, rest),
+  straight: ({ straight_strain }, rest) => energyOf(straight_strain, rest),
 };
 
 /** Where the thickness is made up, joules would be too. */
@@ -47,7 +47,7 @@ const STRAIN: Curve = {
   title: 'Root of the energy, as mean strain [%]',
   fromZero: true,
   ours: ({ strain }) => 100 * strain,
-  straight: ({ straightStrain }) => 100 * straightStrain,
+  straight: ({ straight_strain }) => 100 * straight_strain,
 };
 
 /** Room below and above for what hardly changes [%]. */

@@ -7,8 +7,8 @@ import type { FilledFrame } from '../bindings/modal-module';
 const HEADS = ['Key', 'Volume', 'straight', 'Strain', 'straight'];
 
 function tableRow(frame: FilledFrame, rest_m3: number): HTMLElement {
-  const { time, volume_m3, straightVolume_m3, strain, straightStrain } = frame;
-  const ratios = [volume_m3 / rest_m3, straightVolume_m3 / rest_m3, strain, straightStrain];
+  const { time, volume_m3, straight_volume_m3, strain, straight_strain } = frame;
+  const ratios = [volume_m3 / rest_m3, straight_volume_m3 / rest_m3, strain, straight_strain];
   return element(
     'tr',
     {},

@@ -1,4 +1,4 @@
-// What the in-betweens show, in words.
+// Words on what the in-betweens show.
 import { percent } from '../../shared/panels/quantity';
 import type { FilledFrame } from '../bindings/modal-module';
 import type { Completion, ModesState } from '../state/modes-state';
@@ -6,13 +6,13 @@ import type { Completion, ModesState } from '../state/modes-state';
 /** A frame's volume over what the keys beside it lead one to expect. */
 function ratio(frames: readonly FilledFrame[], frame: FilledFrame, volume_m3: number): number {
   const keyVolume = (key: number) =>
-    frames.find(({ left, shareOfNext }) => left === key && shareOfNext === 0)?.volume_m3;
+    frames.find(({ left, share_of_next }) => left === key && share_of_next === 0)?.volume_m3;
   const from = keyVolume(frame.left) ?? volume_m3;
   const to = keyVolume(frame.left + 1) ?? from;
-  return volume_m3 / (from + frame.shareOfNext * (to - from));
+  return volume_m3 / (from + frame.share_of_next * (to - from));
 }
 
-/** Those ratios farthest from 1: of the in-betweens and of the straight way. */
+/** Ratios farthest from 1: of the in-betweens and of the straight way. */
 export function worstVolumes({ frames }: Pick<Completion, 'frames'>): {
   ours: number;
   straight: number;
@@ -23,7 +23,7 @@ export function worstVolumes({ frames }: Pick<Completion, 'frames'>): {
       .reduce((worst, one) => (Math.abs(one - 1) > Math.abs(worst - 1) ? one : worst), 1);
   return {
     ours: farthest((frame) => frame.volume_m3),
-    straight: farthest((frame) => frame.straightVolume_m3),
+    straight: farthest((frame) => frame.straight_volume_m3),
   };
 }
 
@@ -36,7 +36,7 @@ function changeWords(change: number): string {
 const SEEN = 0.01;
 const MUCH_WORSE = 2;
 
-/** What to notice on the timeline. */
+/** Words on what to notice on the timeline. */
 export function storyWords({ completion, keys, phase, working }: ModesState): string {
   if (phase === 'loading' || working) return 'The in-betweens are on their way.';
   if (keys.length < 2) return 'Two keys make a motion: mix some modes and keep them as a key.';
@@ -51,7 +51,7 @@ export function storyWords({ completion, keys, phase, working }: ModesState): st
 
 /** How well each in-between is half way. */
 export function halvesWords({ frames }: Completion): string {
-  const most = Math.max(0, ...frames.map(({ unequalHalves }) => unequalHalves));
+  const most = Math.max(0, ...frames.map(({ unequal_halves }) => unequal_halves));
   const shown = most < 1e-4 ? 'less than 0.01 %' : percent(most);
   return `Each in-between is the shape half way between two others. Its way to one and to the other differ by ${shown} at most.`;
 }

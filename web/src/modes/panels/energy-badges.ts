@@ -1,4 +1,4 @@
-// What each pane shows: the energy whose modes are mixed, and how much of the volume that leaves.
+// Badges of what each pane shows: the energy whose modes are mixed, and how much of the volume that leaves.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';

@@ -1,5 +1,6 @@
 // The lowest modes: each alone by its button, any mix by the sliders.
-import { choice, element, field, setText } from '../../shared/panels/element';
+import { button, choice, element, field, setText } from '../../shared/panels/element';
+import { createSegments, type Segment } from '../../shared/panels/segments';
 import { type Store, watch } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';
 import { COUNTS, energiesOf, type ModeCount, type ModesState } from '../state/modes-state';
@@ -61,47 +62,10 @@ function createRow(mode: number, actions: ModeListActions): Row {
   };
 }
 
-interface EnergyOption {
-  value: Energy | 'both';
-  title: string;
-}
-
-function energyOptions(model: string): EnergyOption[] {
+/** The choices of an energy, or of both side by side. */
+function energyOptions(model: string): Segment<Energy | 'both'>[] {
   const own = energiesOf(model).map((energy) => ({ value: energy, title: ENERGY_TITLES[energy] }));
   return [...own, { value: 'both', title: 'Both' }];
-}
-
-/** The choice of an energy, or of both side by side. */
-function createEnergySwitch(choose: (option: EnergyOption['value']) => void) {
-  const control = element('div', {
-    class: 'segments',
-    role: 'radiogroup',
-    'aria-label': 'Energy',
-  });
-  let shown: EnergyOption[] = [];
-  let inputs: HTMLInputElement[] = [];
-  return {
-    control,
-    show({ model, energy, compares }: ModesState) {
-      const options = energyOptions(model);
-      if (options.length !== shown.length) {
-        shown = options;
-        inputs = options.map(({ value }) =>
-          element('input', { type: 'radio', name: 'energy', change: () => choose(value) }),
-        );
-        control.replaceChildren(
-          ...options.map(({ title }, index) =>
-            element('label', {}, inputs[index] ?? '', element('span', {}, title)),
-          ),
-        );
-      }
-      const present = compares ? 'both' : energy;
-      options.forEach(({ value }, index) => {
-        const input = inputs[index];
-        if (input) input.checked = value === present;
-      });
-    },
-  };
 }
 
 export function createModeList(
@@ -109,9 +73,13 @@ export function createModeList(
   store: Store<ModesState>,
   actions: ModeListActions,
 ): void {
-  const energies = createEnergySwitch((option) =>
-    option === 'both' ? actions.setEnergy('volume', true) : actions.setEnergy(option, false),
+  const energies = createSegments(
+    'energy',
+    { class: 'segments', 'aria-label': 'Energy' },
+    (option: Energy | 'both') =>
+      option === 'both' ? actions.setEnergy('volume', true) : actions.setEnergy(option, false),
   );
+  let nEnergies = 0;
   const meaning = element('p', { class: 'note' });
   const note = element('p', { class: 'note' });
   const list = element('ol', { class: 'mode-list', 'aria-label': 'Modes' });
@@ -119,11 +87,7 @@ export function createModeList(
     COUNTS.map((value) => ({ value, title: String(value) })),
     actions.setCount,
   );
-  const rest = element(
-    'button',
-    { type: 'button', class: 'wide', click: () => store.set({ amplitudes: [] }) },
-    'All to zero',
-  );
+  const rest = button('All to zero', () => store.set({ amplitudes: [] }), { class: 'wide' });
   parent.append(
     element(
       'section',
@@ -155,7 +119,10 @@ export function createModeList(
       list.replaceChildren(...rows.map(({ item }) => item));
     }
     for (const row of rows) row.show(state);
-    energies.show(state);
+    const options = energyOptions(state.model);
+    if (options.length !== nEnergies) energies.setOptions(options);
+    nEnergies = options.length;
+    energies.select(state.compares ? 'both' : state.energy);
     count.select(state.count);
     rest.disabled = state.amplitudes.every((amplitude) => amplitude === 0);
     setText(meaning, energyMeaning(state));

@@ -50,7 +50,7 @@ function beamNote({ modes, energy }: FoundModes, model: string): string {
 const SWELLING =
   'A mode moves every point straight, so that a large swing swells the body. Between keys it does not.';
 
-/** What to know of the list of modes. */
+/** Words on the list of modes. */
 export function modesNote(found: FoundModes | null, state: ModesState): string {
   if (!found) return '';
   const { energy, rigid, modes, tets } = found;
@@ -78,7 +78,7 @@ const OPEN_MEANINGS: Record<Energy, string> = {
     'The surface alone resists, by how the edges around each of its points stretch and turn against each other.',
 };
 
-/** What the chosen energy means, to a class. */
+/** Words for a class on what the chosen energy means. */
 export function energyMeaning({ energy, compares, surface }: ModesState): string {
   if (surface && !surface.closed)
     return compares

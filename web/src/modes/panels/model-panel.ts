@@ -1,8 +1,8 @@
 // Which body is shown, what to notice in it, how its volume is made, and the visitor's mesh.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
-import { createObjUnit } from '../../shared/panels/obj-unit';
-import { OBJ_UNITS, type ObjUnit } from '../../shared/state/obj-file';
+import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';
+import type { ObjUnit } from '../../shared/state/obj-file';
 import { type Store, watch } from '../../shared/state/store';
 import type { VolumeChoice } from '../bindings/modal-module';
 import { BAR_CELLS, type BarCells, MODELS, modelOf, OWN } from '../state/models';
@@ -26,17 +26,12 @@ function captionOf({ model, objName }: ModesState): string {
   return modelOf(model)?.caption ?? `${objName ?? 'Your mesh'}: its softest ways to move.`;
 }
 
-function meshWords({ surface, model, objUnit, objOdd }: ModesState): string {
+function meshWords(state: ModesState): string {
+  const { surface, model } = state;
   if (!surface) return '';
   const kind = surface.closed ? 'closed' : 'open';
   const size = `${surface.n_vertices} vertices, ${surface.n_triangles} triangles, ${kind}`;
-  if (model !== OWN) return `${size}.`;
-  const unit = OBJ_UNITS.find(({ value }) => value === objUnit)?.title;
-  const parts = [`${size}, taken in ${unit}.`];
-  if (objOdd) parts.push(objOdd);
-  if (surface.skipped) parts.push(`${surface.skipped}.`);
-  parts.push('It stays on this machine, and no link carries it.');
-  return parts.join(' ');
+  return model === OWN ? ownMeshWords(size, state, surface.skipped) : `${size}.`;
 }
 
 export function createModelPanel(

@@ -68,7 +68,7 @@ const OF_KEYS: readonly Item[] = [
     text: ({ completion, time }) =>
       completion
         ? ratioText(
-            valueAt(completion.frames, time, (frame) => frame.straightVolume_m3),
+            valueAt(completion.frames, time, (frame) => frame.straight_volume_m3),
             completion.frames[0]?.volume_m3 ?? 1,
           )
         : '–',

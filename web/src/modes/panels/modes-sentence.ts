@@ -1,4 +1,4 @@
-// What a screen reader hears of the view of modes: events, not running numbers.
+// Sentences that a screen reader hears of the view of modes: events, not running numbers.
 import { modelOf } from '../state/models';
 import type { ModesState } from '../state/modes-state';
 import { storyWords } from './completion-words';

@@ -1,7 +1,8 @@
 // The row under the stage: what is shown, play, speed, view, ghost, edges, and the shape as a file.
-import { choice, element } from '../../shared/panels/element';
+import { button, checkBox } from '../../shared/panels/element';
+import { speedChoice } from '../../shared/panels/run-tools';
+import { createSegments, type Segment } from '../../shared/panels/segments';
 import { toolButton } from '../../shared/panels/tool-button';
-import { SPEEDS } from '../../shared/state/speeds';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState, Showing } from '../state/modes-state';
 
@@ -11,39 +12,10 @@ export interface ModesToolActions {
   saveObj(): void;
 }
 
-const SHOWINGS: readonly { value: Showing; title: string; meaning: string }[] = [
+const SHOWINGS: readonly Segment<Showing>[] = [
   { value: 'modes', title: 'Modes', meaning: 'The mix of modes, as the sliders have it (M)' },
   { value: 'keys', title: 'Key frames', meaning: 'The motion through the key shapes (M)' },
 ];
-
-const SPEED_TITLES: Record<number, string> = { 1: '1 ×', 0.5: '1/2 ×', 0.25: '1/4 ×' };
-
-function createShowingSwitch(choose: (showing: Showing) => void) {
-  const inputs = SHOWINGS.map(({ value }) =>
-    element('input', { type: 'radio', name: 'showing', change: () => choose(value) }),
-  );
-  const labels = SHOWINGS.map(({ title, meaning }, index) =>
-    element('label', { title: meaning }, inputs[index] ?? '', element('span', {}, title)),
-  );
-  return {
-    control: element(
-      'div',
-      { class: 'segments showing-switch', role: 'radiogroup', 'aria-label': 'What is shown' },
-      ...labels,
-    ),
-    select(showing: Showing) {
-      SHOWINGS.forEach(({ value }, index) => {
-        const input = inputs[index];
-        if (input) input.checked = value === showing;
-      });
-    },
-  };
-}
-
-function checkBox(title: string, change: (isOn: boolean) => void) {
-  const box = element('input', { type: 'checkbox', change: () => change(box.checked) });
-  return { box, label: element('label', { class: 'check' }, box, title) };
-}
 
 export function createModesTools(
   parent: HTMLElement,
@@ -52,11 +24,13 @@ export function createModesTools(
 ): void {
   const play = toolButton('play', 'Play', 'Play or pause (space)', actions.togglePlaying);
   play.made.classList.add('primary');
-  const showing = createShowingSwitch((value) => store.set({ showing: value }));
-  const speed = choice(
-    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
-    (value) => store.set({ speed: value }),
+  const showing = createSegments(
+    'showing',
+    { class: 'segments showing-switch', 'aria-label': 'What is shown' },
+    (value: Showing) => store.set({ showing: value }),
+    SHOWINGS,
   );
+  const speed = speedChoice((value) => store.set({ speed: value }));
   speed.control.setAttribute('aria-label', 'Speed');
   const view = toolButton(
     'view',
@@ -66,11 +40,7 @@ export function createModesTools(
   );
   const ghost = checkBox('Straight ghost', (isOn) => store.set({ ghost: isOn }));
   const edges = checkBox('Edges', (isOn) => store.set({ edges: isOn }));
-  const save = element(
-    'button',
-    { type: 'button', title: 'Saves the shape that is shown', click: actions.saveObj },
-    'OBJ',
-  );
+  const save = button('OBJ', actions.saveObj, { title: 'Saves the shape that is shown' });
   parent.append(
     play.made,
     showing.control,
@@ -89,8 +59,8 @@ export function createModesTools(
     save.disabled = !isReady;
     showing.select(state.showing);
     speed.select(state.speed);
-    ghost.box.checked = state.ghost;
-    ghost.box.disabled = state.showing !== 'keys';
-    edges.box.checked = state.edges;
+    ghost.input.checked = state.ghost;
+    ghost.input.disabled = state.showing !== 'keys';
+    edges.input.checked = state.edges;
   });
 }

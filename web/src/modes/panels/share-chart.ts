@@ -20,9 +20,9 @@ const N_RIGID = 6;
 export interface Shares {
   /** A motion in words: "the motion between the keys". */
   motion: string;
-  /** Of the rigid motions together; null where the body has none. */
+  /** Share of the rigid motions together; null where the body has none. */
   rigid: number | null;
-  /** With so many modes more, from one on. */
+  /** Shares with so many modes more, from one on. */
   modes: readonly number[];
 }
 

@@ -1,5 +1,5 @@
 // The timeline: keys on it, the present time, and what makes, changes and removes keys.
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { type KeyOrigin, keyTitle } from '../state/key-shapes';
 import { hasUnlinkedKeys } from '../state/modes-link';
@@ -40,15 +40,17 @@ function createFilePicker(openFiles: (files: readonly File[]) => void) {
 
 function createButtons(actions: TimelineActions) {
   const picker = createFilePicker(actions.openFiles);
-  const button = (title: string, meaning: string, click: () => void) =>
-    element('button', { type: 'button', title: meaning, click }, title);
-  const keep = button('Keep as key', 'The mix of modes becomes the next key', actions.keep);
-  const replace = button('Replace', 'The mix takes the place of the chosen key', actions.replace);
-  const remove = button('Delete', 'Removes the chosen key', actions.delete);
-  const files = button('From OBJ files', 'Keys with the vertices of the model', () =>
-    picker.click(),
-  );
-  const example = button('', 'The keys that the model starts with', actions.example);
+  const keep = button('Keep as key', actions.keep, {
+    title: 'The mix of modes becomes the next key',
+  });
+  const replace = button('Replace', actions.replace, {
+    title: 'The mix takes the place of the chosen key',
+  });
+  const remove = button('Delete', actions.delete, { title: 'Removes the chosen key' });
+  const files = button('From OBJ files', () => picker.click(), {
+    title: 'Keys with the vertices of the model',
+  });
+  const example = button('', actions.example, { title: 'The keys that the model starts with' });
   return {
     row: element('div', { class: 'key-tools' }, keep, replace, remove, files, example, picker),
     show({ keys, phase, model, found }: ModesState) {
@@ -97,7 +99,7 @@ function createKeyMarks(store: Store<ModesState>) {
         ),
       );
     },
-    /** Without new buttons, so that one keeps the focus. */
+    /** Renames the buttons that are there, so that one keeps the focus. */
     choose({ chosenKey }: ModesState) {
       [...marks.children].forEach((mark, index) => {
         mark.setAttribute('aria-pressed', String(index === chosenKey));

@@ -1,5 +1,5 @@
-// What takes long, on the stage, and the way out of it.
-import { element, setText } from '../../shared/panels/element';
+// Work that takes long, told on the stage, and the way out of it.
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { ModesState } from '../state/modes-state';
 
@@ -11,10 +11,10 @@ export function createWorkingBar(
   const what = element('p', { role: 'status' });
   const bar = element(
     'div',
-    { class: 'modes-working' },
+    { class: 'working modes-working' },
     what,
     element('progress', { 'aria-label': 'Computing' }),
-    element('button', { type: 'button', click: cancel }, 'Cancel'),
+    button('Cancel', cancel),
   );
   parent.append(bar);
   watch(store, ['working'], ({ working }) => {

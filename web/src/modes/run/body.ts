@@ -10,7 +10,7 @@ import type { CompletedMessage, OpenedMessage } from '../worker/modal-protocol';
 
 export class Body {
   readonly triangles: Uint32Array;
-  /** What modes are about, three numbers a vertex [m]. */
+  /** The shape that modes are about, three numbers a vertex [m]. */
   readonly shape: Float64Array;
   readonly drape: Float64Array;
   /** Farthest move of a vertex at full amplitude [m]. */
@@ -31,10 +31,6 @@ export class Body {
 
   setMoves(energy: Energy, moves: Float32Array): void {
     this.moves.set(energy, moves);
-  }
-
-  hasMoves(energy: Energy): boolean {
-    return this.moves.has(energy);
   }
 
   dropMoves(): void {

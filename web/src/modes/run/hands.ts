@@ -1,4 +1,4 @@
-// What a visitor does, whichever control it is done with.
+// Actions of a visitor, whichever control they come from.
 import type { Store } from '../../shared/state/store';
 import type { Energy } from '../bindings/modal-module';
 import { enclosedVolume, farthestMove } from '../state/mix';

@@ -1,4 +1,4 @@
-// What a visitor does to the keys: keep, replace, delete, take from files.
+// Changes of the keys by a visitor: keep, replace, delete, take from files.
 import { inputFailure } from '../../shared/bindings/answers';
 import { openObjFile } from '../../shared/state/obj-file';
 import type { KeyOrigin, KeyShape } from '../state/key-shapes';

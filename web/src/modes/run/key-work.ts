@@ -40,7 +40,7 @@ export class KeyWork {
     private readonly refuse: (failure: Failure) => void,
   ) {}
 
-  /** Those between which the worker has filled in, as far as they can be made again. */
+  /** Keys between which the worker has filled in, as far as they can be made again. */
   known(): KeyOrigin[] {
     return remade(this.done);
   }

@@ -1,5 +1,6 @@
 // Starts the worker that finds modes and in-betweens.
 import { type Asked, createAsked, type Listener } from '../../shared/workers/asked';
+import { withCore } from '../../shared/workers/compiled-core';
 import type { ModalAnswers, ToModal } from '../worker/modal-protocol';
 
 export type ModalClient = Asked<ToModal, ModalAnswers>;
@@ -7,7 +8,7 @@ export type StartModal = (listener: Listener<never>) => ModalClient;
 
 export function startModalWorker(listener: Listener<never>): ModalClient {
   return createAsked(
-    new Worker(new URL('../worker/modal-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(new Worker(new URL('../worker/modal-worker.ts', import.meta.url), { type: 'module' })),
     listener,
   );
 }

@@ -15,7 +15,7 @@ import { noticed } from './slow-work';
 /** Cubes in a closed body that comes from a file: as many as a page waits a second or two for. */
 const CUBES = 1500;
 
-/** What carries the present model's surface. */
+/** The volume that carries the present model's surface. */
 export function volumeWish(
   { model, cells, volume, count, surface }: ModesState,
   { shape, triangles }: Body,

@@ -1,13 +1,9 @@
 // Runs the view of modes: turns what a visitor does into questions to the worker, and answers into state.
-import {
-  brokenSentence,
-  describe,
-  type Failure,
-  inputFailure,
-  internalFailure,
-} from '../../shared/bindings/answers';
+import { describe, type Failure, inputFailure } from '../../shared/bindings/answers';
+import { brokenFailure } from '../../shared/bindings/refusals';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { fetched } from '../../shared/page/fetched';
+import { Latest } from '../../shared/state/latest';
 import {
   type ObjFile,
   type ObjUnit,
@@ -47,7 +43,7 @@ interface OwnMesh {
   unit: ObjUnit;
 }
 
-/** What can be opened. */
+/** A model that can be opened. */
 interface Wanted {
   link: ModesLink;
   /** The visitor's mesh, if it is of that. */
@@ -68,7 +64,7 @@ export class ModesRun {
   private body: Body | null = null;
   private own: OwnMesh | null = null;
   private last: Wanted | null = null; // that had its modes
-  private nOpened = 0; // counts what is to be opened: answers to an earlier one are dropped
+  private readonly latest = new Latest(); // opening
 
   constructor(
     readonly store: Store<ModesState>,
@@ -105,8 +101,8 @@ export class ModesRun {
   }
 
   /**
-   * The same body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where that cannot
-   * be, it is as it was.
+   * Opens the present body cut otherwise, or in another volume: its modes and in-betweens are found anew. Where
+   * that cannot be, it is as it was.
    */
   async reopen(changes: Partial<Pick<ModesLink, 'cells' | 'volume' | 'count'>>): Promise<void> {
     const { link, own } = this.now();
@@ -168,20 +164,17 @@ export class ModesRun {
   private startClient(): ModalClient {
     return this.start({
       broken: (reason) =>
-        this.store.set({
-          phase: 'broken',
-          problem: internalFailure(brokenSentence('Modes', reason)),
-        }),
+        this.store.set({ phase: 'broken', problem: brokenFailure('Modes', reason) }),
     });
   }
 
-  /** What stays from one model to the next. */
+  /** A link with the settings that stay from one model to the next. */
   private kept(link: ModesLink): ModesLink {
     const { count, ghost, edges, showing } = this.store.get();
     return { ...link, count, ghost, edges, showing };
   }
 
-  /** What is shown, with the keys that can be made again. */
+  /** The shown model, with the keys that can be made again. */
   private now(): Wanted {
     const state = this.store.get();
     const { model, cells, volume, energy, compares, count, amplitudes } = state;
@@ -211,9 +204,7 @@ export class ModesRun {
 
   private async open(wanted: Wanted): Promise<void> {
     const { link, own } = wanted;
-    this.nOpened += 1;
-    const mark = this.nOpened;
-    const isCurrent = () => mark === this.nOpened;
+    const isCurrent = this.latest.start();
     const before = this.now();
     const isOther = !this.body || before.link.model !== link.model || before.own !== own;
     if (this.store.get().found) this.last = before;

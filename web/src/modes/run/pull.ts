@@ -11,7 +11,7 @@ export class Pull {
   constructor(
     private readonly store: Store<ModesState>,
     private readonly run: ModesRun,
-    /** Whether a body that is let go may swing of itself. */
+    /** True when a body that is let go may swing of itself. */
     private readonly maySwing: () => boolean,
   ) {}
 

@@ -13,7 +13,7 @@ export interface ShapeView {
   showGhost(positions: Float32Array | null): void;
 }
 
-/** What is drawn in each pane. */
+/** The energy whose shape is drawn in each pane. */
 export function shownEnergies({
   showing,
   compares,
@@ -56,7 +56,7 @@ export class Showing {
     this.ghost = new Float32Array(body.shape.length);
   }
 
-  /** What is drawn in a pane; empty before there is anything. */
+  /** Places that are drawn in a pane; empty before there is anything. */
   positions(pane: number): Float32Array {
     return this.panes[pane] ?? new Float32Array(0);
   }

@@ -1,4 +1,5 @@
 // Time that passes: modes that swing at a visible rate, and the way along the keys and back.
+import { createClock } from '../../shared/state/clock';
 import type { Store } from '../../shared/state/store';
 import type { ModeNumbers } from '../state/material';
 import type { ModesState } from '../state/modes-state';
@@ -7,7 +8,7 @@ import type { ModesState } from '../state/modes-state';
 const SLOWEST_HZ = 0.5;
 /** Swings a second that can still be seen. */
 const FASTEST_HZ = 4;
-/** From one key to the next [s]. */
+/** Time from one key to the next [s]. */
 const KEY_S = 1.5;
 /** A tab that was hidden goes on from where it was [s]. */
 const LONGEST_STEP_S = 0.1;
@@ -36,11 +37,10 @@ export function thereAndBack(way: number, length: number): number {
 }
 
 export class Swing {
-  /** Of the modes, since they were set to swing [s]. */
+  /** Time since the modes were set to swing [s]. */
   seconds = 0;
   private way = 0; // along the keys and back
-  private handle = 0;
-  private lastMs = 0;
+  private readonly clock = createClock();
 
   constructor(
     private readonly store: Store<ModesState>,
@@ -54,20 +54,13 @@ export class Swing {
 
   private begin(): void {
     this.way = this.store.get().time;
-    this.lastMs = performance.now();
-    window.cancelAnimationFrame(this.handle);
-    this.next();
+    this.clock.start(() => this.tick());
   }
 
-  private next(): void {
-    this.handle = window.requestAnimationFrame((nowMs) => this.tick(nowMs));
-  }
-
-  private tick(nowMs: number): void {
+  private tick(): boolean {
     const { playing, showing, speed, keys, completion } = this.store.get();
-    if (!playing) return;
-    const step = speed * Math.min(LONGEST_STEP_S, Math.max(0, (nowMs - this.lastMs) / 1000));
-    this.lastMs = nowMs;
+    const step = speed * Math.min(LONGEST_STEP_S, this.clock.tick(speed));
+    if (!playing) return false;
     if (showing === 'modes') {
       this.seconds += step;
       this.show();
@@ -75,6 +68,6 @@ export class Swing {
       this.way += step / KEY_S;
       this.store.set({ time: thereAndBack(this.way, keys.length - 1) });
     }
-    this.next();
+    return true;
   }
 }

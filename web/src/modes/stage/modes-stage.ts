@@ -2,41 +2,18 @@
 // shapes, never the solver, and draws only when something changed.
 import { Box3, Sphere } from 'three';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
-import type { Triple } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import { uprightOf } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
-import type { Box } from '../../shared/stage/grab';
-import { createPaneStage, createStageHand, type PaneStage } from '../../shared/stage/pane-stage';
+import {
+  createHeldStage,
+  type HeldStageEvents,
+  type HeldStageParts,
+} from '../../shared/stage/held-stage';
+import type { PaneStage } from '../../shared/stage/pane-stage';
 
-export interface ModesStageEvents {
-  /** Keys that are not the camera's. True when used. */
-  key(name: string): boolean;
-  grab(vertex: number, pane: number): void;
-  moveGrab(target: Triple): void;
-  releaseGrab(): void;
-  /** After each picture: where the inviting vertex is in the first pane, in pixels. */
-  drawn(invitation: { x: number; y: number }): void;
-  pictureLost(isLost: boolean): void;
-}
-
-export interface ModesStage {
-  /** Another body in all panes, with a fabric's look. */
-  showMesh(triangles: Uint32Array, nVertices: number, lookId: number): void;
-  setPanes(count: number, nColumns: number): void;
-  showShape(pane: number, positions: Float32Array): void;
-  /** Null hides it. */
-  showGhost(positions: Float32Array | null): void;
-  setEdges(isShown: boolean): void;
-  invite(vertex: number): void;
-  /**
-   * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
-   * take up.
-   */
-  frame(keys: readonly number[], swings: readonly number[]): void;
-  homeView(): void;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
+export interface ModesStageEvents extends HeldStageEvents {
+  drawn: HeldStageParts['drawn'];
 }
 
 /** Direction of the first view [rad]. */
@@ -71,7 +48,7 @@ class Shape {
   }
 }
 
-/** What is seen through: it throws no shadow, and hides nothing behind it. */
+/** Makes a shape that is seen through: it throws no shadow, and hides nothing behind it. */
 function makeGhost({ mesh }: Shape, colour: string): void {
   mesh.setLook({
     front: colour,
@@ -122,81 +99,28 @@ class Shapes {
   }
 }
 
-/** The stage itself and the hand on it. */
-class Stage {
-  readonly shapes = new Shapes();
-  readonly stage: PaneStage;
-  readonly hand: ReturnType<typeof createStageHand>;
-  inviting = 0;
-  floor = 0;
-  private active = 0; // pane in which the hand is
-
-  constructor(parent: HTMLElement, canvas: HTMLCanvasElement, events: ModesStageEvents) {
-    const { all, ghost } = this.shapes;
-    this.stage = createPaneStage(parent, canvas, {
-      fov: 30,
-      objects: [...all, ghost].map(({ mesh }) => mesh.object),
-      isReady: () => all[0]?.isThere ?? false,
-      prepare: (pane) => this.prepare(pane),
-      drawn: () => events.drawn(this.project(this.inviting, 0)),
-      themed: (colour) => this.setTheme(colour),
-      handKey: (name) => this.hand.key(name),
-      key: events.key,
-      pictureLost: events.pictureLost,
-    });
-    this.hand = createStageHand(this.stage, {
-      picture: (at) => this.pictureAt(at),
-      grab: (vertex) => events.grab(vertex, this.active),
-      move: events.moveGrab,
-      release: events.releaseGrab,
-      fallbackVertex: () => this.inviting,
-      cloth: () => ({
-        positions: this.shapes.positions(this.active),
-        triangles: this.shapes.triangles,
-      }),
-      floor: () => this.floor,
-    });
-    this.stage.open();
-  }
-
-  project(vertex: number, pane: number): { x: number; y: number } {
-    return this.stage.grid.project(this.shapes.positions(pane), vertex, pane);
-  }
-
-  frame(keys: readonly number[], swings: readonly number[]): void {
-    const { surroundings, control, camera } = this.stage;
-    const { min, max } = new Box3().setFromArray(keys);
-    const size = min.distanceTo(max);
-    const behind = BEHIND_DEPTH * (max.z - min.z) + BEHIND_SIZE * size;
-    this.shapes.ghost.mesh.object.position.z = -behind;
-    const all = [...keys, ...swings];
-    for (let k = 0; k < keys.length; k += 3)
-      all.push(keys[k] ?? 0, keys[k + 1] ?? 0, (keys[k + 2] ?? 0) - behind);
-    all.push((min.x + max.x) / 2, min.y - BELOW * size, max.z);
-    const whole = new Box3().setFromArray(all);
-    const { center: centre, radius } = whole.getBoundingSphere(new Sphere());
-    this.floor = min.y - FLOOR_BELOW * radius;
-    surroundings.frame(centre, radius, this.floor);
-    const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
-    control.frame({ ...view, upright: uprightOf(all, view, camera.fov) });
-  }
-
-  private pictureAt(at: { x: number; y: number } | null): () => Box {
-    const { grid } = this.stage;
-    const pane = at ? grid.paneAt(at) : 0;
-    this.active = pane;
-    return () => grid.boxOf(pane);
-  }
-
-  private prepare(pane: number): void {
-    this.shapes.show(pane);
-    this.hand.mark(pane === this.active ? this.shapes.positions(pane) : null);
-  }
-
-  private setTheme(colour: (name: string) => string): void {
-    this.hand.setColour(colour('--stage-hand'));
-    makeGhost(this.shapes.ghost, colour('--modes-straight'));
-  }
+/** Sets the view so that all is seen; the height of the floor below it [m]. */
+function frame(
+  { surroundings, control, camera }: PaneStage,
+  ghost: Shape,
+  keys: readonly number[],
+  swings: readonly number[],
+): number {
+  const { min, max } = new Box3().setFromArray(keys);
+  const size = min.distanceTo(max);
+  const behind = BEHIND_DEPTH * (max.z - min.z) + BEHIND_SIZE * size;
+  ghost.mesh.object.position.z = -behind;
+  const all = [...keys, ...swings];
+  for (let k = 0; k < keys.length; k += 3)
+    all.push(keys[k] ?? 0, keys[k + 1] ?? 0, (keys[k + 2] ?? 0) - behind);
+  all.push((min.x + max.x) / 2, min.y - BELOW * size, max.z);
+  const whole = new Box3().setFromArray(all);
+  const { center: centre, radius } = whole.getBoundingSphere(new Sphere());
+  const floor = min.y - FLOOR_BELOW * radius;
+  surroundings.frame(centre, radius, floor);
+  const view = { centre, radius, azimuth: AZIMUTH, polar: POLAR };
+  control.frame({ ...view, upright: uprightOf(all, view, camera.fov) });
+  return floor;
 }
 
 /** Draws into `canvas`, which fills `parent`. Throws when the browser has no WebGL 2. */
@@ -204,44 +128,64 @@ export function createModesStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: ModesStageEvents,
-): ModesStage {
-  const own = new Stage(parent, canvas, events);
-  const { stage, shapes, hand } = own;
+) {
+  const shapes = new Shapes();
+  const { all, ghost } = shapes;
+  const parts: HeldStageParts = {
+    fov: 30,
+    objects: [...all, ghost].map(({ mesh }) => mesh.object),
+    isReady: () => all[0]?.isThere ?? false,
+    prepare: (pane) => shapes.show(pane),
+    positions: (pane) => shapes.positions(pane),
+    triangles: () => shapes.triangles,
+    drawn: events.drawn,
+    themed: (colour) => makeGhost(ghost, colour('--modes-straight')),
+  };
+  const held = createHeldStage(parent, canvas, parts, events);
+  const { stage } = held;
   const { redraw } = stage;
+  stage.open();
+
   return {
-    showMesh(triangles, nVertices, lookId) {
+    /** Another body in all panes, with a fabric's look. */
+    showMesh(triangles: Uint32Array, nVertices: number, lookId: number) {
       shapes.setTopology(triangles, nVertices);
-      for (const { mesh } of shapes.all) mesh.setLook(lookOf(lookId));
-      hand.drop();
+      for (const { mesh } of all) mesh.setLook(lookOf(lookId));
+      held.drop();
       redraw();
     },
-    setPanes(count, nColumns) {
+    setPanes(count: number, nColumns: number) {
       stage.grid.set(count, nColumns);
       stage.refit();
       redraw();
     },
-    showShape(pane, positions) {
-      shapes.all[pane]?.set(positions);
+    showShape(pane: number, positions: Float32Array) {
+      all[pane]?.set(positions);
       redraw();
     },
-    showGhost(positions) {
+    /** Null hides it. */
+    showGhost(positions: Float32Array | null) {
       shapes.hasGhost = positions !== null;
-      if (positions) shapes.ghost.set(positions);
+      if (positions) ghost.set(positions);
       redraw();
     },
-    setEdges(isShown) {
-      for (const { mesh } of shapes.all) mesh.setEdges(isShown);
+    setEdges(isShown: boolean) {
+      for (const { mesh } of all) mesh.setEdges(isShown);
       redraw();
     },
-    invite(vertex) {
-      own.inviting = vertex;
-      redraw();
-    },
-    frame(keys, swings) {
-      own.frame(keys, swings);
+    invite: held.invite,
+    /**
+     * Sets the view so that these places are seen, three numbers each [m]; the ghost stands behind all that the keys
+     * take up.
+     */
+    frame(keys: readonly number[], swings: readonly number[]) {
+      held.setFloor(frame(stage, ghost, keys, swings));
       redraw();
     },
     homeView: stage.control.home,
-    project: (vertex, pane) => own.project(vertex, pane),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: held.project,
   };
 }
+
+export type ModesStage = ReturnType<typeof createModesStage>;

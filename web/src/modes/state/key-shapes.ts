@@ -59,7 +59,7 @@ export function keyTitle(origin: KeyOrigin): string {
   }
 }
 
-/** Of keys, those that need no file; none where these are too few for a motion. */
+/** Origins of the keys that need no file; none where these are too few for a motion. */
 export function remade(keys: readonly KeyShape[]): KeyOrigin[] {
   const origins = keys.map(({ origin }) => origin).filter(({ kind }) => kind !== 'file');
   return origins.length >= 2 ? origins : [];

@@ -1,4 +1,4 @@
-// What makes seconds and joules of a mode's stiffness: a material, where the body has a thickness of its own.
+// Turns a mode's stiffness into seconds and joules: a material, where the body has a thickness of its own.
 import type { Energy } from '../bindings/modal-module';
 
 /** Soft rubber: what the closed bodies are said to be made of. */
@@ -15,8 +15,8 @@ export interface ModeNumbers {
 }
 
 /**
- * From squared angular frequencies, under 1 Pa and 1 kg/m³ where it is a volume's: E / rho times as large under
- * Young's modulus E and density rho.
+ * Numbers of modes from squared angular frequencies, under 1 Pa and 1 kg/m³ where it is a volume's: E / rho
+ * times as large under Young's modulus E and density rho.
  */
 export function modeNumbers(
   stiffness: readonly number[],

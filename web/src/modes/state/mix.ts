@@ -1,6 +1,6 @@
 // Shapes that modes add up to, and what a surface measures.
 
-/** At full amplitude the farthest vertex moves by this share of the body's extent. */
+/** Share by which the farthest vertex moves at full amplitude of the body's extent. */
 export const REACH = 0.15;
 
 /** The diagonal of the box around places, three numbers each [m]. */
@@ -52,7 +52,7 @@ function spanned(x: ArrayLike<number>, a: number, b: number, c: number): number 
   return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
 }
 
-/** What a closed surface holds [m³]. */
+/** Volume inside of a closed surface [m³]. */
 export function enclosedVolume(places: ArrayLike<number>, triangles: Uint32Array): number {
   let six = 0;
   for (let t = 0; t < triangles.length; t += 3)

@@ -22,7 +22,7 @@ export interface Model {
   title: string;
   caption: string;
   source: Source;
-  /** By its id in the fabric file, for its look alone. */
+  /** The fabric's id in its file, for its look alone. */
   lookId: number;
 }
 
@@ -64,7 +64,7 @@ function meshUrl(name: string): string {
   return url;
 }
 
-/** In the order in which they are offered; the first one is shown to begin with. */
+/** Models in the order in which they are offered; the first one is shown to begin with. */
 export const MODELS: readonly Model[] = [
   {
     id: 'bar',

@@ -1,4 +1,4 @@
-// What the view "Modes" shows. Only this and the frames travel between its parts.
+// State of the view "Modes". Only this and the frames travel between its parts.
 import { type Failure, inputFailure } from '../../shared/bindings/answers';
 import type { ObjUnit } from '../../shared/state/obj-file';
 import type { Energy, FilledFrame, SurfaceAnswer, VolumeChoice } from '../bindings/modal-module';
@@ -13,7 +13,7 @@ export const ENERGIES: readonly Energy[] = ['volume', 'surface', 'cloth'];
 export const COUNTS = [6, 12, 20, 40] as const;
 export type ModeCount = (typeof COUNTS)[number];
 
-/** What was found for the present model, energy and count. */
+/** Modes that were found for the present model, energy and count. */
 export interface FoundModes {
   energy: Energy;
   modes: readonly ModeNumbers[];
@@ -21,12 +21,12 @@ export interface FoundModes {
   tets: number;
 }
 
-/** In-betweens of the present keys. */
+/** The in-betweens of the present keys. */
 export interface Completion {
   frames: readonly FilledFrame[];
   tets: number;
   bodies: number;
-  /** Of the motion between the keys, in the rigid motions, then with one mode more each; null if unknown. */
+  /** Shares of the motion between the keys in the rigid motions, then with one mode more each; null if unknown. */
   shares: readonly number[] | null;
 }
 
@@ -46,17 +46,17 @@ export interface ModesState {
   showing: Showing;
   playing: boolean;
   speed: number;
-  /** On the timeline: the first key is at 0, the next at 1. */
+  /** Time on the timeline: the first key is at 0, the next at 1. */
   time: number;
   keys: readonly KeyShape[];
   /** The key that is replaced or deleted. */
   chosenKey: number;
   completion: Completion | null;
-  /** Of the draping cloth, in its own modes; null for others. */
+  /** Shares of the draping cloth in its own modes; null for others. */
   drapeShares: readonly number[] | null;
   ghost: boolean;
   edges: boolean;
-  /** What is being computed and takes long. */
+  /** Words on what is being computed and takes long. */
   working: string | null;
   objName: string | null;
   objUnit: ObjUnit;
@@ -88,7 +88,7 @@ export function energiesOf(model: string): readonly Energy[] {
   return model === 'cloth' ? ENERGIES : ENERGIES.filter((energy) => energy !== 'cloth');
 }
 
-/** Whether what is inside the surface is the body's own, and not a thickness that is made up. */
+/** True where what is inside the surface is the body's own, and not a thickness that is made up. */
 export function isSolid({ surface, volume }: Pick<ModesState, 'surface' | 'volume'>): boolean {
   return (surface?.closed ?? false) && volume !== 'shell';
 }

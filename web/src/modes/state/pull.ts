@@ -6,7 +6,7 @@ import type { ModeNumbers } from './material';
 /** Modes that fall or hardly resist are taken for this stiff, over the first that swings. */
 const LEAST_RELATIVE = 0.3;
 
-/** Of the largest entry: what keeps directions out that no mode goes. */
+/** Share of the largest entry that keeps directions out in which no mode goes. */
 const LEAST_SHARE = 1e-3;
 
 type Matrix = [Triple, Triple, Triple];

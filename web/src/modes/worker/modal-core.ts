@@ -1,13 +1,7 @@
 // Answers each question to the worker of modes, as a function of the module and of where answers go. The only
 // file that calls delete() on its objects.
-import {
-  type Answer,
-  describe,
-  type Failure,
-  internalFailure,
-  read,
-} from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { granted } from '../../shared/bindings/answers';
+import { ModuleCore } from '../../shared/workers/serve';
 import type {
   CompletionAnswer,
   FilledFrame,
@@ -24,49 +18,22 @@ const REST_S = 12;
 
 type Question<Type extends ToModal['type']> = Extract<ToModal, { type: Type }>;
 
-/** Ends a question whose answer was a refusal. */
-class Refusal extends Error {
-  constructor(readonly failure: Failure) {
-    super(failure.what);
-  }
-}
-
-function granted<Payload>(text: string): Payload {
-  const answer: Answer<Payload> = read<Payload>(text);
-  if (answer.ok) return answer;
-  throw new Refusal(answer);
-}
-
 function opened(study: ModalStudyHandle, { kind, text }: Opened): SurfaceAnswer {
   const open = { box: study.openBox, obj: study.openObj, scene: study.openScene }[kind];
   return granted<SurfaceAnswer>(open.call(study, text));
 }
 
 /** Serves one page. Call `receive` with each message. */
-export class ModalCore {
+export class ModalCore extends ModuleCore<ModalModule, ToModal, FromModal> {
   private study: ModalStudyHandle | null = null;
   private completion: CompletionAnswer = { tets: 0, bodies: 0 };
-
-  constructor(
-    private readonly module: ModalModule,
-    private readonly post: Post<FromModal>,
-  ) {}
-
-  receive(message: ToModal): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      const failure = error instanceof Refusal ? error.failure : internalFailure(describe(error));
-      this.post({ type: 'refused', failure }, []);
-    }
-  }
 
   close(): void {
     this.study?.delete();
     this.study = null;
   }
 
-  private handle(message: ToModal): void {
+  protected handle(message: ToModal): void {
     if (message.type === 'open') return this.open(message);
     if (!this.study) throw new Error(`${message.type} before open`);
     switch (message.type) {

@@ -1,5 +1,5 @@
 // Messages between the page and the worker that finds modes and in-betweens. Lengths in metres.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type {
   CompletionAnswer,
   Energy,
@@ -9,11 +9,11 @@ import type {
   VolumeWish,
 } from '../bindings/modal-module';
 
-/** What a surface is made from; `text` is of the box, of the OBJ file or of the scene. */
+/** Text that a surface is made from; `text` is of the box, of the OBJ file or of the scene. */
 export type Opened =
   | { kind: 'box'; text: string }
   | { kind: 'obj'; text: string }
-  /** With frames, a cloth is draped: so many are kept, one for `stepsEach` steps, and it comes to rest. */
+  /** A cloth with frames is draped: so many are kept, one for `stepsEach` steps, and it comes to rest. */
   | { kind: 'scene'; text: string; frames: number; stepsEach: number };
 
 export type ToModal =
@@ -72,7 +72,7 @@ export type FromModal =
   | CompletedMessage
   | KeyMessage
   | SharesMessage
-  | { type: 'refused'; failure: Failure };
+  | Refusal;
 
 /** The answer to each question. */
 export interface ModalAnswers {

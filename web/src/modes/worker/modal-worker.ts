@@ -1,6 +1,10 @@
+import { givenCore } from '../../shared/workers/given-core';
 import { serve } from '../../shared/workers/serve';
-import createModal from '../../wasm/modal.mjs';
+import type { ModalModule } from '../bindings/modal-module';
 import { ModalCore } from './modal-core';
 import type { FromModal, ToModal } from './modal-protocol';
 
-serve<ToModal, FromModal>(self, async (post) => new ModalCore(await createModal(), post));
+serve<ToModal, FromModal>(
+  self,
+  async (post) => new ModalCore(await givenCore<ModalModule>(), post),
+);

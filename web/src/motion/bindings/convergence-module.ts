@@ -1,25 +1,25 @@
 // The function bound by the module that compares methods on one step, and what it answers with.
 
-/** What so many rounds of a method make of the step. */
+/** State of the step after so many rounds of a method. */
 export interface ConvergencePoint {
   rounds: number;
   /** Sweeps of the finest mesh; null of methods that have none. */
   sweeps: number | null;
   ms: number;
-  /** What is left of the error of the constraints; null of methods that have none. */
+  /** Share that is left of the error of the constraints; null of methods that have none. */
   relative_error: number | null;
-  /** What is left of the distance to what the method's own equations come to; null where that is not known. */
+  /** Share that is left of the distance to what the method's own equations come to; null where that is not known. */
   relative_distance: number | null;
 }
 
 export interface ConvergenceSeries {
-  /** As the section "method" of a scene. */
+  /** The method, as the section "method" of a scene. */
   method: { stepper: string; [setting: string]: unknown };
-  /** Of the predicted places from what the equations come to [m]. */
+  /** Distance of the predicted places from what the equations come to [m]. */
   distance_begin_m: number | null;
   /** How far what they come to may be off [m]. */
   distance_unknown_m: number | null;
-  /** By rounds. */
+  /** Points by rounds. */
   points: ConvergencePoint[];
 }
 
@@ -30,7 +30,7 @@ export interface ConvergenceStudy {
   n_vertices: number;
   n_springs: number;
   n_bends: number;
-  /** In the order of the methods. */
+  /** Series in the order of the methods. */
   series: ConvergenceSeries[];
 }
 
@@ -38,7 +38,7 @@ export type Constraints = 'rigid' | 'compliant';
 
 export interface ConvergenceWish {
   time_s: number;
-  /** Of position-based methods. */
+  /** Constraints of position-based methods. */
   constraints: Constraints;
   /** A method gets no more rounds, and none after a solve that took longer. */
   most_rounds: number;

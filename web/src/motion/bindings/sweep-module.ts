@@ -33,9 +33,9 @@ export interface BenchRow {
   position_error_m: number | null;
   /** Percent of the diagonal at rest. */
   position_error_percent: number | null;
-  /** Of `position_error_m` what its method does wrong, against the exact motion of its own mesh. */
+  /** Part of `position_error_m` that its method does wrong, against the exact motion of its own mesh. */
   method_error_m: number | null;
-  /** What its mesh does wrong: how far that motion is from the reference. */
+  /** Part that its mesh does wrong: how far that motion is from the reference. */
   mesh_error_m: number | null;
   rms_stretch: number | null;
   largest_stretch: number | null;
@@ -44,7 +44,7 @@ export interface BenchRow {
   /** "ok", "not_converged" (it ran to its end), or why it failed. */
   status: string;
   message: string;
-  /** What its run warns of, nonsense first; a row of nonsense is on no front. */
+  /** Warnings of its run, nonsense first; a row of nonsense is on no front. */
   warnings?: RunWarning[];
   target: 'wasm' | 'native';
   [detail: string]: unknown;
@@ -58,7 +58,7 @@ export interface SweepReport {
   /** Indices into `rows`. */
   front: number[];
   message: string;
-  /** What the whole sweep is expected to take [s]; null while nothing tells. */
+  /** Time that the whole sweep is expected to take [s]; null while nothing tells. */
   estimated_s: number | null;
 }
 

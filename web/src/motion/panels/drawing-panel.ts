@@ -1,5 +1,5 @@
 // Chooses what is painted on the cloth: its material, stretch or distance; and the lines over it.
-import { choice, element, field } from '../../shared/panels/element';
+import { checkBox, choice, element, field } from '../../shared/panels/element';
 import type { HeatMap } from '../../shared/stage/heat-map';
 import { type Store, watch } from '../../shared/state/store';
 import { referenceUrl } from '../run/references';
@@ -23,21 +23,15 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
     (value) => store.set({ heatRange: value === 'auto' ? 'auto' : Number(value) }),
   );
   const rangeField = field('Scale', range.control);
-  const edges = element('input', {
-    type: 'checkbox',
-    change: () => store.set({ edges: edges.checked }),
-  });
-  const springs = element('input', {
-    type: 'checkbox',
-    change: () => store.set({ springs: springs.checked }),
-  });
+  const edges = checkBox('Edges of the mesh', (isOn) => store.set({ edges: isOn }));
+  const springs = checkBox('Springs: explicit or implicit', (isOn) => store.set({ springs: isOn }));
   parent.append(
     element(
       'section',
       { 'aria-label': 'Drawing' },
       element('div', { class: 'pair' }, field('Colour shows', heat.control), rangeField),
-      element('label', { class: 'check' }, edges, 'Edges of the mesh'),
-      element('label', { class: 'check' }, springs, 'Springs: explicit or implicit'),
+      edges.label,
+      springs.label,
     ),
   );
   return watch(store, ['heat', 'heatRange', 'edges', 'springs', 'numbers', 'setting'], (state) => {
@@ -46,7 +40,7 @@ export function createDrawingPanel(parent: HTMLElement, store: Store<MotionState
     heat.select(hasReference ? state.heat : shownHeat(state));
     range.select(String(state.heatRange));
     rangeField.hidden = !['magnitude', 'signed'].includes(shownHeat(state));
-    edges.checked = state.edges;
-    springs.checked = state.springs;
+    edges.input.checked = state.edges;
+    springs.input.checked = state.springs;
   });
 }

@@ -21,7 +21,7 @@ const TITLES: Record<HeatMap, string> = {
 /** The range of the present frame, in the unit of the scale. */
 function presentText({ least, most }: HeatScale, text: (value: number) => string): string {
   if (Number.isNaN(most)) return 'no reference at this time';
-  // Beside two digits of the largest value, less than a hundredth of it is zero.
+  // Less than a hundredth of the largest value is zero beside its two digits.
   const isNoise = Math.abs(least) < 1e-2 * Math.abs(most);
   return `now ${text(isNoise ? 0 : least)} to ${text(most)}`;
 }

@@ -4,7 +4,7 @@ import { toolButton } from '../../shared/panels/tool-button';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionState } from '../state/motion-state';
 
-/** What a link leaves out, in sentences. */
+/** Sentences on what a link leaves out. */
 function losses({ astray, setting, mesh }: MotionState): string[] {
   const parts: string[] = [];
   if (astray === 'pulled') parts.push('The pull is not kept: it shows the cloth as if untouched.');
@@ -16,7 +16,7 @@ function losses({ astray, setting, mesh }: MotionState): string[] {
   return parts;
 }
 
-/** What the copied link does, in words. */
+/** Words on what the copied link does. */
 export function linkSentence(state: MotionState): string {
   const time = state.numbers?.time_s ?? 0;
   const shows = time > 0 ? `It runs to ${time.toFixed(2)} s and rests there.` : '';
@@ -42,6 +42,6 @@ export function createLinkTool(
   }
   const button = toolButton('link', 'Copy link', 'Copy a link to what is shown', () => void copy());
   parent.append(button.made, said);
-  // What was said is of what was shown then.
+  // The words are of what was shown then.
   return watch(store, ['setting', 'playing', 'camera', 'phase'], () => setText(said, ''));
 }

@@ -1,5 +1,5 @@
 // A banner that says what went wrong in a sentence, with what can be done about it.
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { MotionRun } from '../run/motion-run';
 import type { MotionState } from '../state/motion-state';
@@ -10,35 +10,22 @@ export function createProblemBanner(
   actions: Pick<MotionRun, 'reset' | 'showAnew'>,
 ): () => void {
   const sentence = element('p');
-  const remedy = element('button', {
-    type: 'button',
-    click() {
-      const remedy = store.get().problem?.remedy;
-      if (!remedy) return;
-      const { setting, startsAnew } = remedy;
-      if (startsAnew) actions.showAnew({ setting, startSteps: 0, playing: true, problem: null });
-      else store.set({ setting });
-    },
+  const help = button('', () => {
+    const remedy = store.get().problem?.remedy;
+    if (!remedy) return;
+    const { setting, startsAnew } = remedy;
+    if (startsAnew) actions.showAnew({ setting, startSteps: 0, playing: true, problem: null });
+    else store.set({ setting });
   });
-  const reset = element('button', { type: 'button', click: () => actions.reset() }, 'Reset');
-  const dismiss = element(
-    'button',
-    { type: 'button', click: () => store.set({ problem: null }) },
-    'Dismiss',
-  );
-  const banner = element(
-    'div',
-    { class: 'problem', role: 'alert' },
-    sentence,
-    remedy,
-    reset,
-    dismiss,
-  );
+  const reset = button('Reset', () => actions.reset());
+  const dismiss = button('Dismiss', () => store.set({ problem: null }));
+  const parts = [sentence, help, reset, dismiss];
+  const banner = element('div', { class: 'problem', role: 'alert' }, ...parts);
   parent.append(banner);
   return watch(store, ['problem'], ({ problem }) => {
     banner.hidden = problem === null;
-    remedy.hidden = !problem?.remedy;
-    setText(remedy, problem?.remedy?.title ?? '');
+    help.hidden = !problem?.remedy;
+    setText(help, problem?.remedy?.title ?? '');
     reset.hidden = problem?.source !== 'run';
     dismiss.hidden = problem?.source === 'browser';
     setText(sentence, problem?.sentence ?? '');

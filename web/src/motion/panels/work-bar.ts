@@ -1,5 +1,5 @@
-// What takes long, on the stage: how far it is or how long it took by now, and a way to stop it.
-import { element, setText } from '../../shared/panels/element';
+// Work that takes long, told on the stage: how far it is or how long it took by now, and a way to stop it.
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { workWords } from '../run/run-words';
 import type { MotionState } from '../state/motion-state';
@@ -18,8 +18,8 @@ export function createWorkBar(
 ): () => void {
   const sentence = element('p');
   const progress = element('progress', { max: 1, 'aria-label': 'Progress' });
-  const stop = element('button', { type: 'button', click: () => actions.stopWork() }, 'Stop');
-  const bar = element('div', { class: 'work-bar' }, sentence, progress, stop);
+  const stop = button('Stop', () => actions.stopWork());
+  const bar = element('div', { class: 'working work-bar' }, sentence, progress, stop);
   parent.append(bar);
   return watch(store, ['ahead', 'busy', 'setting', 'summary'], (state) => {
     const text = words(state);

@@ -18,7 +18,7 @@ import {
   startConvergenceWorker,
 } from './measuring-client';
 
-/** What is studied, in words. */
+/** Words on what is studied. */
 function subject({ setting, mesh, astray }: MotionState, timeS: number, isNow: boolean): string {
   const cloth = mesh && setting.preset === 'obj' ? mesh.name : PRESETS[setting.preset].title;
   const step = `the step of ${stepTitle(setting.stepS)} at ${timeS.toFixed(2)}\u00a0s`;
@@ -26,7 +26,7 @@ function subject({ setting, mesh, astray }: MotionState, timeS: number, isNow: b
   return `${cloth}, ${setting.fabric}, level ${setting.level}: ${step}${byItself}.`;
 }
 
-/** What helps where that part of the scene is at fault; its JSON pointer. */
+/** Words on what helps where that part of the scene is at fault; its JSON pointer. */
 function remedy(where: string, { preset }: Setting): string {
   if (where === '/model/damping') return ' Rigid springs can be compared.';
   if (where === '/method') return ' An earlier step may do.';

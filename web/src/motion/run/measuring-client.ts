@@ -1,5 +1,6 @@
 // Starts the workers that measure beside the shown cloth.
 import { type Asked, createAsked, type Done, type Listener } from '../../shared/workers/asked';
+import { withCore } from '../../shared/workers/compiled-core';
 import type { FromConvergence, ToConvergence } from '../worker/convergence-protocol';
 import type { RacedMessage, StudiedMessage, ToMeasuring } from '../worker/measuring-protocol';
 import type { FromSweep, PlannedMessage, ToSweep } from '../worker/sweep-protocol';
@@ -13,7 +14,9 @@ export type StartMeasuring = (listener: Listener<never>) => MeasuringClient;
 /** Measures one scene. */
 export function startMeasuringWorker(listener: Listener<never>): MeasuringClient {
   return createAsked(
-    new Worker(new URL('../worker/measuring-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(
+      new Worker(new URL('../worker/measuring-worker.ts', import.meta.url), { type: 'module' }),
+    ),
     listener,
   );
 }
@@ -24,7 +27,7 @@ export type StartSweep = (listener: Listener<FromSweep>) => SweepClient;
 /** Runs one sweep, told to; its reports are news. */
 export function startSweepWorker(listener: Listener<FromSweep>): SweepClient {
   return createAsked(
-    new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(new Worker(new URL('../worker/sweep-worker.ts', import.meta.url), { type: 'module' })),
     listener,
   );
 }
@@ -35,7 +38,9 @@ export type StartConvergence = (listener: Listener<FromConvergence>) => Converge
 /** Compares methods on one step, told to: how far it is, and what comes of it, is news. */
 export function startConvergenceWorker(listener: Listener<FromConvergence>): ConvergenceClient {
   return createAsked(
-    new Worker(new URL('../worker/convergence-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(
+      new Worker(new URL('../worker/convergence-worker.ts', import.meta.url), { type: 'module' }),
+    ),
     listener,
   );
 }

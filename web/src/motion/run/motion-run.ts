@@ -3,6 +3,8 @@ import { brokenSentence, type Failure, sentenceOf } from '../../shared/bindings/
 import { frameViews, type Scalar } from '../../shared/bindings/frame';
 import type { Triple } from '../../shared/bindings/geometry';
 import type { EnergyNumbers, ImexShare } from '../../shared/bindings/pleat-module';
+import { affordable, createClock } from '../../shared/state/clock';
+import { Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import { answerOf } from '../../shared/workers/asked';
 import type {
@@ -28,13 +30,17 @@ import {
 import { ObjSource } from './obj-source';
 import { ReferenceSource } from './reference-source';
 import { remedyFor, remedyForWarning } from './remedy';
-import { RunClock } from './run-clock';
 import { type Content, canKeepMotion, isSameScene, loadOf } from './run-content';
 import { RunFrames } from './run-frames';
 import { endOf, workWords } from './run-words';
 import { RunWorker, type Work } from './run-worker';
-import { SpringSource } from './spring-source';
 import { createStepTimer } from './step-timing';
+
+/** Numbers are read and shown this often [ms]: faster cannot be read. */
+const NUMBERS_EVERY_MS = 200;
+
+/** The pace is measured over this much of the clock [s]. */
+const PACE_WINDOW_S = 1;
 
 /** Time of a step that is expected before one was measured [ms]. */
 const EXPECTED_STEP_MS = 10;
@@ -53,7 +59,7 @@ const PATIENCE_MS = 1000;
 /** And a change that takes the motion over, which it loses then [ms]. */
 const MOVING_PATIENCE_MS = 5000;
 
-/** What a new mesh belongs to: another scene, the same one, or the same cloth, torn. */
+/** Kind of a new mesh: of another scene, of the same one, or of the same cloth, torn. */
 export type MeshChange = 'scene' | 'mesh' | 'tear';
 
 export interface MotionRunView {
@@ -65,29 +71,29 @@ export interface MotionRunView {
 
 type Reload = Extract<ToMotion, { type: 'load' | 'reset' }>;
 
+/** The question that the worker is asked: a new mesh, one that keeps the motion, steps, or nothing. */
+type Doing = 'load' | 'carryOver' | 'step' | 'nothing';
+
 /** Loads the state's setting into its worker, and follows the store from then on. */
 export class MotionRun {
   readonly obj: ObjSource;
   private readonly worker: RunWorker;
   private readonly reference: ReferenceSource;
-  private readonly springs: SpringSource;
-  private readonly clock = new RunClock();
+  private readonly clock = createClock();
   private readonly frames = new RunFrames();
   private readonly timer = createStepTimer();
-  private request = 0; // counts loads and resets: what belongs to an earlier one is dropped
-  private isWaiting = false; // for the answer to a load or a reset
-  private isStepping = false;
+  private readonly latest = new Latest(); // load or reset
+  private doing: Doing = 'nothing';
+  private paceFrom = { clockMs: 0, timeS: 0 };
   private areNumbersOld = false; // they are not those of the shown frame
   private lacksEnergy = false; // the account of energy is open, but its begin was not read
   private isAhead = false; // running to the start, nothing is shown
   private nWarned = 0; // warnings of the run that were told
   private isRecovering = false; // started again after an end, and no step since
   private startsAnew = false; // the next load keeps no motion
-  private keepsMotion = false; // the load that is waited for does
   private loaded: Content | null = null; // by the worker
   private seen: Content | null = null; // in the picture
   private proven: Content | null = null; // the last one whose steps came without a wait
-  private tickHandle = 0;
 
   constructor(
     private readonly store: Store<MotionState>,
@@ -102,17 +108,13 @@ export class MotionRun {
     });
     this.obj = new ObjSource(store, startObj, () => void this.load());
     this.reference = new ReferenceSource(store, this.worker, (numbers) => {
-      if (!this.isWaiting) store.set({ numbers });
-    });
-    this.springs = new SpringSource(store, () => {
-      const { request } = this;
-      return this.answer(this.worker.ask({ type: 'readSprings', request }));
+      if (!this.isLoading) store.set({ numbers });
     });
     store.subscribe((state, previous) => {
       if (state.setting !== previous.setting && state.phase !== 'broken') void this.load();
       if (state.playing && !previous.playing) this.startClock();
       if (wantsReference(state) && !wantsReference(previous)) this.bringReference();
-      if (state.springs && !previous.springs) this.bringSprings();
+      if (state.springs && !previous.springs) void this.bringSprings();
       if (state.energy !== previous.energy) this.beginAccount();
       const isPaused = !state.playing && previous.playing;
       if (isPaused || shownHeat(state) !== shownHeat(previous)) this.refill();
@@ -131,8 +133,7 @@ export class MotionRun {
 
   step(): void {
     this.store.set({ playing: false, invited: false, pace: null });
-    const isFree = !this.isWaiting && !this.isStepping;
-    if (this.store.get().phase === 'ready' && isFree) void this.send(1);
+    if (this.store.get().phase === 'ready' && this.doing === 'nothing') void this.send(1);
   }
 
   reset(): void {
@@ -140,11 +141,11 @@ export class MotionRun {
     if (phase === 'broken') return;
     this.isAhead = false;
     this.startsAnew = true;
-    this.keepsMotion = false;
     this.store.set({ playing: false, held: false, phase: 'loading', startSteps: 0, ahead: null });
     if (this.loaded?.setting !== setting) return void this.load();
-    this.request += 1;
-    const question = { type: 'reset', request: this.request, scalar: this.scalar() } as const;
+    this.latest.start();
+    const question = { type: 'reset', scalar: this.scalar() } as const;
+    this.doing = 'load';
     void this.reload(question, this.loaded, null);
   }
 
@@ -157,7 +158,7 @@ export class MotionRun {
   /** Pauses; what the state says is of the shown frame then. */
   async rest(): Promise<void> {
     this.pause();
-    while (!this.isAhead && (this.isStepping || this.areNumbersOld))
+    while (!this.isAhead && (this.doing === 'step' || this.areNumbersOld))
       await new Promise((resume) => setTimeout(resume, REST_POLL_MS));
   }
 
@@ -176,7 +177,7 @@ export class MotionRun {
       this.endAhead();
       return this.store.set({ problem: { source: 'link', sentence } });
     }
-    if (busy.type === 'step' && this.isWaiting) return this.loadAtOnce(1000 * busy.seconds);
+    if (busy.type === 'step' && this.isLoading) return this.loadAtOnce(1000 * busy.seconds);
     if (busy.type === 'step') this.noteLeastCost(1000 * busy.seconds);
     if (busy.type === 'readLevels') this.store.set({ coarse: 0 });
     const again = this.lastGood();
@@ -187,21 +188,19 @@ export class MotionRun {
 
   /** How imex would take the loaded springs with such a setting; null when that comes too late. */
   implicitShare({ stepS, substeps, explicitShare }: Setting): Promise<ImexShare | null> {
-    const { request } = this;
     const method = { stepS, substeps, explicitShare };
-    return this.answer(this.worker.ask({ type: 'readImplicitShare', ...method, request }));
+    return this.answer(this.worker.ask({ type: 'readImplicitShare', ...method }));
   }
 
   /** Coarser levels of the loaded mesh; null when that comes too late. */
   levels(wish: LevelWish): Promise<LevelsMessage | null> {
-    const { request } = this;
-    return this.answer(this.worker.ask({ type: 'readLevels', ...wish, request }));
+    return this.answer(this.worker.ask({ type: 'readLevels', ...wish }));
   }
 
   grab(vertex: number): void {
     this.worker.tell({ type: 'grab', vertex });
     this.store.set({ held: true, astray: 'pulled' });
-    this.bringSprings();
+    void this.bringSprings();
   }
 
   moveGrab(target: Triple): void {
@@ -211,11 +210,21 @@ export class MotionRun {
   releaseGrab(): void {
     this.worker.tell({ type: 'releaseGrab' });
     this.store.set({ held: false });
-    this.bringSprings();
+    void this.bringSprings();
   }
 
-  private bringSprings(): void {
-    if (this.store.get().phase === 'ready') void this.springs.bring();
+  private get isLoading(): boolean {
+    return this.doing === 'load' || this.doing === 'carryOver';
+  }
+
+  /** Asks which springs are implicit, while that is drawn: it changes with mesh, step, and what is held. */
+  private async bringSprings(): Promise<void> {
+    const { phase, springs } = this.store.get();
+    if (phase !== 'ready' || !springs) return;
+    const answer = await this.answer(this.worker.ask({ type: 'readSprings' }));
+    if (!answer) return;
+    const { ends, isImplicit } = answer;
+    this.store.set({ springSplit: { ends, isImplicit } });
   }
 
   /** The account of energy begins with the frame that stands, or is closed. */
@@ -251,7 +260,7 @@ export class MotionRun {
     this.end(`${ended} That happened twice. Choose another setting, or reset to try once more.`);
   }
 
-  /** What ran last without a wait in this scene, or what the scene is made for. */
+  /** The content that ran last without a wait in this scene, or the one that the scene is made for. */
   private lastGood(): Content {
     const { setting, mesh } = this.store.get();
     const own = { setting: presetSetting(setting.preset), mesh };
@@ -262,9 +271,8 @@ export class MotionRun {
     this.worker.replace();
     this.reference.forget();
     this.loaded = null;
-    this.request += 1;
-    this.isWaiting = false;
-    this.isStepping = false;
+    this.latest.start();
+    this.doing = 'nothing';
   }
 
   /** Another worker starts with this content; `sentence` says why. */
@@ -278,15 +286,15 @@ export class MotionRun {
 
   private watchWork(work: Work | null): void {
     const isLong = work !== null && work.forMs > SHOWN_WORK_MS;
-    const patienceMs = this.keepsMotion ? MOVING_PATIENCE_MS : PATIENCE_MS;
-    if (work?.type === 'step' && this.isWaiting && work.forMs > patienceMs)
+    const patienceMs = this.doing === 'carryOver' ? MOVING_PATIENCE_MS : PATIENCE_MS;
+    if (work?.type === 'step' && this.isLoading && work.forMs > patienceMs)
       return this.loadAtOnce(work.forMs);
     const busy = isLong ? { type: work.type, seconds: Math.floor(work.forMs / 1000) } : null;
     const { busy: shown } = this.store.get();
     if (busy?.type !== shown?.type || busy?.seconds !== shown?.seconds) this.store.set({ busy });
   }
 
-  /** What is wanted does not wait for a step that has taken so long by now. */
+  /** Loads what is wanted without waiting for a step that has taken so long by now. */
   private loadAtOnce(forMs: number): void {
     this.noteLeastCost(forMs);
     this.replaceWorker();
@@ -302,16 +310,14 @@ export class MotionRun {
 
   /** The answer; null when there is none, or when it comes too late for what is shown by now. */
   private async answer<Answer>(question: Promise<Answer>): Promise<Answer | null> {
-    const { request } = this;
-    const isCurrent = () => request === this.request;
+    const isCurrent = this.latest.mark();
     const answer = await answerOf(question, (failure) => isCurrent() && this.refuse(failure));
     return isCurrent() ? answer : null;
   }
 
   private refuse(failure: Failure): void {
     if (failure.kind === 'internal') return this.breakDown(failure.what, true);
-    this.isWaiting = false;
-    this.isStepping = false;
+    this.doing = 'nothing';
     const { setting, mesh } = this.store.get();
     const known = remedyFor(failure, setting);
     const sentence = known?.sentence ?? sentenceOf(failure);
@@ -324,10 +330,10 @@ export class MotionRun {
 
   /** The picture of a cloth at its start, for one that cannot be run: the stage is not left empty. */
   private async showStandIn(content: Content): Promise<void> {
-    const { request } = this;
-    const question = { type: 'load', ...loadOf(content), keepMotion: false, request } as const;
+    const isCurrent = this.latest.mark();
+    const question = { type: 'load', ...loadOf(content), keepMotion: false } as const;
     const message = await answerOf(this.worker.ask(question), () => undefined);
-    if (!message || request !== this.request) return;
+    if (!message || !isCurrent()) return;
     this.showLoaded(message, content);
     this.store.set({ colliders: message.colliders });
   }
@@ -341,17 +347,15 @@ export class MotionRun {
     const content: Content = { setting, mesh };
     const isMoving = phase !== 'stopped' && (numbers?.time_s ?? 0) > 0;
     const keepMotion = isMoving && !this.startsAnew && canKeepMotion(this.loaded, content);
-    this.keepsMotion = keepMotion;
     this.startsAnew = false;
     this.isAhead = false;
-    this.isWaiting = true;
-    this.request += 1;
-    const { request } = this;
+    this.doing = keepMotion ? 'carryOver' : 'load';
+    this.latest.start();
     this.store.set({ phase: 'loading', held: false, ahead: null });
     if (setting.preset === 'obj' && !mesh) return this.obj.bringExample();
-    const question = { type: 'load', ...loadOf(content), keepMotion, request } as const;
-    const led = keepMotion ? (astray ?? 'changed') : null;
-    await this.reload({ ...question, scalar: this.scalar() }, content, led);
+    const scalar = this.scalar();
+    const question = { type: 'load', ...loadOf(content), keepMotion, scalar } as const;
+    await this.reload(question, content, keepMotion ? (astray ?? 'changed') : null);
   }
 
   private async reload(
@@ -359,7 +363,6 @@ export class MotionRun {
     content: Content,
     astray: MotionState['astray'],
   ): Promise<void> {
-    this.isWaiting = true;
     const message = await this.answer(this.worker.ask(question));
     if (message) this.receiveLoaded(message, content, astray);
   }
@@ -380,10 +383,9 @@ export class MotionRun {
     astray: MotionState['astray'],
   ): void {
     this.startsAnew = false;
-    this.isWaiting = false;
-    this.isStepping = false;
+    this.doing = 'nothing';
     this.areNumbersOld = false;
-    this.clock.restart(message.numbers.time_s);
+    this.restartClock(message.numbers.time_s);
     this.timer.clear();
     this.timer.feed(message.numbers);
     this.nWarned = 0;
@@ -404,7 +406,7 @@ export class MotionRun {
       problem: isSolved ? null : problem,
     });
     this.bringReference();
-    this.bringSprings();
+    void this.bringSprings();
     if (message.numbers.time_s === 0 && startSteps > 0) {
       this.isAhead = true;
       this.runAhead();
@@ -420,8 +422,7 @@ export class MotionRun {
   /** Has the frame that stands filled with the number that the colours show, and its numbers read. */
   private refill(): void {
     const { phase, playing } = this.store.get();
-    const isFree = !this.isWaiting && !this.isStepping && !this.isAhead;
-    if (!isFree || phase !== 'ready') return;
+    if (this.doing !== 'nothing' || this.isAhead || phase !== 'ready') return;
     const isBehind = (this.areNumbersOld && !playing) || this.lacksEnergy;
     if (isBehind || this.frames.scalar !== this.scalar()) void this.send(0);
   }
@@ -436,7 +437,7 @@ export class MotionRun {
     this.store.set({ ahead: numbers.step / startSteps });
     const msPerStep = timing?.totalMs ?? EXPECTED_STEP_MS;
     const atOnce = energy ? Math.max(1, Math.round(SAMPLE_EVERY_S / summary.step_s)) : left;
-    void this.send(this.clock.takeOf(Math.min(left, atOnce), summary.step_s, msPerStep));
+    void this.send(Math.min(left, atOnce, affordable(msPerStep)));
   }
 
   private endAhead(): void {
@@ -454,7 +455,7 @@ export class MotionRun {
       patch.timing = timing;
       if (this.loaded) patch.costs = withCost(costs, this.loaded.setting, timing.totalMs);
     }
-    const pace = playing ? this.clock.pace(numbers.time_s) : null;
+    const pace = playing ? this.pace(numbers.time_s) : null;
     if (pace !== null) patch.pace = pace;
     const warning = numbers.warnings.slice(this.nWarned).at(0);
     this.nWarned = numbers.warnings.length;
@@ -479,12 +480,12 @@ export class MotionRun {
     this.view.showMesh(triangles, n_vertices, 'tear');
     const { summary } = this.store.get();
     if (summary) this.store.set({ summary: { ...summary, n_vertices } });
-    this.bringSprings();
+    void this.bringSprings();
   }
 
   private receiveFrame(frame: FrameMessage): void {
     const { buffer, torn, scalar, hasEnded, report, energy, colliders } = frame;
-    this.isStepping = false;
+    this.doing = 'nothing';
     if (energy) this.addSample(energy);
     if (torn) this.showTorn(frame, torn);
     else this.frames.show(buffer, scalar);
@@ -508,13 +509,12 @@ export class MotionRun {
     const buffer = this.frames.take();
     if (!buffer) return;
     const { playing, energy: wantsEnergy } = this.store.get();
-    const wantsNumbers = this.clock.areNumbersDue(!playing);
-    this.isStepping = true;
-    const { request } = this;
+    const wantsNumbers = this.clock.areNumbersDue(NUMBERS_EVERY_MS, !playing);
+    this.doing = 'step';
     const scalar = this.scalar();
     const beginMs = performance.now();
     const wants = { wantsNumbers, wantsEnergy, scalar };
-    const question = { type: 'step', count, request, buffer, ...wants } as const;
+    const question = { type: 'step', count, buffer, ...wants } as const;
     const frame = await this.answer(this.worker.ask(question, [buffer]));
     if (frame?.type !== 'frame') return;
     if (count > 0 && performance.now() - beginMs < PATIENCE_MS) {
@@ -529,19 +529,32 @@ export class MotionRun {
     const { playing, speed, summary, timing } = this.store.get();
     if (!playing || !summary) return;
     this.clock.tick(speed);
-    if (this.isWaiting || this.isStepping || this.isAhead) return;
+    if (this.doing !== 'nothing' || this.isAhead) return;
     if (this.lacksEnergy) return void this.send(0);
-    const count = this.clock.take(summary.step_s, timing?.totalMs ?? null);
+    const count = this.clock.take(summary.step_s, affordable(timing?.totalMs ?? null));
     if (count > 0) void this.send(count);
   }
 
   private startClock(): void {
-    const tick = (): void => {
+    this.restartClock(this.store.get().numbers?.time_s ?? 0);
+    this.clock.start(() => {
       this.goOn();
-      if (this.store.get().playing) this.tickHandle = requestAnimationFrame(tick);
-    };
-    this.clock.restart(this.store.get().numbers?.time_s ?? 0);
-    cancelAnimationFrame(this.tickHandle);
-    this.tickHandle = requestAnimationFrame(tick);
+      return this.store.get().playing;
+    });
+  }
+
+  private restartClock(timeS: number): void {
+    this.clock.restart();
+    this.paceFrom = { clockMs: performance.now(), timeS };
+  }
+
+  /** Simulated seconds a second, once the window is over. */
+  private pace(timeS: number): number | null {
+    const clockMs = performance.now();
+    const from = this.paceFrom;
+    const elapsedS = (clockMs - from.clockMs) / 1000;
+    if (elapsedS < PACE_WINDOW_S) return null;
+    this.paceFrom = { clockMs, timeS };
+    return (timeS - from.timeS) / elapsedS;
   }
 }

@@ -16,7 +16,7 @@ export class ReferenceSource {
     private readonly onNumbers: (numbers: RunNumbers) => void,
   ) {}
 
-  /** Without it there is no error, and the cloth goes on. */
+  /** Fetches the reference; the cloth goes on without it, and without an error. */
   async bring(): Promise<void> {
     const state = this.store.get();
     const url = referenceUrl(state.setting);

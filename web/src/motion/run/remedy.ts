@@ -1,8 +1,8 @@
-// What helps a setting that was refused, or whose run shows nonsense.
+// Help for a setting that was refused, or whose run shows nonsense.
 import type { Failure } from '../../shared/bindings/answers';
 import type { RunWarning } from '../../shared/bindings/run-warning';
 import { warningSentence } from '../../shared/panels/warning-words';
-import { stepperRow } from '../../shared/steppers/steppers';
+import { STABLE_SUBSTEPS, stepperRow } from '../../shared/steppers/steppers';
 import { KNIT_PLACES, knitTitle, unitOf } from '../state/knit';
 import type { Remedy } from '../state/motion-state';
 import {
@@ -18,7 +18,7 @@ interface Help {
   remedy: Remedy;
 }
 
-/** For a number of a knit that its reader refuses: that of the preset. */
+/** Help for a number of a knit that its reader refuses: that of the preset. */
 function remedyForKnit({ where, what }: Failure, setting: Setting): Help | null {
   const { knit } = setting;
   const { knit: own } = presetSetting(setting.preset);
@@ -42,7 +42,7 @@ function remedyForKnit({ where, what }: Failure, setting: Setting): Help | null 
 export function remedyFor(failure: Failure, setting: Setting): Help | null {
   const { title, settings } = stepperRow(setting.stepper);
   if (failure.where !== '/method/substeps') return remedyForKnit(failure, setting);
-  if (settings.substeps?.least !== 0) return null;
+  if (settings.substeps?.least !== STABLE_SUBSTEPS) return null;
   const needed = /\((\d+) substeps would do\)/.exec(failure.what)?.[1];
   if (needed)
     return {

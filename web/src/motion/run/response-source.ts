@@ -1,7 +1,7 @@
 // Has a worker beside the shown cloth study what the shown scene does after its first contact.
+import { Refused } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
 import { type Store, watch } from '../../shared/state/store';
-import { Refused } from '../../shared/workers/asked';
 import type { MotionState, ResponseStory } from '../state/motion-state';
 import { sceneOf } from '../state/setting';
 import {

@@ -1,4 +1,4 @@
-// What a run is at, and what ended it, in words.
+// Words on what a run is at, and on what ended it.
 import { frameViews } from '../../shared/bindings/frame';
 import type { RunReport } from '../../shared/workers/motion-protocol';
 import type { Setting } from '../state/setting';
@@ -20,7 +20,7 @@ export function endOf(report: RunReport | null, frame: ArrayBuffer): string {
   return `The run stopped in step ${numbers.step + 1}, ${reason}.${placeOf(message, frame)} ${next}`;
 }
 
-/** What the worker is at, for a question of this type. */
+/** Words on what the worker is at, for a question of this type. */
 export function workWords(type: string, { level }: Setting): string {
   if (type === 'step') return `One step at level ${level}`;
   if (type === 'load' || type === 'reset') return `Building level ${level}`;

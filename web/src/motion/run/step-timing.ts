@@ -5,7 +5,7 @@ import type { StepTiming } from '../state/motion-state';
 /** Browsers round their clocks to as much as 0.1 ms: over this much work that is below 1 %. */
 const SHORTEST_BATCH_MS = 50;
 
-/** As many parts are told apart as the read-out has room for; the others join the rest. */
+/** Parts that are told apart, as many as the read-out has room for; the others join the rest. */
 const NAMED_PARTS = 2;
 
 type Totals = Pick<RunNumbers, 'parts_ms' | 'steps_ms' | 'steps_timed'>;

@@ -1,7 +1,8 @@
 // Plans a sweep with the references that are shipped for it, where they are, so that the error of the mesh
 // is known: on the spot a reference on a finer mesh takes minutes to hours.
+import { Refused } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import type { ReferenceKind, SweepPlan } from '../state/sweep-plan';
 import type { MeshError } from '../state/sweep-state';
 import type { SweepClient } from './measuring-client';
@@ -15,7 +16,7 @@ async function plan(worker: Worker, planned: SweepPlan): Promise<string[]> {
   return (await worker.ask(message)).references;
 }
 
-/** The same of a plan that may be none for this cloth: so much finer, it may have too many vertices. */
+/** Plans what may be no plan for this cloth: so much finer, it may have too many vertices. */
 async function planIfPossible(worker: Worker, planned: SweepPlan): Promise<string[]> {
   try {
     return await plan(worker, planned);

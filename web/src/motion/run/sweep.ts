@@ -56,7 +56,7 @@ export function createSweep(
     end('done', text);
   }
 
-  /** What was measured here is what a step costs. */
+  /** Keeps what was measured here as the cost of a step. */
   function keepCosts(rows: readonly BenchRow[]): void {
     const { sweep, setting, costs } = store.get();
     if (!sweep.scene || sweep.disturbed) return;

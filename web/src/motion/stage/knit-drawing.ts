@@ -21,9 +21,9 @@ const COURSES = 2;
 /** Sharp as far as most graphics go where the cloth is seen along. */
 const ANISOTROPY = 8;
 
-/** Of a leg, in stitches: from the edge of a stitch to its middle, reaching into those above and below. */
+/** Measures of a leg, in stitches: from the edge of a stitch to its middle, reaching into those above and below. */
 const LEG = { from: 0.45, to: 0.05, above: 0.25, length: 1.5, half: 0.19 };
-/** Of the yarn around a hole, in stitches. */
+/** Measures of the yarn around a hole, in stitches. */
 const EYELET = { hole: 0.37, yarn: 0.56, half: 0.19 };
 
 /** Stitches between holes lie that much lower than plain ones. */

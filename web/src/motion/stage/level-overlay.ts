@@ -16,16 +16,16 @@ import type { Overlay } from '../../shared/stage/overlay';
 
 /** Lines and marks are drawn that much nearer to the eye, so that no cloth that they lie on hides them. */
 const NEARER = 0.01;
-/** What is behind the cloth shows through it, faintly: edges of a level cut folds short. */
+/** Opacity of what is behind the cloth and shows through it, faintly: edges of a level cut folds short. */
 const BEHIND = 0.3;
-/** Across a mark on a vertex that is kept: of the way between these, and of the cloth at most. */
+/** Width of a mark on a vertex that is kept: a share of the way between these, and of the cloth at most. */
 const KEPT_OF_SPACING = 0.35;
 const KEPT_OF_CLOTH = 0.024;
 /** Others are that much smaller. */
 const LEFT_OUT_OF_KEPT = 0.55;
 /** A stage sees 32 degrees. */
 const VIEW_FACTOR = 1 / Math.tan((16 * Math.PI) / 180);
-/** Across the drawing of a mark [px], and of its rim. */
+/** Width of the drawing of a mark [px], and of its rim. */
 const DISC_PX = 32;
 const RIM_PX = 5;
 
@@ -55,7 +55,7 @@ function discTexture(): DataTexture {
   return texture;
 }
 
-/** Across a mark on a vertex that is kept [m]. */
+/** Width of a mark on a vertex that is kept [m]. */
 function markSize(positions: Float32Array, nKept: number): number {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];

@@ -2,79 +2,50 @@
 // simulation, and draws only when something changed.
 import { Vector3 } from 'three';
 import type { Scalar } from '../../shared/bindings/frame';
-import type { Collider, Triple } from '../../shared/bindings/geometry';
+import type { Collider } from '../../shared/bindings/geometry';
 import { lookOf } from '../../shared/fabric/fabric-look';
 import type { Pose } from '../../shared/stage/camera-control';
 import { type ClothMesh, createClothMesh } from '../../shared/stage/cloth-mesh';
 import type { Print } from '../../shared/stage/fabric-material';
 import { floorHeight, frame, framedSphere } from '../../shared/stage/framing';
 import type { HeatMap, HeatScale } from '../../shared/stage/heat-map';
+import {
+  createHeldStage,
+  type HeldStageEvents,
+  type HeldStageParts,
+} from '../../shared/stage/held-stage';
 import { createOverlays, type Overlay } from '../../shared/stage/overlay';
-import { createPaneStage, createStageHand } from '../../shared/stage/pane-stage';
 import { invitingVertex } from './inviting';
 
-export interface MotionStageEvents {
-  grab(vertex: number): void;
-  moveGrab(target: Triple): void;
-  releaseGrab(): void;
-  /** Keys that are neither the camera's nor the hand's. True when used. */
-  key(name: string): boolean;
+export interface MotionStageEvents extends HeldStageEvents {
   /** Hears of each drawn frame. */
   drawn(picture: DrawnPicture): void;
-  pictureLost(isLost: boolean): void;
 }
 
 export interface DrawnPicture {
   heatScale: HeatScale;
   /** Where the invitation belongs, in pixels. */
   invitation: { x: number; y: number };
-  /** From where it is seen; null from where the scene is seen at first. */
+  /** Pose from which it is seen; null for that of the scene's first view. */
   camera: Pose | null;
 }
 
-export interface MotionStage {
-  /** A new mesh; the view is set anew when it belongs to a new scene, and a hand keeps hold of what tears. */
-  showMesh(triangles: Uint32Array, nVertices: number, change: 'scene' | 'mesh' | 'tear'): void;
-  showFrame(buffer: ArrayBuffer, scalar: Scalar): void;
-  setColliders(colliders: Collider[]): void;
-  setFabric(id: number): void;
-  /** What is painted on the cloth, once its mesh has as many vertices. */
-  setPrint(print: Print | null): void;
-  setHeat(map: HeatMap, range: 'auto' | number): void;
-  setEdges(isShown: boolean): void;
-  /** Draws it too, from now on. */
-  addOverlay(overlay: Overlay): void;
-  /** What an overlay draws is another. */
-  redraw(): void;
-  homeView(): void;
-  /** From where the scene is seen, also once it is another one. */
-  setCamera(pose: Pose | null): void;
-  /** Present positions, three numbers a vertex [m]. */
-  positions(): Float32Array;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number): { x: number; y: number };
-  /** The vertex that asks to be taken. */
-  inviting(): number;
-}
-
-/** What is set of how the cloth is drawn. */
-function drawingOf(
-  cloth: ClothMesh,
-  redraw: () => void,
-): Pick<MotionStage, 'setFabric' | 'setPrint' | 'setHeat' | 'setEdges'> {
+/** Settings of how the cloth is drawn. */
+function drawingOf(cloth: ClothMesh, redraw: () => void) {
   return {
-    setFabric(id) {
+    setFabric(id: number) {
       cloth.setLook(lookOf(id));
       redraw();
     },
-    setPrint(print) {
+    /** Paints the cloth, once its mesh has as many vertices. */
+    setPrint(print: Print | null) {
       cloth.setPrint(print);
       redraw();
     },
-    setHeat(map, range) {
+    setHeat(map: HeatMap, range: 'auto' | number) {
       if (cloth.setHeat(map, range)) redraw();
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       cloth.setEdges(isShown);
       redraw();
     },
@@ -86,76 +57,61 @@ export function createMotionStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: MotionStageEvents,
-): MotionStage {
+) {
   const cloth = createClothMesh();
   const overlays = createOverlays();
   let awaitsFraming = false;
   let isFreshMesh = false;
-  let inviting = 0;
   let wantedPose: Pose | null = null;
-  let floor = 0; // height of what is drawn as the floor [m]
 
-  const stage = createPaneStage(parent, canvas, {
+  const parts: HeldStageParts = {
     fov: 32,
     objects: [cloth.object],
     isReady: () => cloth.positions().length > 0,
     prepare() {
       cloth.update();
       overlays.update(cloth.positions(), stage.camera.position);
-      hand.mark(cloth.positions());
     },
-    drawn() {
-      const camera = stage.control.pose();
-      events.drawn({ heatScale: cloth.heatScale(), invitation: project(inviting), camera });
-    },
-    themed(colour) {
-      hand.setColour(colour('--stage-hand'));
-      overlays.themed(colour);
-    },
-    handKey: (name) => hand.key(name),
-    key: events.key,
-    pictureLost: events.pictureLost,
-  });
-  const { grid, redraw } = stage;
-  const hand = createStageHand(stage, {
-    grab: events.grab,
-    move: events.moveGrab,
-    release: events.releaseGrab,
-    fallbackVertex: () => inviting,
-    picture: () => () => grid.boxOf(0),
-    cloth: () => ({ positions: cloth.positions(), triangles: cloth.triangles() }),
-    floor: () => floor,
-  });
-  const project = (vertex: number) => grid.project(cloth.positions(), vertex, 0);
+    positions: () => cloth.positions(),
+    triangles: () => cloth.triangles(),
+    drawn: (invitation) =>
+      events.drawn({ heatScale: cloth.heatScale(), invitation, camera: stage.control.pose() }),
+    themed: (colour) => overlays.themed(colour),
+  };
+  const held = createHeldStage(parent, canvas, parts, events);
+  const { stage } = held;
+  const { redraw } = stage;
 
   function chooseInviting(): void {
     const towards = stage.camera.getWorldDirection(new Vector3()).negate();
-    inviting = invitingVertex(cloth.positions(), cloth.triangles(), towards);
+    held.invite(invitingVertex(cloth.positions(), cloth.triangles(), towards));
   }
 
   stage.open();
 
   return {
-    showMesh(triangles, nVertices, change) {
+    /** A new mesh; the view is set anew when it belongs to a new scene, and a hand keeps hold of what tears. */
+    showMesh(triangles: Uint32Array, nVertices: number, change: 'scene' | 'mesh' | 'tear') {
       cloth.setTopology(triangles, nVertices);
       overlays.clear();
       if (change === 'tear') return;
       awaitsFraming = change === 'scene';
       isFreshMesh = true;
-      hand.drop();
+      held.drop();
     },
-    showFrame(buffer, scalar) {
+    showFrame(buffer: ArrayBuffer, scalar: Scalar) {
       cloth.setFrame(buffer, scalar);
       if (isFreshMesh) chooseInviting();
       isFreshMesh = false;
       redraw();
     },
-    setColliders(colliders) {
+    setColliders(colliders: Collider[]) {
       stage.surroundings.setColliders(colliders);
       if (awaitsFraming) {
         awaitsFraming = false;
         const sphere = framedSphere(cloth.positions(), colliders);
-        floor = floorHeight(sphere, colliders);
+        const floor = floorHeight(sphere, colliders);
+        held.setFloor(floor);
         frame(stage, sphere, floor);
         stage.control.setPose(wantedPose);
         chooseInviting();
@@ -163,16 +119,24 @@ export function createMotionStage(
       redraw();
     },
     ...drawingOf(cloth, redraw),
-    addOverlay: (overlay) => overlays.add(overlay, stage.scene),
+    /** Draws it too, from now on. */
+    addOverlay: (overlay: Overlay) => overlays.add(overlay, stage.scene),
+    /** Draws anew, as an overlay has changed. */
     redraw,
     homeView: stage.control.home,
-    setCamera(pose) {
+    /** Sets from where the scene is seen, also once it is another one. */
+    setCamera(pose: Pose | null) {
       wantedPose = pose;
       if (JSON.stringify(pose) !== JSON.stringify(stage.control.pose()))
         stage.control.setPose(pose);
     },
+    /** Present positions, three numbers a vertex [m]. */
     positions: () => cloth.positions(),
-    project,
-    inviting: () => inviting,
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: (vertex: number) => held.project(vertex, 0),
+    /** The vertex that asks to be taken. */
+    inviting: held.inviting,
   };
 }
+
+export type MotionStage = ReturnType<typeof createMotionStage>;

@@ -3,7 +3,7 @@ import type { LevelSelection } from '../../shared/bindings/pleat-module';
 import { STEPPERS, stepperRow } from '../../shared/steppers/steppers';
 import { detailOf, type Setting } from './setting';
 
-/** What a link may ask for: no mesh of ours has more. */
+/** Most levels that a link may ask for: no mesh of ours has more. */
 export const MOST_COARSE = 30;
 
 /** Steppers that make levels of a mesh. */
@@ -15,7 +15,7 @@ export const LEVEL_MAKERS: readonly string[] = STEPPERS.filter(
 export interface LevelWish {
   selection: LevelSelection;
   nCoarser: number;
-  /** Of a level's vertices that the next one keeps; of no meaning to thinned ones. */
+  /** Share of a level's vertices that the next one keeps; of no meaning to thinned ones. */
   ratio: number;
 }
 

@@ -16,10 +16,10 @@ const MOST_ROUNDS = 513;
 /** A usual sheet is studied within some ten seconds [s]. */
 const LONGEST_SOLVE_S = 0.03;
 
-/** Of two batches the quicker one counts: what slowed the other down was not the method. */
+/** The quicker one of two batches counts: what slowed the other down was not the method. */
 const REPEAT = 2;
 
-/** What compliant constraints come to takes a minute to find for more [vertices]. */
+/** Most vertices: with more it takes a minute to find what compliant constraints come to. */
 export const MOST_COMPLIANT_VERTICES = 1500;
 
 /** The time since the start that the step begins at [s]; null: the one that is shown. */
@@ -50,7 +50,7 @@ export interface ConvergenceState {
   begin: StepBegin;
   /** Null: as the shown method has them. */
   constraints: Constraints | null;
-  /** What the story is of, in words. */
+  /** Words on what the story is of. */
   of: string;
   /** The cloth was playing meanwhile, which made its times too long. */
   disturbed: boolean;
@@ -63,7 +63,7 @@ function isPositionBased(stepper: string): boolean {
   return needs_springs && !solves_whole_substeps;
 }
 
-/** Those of the shown method; rigid where it has none. */
+/** Constraints of the shown method; rigid where it has none. */
 export function constraintsOf(setting: Setting): Constraints {
   return detailOf(setting, 'constraints') === 'compliant' ? 'compliant' : 'rigid';
 }

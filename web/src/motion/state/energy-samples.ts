@@ -4,7 +4,7 @@ import type { EnergyNumbers } from '../../shared/bindings/pleat-module';
 /** More points than these would lie closer than a pixel. */
 const MOST_SAMPLES = 512;
 
-/** At most half as many, evenly over the time of all of them. */
+/** Thins samples to half as many at most, evenly over the time of all of them. */
 function thinned(samples: readonly EnergyNumbers[]): EnergyNumbers[] {
   const begin = samples[0]?.time_s ?? 0;
   const gap = (2 * ((samples.at(-1)?.time_s ?? 0) - begin)) / MOST_SAMPLES;
@@ -16,7 +16,7 @@ function thinned(samples: readonly EnergyNumbers[]): EnergyNumbers[] {
   });
 }
 
-/** With one more at the end, in place of one of the same time; thinned out when there are too many. */
+/** Samples with one more at the end, in place of one of the same time; thinned out when there are too many. */
 export function withSample(
   samples: readonly EnergyNumbers[],
   sample: EnergyNumbers,

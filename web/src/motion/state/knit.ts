@@ -64,7 +64,7 @@ function knitFrom(numberAt: (place: KnitPlace) => number, dampingPer: DampingPer
   return { ...(Object.fromEntries(numbers) as Record<KnitPlace, number>), dampingPer };
 }
 
-/** Of a section that has all its numbers. */
+/** The knit of a section that has all its numbers. */
 export function knitOf(section: Readonly<Record<string, unknown>>): Knit {
   const numberAt = (place: KnitPlace) => {
     const { part, key } = partsOf(place);

@@ -10,6 +10,7 @@ import {
   type DetailValue,
   METHOD_DETAILS,
   type MethodDetail,
+  numberOf,
   STEPPER_NAMES,
   stepperRow,
 } from '../../shared/steppers/steppers';
@@ -51,7 +52,7 @@ export interface MotionLink {
   compare: boolean;
   /** Steps that are run through before the cloth is shown. */
   startSteps: number;
-  /** From where the cloth is seen; null from where it is at first. */
+  /** Pose from which the cloth is seen; null for the first one. */
   camera: Pose | null;
 }
 
@@ -197,7 +198,7 @@ export function decodeMotionLink(hash: string): { link: MotionLink; problems: st
   const stepper = take('stepper', usual.stepper, steppers.join(', '), oneOf(steppers));
   const start = withStepper(usual, stepper);
   const takeCount = (count: Count, most: number) => {
-    const least = stepperRow(stepper).settings[count]?.least ?? 1;
+    const least = numberOf(stepperRow(stepper).settings[count]?.least ?? 1);
     return take(count, start[count], `${least} to ${most}`, wholeNumber(least, most));
   };
   const responses = ['resting', 'uniform'] as const;

@@ -18,17 +18,17 @@ import { NO_SWEEP, type SweepState } from './sweep-state';
 
 export type Phase = 'loading' | 'ready' | 'stopped' | 'refused' | 'broken';
 
-/** What helps, and the words for it. */
+/** The change that helps, and the words for it. */
 export interface Remedy {
   title: string;
   setting: Setting;
-  /** From the start of the run, which then plays; else the motion goes on. */
+  /** True when it starts the run anew, which then plays; else the motion goes on. */
   startsAnew?: boolean;
 }
 
 export interface Problem {
   /**
-   * What is at fault: the link, the settings, a file, the run's numbers, the worker that computes, the
+   * The part at fault: the link, the settings, a file, the run's numbers, the worker that computes, the
    * graphics, or the browser itself.
    */
   source: 'link' | 'setting' | 'file' | 'run' | 'worker' | 'picture' | 'browser';
@@ -64,32 +64,32 @@ export interface MotionState extends MotionLink {
   summary: SceneSummary | null;
   numbers: RunNumbers | null;
   timing: StepTiming | null;
-  /** Of the frames since the account was opened or the run began; empty while it is closed. */
+  /** Energies of the frames since the account was opened or the run began; empty while it is closed. */
   energies: readonly EnergyNumbers[];
-  /** As it was when last asked for: while `springs` is on, of the loaded cloth. */
+  /** The split when it was last asked for: while `springs` is on, of the loaded cloth. */
   springSplit: SpringSplit | null;
   /** While one of them is drawn, those of the loaded cloth; null until they are known. */
   coarseLevels: MeshLevels | null;
   /** Where the slider of substeps is dragged to, until it is let go. */
   draggedSubsteps: number | null;
-  /** What imex saves at the substeps that its slider shows; null until that is known. */
+  /** Savings of imex at the substeps that its slider shows; null until that is known. */
   imexSaving: ImexSaving | null;
   /** How much of the way to the start is run through, 0 to 1; null when nothing is. */
   ahead: number | null;
-  /** What the worker has been at for a while, and for how long by now [s]. */
+  /** The question that the worker has been at for a while, and for how long by now [s]. */
   busy: { type: string; seconds: number } | null;
   /** Why the shown state is not what its link replays. */
   astray: 'pulled' | 'changed' | null;
-  /** Whether the reference of the shown cloth is there to compare with. */
+  /** State of the reference that the shown cloth is compared with. */
   reference: 'unasked' | 'coming' | 'failed' | 'here';
-  /** What a step was measured to take on this device. */
+  /** Times that a step was measured to take on this device. */
   costs: StepCosts;
   /** Simulated seconds a second of the clock, as reached. */
   pace: number | null;
   /** The last step's solve reached its iteration cap. */
   isCutShort: boolean;
   colliders: Collider[];
-  /** What the cloth does after first contact, as it was last studied. */
+  /** Motion of the cloth after first contact, as it was last studied. */
   response: ResponseStory;
   heatScale: HeatScale | null;
   problem: Problem | null;
@@ -134,7 +134,7 @@ export function initialMotionState(link: MotionLink, problems: string[]): Motion
   };
 }
 
-/** What is set when another scene is shown: it starts still, from its first view. */
+/** State when another scene is shown: it starts still, from its first view. */
 export const AT_START = {
   startSteps: 0,
   playing: false,

@@ -14,9 +14,9 @@ export interface ObjMesh {
   name: string;
   /** Brought by the visitor; else it is the page's example. */
   isOwn: boolean;
-  /** Of the file; everything here is in metres. */
+  /** Unit of the file; everything here is in metres. */
   unit: ObjUnit;
-  /** What is odd about its size, in words. */
+  /** Words on what is odd about its size. */
   odd: string | null;
   /** Which statements of the file were skipped, in words. */
   skipped?: string;

@@ -17,7 +17,9 @@ import {
   type Count,
   canRun,
   type DetailValue,
+  METHOD_DETAILS,
   type Model,
+  numberOf,
   STABLE_SUBSTEPS,
   STEPPER_NAMES,
   type Substeps,
@@ -58,11 +60,11 @@ export interface Setting {
   iterations: number;
   /** imex: share of the springs that shall be explicit at least, for which it takes more substeps. */
   explicitShare: number;
-  /** Of the method, where they are not what its stepper starts from. */
+  /** Details of the method, where they are not what its stepper starts from. */
   details?: Details;
   /** The vertices that hold the mesh; of no meaning to other presets. */
   hold: Hold;
-  /** Of a preset whose cloth is knitted. */
+  /** Numbers of the knit of a preset whose cloth is knitted. */
   knit?: Knit;
   /** The cloth bounces off solids, for comparison. */
   bounces?: boolean;
@@ -180,10 +182,9 @@ export function levelsOf(preset: PresetId): readonly number[] {
 /** Both counts of a method, with the stepper's own start where the method says nothing. */
 function countsOf(stepper: string, method: { substeps?: Substeps; iterations?: number }) {
   const { settings } = stepperRow(stepper);
-  const { substeps } = method;
   return {
-    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? settings.substeps?.start ?? 1),
-    iterations: method.iterations ?? settings.iterations?.start ?? 1,
+    substeps: numberOf(method.substeps ?? settings.substeps?.start ?? 1),
+    iterations: numberOf(method.iterations ?? settings.iterations?.start ?? 1),
   };
 }
 
@@ -198,7 +199,7 @@ export function detailsOf(
   return own.length > 0 ? Object.fromEntries(own) : undefined;
 }
 
-/** What a detail is set to. */
+/** The value of a detail. */
 export function detailOf(
   { stepper, details }: Pick<Setting, 'stepper' | 'details'>,
   key: string,
@@ -211,11 +212,12 @@ export function withDetail(setting: Setting, key: string, value: DetailValue | u
   return { ...setting, details: detailsOf(stepper, { ...details, [key]: value }) };
 }
 
-/** Some smoother of the method takes omega times its corrections. */
-export function relaxes(setting: Pick<Setting, 'stepper' | 'details'>): boolean {
-  return ['smoother', 'smoother_before'].some((key) =>
-    ['sor', 'jacobi'].includes(String(detailOf(setting, key))),
-  );
+/** The method makes use of a detail. */
+export function isRead(setting: Setting, key: string): boolean {
+  const beside = METHOD_DETAILS.find((detail) => detail.key === key)?.beside;
+  const isBeside = ([other, words]: [string, readonly string[]]) =>
+    words.includes(String(detailOf(setting, other)));
+  return detailOf(setting, key) !== undefined && (!beside || Object.entries(beside).some(isBeside));
 }
 
 /** The setting a preset is made for. */
@@ -236,7 +238,7 @@ export function presetSetting(preset: PresetId): Setting {
   };
 }
 
-/** The same setting under another stepper, with that stepper's usual counts and details. */
+/** A setting under another stepper, with that stepper's usual counts and details. */
 export function withStepper(setting: Setting, stepper: string): Setting {
   const { method: own } = PRESETS[setting.preset].scene;
   const method = own.stepper === stepper ? own : {};
@@ -244,7 +246,7 @@ export function withStepper(setting: Setting, stepper: string): Setting {
   return { ...setting, stepper, ...countsOf(stepper, method), details };
 }
 
-/** The same setting with another model, under the first stepper that can run it if its own cannot. */
+/** A setting with another model, under the first stepper that can run it if its own cannot. */
 export function withModel(setting: Setting, model: Model): Setting {
   const stepper = [setting.stepper, ...STEPPER_NAMES].find((name) => canRun(name, model));
   const isOther = stepper !== undefined && stepper !== setting.stepper;
@@ -263,7 +265,7 @@ export function methodOf(setting: Setting): Record<string, unknown> {
   const { settings, details } = stepperRow(setting.stepper);
   for (const key of Object.keys(details)) delete method[key];
   Object.assign(method, setting.details);
-  if (!relaxes(setting)) delete method.omega;
+  for (const key of Object.keys(details)) if (!isRead(setting, key)) delete method[key];
   method.stepper = setting.stepper;
   method.step_s = setting.stepS;
   for (const count of COUNTS) if (settings[count]) method[count] = setting[count];

@@ -1,4 +1,4 @@
-// What a step costs on this device at each level: as measured, or as expected from another level.
+// Cost of a step on this device at each level: as measured, or as expected from another level.
 import { stepperRow } from '../../shared/steppers/steppers';
 import { COUNTS, type Setting, wantedShare } from './setting';
 
@@ -31,7 +31,7 @@ function growthOf({ stepper, substeps }: Setting): number {
 /** So many levels finer than what was measured, an estimate is a bound: solves grow faster and faster. */
 const LEVELS_TO_BOUND = 2;
 
-/** What the cost depends on, beside the fabric, which matters little. */
+/** The key of a cost: what it depends on, beside the fabric, which matters little. */
 function keyOf(setting: Setting): string {
   const { preset, model, stepper, stepS, level, knit } = setting;
   const { settings } = stepperRow(stepper);
@@ -52,7 +52,7 @@ export function withCost(
   return { ...costs, [keyOf(setting)]: { ms, isLeast } };
 }
 
-/** What a step of this setting would cost at a level; null while nothing like it was measured. */
+/** Cost that a step of this setting would have at a level; null while nothing like it was measured. */
 export function stepCostAt(costs: StepCosts, setting: Setting, level: number): StepCost | null {
   const measuredAt = (other: number) => costs[keyOf({ ...setting, level: other })];
   const own = measuredAt(level);

@@ -1,4 +1,4 @@
-// What a sweep is expected to take on this device, from what steps were measured to cost.
+// Time that a sweep is expected to take on this device, from what steps were measured to cost.
 import { stepperRow } from '../../shared/steppers/steppers';
 import { presetSetting, type Setting } from './setting';
 import { type StepCosts, stepCostAt } from './step-cost';
@@ -15,7 +15,7 @@ import {
 /** Substeps that stand for as many as the stability bound asks for. */
 const STABLE_SUBSTEPS = 100;
 
-/** Until the module is there and has its references [s]. */
+/** Time until the module is there and has its references [s]. */
 const START_S = 1.5;
 
 /** The first round is dearer than a timed one: it looks at the parts of each step and at the energy. */
@@ -28,7 +28,7 @@ function workOf({ stepper, substeps, iterations }: Setting): number {
   return substep_work * rounds * (substeps === 0 ? STABLE_SUBSTEPS : substeps);
 }
 
-/** What a step of a planned setting takes [ms], in proportion to the shown one where it was never run. */
+/** Time of a step of a planned setting [ms], in proportion to the shown one where it was never run. */
 function stepMs(costs: StepCosts, planned: Setting, shown: Setting): number | null {
   const own = stepCostAt(costs, planned, planned.level);
   if (own) return own.ms;

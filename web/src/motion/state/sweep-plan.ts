@@ -1,7 +1,7 @@
 // The plan that one press of the sweep button measures, and how its rows map back to settings.
 import {
   type Model,
-  STABLE_SUBSTEPS,
+  numberOf,
   STEPPER_NAMES,
   STEPPERS,
   type StepperRow,
@@ -21,13 +21,13 @@ export interface PlannedMethod {
 /** Long enough for the cloth to move and fall, short enough to wait for [s]. */
 const DURATION_S = 1;
 
-/** Until the motion is another on every mesh: the free end of the sheet whips round, the cloth over the ball folds [s]. */
+/** Time until meshes move differently: the free end of the sheet whips round, the cloth over the ball folds [s]. */
 const BEFORE_CHANCE_S: Partial<Record<PresetId, number>> = {
   'swinging-sheet': 0.4,
   tablecloth: 0.4,
 };
 
-/** What a sweep compares the motion of a scene over [s]. */
+/** Time over which a sweep compares the motion of a scene [s]. */
 export function durationS({ preset }: Pick<Setting, 'preset'>): number {
   return BEFORE_CHANCE_S[preset] ?? DURATION_S;
 }
@@ -53,7 +53,7 @@ export interface SweepPlan {
   reference_level?: number;
 }
 
-/** What rows are compared with: the exact motion on a finer mesh than any of theirs, or on their own. */
+/** The reference of rows: the exact motion on a finer mesh than any of theirs, or on their own. */
 export type ReferenceKind = 'converged' | 'same_mesh';
 
 /** Level of the finer mesh: runs on it are shipped, since they take from minutes to hours. */
@@ -79,7 +79,7 @@ export function slowSteppers(model: Model): StepperRow[] {
   return STEPPERS.filter((row) => row.models.includes(model) && isSlow(row));
 }
 
-/** What is measured at one level, of every stepper that takes part there. */
+/** Methods that are measured at one level, of every stepper that takes part there. */
 export function methodsAt(level: number, model: Model, withSlow: boolean): PlannedMethod[] {
   const isWanted = (row: StepperRow) =>
     !isSlow(row) || (withSlow && level <= (row.finest_sweep_level ?? FINEST_SWEEP));
@@ -92,7 +92,7 @@ export function methodsAt(level: number, model: Model, withSlow: boolean): Plann
 /** A reference has to be known so many times better than what it judges. */
 export const SURER = 4;
 
-/** What a visitor asks a sweep for. */
+/** A visitor's wish for a sweep. */
 export interface SweepWish {
   /** Measures levels 0 to this one. */
   finest: number;
@@ -146,7 +146,7 @@ export function settingOf(
     stepper,
     details: detailsOf(stepper, { ...method }),
     stepS: step_s,
-    substeps: substeps === STABLE_SUBSTEPS ? 0 : (substeps ?? present.substeps),
+    substeps: numberOf(substeps ?? present.substeps),
     iterations: iterations ?? present.iterations,
     explicitShare: 0,
   };

@@ -5,7 +5,7 @@ import { isSameMethod, type Setting } from './setting';
 import { hasFinished, settingOfRow } from './sweep-plan';
 
 /**
- * Whether errors have what the mesh does wrong in them; else no reference on a finer mesh is shipped for
+ * Says that errors have what the mesh does wrong in them; else that no reference on a finer mesh is shipped for
  * the scene, or none could be fetched.
  */
 export type MeshError = 'known' | 'unshipped' | 'unfetched';
@@ -15,7 +15,7 @@ export interface SweepState {
   /** 0 to 1. */
   progress: number;
   message: string;
-  /** What the rest of it is expected to take [s]; null while nobody knows. */
+  /** Time that the rest of it is expected to take [s]; null while nobody knows. */
   leftS: number | null;
   meshError: MeshError;
   rows: BenchRow[];

@@ -1,5 +1,6 @@
 // Compares methods on one step, as a function of the module.
-import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
+import { refusalOf } from '../../shared/bindings/refusals';
 import type { Post } from '../../shared/workers/serve';
 import type { ConvergenceModule, ConvergenceStudy } from '../bindings/convergence-module';
 import type { FromConvergence, ToConvergence } from './convergence-protocol';
@@ -20,10 +21,9 @@ export function studyConvergence(
   }
   try {
     const text = module.studyConvergence(fabricsText, sceneText, wishText, hear);
-    const answer = read<{ study: ConvergenceStudy }>(text);
-    if (answer.ok) post({ type: 'studied', study: answer.study }, []);
-    else post({ type: 'refused', failure: answer }, []);
+    const { study } = granted<{ study: ConvergenceStudy }>(text);
+    post({ type: 'studied', study }, []);
   } catch (error) {
-    post({ type: 'refused', failure: internalFailure(describe(error)) }, []);
+    post(refusalOf(error), []);
   }
 }

@@ -1,6 +1,6 @@
 // Messages between the page and the worker that compares methods on one step, both ways. It is told
 // once; to cancel, terminate the worker.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { ConvergenceStudy } from '../bindings/convergence-module';
 
 export interface ToConvergence {
@@ -11,7 +11,5 @@ export interface ToConvergence {
 }
 
 export type FromConvergence =
-  /** From 0 to 1. */
-  | { type: 'progress'; done: number }
-  | { type: 'studied'; study: ConvergenceStudy }
-  | { type: 'refused'; failure: Failure };
+  /** Share that is done, 0 to 1. */
+  { type: 'progress'; done: number } | { type: 'studied'; study: ConvergenceStudy } | Refusal;

@@ -1,9 +1,10 @@
+import { givenCore } from '../../shared/workers/given-core';
 import { serve } from '../../shared/workers/serve';
-import createConvergence from '../../wasm/convergence.mjs';
+import type { ConvergenceModule } from '../bindings/convergence-module';
 import { studyConvergence } from './convergence-core';
 import type { FromConvergence, ToConvergence } from './convergence-protocol';
 
 serve<ToConvergence, FromConvergence>(self, async (post) => {
-  const module = await createConvergence();
+  const module = await givenCore<ConvergenceModule>();
   return { receive: (message) => studyConvergence(module, message, post) };
 });

@@ -1,7 +1,8 @@
 // Messages between the page and a worker that measures a scene beside the shown cloth, both ways. It
 // runs to its end; to cancel, terminate the worker.
-import type { Failure } from '../../shared/bindings/answers';
+
 import type { ResponseStudy } from '../../shared/bindings/pleat-module';
+import type { Refusal } from '../../shared/bindings/refusals';
 
 export interface ToRace {
   type: 'race';
@@ -14,7 +15,7 @@ export interface ToStudy {
   type: 'studyResponse';
   fabricsText: string;
   sceneText: string;
-  /** After first contact [s]. */
+  /** Time that is studied after first contact [s]. */
   windowS: number;
 }
 
@@ -31,9 +32,4 @@ export interface StudiedMessage {
   study: ResponseStudy;
 }
 
-export interface MeasuringRefused {
-  type: 'refused';
-  failure: Failure;
-}
-
-export type FromMeasuring = RacedMessage | StudiedMessage | MeasuringRefused;
+export type FromMeasuring = RacedMessage | StudiedMessage | Refusal;

@@ -1,11 +1,12 @@
+import type { PleatModule } from '../../shared/bindings/pleat-module';
+import { givenCore } from '../../shared/workers/given-core';
 import { serve } from '../../shared/workers/serve';
-import createPleat from '../../wasm/pleat.mjs';
 import type { FromMeasuring, ToMeasuring } from './measuring-protocol';
 import { race } from './race-core';
 import { studyResponse } from './response-core';
 
 serve<ToMeasuring, FromMeasuring>(self, async (post) => {
-  const module = await createPleat();
+  const module = await givenCore<PleatModule>();
   return {
     receive(message) {
       const answer =

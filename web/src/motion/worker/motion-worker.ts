@@ -1,6 +1,10 @@
+import type { PleatModule } from '../../shared/bindings/pleat-module';
+import { givenCore } from '../../shared/workers/given-core';
 import { MotionCore } from '../../shared/workers/motion-core';
 import type { FromMotion, ToMotion } from '../../shared/workers/motion-protocol';
 import { serve } from '../../shared/workers/serve';
-import createPleat from '../../wasm/pleat.mjs';
 
-serve<ToMotion, FromMotion>(self, async (post) => new MotionCore(await createPleat(), post));
+serve<ToMotion, FromMotion>(
+  self,
+  async (post) => new MotionCore(await givenCore<PleatModule>(), post),
+);

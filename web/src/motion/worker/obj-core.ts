@@ -1,7 +1,8 @@
 // Reads an OBJ file into the section "cloth" of a scene, as a function of the module.
 // The only file that calls delete() on its object.
-import { describe, internalFailure, read } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
 import type { ObjAnswer, PleatModule } from '../../shared/bindings/pleat-module';
+import { refusalOf } from '../../shared/bindings/refusals';
 import { DIRECTIONS, liesFlat, objMesh } from '../state/obj-mesh';
 import type { FromObj, ToObj } from './obj-protocol';
 
@@ -12,13 +13,12 @@ export function readObj(module: Pick<PleatModule, 'Scene'>, message: ToObj): Fro
   try {
     const threads = liesFlat({ low, high }) ? 'along_x' : 'down';
     const meshText = JSON.stringify({ obj: name, warp_direction: DIRECTIONS[threads] });
-    const answer = read<ObjAnswer>(scene.readObj(objText, meshText));
-    if (!answer.ok) return { type: 'refused', failure: answer };
+    const answer = granted<ObjAnswer>(scene.readObj(objText, meshText));
     const known = answer.needs_direction ? threads : 'texture';
     const { isOwn, unit, odd } = file;
     return { type: 'objRead', mesh: objMesh({ name, isOwn, unit, odd, threads: known }, answer) };
   } catch (error) {
-    return { type: 'refused', failure: internalFailure(describe(error)) };
+    return refusalOf(error);
   } finally {
     scene.delete();
   }

@@ -1,6 +1,7 @@
 // Messages between the page and the worker that reads a mesh, both ways.
-import type { Failure } from '../../shared/bindings/answers';
+
 import type { Triple } from '../../shared/bindings/geometry';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { ObjMesh } from '../state/obj-mesh';
 
 /** Reads to its end; to cancel, terminate the worker. */
@@ -9,7 +10,7 @@ export interface ToObj {
   fabricsText: string;
   /** Vertices in metres. */
   objText: string;
-  /** What is known of the file; its ends in any unit. */
+  /** The file as far as it is known; its ends in any unit. */
   file: Pick<ObjMesh, 'name' | 'isOwn' | 'unit' | 'odd'> & { low: Triple; high: Triple };
 }
 
@@ -18,4 +19,4 @@ export interface ObjReadMessage {
   mesh: ObjMesh;
 }
 
-export type FromObj = ObjReadMessage | { type: 'refused'; failure: Failure };
+export type FromObj = ObjReadMessage | Refusal;

@@ -1,12 +1,13 @@
 // Times imex against implicit with cg on the same scene, as a function of the module.
 // The only file that calls delete() on its objects.
-import { type Answer, describe, internalFailure, read } from '../../shared/bindings/answers';
+import { granted } from '../../shared/bindings/answers';
 import type {
   PleatModule,
   SceneSummary,
   SimulationHandle,
 } from '../../shared/bindings/pleat-module';
-import type { MeasuringRefused, RacedMessage, ToRace } from './measuring-protocol';
+import { type Refusal, refusalOf } from '../../shared/bindings/refusals';
+import type { RacedMessage, ToRace } from './measuring-protocol';
 
 type Module = Pick<PleatModule, 'Scene' | 'Simulation'>;
 
@@ -23,10 +24,10 @@ interface ParsedScene {
   summary: SceneSummary;
 }
 
-function parse(module: Module, { fabricsText, sceneText }: ToRace): Answer<ParsedScene> {
+function parse(module: Module, { fabricsText, sceneText }: ToRace): ParsedScene {
   const reader = new module.Scene(fabricsText);
   try {
-    return read<ParsedScene>(reader.parse(sceneText));
+    return granted<ParsedScene>(reader.parse(sceneText));
   } finally {
     reader.delete();
   }
@@ -105,24 +106,22 @@ export function race(
   module: Module,
   message: ToRace,
   now = () => performance.now(),
-): RacedMessage | MeasuringRefused {
+): RacedMessage | Refusal {
   const { fabricsText, sceneText } = message;
   const runs: SimulationHandle[] = [];
   const load = (text: string) => {
     const run = new module.Simulation(fabricsText);
     runs.push(run);
-    return { run, answer: read<object>(run.load(text)) };
+    granted(run.load(text));
+    return run;
   };
   try {
     const parsed = parse(module, message);
-    if (!parsed.ok) return { type: 'refused', failure: parsed };
     const imex = load(sceneText);
-    if (!imex.answer.ok) return { type: 'refused', failure: imex.answer };
     const implicit = load(implicitText(sceneText, parsed));
-    if (!implicit.answer.ok) return { type: 'refused', failure: implicit.answer };
-    return { type: 'raced', ratio: ratioOf(imex.run, implicit.run, now) };
+    return { type: 'raced', ratio: ratioOf(imex, implicit, now) };
   } catch (error) {
-    return { type: 'refused', failure: internalFailure(describe(error)) };
+    return refusalOf(error);
   } finally {
     for (const run of runs) run.delete();
   }

@@ -1,7 +1,7 @@
 // Plans a sweep and runs it to its end, as a function of the module and of where answers go.
 // The only file that calls delete() on its object.
-import { describe, type Failure, internalFailure, read } from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { granted } from '../../shared/bindings/answers';
+import { ModuleCore } from '../../shared/workers/serve';
 import type { ExperimentHandle, SweepModule, SweepReport } from '../bindings/sweep-module';
 import type { FromSweep, PlanMessage, ToSweep } from './sweep-protocol';
 
@@ -9,60 +9,34 @@ import type { FromSweep, PlanMessage, ToSweep } from './sweep-protocol';
 const SWEEP_SLICE_MS = 150;
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class SweepCore {
+export class SweepCore extends ModuleCore<SweepModule, ToSweep, FromSweep> {
   private experiment: ExperimentHandle | null = null;
-
-  constructor(
-    private readonly module: SweepModule,
-    private readonly post: Post<FromSweep>,
-  ) {}
-
-  receive(message: ToSweep): void {
-    try {
-      const failure = this.answer(message);
-      if (failure) this.post({ type: 'refused', failure }, []);
-    } catch (error) {
-      this.post({ type: 'refused', failure: internalFailure(describe(error)) }, []);
-    }
-  }
 
   close(): void {
     this.experiment?.delete();
     this.experiment = null;
   }
 
-  private answer(message: ToSweep): Failure | null {
+  protected handle(message: ToSweep): void {
     if (message.type === 'plan') return this.plan(message);
-    if (!this.experiment) return internalFailure(`${message.type} before a plan`);
-    return message.type === 'keep'
-      ? this.keep(this.experiment, message.references)
-      : this.measure(this.experiment);
+    if (!this.experiment) throw new Error(`${message.type} before a plan`);
+    if (message.type === 'measure') return this.measure(this.experiment);
+    for (const bytes of message.references)
+      granted(this.experiment.keepReference(new Uint8Array(bytes)));
   }
 
-  private plan({ fabricsText, planText }: PlanMessage): Failure | null {
+  private plan({ fabricsText, planText }: PlanMessage): void {
     this.experiment ??= new this.module.Experiment(fabricsText);
-    const planned = read<{ references: string[] }>(this.experiment.start(planText));
-    if (!planned.ok) return planned;
-    this.post({ type: 'planned', references: planned.references }, []);
-    return null;
-  }
-
-  private keep(experiment: ExperimentHandle, references: readonly ArrayBuffer[]): Failure | null {
-    for (const bytes of references) {
-      const kept = read<object>(experiment.keepReference(new Uint8Array(bytes)));
-      if (!kept.ok) return kept;
-    }
-    return null;
+    const { references } = granted<{ references: string[] }>(this.experiment.start(planText));
+    this.post({ type: 'planned', references }, []);
   }
 
   /** Reports as it goes. */
-  private measure(experiment: ExperimentHandle): Failure | null {
+  private measure(experiment: ExperimentHandle): void {
     for (let done = false; !done; ) {
-      const report = read<SweepReport>(experiment.advance(SWEEP_SLICE_MS));
-      if (!report.ok) return report;
+      const report = granted<SweepReport>(experiment.advance(SWEEP_SLICE_MS));
       this.post({ type: 'sweepReport', report }, []);
       done = report.done;
     }
-    return null;
   }
 }

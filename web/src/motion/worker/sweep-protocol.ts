@@ -1,5 +1,5 @@
 // Messages between the page and the worker that measures, both ways.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { SweepReport } from '../bindings/sweep-module';
 
 /** Plans a sweep; another plan takes its place. */
@@ -28,7 +28,4 @@ export interface PlannedMessage {
   references: string[];
 }
 
-export type FromSweep =
-  | PlannedMessage
-  | { type: 'sweepReport'; report: SweepReport }
-  | { type: 'refused'; failure: Failure };
+export type FromSweep = PlannedMessage | { type: 'sweepReport'; report: SweepReport } | Refusal;

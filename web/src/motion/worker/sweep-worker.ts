@@ -1,6 +1,10 @@
+import { givenCore } from '../../shared/workers/given-core';
 import { serve } from '../../shared/workers/serve';
-import createSweep from '../../wasm/sweep.mjs';
+import type { SweepModule } from '../bindings/sweep-module';
 import { SweepCore } from './sweep-core';
 import type { FromSweep, ToSweep } from './sweep-protocol';
 
-serve<ToSweep, FromSweep>(self, async (post) => new SweepCore(await createSweep(), post));
+serve<ToSweep, FromSweep>(
+  self,
+  async (post) => new SweepCore(await givenCore<SweepModule>(), post),
+);

@@ -26,7 +26,7 @@ export interface GarmentCosts {
   steps_timed: number;
 }
 
-/** At most one of each kind since the last load or reset. */
+/** Warnings, at most one of each kind since the last load or reset. */
 export interface WarningsAnswer {
   warnings: RunWarning[];
 }
@@ -44,17 +44,17 @@ export interface FitAnswer {
   first_fired: number | null;
 }
 
-/** Against a shape of the fine mesh. */
+/** Comparison with a shape of the fine mesh. */
 export interface ComparedAnswer {
-  /** Between the same points of the cloth. */
+  /** Distance between equal points of the cloth. */
   rms_m: number;
-  /** What this mesh loses of the shape by its faces alone, and of the normals. */
+  /** Loss of this mesh of the shape by its faces alone, and of the normals. */
   lost_m: number;
   lost_normals_rad: number;
 }
 
 export interface FaultsAnswer {
-  /** Vertices inside of the figure's solids, and the deepest of them [m]. */
+  /** Vertices inside of the body's solids, and the deepest of them [m]. */
   n_inside: number;
   deepest_m: number;
   /** Edges that go through faces of the same cloth. */
@@ -88,7 +88,7 @@ export interface GarmentRunHandle {
   step(count: number): number;
   /** Shows a frame from elsewhere. */
   put(places: Float32Array, timeS: number): string;
-  /** What frames are held against from now on: a scene of the same cloth on its fine mesh. */
+  /** Takes what frames are held against from now on: a scene of the same cloth on its fine mesh. */
   holdAgainst(sceneText: string, files: HandedFiles): string;
   /** Shows what this mesh could show of a shape of the fine one. */
   putSample(finePlaces: Float32Array, timeS: number): string;

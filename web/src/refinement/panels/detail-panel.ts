@@ -1,7 +1,7 @@
 // The demand or the number of vertices, whichever was moved last; and the source of the frames.
-import { element, field, setText } from '../../shared/panels/element';
+import { checkBox, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
-import { DEMANDS, type RefinementState } from '../state/refinement-state';
+import { DEMANDS, type Doing, type RefinementState } from '../state/refinement-state';
 import { sourceSentence, vertices } from './garment-words';
 import { createWork } from './work';
 
@@ -51,20 +51,14 @@ export function createDetailPanel(
   const demandField = field('At most so much of the example’s shapes is lost', demand, demandValue);
   const budgetField = field('Or: at most so many vertices', budget, budgetValue);
   for (const made of [demandField, budgetField]) made.classList.add('slider-field');
-  const records = element('input', {
-    type: 'checkbox',
-    change: () => store.set({ useRecords: records.checked }),
-  });
-  const fine = element('input', {
-    type: 'checkbox',
-    change: () => store.set({ computeFine: fine.checked }),
-  });
+  const records = checkBox('Show frames that come with the page', (useRecords) =>
+    store.set({ useRecords }),
+  );
+  const fine = checkBox('Fine mesh in step', (computeFine) => store.set({ computeFine }));
   const source = element('p', { class: 'note' });
   const work = element('div');
-  const closeWork = createWork(work, store, {
-    isOwn: ({ share, canCancel }) => share === null && canCancel,
-    cancel: actions.cancel,
-  });
+  const isOwn = ({ share, canCancel }: Doing) => share === null && canCancel;
+  const closeWork = createWork(work, store, actions, isOwn);
   const sayDemand = () => setText(demandValue, `${demand.valueAsNumber} mm`);
   const sayBudget = () => {
     const text = vertices(budget.valueAsNumber);
@@ -81,8 +75,8 @@ export function createDetailPanel(
       demandField,
       budgetField,
       work,
-      element('label', { class: 'check' }, records, 'Show frames that come with the page'),
-      element('label', { class: 'check' }, fine, 'Fine mesh in step'),
+      records.label,
+      fine.label,
       source,
     ),
   );
@@ -100,8 +94,8 @@ export function createDetailPanel(
       sayBudget();
       demandField.classList.toggle('idle', state.rule !== 'demand');
       budgetField.classList.toggle('idle', state.rule !== 'budget');
-      records.checked = state.useRecords;
-      fine.checked = state.computeFine;
+      records.input.checked = state.useRecords;
+      fine.input.checked = state.computeFine;
       setText(source, sourceSentence(state));
     },
   );

@@ -1,5 +1,5 @@
 // The light that tells whether the motion is of the examples' kind, and what to do when it is not.
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { planStory } from '../state/plan-file';
 import { canPlanAnew, type RefinementState } from '../state/refinement-state';
@@ -16,18 +16,13 @@ export function createFitPanel(
   const detail = element('p', { class: 'note fit-detail' });
   const reason = element('p', { class: 'note', id: 'plan-anew-reason' });
   // It keeps the focus while it cannot be pressed: what it began is still on its way.
-  const anew = element(
-    'button',
-    {
-      type: 'button',
-      class: 'wide',
-      'aria-describedby': reason.id,
-      click() {
-        const state = store.get();
-        if (canPlanAnew(state)) store.set({ further: [...state.further, state.motion] });
-      },
-    },
+  const anew = button(
     'Plan anew with this motion too',
+    () => {
+      const state = store.get();
+      if (canPlanAnew(state)) store.set({ further: [...state.further, state.motion] });
+    },
+    { class: 'wide', 'aria-describedby': reason.id },
   );
   const below = element('div', { class: 'fit-below' }, reason);
   parent.append(
@@ -41,13 +36,11 @@ export function createFitPanel(
       below,
     ),
   );
-  const closeWork = createWork(below, store, {
-    isOwn: ({ share }) => share !== null,
-    cancel() {
-      actions.cancel();
-      anew.focus();
-    },
-  });
+  const cancel = () => {
+    actions.cancel();
+    anew.focus();
+  };
+  const closeWork = createWork(below, store, { cancel }, ({ share }) => share !== null);
   const close = watch(
     store,
     ['fit', 'plan', 'phase', 'doing', 'motion', 'fabric', 'further'],

@@ -1,4 +1,4 @@
-// What each pane shows: its mesh, what a frame costs, and how far it is from fine. Where there is no room
+// Badges of what each pane shows: its mesh, what a frame costs, and how far it is from fine. Where there is no room
 // for all three, what stands beside fine can be chosen.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
@@ -38,7 +38,7 @@ function createChoiceBeside(store: Store<RefinementState>) {
   };
 }
 
-/** What a pane shows that no cloth does, and what may help. */
+/** Words on what a pane shows that no cloth does, and on what may help. */
 function createWarning(store: Store<RefinementState>) {
   const sentence = element('p', { role: 'status' });
   let substeps: number | null = null;

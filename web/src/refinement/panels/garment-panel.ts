@@ -1,6 +1,6 @@
 // Garment, motion, fabric; what to notice; what is coloured.
 import { fabrics } from '../../shared/fabric/fabric-data';
-import { choice, element, field, setText } from '../../shared/panels/element';
+import { checkBox, choice, element, field, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { USUAL_DEMANDS_MM } from '../state/garment-frames';
 import { GARMENTS, METHODS, MOTIONS, methodsOf, usualFabric } from '../state/garments';
@@ -25,22 +25,19 @@ const RIVAL_TITLES: readonly { value: RivalId; title: string }[] = [
   { value: 'even', title: 'Even: as many vertices' },
 ];
 
-function check(title: string, change: (isOn: boolean) => void) {
-  const input = element('input', { type: 'checkbox', change: () => change(input.checked) });
-  return { input, label: element('label', { class: 'check' }, input, title) };
-}
-
-/** What of the cloth is shown, and how. */
+/** Controls of what is shown of the cloth, and how. */
 function createLook(store: Store<RefinementState>) {
   const colour = choice(COLOUR_TITLES, (value) => store.set({ colour: value }));
-  const fineCloth = check('The fine cloth on every mesh', (isOn) => store.set({ fineCloth: isOn }));
+  const fineCloth = checkBox('The fine cloth on every mesh', (isOn) =>
+    store.set({ fineCloth: isOn }),
+  );
   const clothNote = element(
     'p',
     { class: 'note' },
     'Each mesh shows the fine run’s shape as well as its faces can: a fold that is missing now is too fine for them.',
   );
-  const edges = check('Edges of the faces', (isOn) => store.set({ edges: isOn }));
-  const hanging = check('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
+  const edges = checkBox('Edges of the faces', (isOn) => store.set({ edges: isOn }));
+  const hanging = checkBox('Hanging vertices', (isOn) => store.set({ hanging: isOn }));
   const hangingNote = element(
     'p',
     { class: 'note' },

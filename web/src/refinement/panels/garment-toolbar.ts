@@ -1,10 +1,11 @@
 // Play, pause, step, reset, speed, view, time: one row under the stage.
-import { element, setText } from '../../shared/panels/element';
-import { createRunTools, type RunActions } from '../../shared/panels/run-tools';
+import { button, element, setText } from '../../shared/panels/element';
+import { createRunTools, type Playable } from '../../shared/panels/run-tools';
 import { type Store, watch } from '../../shared/state/store';
 import type { RefinementState } from '../state/refinement-state';
 
-export interface GarmentToolActions extends RunActions {
+export interface GarmentToolActions {
+  homeView(): void;
   hemView(): void;
   savePicture(): void;
   saveObj(): void;
@@ -24,14 +25,19 @@ function isAtRest(phase: string): boolean {
 export function createGarmentToolbar(
   parent: HTMLElement,
   store: Store<RefinementState>,
+  run: Playable,
   actions: GarmentToolActions,
 ): () => void {
-  const stopTools = createRunTools(parent, store, actions, WORDS, isAtRest);
-  const button = (title: string, meaning: string, click: () => void) =>
-    element('button', { type: 'button', title: meaning, click }, title);
-  const hem = button('Hem', 'Look closely at the hem, where folds are (M)', actions.hemView);
-  const picture = button('Picture', 'Saves what is seen as a PNG file', actions.savePicture);
-  const obj = button('OBJ', 'Saves the multi-resolution cloth as it is now', actions.saveObj);
+  const stopTools = createRunTools(parent, store, run, actions.homeView, WORDS, isAtRest);
+  const hem = button('Hem', actions.hemView, {
+    title: 'Look closely at the hem, where folds are (M)',
+  });
+  const picture = button('Picture', actions.savePicture, {
+    title: 'Saves what is seen as a PNG file',
+  });
+  const obj = button('OBJ', actions.saveObj, {
+    title: 'Saves the multi-resolution cloth as it is now',
+  });
   const time = element('output', { class: 'toolbar-time', 'aria-live': 'off' });
   parent.append(hem, picture, obj, time);
 

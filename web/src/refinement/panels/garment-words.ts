@@ -17,11 +17,11 @@ import {
   type RefinementState,
 } from '../state/refinement-state';
 
-/** Beyond this share of its faces for ten frames the monitor fires; docs/methods/multiresolution.md. */
+/** Share of its faces beyond which, for ten frames, the monitor fires; docs/methods/multiresolution.md. */
 export const LARGEST_SHARE = 0.05;
 export const FRAMES_TO_FIRE = 10;
 
-/** Before a second of motion was seen, a motion that fits and one that does not look alike. */
+/** Frames of a second: before that a motion that fits and one that does not look alike. */
 export const FRAMES_TO_FIT = 30;
 
 export function vertices(count: number): string {
@@ -51,7 +51,7 @@ export function errorWords(pane: PaneId, { lostM, source }: GarmentPane): string
   return lostM === null ? '' : `${smallLength(lostM)} of shape lost`;
 }
 
-/** What the steps of a pane show that is no cloth: the first that was seen. */
+/** The first sign seen in the steps of a pane that they are no cloth. */
 export function warningWords({ warnings: [first] }: GarmentPane): string {
   return first ? warningSentence(first) : '';
 }
@@ -109,7 +109,7 @@ function times(more: number, less: number): string {
   return `${digits(more / less, 2)} times`;
 }
 
-/** What the finer meshes cost. */
+/** Words on what the finer meshes cost. */
 export function levelsSentence({ panes }: Pick<RefinementState, 'panes'>): string {
   const { coarse, fine } = panes;
   if (coarse.nVertices === 0 || fine.nVertices === 0) return '';
@@ -130,7 +130,7 @@ export const ONE_MORE_LEVEL = {
     ' and press “Measure speed and error”. It says what the mesh does wrong at each level of that sheet.',
 };
 
-/** What the shown meshes lose of the fine one, and what chance does to two fine runs. */
+/** Words on what the shown meshes lose of the fine one, and on what chance does to two fine runs. */
 export function lossSentence({
   panes,
   rival,

@@ -1,4 +1,4 @@
-// What the finer meshes cost and buy, in a sentence and in a table.
+// Panel of what the finer meshes cost and buy, in a sentence and in a table.
 import { element, setText } from '../../shared/panels/element';
 import { milliseconds, percent, smallLength } from '../../shared/panels/quantity';
 import { type Store, watch } from '../../shared/state/store';
@@ -31,7 +31,7 @@ function numberTable(state: RefinementState): HTMLElement {
     element('tr', {}, element('th', { scope: 'row' }, title), ...cells);
   const cells = (text: (id: PaneId) => string) =>
     comparedPanes(state).map((id) => numberCell(text(id)));
-  /** Against fine; in its own column how far a second fine run is. */
+  /** A distance from fine; in its own column how far a second fine run is. */
   const held = (key: 'foldsM' | 'surfaceM') =>
     cells((id) => smallLength(id === 'fine' ? (floor?.[key] ?? null) : panes[id][key]));
   return element(

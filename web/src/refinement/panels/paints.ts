@@ -9,7 +9,7 @@ import type { GarmentMesh } from '../worker/garment-protocol';
 export const LEVEL_COLOURS = ['#f3e3b5', '#5bb3a6', '#4380bd', '#5a2a78'];
 export const PATTERN_COLOURS = ['#d5d8dc', '#f0a25a', '#b3282d', '#5b1038'];
 
-/** What there is nothing to tell of: no colour of a scale, and no fabric's. */
+/** Colour where there is nothing to tell: no colour of a scale, and no fabric's. */
 export const NEUTRAL_COLOUR = '#c9c5bd';
 
 function colourOf(colours: readonly string[], index: number): readonly number[] {

@@ -1,5 +1,5 @@
 // The work under way, how far it is, and the way out of it.
-import { element, setText } from '../../shared/panels/element';
+import { button, element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import type { Doing, RefinementState } from '../state/refinement-state';
 
@@ -7,15 +7,16 @@ import type { Doing, RefinementState } from '../state/refinement-state';
 export function createWork(
   parent: HTMLElement,
   store: Store<RefinementState>,
-  actions: { isOwn(doing: Doing): boolean; cancel(): void },
+  actions: { cancel(): void },
+  isOwn: (doing: Doing) => boolean,
 ): () => void {
   const what = element('p', { class: 'note', role: 'status' });
   const progress = element('progress', { max: 1, 'aria-label': 'Work in progress' });
-  const cancel = element('button', { type: 'button', click: actions.cancel }, 'Cancel');
+  const cancel = button('Cancel', () => actions.cancel());
   const work = element('div', { class: 'work' }, what, progress, cancel);
   parent.append(work);
   return watch(store, ['doing'], ({ doing }) => {
-    const own = doing && actions.isOwn(doing) ? doing : null;
+    const own = doing && isOwn(doing) ? doing : null;
     work.hidden = own === null;
     setText(what, own?.what ?? '');
     cancel.hidden = !own?.canCancel;

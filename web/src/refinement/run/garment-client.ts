@@ -1,5 +1,6 @@
 // Starts the workers of garments: one for each pane, and one for the examples.
 import { type Asked, createAsked } from '../../shared/workers/asked';
+import { withCore } from '../../shared/workers/compiled-core';
 import type {
   ExampleAnswers,
   GarmentAnswers,
@@ -12,12 +13,16 @@ export type ExampleClient = Asked<ToExample, ExampleAnswers>;
 
 export function startGarmentWorker(): GarmentClient {
   return createAsked(
-    new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(
+      new Worker(new URL('../worker/garment-worker.ts', import.meta.url), { type: 'module' }),
+    ),
   );
 }
 
 export function startExampleWorker(): ExampleClient {
   return createAsked(
-    new Worker(new URL('../worker/example-worker.ts', import.meta.url), { type: 'module' }),
+    withCore(
+      new Worker(new URL('../worker/example-worker.ts', import.meta.url), { type: 'module' }),
+    ),
   );
 }

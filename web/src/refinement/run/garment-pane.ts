@@ -1,16 +1,17 @@
 // One pane of a garment: its worker, what that has loaded, and the buffers of its frames.
 import { describe } from '../../shared/bindings/answers';
 import { fabricsText } from '../../shared/fabric/fabric-data';
-import type { FitAnswer, GarmentCosts } from '../bindings/refinement-module';
+import { Latest } from '../../shared/state/latest';
+import type { GarmentCosts } from '../bindings/refinement-module';
 import { FRAME_S, SETTLED_S } from '../state/garment-frames';
 import type { GarmentId } from '../state/garments';
-import type { FrameSource, GarmentPane, PaneId } from '../state/refinement-state';
-import type { Advance, Described, Loaded, ToGarment } from '../worker/garment-protocol';
+import type { FrameSource, PaneId } from '../state/refinement-state';
+import type { Advance, Described, ToGarment } from '../worker/garment-protocol';
 import type { RecordingHead } from '../worker/recording';
 import type { GarmentClient } from './garment-client';
 import { type FetchBytes, sceneFiles } from './scene-files';
 
-type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'request' | 'buffer'>;
+type Wish = Omit<Extract<ToGarment, { type: 'describe' }>, 'type' | 'buffer'>;
 
 export interface GarmentContent {
   garment: GarmentId;
@@ -23,27 +24,8 @@ export interface GarmentContent {
   recordUrl: string | null;
 }
 
-export interface PaneRun {
-  readonly id: PaneId;
-  source: FrameSource;
-  /** Head of the record that is loaded. */
-  recording(): RecordingHead | null;
-  /** Why the record of what is loaded could not be had; null if it could, or if there is none. */
-  missed(): string | null;
-  isLoaded(): boolean;
-  /** Null when that is loaded already. */
-  load(content: GarmentContent): Promise<Loaded | null>;
-  reset(): Promise<void>;
-  advance(frame: number, how: Advance): Promise<{ fit: FitAnswer | null; ended: string | null }>;
-  describe(wish: Wish): Promise<Described>;
-  /** Draws this frame from now on; the one before may be overwritten. */
-  keep(described: Described): void;
-  /** Cost of the frames computed here [ms]. */
-  costs(costs: GarmentCosts): Pick<GarmentPane, 'msPerFrame' | 'parts'>;
-}
-
-export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: FetchBytes): PaneRun {
-  let request = 0;
+export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: FetchBytes) {
+  const loads = new Latest();
   let loadedContent = '';
   let recording: RecordingHead | null = null;
   let missed: string | null = null;
@@ -53,14 +35,16 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
 
   return {
     id,
-    source: 'resting',
+    source: 'resting' as FrameSource,
+    /** Head of the record that is loaded. */
     recording: () => recording,
+    /** Why the record of what is loaded could not be had; null if it could, or if there is none. */
     missed: () => missed,
     isLoaded: () => loadedContent !== '',
-    async load({ garment, sceneText, fineText, isEven, recordUrl }) {
+    /** Null when that is loaded already. */
+    async load({ garment, sceneText, fineText, isEven, recordUrl }: GarmentContent) {
       const content = `${recordUrl} ${sceneText}`;
-      request += 1;
-      const own = request;
+      const isCurrent = loads.start();
       if (loadedContent === content) return null;
       loadedContent = '';
       let reason: string | null = null;
@@ -74,7 +58,6 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       const answer = await client.ask(
         {
           type: 'load',
-          request: own,
           fabricsText,
           sceneText,
           fineText,
@@ -85,7 +68,7 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
         },
         bytes ? [bytes] : [],
       );
-      if (own !== request) return null; // another one follows
+      if (!isCurrent()) return null; // another one follows
       loadedContent = content;
       recording = answer.recording;
       missed = bytes && !recording ? 'they are of another mesh' : reason;
@@ -95,19 +78,21 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
       return answer;
     },
     async reset() {
-      await client.ask({ type: 'reset', request });
+      await client.ask({ type: 'reset' });
     },
-    advance: (frame, how) => client.ask({ type: 'advance', request, frame, how }),
-    describe(wish) {
+    advance: (frame: number, how: Advance) => client.ask({ type: 'advance', frame, how }),
+    describe(wish: Wish) {
       const buffer = spare;
       spare = null;
-      return client.ask({ type: 'describe', request, ...wish, buffer }, buffer ? [buffer] : []);
+      return client.ask({ type: 'describe', ...wish, buffer }, buffer ? [buffer] : []);
     },
-    keep({ buffer }) {
+    /** Draws this frame from now on; the one before may be overwritten. */
+    keep({ buffer }: Described) {
       spare = shown;
       shown = buffer;
     },
-    costs({ steps_timed: nSteps, steps_ms: ms, parts_ms: partsMs }) {
+    /** Cost of the frames computed here [ms]. */
+    costs({ steps_timed: nSteps, steps_ms: ms, parts_ms: partsMs }: GarmentCosts) {
       if (nSteps === 0) return { msPerFrame: null, parts: [] };
       const perFrame = Math.max(1, Math.round(FRAME_S / stepS)) / nSteps;
       const parts = Object.entries(partsMs).map(([name, part]) => ({ name, ms: part * perFrame }));
@@ -115,3 +100,5 @@ export function createPaneRun(id: PaneId, client: GarmentClient, fetchBytes: Fet
     },
   };
 }
+
+export type PaneRun = ReturnType<typeof createPaneRun>;

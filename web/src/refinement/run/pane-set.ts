@@ -1,5 +1,6 @@
 // The three panes of a garment, which show one time: what each loads, how it gets to a frame, and its numbers.
 import { frameViews } from '../../shared/bindings/frame';
+import type { IsCurrent } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
 import type { SolidsAnswer } from '../bindings/refinement-module';
 import { FRAME_S } from '../state/garment-frames';
@@ -41,9 +42,6 @@ export interface PaneParts {
   fetchBytes: FetchBytes;
 }
 
-/** False when something else is wanted by now: then nothing is shown any more. */
-export type IsCurrent = () => boolean;
-
 function scalarOf({ colour }: RefinementState): GarmentScalar | null {
   return colour === 'curvature' || colour === 'distance' ? colour : null;
 }
@@ -73,7 +71,7 @@ export class PaneSet {
     return this.run('fine');
   }
 
-  /** Those that are in step, fine last; the other rival rests as it was. */
+  /** The panes that are in step, fine last; the other rival rests as it was. */
   private get panes(): PaneRun[] {
     return comparedPanes(this.store.get()).map((id) => this.run(id));
   }

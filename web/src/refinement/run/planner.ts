@@ -97,7 +97,6 @@ async function openExample(to: ExampleClient, garment: GarmentId, fetchBytes: Fe
 }
 
 class ExamplePlanner implements Planner {
-  private request = 0; // number of the last question
   private client: ExampleClient | null = null;
   private opened: Opened | null = null;
   private progress: Progress = () => undefined;
@@ -121,19 +120,13 @@ class ExamplePlanner implements Planner {
       rule === 'budget' && budget !== null
         ? { max_vertices: budget }
         : { largest_loss_m: demand / 1000 };
-    const request = this.nextRequest();
-    return (await client.ask({ type: 'plan', request, wish: asked })).plan;
+    return (await client.ask({ type: 'plan', wish: asked })).plan;
   }
 
   cancel(): void {
     this.client?.terminate();
     this.client = null;
     this.opened = null;
-  }
-
-  private nextRequest(): number {
-    this.request += 1;
-    return this.request;
   }
 
   private async usualPlan(garment: GarmentId): Promise<PlanFile | null> {
@@ -173,7 +166,6 @@ class ExamplePlanner implements Planner {
     this.progress(motion, 0);
     let { share } = await client.ask({
       type: 'begin',
-      request: this.nextRequest(),
       fabricsText,
       sceneText: sceneText(garment, motion, fabric, { level: FINE_LEVEL }),
       files: await sceneFiles(garment, this.fetchBytes),
@@ -185,7 +177,7 @@ class ExamplePlanner implements Planner {
     });
     while (share < 1) {
       this.progress(motion, share);
-      share = (await client.ask({ type: 'goOn', request: this.nextRequest() })).share;
+      share = (await client.ask({ type: 'goOn' })).share;
     }
   }
 }

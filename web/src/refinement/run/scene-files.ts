@@ -10,7 +10,7 @@ import { type GarmentId, MOTION_FILES } from '../state/garments';
 
 export type FetchBytes = (url: string) => Promise<ArrayBuffer>;
 
-/** On the fine mesh, of which all that refine the same faces take their part; and on the even one. */
+/** Starts on the fine mesh, of which all that refine the same faces take their part; and on the even one. */
 type StartName = GarmentId | `${GarmentId}_even`;
 
 const START_URLS: Record<StartName, string> = {

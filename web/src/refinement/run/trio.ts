@@ -1,14 +1,16 @@
 // Runs the three panes of a garment in step: turns changes of the state into loads, plans and frames.
 import {
-  brokenSentence,
   describe,
   type Failure,
   inputFailure,
-  internalFailure,
   quoted,
+  Refused,
 } from '../../shared/bindings/answers';
+import { brokenFailure } from '../../shared/bindings/refusals';
+import { type Clock, createClock, DISPLAY, type Display } from '../../shared/state/clock';
+import { type IsCurrent, Latest } from '../../shared/state/latest';
 import type { Store } from '../../shared/state/store';
-import { BrokenWorker, Refused } from '../../shared/workers/asked';
+import { BrokenWorker } from '../../shared/workers/asked';
 import { FRAME_S } from '../state/garment-frames';
 import type { MotionId } from '../state/garments';
 import type { PlanFile } from '../state/plan-file';
@@ -18,35 +20,36 @@ import {
   type PaneId,
   type RefinementState,
 } from '../state/refinement-state';
-import { FramePace } from './frame-pace';
 import { startGarmentWorker } from './garment-client';
-import { type IsCurrent, type PaneParts, PaneSet, type TrioView } from './pane-set';
+import { type PaneParts, PaneSet, type TrioView } from './pane-set';
 import { createPlanner, fetchedBytes, type Planner } from './planner';
 
 /** The parts of the browser that a trio needs: tests have their own. */
-export interface TrioParts extends PaneParts {
+export interface TrioParts extends PaneParts, Display {
   planner: Planner;
-  /** Calls back with the next picture. */
-  later(callback: () => void): void;
-  nowMs(): number;
 }
 
+/** Errors and numbers are read this often while it plays [ms]: faster cannot be read. */
+const NUMBERS_EVERY_MS = 500;
+
+/** When the display had to wait, as many frames are left out at most to be at real time again. */
+const MOST_LEFT_OUT = 3;
+
 const BROWSER: TrioParts = {
+  ...DISPLAY,
   start: startGarmentWorker,
   fetchBytes: fetchedBytes,
   planner: createPlanner(),
-  later: (callback) => requestAnimationFrame(callback),
-  nowMs: () => performance.now(),
 };
 
 function failureOf(error: unknown): Failure {
   if (error instanceof Refused) return error.failure;
   const reason = describe(error);
-  if (error instanceof BrokenWorker) return internalFailure(brokenSentence('The garment', reason));
+  if (error instanceof BrokenWorker) return brokenFailure('The garment', reason);
   return inputFailure(`Not all of it could be fetched (${quoted(reason)}). Check the connection.`);
 }
 
-/** What is computed for want of the frames that come with the page. */
+/** Says what is computed for want of the frames that come with the page. */
 function missedFailure({ panes, reason }: { panes: readonly PaneId[]; reason: string }): Failure {
   const names = new Intl.ListFormat('en-GB').format(
     panes.map((id) => PANE_TITLES[id].toLowerCase()),
@@ -58,8 +61,8 @@ function missedFailure({ panes, reason }: { panes: readonly PaneId[]; reason: st
 
 export class Trio {
   private readonly panes: PaneSet;
-  private readonly pace: FramePace;
-  private wanted = 0; // counts loads: what belongs to an earlier one is dropped
+  private readonly clock: Clock;
+  private readonly latest = new Latest(); // load
   private isBusy = false;
   private isAskedAgain = false; // for colours and cloth, while busy
   private isTakingBack = false; // a wish that was given up
@@ -72,7 +75,7 @@ export class Trio {
     private readonly parts: TrioParts = BROWSER,
   ) {
     this.panes = new PaneSet(store, view, parts);
-    this.pace = new FramePace(parts.nowMs);
+    this.clock = createClock(parts);
     store.subscribe((state, previous) => this.follow(state, previous));
     void this.load('all');
   }
@@ -107,7 +110,7 @@ export class Trio {
   cancel(): void {
     const { doing, plan } = this.store.get();
     if (!doing?.canCancel) return;
-    this.wanted += 1;
+    this.latest.start();
     this.parts.planner.cancel();
     if (!plan || !this.isBuilt) return this.store.set({ further: [] }); // the rest is still wanted
     const budget = plan.vertex_budget ?? null;
@@ -127,15 +130,13 @@ export class Trio {
     else if (differs('further', 'rule', 'demand', 'budget')) void this.load('plan');
     else if (differs('colour', 'fineCloth')) this.recolour();
     if (!state.playing || previous.playing) return;
-    this.pace.start();
-    this.parts.later(() => this.tick());
+    this.clock.start(() => this.tick());
+    this.clock.advance(FRAME_S); // the first one at once
   }
 
   /** Loads everything that is wanted, then shows its first picture. */
   private async load(what: 'all' | 'plan'): Promise<void> {
-    this.wanted += 1;
-    const { wanted } = this;
-    const isCurrent = () => wanted === this.wanted;
+    const isCurrent = this.latest.start();
     if (what === 'all') this.isBuilt = false;
     const words = this.isBuilt ? 'Planning' : 'Fetching and building three meshes';
     const doing: Doing = { what: words, canCancel: this.isBuilt, share: null };
@@ -209,7 +210,8 @@ export class Trio {
     const isSingle = !this.store.get().playing;
     if (this.panes.isAtEnd()) return this.store.set({ playing: false });
     const ended = await this.panes.goOn(nFrames, isCurrent);
-    await this.panes.describe(this.pace.areNumbersDue(isSingle || ended !== null), isCurrent);
+    const areDue = this.clock.areNumbersDue(NUMBERS_EVERY_MS, isSingle || ended !== null);
+    await this.panes.describe(areDue, isCurrent);
     if (ended === null || !isCurrent()) return;
     const what = `The run stopped at ${this.panes.timeS().toFixed(2)} s. ${ended}. The last good frame stays; reset to start again.`;
     this.store.set({ phase: 'stopped', playing: false, problem: inputFailure(what) });
@@ -219,8 +221,7 @@ export class Trio {
   private async alone(work: (isCurrent: IsCurrent) => Promise<void>): Promise<void> {
     if (this.isBusy) return;
     this.isBusy = true;
-    const { wanted } = this;
-    const isCurrent = () => wanted === this.wanted;
+    const isCurrent = this.latest.mark();
     try {
       await work(isCurrent);
     } catch (error) {
@@ -240,15 +241,12 @@ export class Trio {
     else void this.alone((isCurrent) => this.panes.describe(true, isCurrent));
   }
 
-  private tick(): void {
+  private tick(): boolean {
     const { playing, speed, phase } = this.store.get();
-    if (!playing) return;
-    this.pace.tick(speed);
-    const count = this.pace.due();
-    if (count > 0 && !this.isBusy && phase === 'ready') {
-      this.pace.take(count);
-      void this.alone((isCurrent) => this.goOn(count, isCurrent));
-    }
-    this.parts.later(() => this.tick());
+    this.clock.tick(speed);
+    if (!playing || this.isBusy || phase !== 'ready') return playing;
+    const count = this.clock.take(FRAME_S, MOST_LEFT_OUT);
+    if (count > 0) void this.alone((isCurrent) => this.goOn(count, isCurrent));
+    return true;
   }
 }

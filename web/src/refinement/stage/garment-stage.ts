@@ -1,4 +1,4 @@
-// One garment in up to three panes, each on a mesh of its own, on the same figure: one renderer, one camera
+// One garment in up to three panes, each on a mesh of its own, on the same body: one renderer, one camera
 // that goes along. It gets frames and settings, never the workers, and draws only when something changed.
 import { type PerspectiveCamera, Vector3 } from 'three';
 import { lookOf } from '../../shared/fabric/fabric-look';
@@ -7,8 +7,8 @@ import { createPaneStage, type PaneStage } from '../../shared/stage/pane-stage';
 import { pick } from '../../shared/stage/pick';
 import type { SolidsAnswer } from '../bindings/refinement-module';
 import type { GarmentMesh } from '../worker/garment-protocol';
+import { createBody } from './body';
 import { createGradedCloth, type GradedCloth, type Paint } from './graded-cloth';
-import { createMannequin } from './mannequin';
 
 export interface GarmentStageEvents {
   /** A press that was no drag: the face of that pane, or null beside the cloth. */
@@ -16,30 +16,6 @@ export interface GarmentStageEvents {
   /** Keys that are not the camera's. True when used. */
   key(name: string): boolean;
   pictureLost(isLost: boolean): void;
-}
-
-export interface GarmentStage {
-  setMesh(pane: number, mesh: GarmentMesh): void;
-  showFrame(pane: number, buffer: ArrayBuffer): void;
-  setSolids(solids: SolidsAnswer): void;
-  /** The panes that have a place, from left to right. */
-  setPanes(panes: readonly number[]): void;
-  setPaint(pane: number, paint: Paint): void;
-  setEdges(isShown: boolean): void;
-  setHanging(isShown: boolean): void;
-  setFabric(fabricId: number): void;
-  setChosen(pane: number, face: number | null): void;
-  homeView(): void;
-  /** Close to the lower edge of a pane's cloth, as it is now. */
-  hemView(pane: number): void;
-  redraw(): void;
-  positions(pane: number): Float32Array;
-  triangles(pane: number): Uint32Array;
-  scalars(pane: number): Float32Array;
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
-  project(vertex: number, pane: number): { x: number; y: number };
-  /** The picture as it is, as a PNG. */
-  picture(): Promise<Blob | null>;
 }
 
 const N_PANES = 4; // three are seen at a time
@@ -53,7 +29,7 @@ const MIDDLE_M = 0.78;
 const SEEN_ACROSS_M = 0.5;
 const SEEN_UP_M = 0.86;
 
-/** What is seen around a hem, of what is seen of a person, and its middle above the edge [m]. */
+/** Share of a person's picture that is seen around a hem, and its middle above the edge [m]. */
 const HEM_ZOOM = 0.42;
 const ABOVE_HEM_M = 0.09;
 const HEM_POLAR = 1.45;
@@ -102,10 +78,10 @@ function frame({ surroundings, control }: PaneStage, centre: Vector3): void {
   control.frame({ ...view, upright: SEEN_UP_M / SEEN_ACROSS_M });
 }
 
-/** The clothes on their figure, and what is drawn of them. */
+/** The clothes on their body, and what is drawn of them. */
 class Stage {
   readonly clothes: GradedCloth[] = Array.from({ length: N_PANES }, createGradedCloth);
-  readonly mannequin = createMannequin();
+  readonly body = createBody();
   readonly stage: PaneStage;
   areEdgesShown = false;
   areHangingShown = false;
@@ -121,7 +97,7 @@ class Stage {
   ) {
     this.stage = createPaneStage(parent, canvas, {
       fov: 30,
-      objects: [this.mannequin.object, ...this.clothes.map(({ object }) => object)],
+      objects: [this.body.object, ...this.clothes.map(({ object }) => object)],
       isReady: () => this.isFramed,
       prepare: (place) => this.prepare(this.paneIn(place)),
       drawn: () => this.drawn(),
@@ -205,7 +181,7 @@ class Stage {
   }
 
   private setTheme(colour: (name: string) => string): void {
-    this.mannequin.setColour(colour('--stage-body'));
+    this.body.setColour(colour('--stage-body'));
     this.colours = { line: colour('--mesh-line'), dot: colour('--mesh-dot') };
     this.showLines();
   }
@@ -216,57 +192,63 @@ export function createGarmentStage(
   parent: HTMLElement,
   canvas: HTMLCanvasElement,
   events: GarmentStageEvents,
-): GarmentStage {
+) {
   const own = new Stage(parent, canvas, events);
   const { clothes, stage } = own;
   const { redraw } = stage;
   return {
-    setMesh(pane, mesh) {
+    setMesh(pane: number, mesh: GarmentMesh) {
       clothes[pane]?.setMesh(mesh);
       redraw();
     },
-    showFrame(pane, buffer) {
+    showFrame(pane: number, buffer: ArrayBuffer) {
       clothes[pane]?.setFrame(buffer);
       redraw();
     },
-    setSolids({ cones, pelvis_m: pelvis }) {
-      own.mannequin.setCones(cones);
+    setSolids({ cones, pelvis_m: pelvis }: SolidsAnswer) {
+      own.body.setCones(cones);
       if (pelvis) own.follow(new Vector3(...pelvis));
       redraw();
     },
-    setPanes: (panes) => own.setPanes(panes),
-    setPaint(pane, paint) {
+    /** The panes that have a place, from left to right. */
+    setPanes: (panes: readonly number[]) => own.setPanes(panes),
+    setPaint(pane: number, paint: Paint) {
       clothes[pane]?.setPaint(paint);
       redraw();
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       own.areEdgesShown = isShown;
       own.showLines();
     },
-    setHanging(isShown) {
+    setHanging(isShown: boolean) {
       own.areHangingShown = isShown;
       own.showLines();
     },
-    setFabric(fabricId) {
+    setFabric(fabricId: number) {
       for (const cloth of clothes) cloth.setLook(lookOf(fabricId));
       redraw();
     },
-    setChosen(pane, face) {
+    setChosen(pane: number, face: number | null) {
       clothes[pane]?.setChosen(face);
       redraw();
     },
     homeView: stage.control.home,
-    hemView: (pane) => own.lookAtHem(pane),
+    /** Close to the lower edge of a pane's cloth, as it is now. */
+    hemView: (pane: number) => own.lookAtHem(pane),
     redraw,
-    positions: (pane) => own.positions(pane),
-    triangles: (pane) => clothes[pane]?.triangles() ?? new Uint32Array(0),
-    scalars: (pane) => clothes[pane]?.scalars() ?? new Float32Array(0),
-    project: (vertex, pane) => own.project(vertex, pane),
+    positions: (pane: number) => own.positions(pane),
+    triangles: (pane: number) => clothes[pane]?.triangles() ?? new Uint32Array(0),
+    scalars: (pane: number) => clothes[pane]?.scalars() ?? new Float32Array(0),
+    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    project: (vertex: number, pane: number) => own.project(vertex, pane),
+    /** The picture as it is, as a PNG. */
     picture() {
-      return new Promise((resolve) => {
+      return new Promise<Blob | null>((resolve) => {
         own.onPicture = resolve;
         redraw();
       });
     },
   };
 }
+
+export type GarmentStage = ReturnType<typeof createGarmentStage>;

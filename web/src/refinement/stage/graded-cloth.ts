@@ -15,7 +15,6 @@ import {
   PointsMaterial,
 } from 'three';
 import { frameViews } from '../../shared/bindings/frame';
-import type { FabricLook } from '../../shared/fabric/fabric-look';
 import { type Colormap, paint } from '../../shared/stage/colormap';
 import { createClothMaterials } from '../../shared/stage/fabric-material';
 import { changingTriples, showPositions } from '../../shared/stage/normals';
@@ -28,26 +27,6 @@ export type Paint =
   | { kind: 'faces'; colours: Float32Array }
   /** The number of each vertex, on a scale from 0. */
   | { kind: 'vertices'; map: Colormap; high: number };
-
-export interface GradedCloth {
-  object: Group;
-  /** Three numbers a vertex [m]; valid until the next frame. */
-  positions(): Float32Array;
-  scalars(): Float32Array;
-  triangles(): Uint32Array;
-  /** The face of a triangle. */
-  faceOf(triangle: number): number;
-  setMesh(mesh: GarmentMesh): void;
-  setFrame(buffer: ArrayBuffer): void;
-  /** Takes the last frame to the screen; call before drawing. */
-  update(): void;
-  setLook(look: FabricLook): void;
-  setPaint(paint: Paint): void;
-  setEdges(isShown: boolean, colour: string): void;
-  setHanging(isShown: boolean, colour: string): void;
-  /** Marks the face at that place; null marks none. */
-  setChosen(face: number | null): void;
-}
 
 /** Size of the dot at a hanging vertex [CSS pixels]. */
 const DOT_SIZE = 5;
@@ -153,7 +132,7 @@ function setTopology(
   }
 }
 
-export function createGradedCloth(): GradedCloth {
+export function createGradedCloth() {
   const parts = createParts();
   const { object, front, back, heat, faces, edges, dots, chosen, setLook } = parts;
   let triangles = new Uint32Array(0);
@@ -176,11 +155,13 @@ export function createGradedCloth(): GradedCloth {
 
   return {
     object,
+    /** Three numbers a vertex [m]; valid until the next frame. */
     positions: () => positions,
     scalars: () => scalars,
     triangles: () => triangles,
-    faceOf: (triangle) => triangleFaces[triangle] ?? 0,
-    setMesh(mesh) {
+    /** The face of a triangle. */
+    faceOf: (triangle: number) => triangleFaces[triangle] ?? 0,
+    setMesh(mesh: GarmentMesh) {
       triangles = new Uint32Array(mesh.triangles);
       triangleFaces = new Uint32Array(mesh.triangleFaces);
       positions = new Float32Array(0);
@@ -188,12 +169,13 @@ export function createGradedCloth(): GradedCloth {
       chosen.visible = false;
       setPaint({ kind: 'material' });
     },
-    setFrame(buffer) {
+    setFrame(buffer: ArrayBuffer) {
       const views = frameViews(buffer);
       positions = views.positions;
       scalars = views.scalar;
       isStale = true;
     },
+    /** Takes the last frame to the screen; call before drawing. */
     update() {
       if (!isStale || positions.length === 0) return;
       isStale = false;
@@ -210,15 +192,16 @@ export function createGradedCloth(): GradedCloth {
     },
     setLook,
     setPaint,
-    setEdges(isShown, colour) {
+    setEdges(isShown: boolean, colour: string) {
       edges.visible = isShown;
       edges.material.color.set(colour);
     },
-    setHanging(isShown, colour) {
+    setHanging(isShown: boolean, colour: string) {
       dots.visible = isShown;
       dots.material.color.set(colour);
     },
-    setChosen(face) {
+    /** Marks the face at that place; null marks none. */
+    setChosen(face: number | null) {
       chosen.visible = face !== null;
       if (face === null) return;
       const own = triangles.filter((_, corner) => triangleFaces[Math.floor(corner / 3)] === face);
@@ -226,3 +209,5 @@ export function createGradedCloth(): GradedCloth {
     },
   };
 }
+
+export type GradedCloth = ReturnType<typeof createGradedCloth>;

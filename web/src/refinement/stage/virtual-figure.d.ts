@@ -1,5 +1,5 @@
 declare module 'virtual:pleat-figure' {
-  /** The figure as the view starts with it, a SolidsAnswer (build-steps/first-figure.ts). */
-  const figure: unknown;
-  export default figure;
+  /** The body as the view starts with it, a SolidsAnswer (build-steps/first-figure.ts). */
+  const body: unknown;
+  export default body;
 }

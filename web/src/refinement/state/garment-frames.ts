@@ -21,11 +21,5 @@ export const KEPT_OF = 3;
 /** Patterns of a plan. */
 export const PATTERNS = 3;
 
-/** What the plans that come with the page may lose of their example's shapes, root mean square [mm]. */
+/** Loss that the plans that come with the page may lose of their example's shapes, root mean square [mm]. */
 export const USUAL_DEMANDS_MM = { skirt: 1.4, trousers: 1.5, slim_trousers: 1.3 };
-
-/**
- * The method of a fine skirt that walks as it is computed: 0.5 % RMS stretch on the fast walk, a third of
- * the time of `implicit` (docs/methods/multigrid.md).
- */
-export const LIVE_SKIRT = { stepper: 'multigrid', substeps: 14, carried_acceleration: 0.4 };

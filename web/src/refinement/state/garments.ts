@@ -1,4 +1,5 @@
 // The garments and motions on offer, and the scene of each pane.
+import liveSkirt from '../../../../assets/methods/live_skirt.json';
 import squat from '../../../../assets/motions/squat.json?raw';
 import turn from '../../../../assets/motions/turn.json?raw';
 import walkFast from '../../../../assets/motions/walk_fast.json?raw';
@@ -19,7 +20,6 @@ import trousersSquat from '../../../../assets/scenes/garments/trousers_squat.jso
 import trousersTurn from '../../../../assets/scenes/garments/trousers_turn.json?raw';
 import trousersWalk from '../../../../assets/scenes/garments/trousers_walk.json?raw';
 import type { HandedFiles } from '../bindings/refinement-module';
-import { LIVE_SKIRT } from './garment-frames';
 import type { PlanFile } from './plan-file';
 
 export const GARMENTS = [
@@ -38,7 +38,7 @@ export const MOTIONS = [
 ] as const;
 export type MotionId = (typeof MOTIONS)[number]['value'];
 
-/** What takes the steps of all panes: the scenes' own method, or one that shows a fine skirt while it walks. */
+/** Method of the steps of all panes: the scenes' own method, or one that shows a fine skirt while it walks. */
 export const METHODS = [
   { value: 'implicit', title: 'implicit: the scenes’ own' },
   { value: 'multigrid', title: 'multigrid: computed as it walks' },
@@ -131,7 +131,7 @@ export function sceneText(
 ): string {
   const scene = sceneOf(garment, motion);
   const { step_s } = scene.method;
-  const usual = methodId === 'multigrid' ? { step_s, ...LIVE_SKIRT } : scene.method;
+  const usual = methodId === 'multigrid' ? { step_s, ...liveSkirt } : scene.method;
   const method = substeps === null ? usual : { ...usual, substeps };
   return JSON.stringify({
     ...scene,

@@ -19,14 +19,14 @@ export interface PlanFile {
   }[];
   patterns: number;
   patterns_of_vertices: [pattern: number, count: number][];
-  /** By curvature where there is none. */
+  /** The rule of the plan; curvature where there is none. */
   criterion?: 'shape' | 'curvature';
   largest_loss_m?: number;
   detail_demand?: number;
   vertex_budget?: number;
   level_cap: number;
   vertices: number;
-  /** Of each face that is not split; none where they were not measured. */
+  /** Loss of each face that is not split; none where they were not measured. */
   curvature_limits_per_m: number[];
   splits: PlanSplit[];
 }
@@ -89,12 +89,12 @@ export interface PlanStory {
   examples: string[];
   patterns: PatternStory[];
   nVertices: number;
-  /** Whether it knows how much the examples bent each face. */
+  /** True when it knows how much the examples bent each face. */
   hasLimits: boolean;
   nSplits: number;
   nForBalance: number;
   isByShape: boolean;
-  /** What is demanded by shape is a length [mm]. */
+  /** The demand by shape is a length [mm]. */
   rule: { kind: 'demand' | 'budget'; value: number };
 }
 

@@ -41,14 +41,14 @@ export interface GarmentPane {
   /** Time of the work for one frame [ms], in parts. */
   msPerFrame: number | null;
   parts: { name: string; ms: number }[];
-  /** What the mesh loses of the fine pane's shape by its faces alone [m], and of its normals [rad]. */
+  /** Loss of the mesh of the fine pane's shape by its faces alone [m], and of its normals [rad]. */
   lostM: number | null;
   lostNormalsRad: number | null;
   /** How differently it is folded from the fine pane, and how far the surfaces are [m]. */
   foldsM: number | null;
   surfaceM: number | null;
   faults: FaultsAnswer | null;
-  /** What the steps computed here show that the scene cannot explain. */
+  /** Signs in the steps computed here that the scene cannot explain. */
   warnings: readonly RunWarning[];
 }
 
@@ -74,15 +74,15 @@ export interface RefinementLink {
   further: readonly MotionId[];
   /** Which of both sliders rules. */
   rule: 'demand' | 'budget';
-  /** Of the examples' shapes, that may be lost [mm]. */
+  /** Part of the examples' shapes that may be lost [mm]. */
   demand: number;
   /** Vertices; null until it was first moved. */
   budget: number | null;
   /** The uniform mesh beside the planned one. */
   rival: RivalId;
-  /** Of all panes; nothing but `implicit` comes recorded. */
+  /** Method of all panes; nothing but `implicit` comes recorded. */
   method: MethodId;
-  /** Of a step, where a warning asked for more than the scene's own; else null. */
+  /** Substeps of a step, where a warning asked for more than the scene's own; else null. */
   substeps: number | null;
   /** Frames that come with the page are shown where there are some. */
   useRecords: boolean;
@@ -118,7 +118,7 @@ export interface RefinementState extends RefinementLink {
   /** The time at which the frames end [s]. */
   endS: number;
   panes: Record<PaneId, GarmentPane>;
-  /** Between two runs on the fine mesh, where that is known. */
+  /** Distance between two runs on the fine mesh, where that is known. */
   floor: FineFloor | null;
   plan: PlanFile | null;
   /** Vertices that a budget can ask for. */

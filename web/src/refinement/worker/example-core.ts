@@ -2,14 +2,13 @@
 // and from what it ran itself. The only file that calls delete() on its objects.
 
 import {
-  describe,
-  type Failure,
+  granted,
   inputFailure,
-  internalFailure,
+  Refused,
   type RunStatus,
   read,
 } from '../../shared/bindings/answers';
-import type { Post } from '../../shared/workers/serve';
+import { ModuleCore, type Post } from '../../shared/workers/serve';
 import type {
   ExampleStudyHandle,
   GarmentRunHandle,
@@ -33,40 +32,30 @@ interface Running {
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class ExampleCore {
+export class ExampleCore extends ModuleCore<RefinementModule, ToExample, FromExample> {
   private study: ExampleStudyHandle | null = null;
   private running: Running | null = null;
 
-  private refuse(request: number, failure: Failure): void {
-    this.post({ type: 'refused', request, failure }, []);
-  }
-
   private async open(message: Message<'open'>): Promise<void> {
     this.study ??= new this.module.ExampleStudy(message.fabricsText);
-    const answer = read<{ n_base_vertices: number; n_vertices: number }>(
+    const answer = granted<{ n_base_vertices: number; n_vertices: number }>(
       this.study.open(message.sceneText, message.files),
     );
-    if (!answer.ok) return this.refuse(0, answer);
     const parents = this.study.parents().slice();
     const features = await readRecording(new Uint8Array(message.features), parents);
     const frames = await readRecording(new Uint8Array(message.frames), parents);
     if (!features?.frames[0] || !frames)
-      return this.refuse(0, internalFailure('the example is a record of another cloth'));
+      throw new Error('the example is a record of another cloth');
     for (const frame of frames.frames) this.study.addFrame(frame);
-    const sorted = read<object>(
-      this.study.sort(message.name, features.frames[0], message.nPatterns),
-    );
-    if (!sorted.ok) return this.refuse(0, sorted);
+    granted(this.study.sort(message.name, features.frames[0], message.nPatterns));
     const { n_vertices: nFineVertices, n_base_vertices: nBaseVertices } = answer;
     this.post({ type: 'opened', nFineVertices, nBaseVertices }, []);
   }
 
   private plan(owner: ExampleStudyHandle, message: Message<'plan'>): void {
     const beginMs = this.nowMs();
-    const answer = read<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
-    if (!answer.ok) return this.refuse(message.request, answer);
-    const { request } = message;
-    this.post({ type: 'planned', request, plan: answer.plan, ms: this.nowMs() - beginMs }, []);
+    const { plan } = granted<{ plan: PlanFile }>(owner.plan(JSON.stringify(message.wish)));
+    this.post({ type: 'planned', plan, ms: this.nowMs() - beginMs }, []);
   }
 
   private endRun(): void {
@@ -77,19 +66,17 @@ export class ExampleCore {
 
   private begin(wish: Message<'begin'>): void {
     this.endRun();
-    const { request, fabricsText, sceneText, files } = wish;
+    const { fabricsText, sceneText, files } = wish;
     const run = new this.module.GarmentRun(fabricsText);
     const seen = new this.module.ExampleStudy(fabricsText);
     this.running = { wish, run, seen, stepsPerFrame: 1, frame: 0 };
-    const loaded = read<GarmentSummary>(run.load(sceneText, files));
-    if (!loaded.ok) return this.refuse(request, loaded);
-    const opened = read<object>(seen.open(sceneText, files));
-    if (!opened.ok) return this.refuse(request, opened);
+    const loaded = granted<GarmentSummary>(run.load(sceneText, files));
+    granted(seen.open(sceneText, files));
     this.running.stepsPerFrame = Math.max(1, Math.round(wish.frameS / loaded.step_s));
-    this.post({ type: 'wentOn', request, share: 0 }, []);
+    this.post({ type: 'wentOn', share: 0 }, []);
   }
 
-  private goOn(owner: ExampleStudyHandle, now: Running, request: number): void {
+  private goOn(owner: ExampleStudyHandle, now: Running): void {
     const { wish, run, seen } = now;
     const first = Math.round(wish.fromS / wish.frameS);
     const last = Math.round(wish.toS / wish.frameS);
@@ -97,7 +84,7 @@ export class ExampleCore {
       const status = read<RunStatus>(run.status());
       const why = status.ok ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : '';
       const what = `The example "${wish.name}" stopped at ${run.time().toFixed(2)} s. ${why}`;
-      return this.refuse(request, inputFailure(what));
+      throw new Refused(inputFailure(what));
     }
     now.frame += 1;
     if (now.frame > first) {
@@ -106,40 +93,33 @@ export class ExampleCore {
       if ((now.frame - first - 1) % wish.keptOf === 0) owner.addFrame(places);
     }
     if (now.frame === last) {
-      const sorted = read<object>(owner.sort(wish.name, seen.features().slice(), wish.nPatterns));
+      const sorted = owner.sort(wish.name, seen.features().slice(), wish.nPatterns);
       this.endRun();
-      if (!sorted.ok) return this.refuse(request, sorted);
+      granted(sorted);
     }
-    this.post({ type: 'wentOn', request, share: now.frame / last }, []);
+    this.post({ type: 'wentOn', share: now.frame / last }, []);
   }
 
-  private handle(message: Exclude<ToExample, { type: 'open' }>): void {
+  protected async handle(message: ToExample): Promise<void> {
+    if (message.type === 'open') return this.open(message);
     if (!this.study) throw new Error(`${message.type} before open`);
     switch (message.type) {
       case 'begin':
         return this.begin(message);
       case 'goOn':
         if (!this.running) throw new Error('goOn before begin');
-        return this.goOn(this.study, this.running, message.request);
+        return this.goOn(this.study, this.running);
       case 'plan':
         return this.plan(this.study, message);
     }
   }
 
   constructor(
-    private readonly module: RefinementModule,
-    private readonly post: Post<FromExample>,
+    module: RefinementModule,
+    post: Post<FromExample>,
     private readonly nowMs: () => number,
-  ) {}
-
-  async receive(message: ToExample): Promise<void> {
-    try {
-      if (message.type === 'open') return await this.open(message);
-      this.handle(message);
-    } catch (error) {
-      const request = message.type === 'open' ? 0 : message.request;
-      this.refuse(request, internalFailure(describe(error)));
-    }
+  ) {
+    super(module, post);
   }
 
   close(): void {

@@ -1,9 +1,11 @@
+import { givenCore } from '../../shared/workers/given-core';
 import { serve } from '../../shared/workers/serve';
-import createRefinement from '../../wasm/refinement.mjs';
+import type { RefinementModule } from '../bindings/refinement-module';
 import { ExampleCore } from './example-core';
 import type { FromExample, ToExample } from './garment-protocol';
 
 serve<ToExample, FromExample>(
   self,
-  async (post) => new ExampleCore(await createRefinement(), post, () => performance.now()),
+  async (post) =>
+    new ExampleCore(await givenCore<RefinementModule>(), post, () => performance.now()),
 );

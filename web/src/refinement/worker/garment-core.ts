@@ -1,15 +1,9 @@
 // Answers each message to the worker of one pane, as a function of the module and of where answers
 // go. The only file that calls delete() on its object.
 
-import {
-  describe,
-  type Failure,
-  internalFailure,
-  type RunStatus,
-  read,
-} from '../../shared/bindings/answers';
+import { granted, type RunStatus, read } from '../../shared/bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews } from '../../shared/bindings/frame';
-import type { Post } from '../../shared/workers/serve';
+import { ModuleCore } from '../../shared/workers/serve';
 import type {
   ComparedAnswer,
   FaultsAnswer,
@@ -36,7 +30,7 @@ function payloadOf<Payload>(text: string): Payload | null {
 const FEWEST_FOLDED_FRAMES = 30;
 
 /** Serves one pane. Call `receive` with each message, `close` at the end. */
-export class GarmentCore {
+export class GarmentCore extends ModuleCore<RefinementModule, ToGarment, FromGarment> {
   private run: GarmentRunHandle | null = null;
   private summary: GarmentSummary | null = null;
   private recording: Recording | null = null;
@@ -45,17 +39,11 @@ export class GarmentCore {
   private settledS = 0;
   private stepsPerFrame = 1;
 
-  private refuse(request: number, failure: Failure): void {
-    this.post({ type: 'refused', request, failure }, []);
-  }
-
   private async load(message: Message<'load'>): Promise<void> {
-    const { request, fabricsText, sceneText, fineText, files, frameS, settledS } = message;
+    const { fabricsText, sceneText, fineText, files, frameS, settledS } = message;
     this.run ??= new this.module.GarmentRun(fabricsText);
-    const answer = read<GarmentSummary>(this.run.load(sceneText, files));
-    if (!answer.ok) return this.refuse(request, answer);
-    const held = read<object>(this.run.holdAgainst(fineText, files));
-    if (!held.ok) return this.refuse(request, held);
+    const answer = granted<GarmentSummary>(this.run.load(sceneText, files));
+    granted(this.run.holdAgainst(fineText, files));
     this.summary = answer;
     this.settledS = settledS;
     this.nFolded = 0;
@@ -73,7 +61,7 @@ export class GarmentCore {
       : null;
     const head = this.recording?.head ?? null;
     this.recordedFolds = this.recording && this.foldsOf(this.run, this.recording);
-    this.post({ type: 'loaded', request, summary: answer, mesh, recording: head }, [
+    this.post({ type: 'loaded', summary: answer, mesh, recording: head }, [
       mesh.triangles.buffer,
       mesh.triangleFaces.buffer,
       mesh.edges.buffer,
@@ -98,7 +86,7 @@ export class GarmentCore {
     return status ? `${status.status.replaceAll('_', ' ')}: ${status.message}` : 'no report';
   }
 
-  private advance(owner: GarmentRunHandle, { request, frame, how }: Message<'advance'>): void {
+  private advance(owner: GarmentRunHandle, { frame, how }: Message<'advance'>): void {
     let reason: string | null = null;
     if (how === 'stepped') {
       if (owner.step(this.stepsPerFrame) !== 0) reason = this.ended(owner);
@@ -107,22 +95,18 @@ export class GarmentCore {
     }
     if (how === 'recorded') {
       const places = this.recording?.frames[frame];
-      if (!places || !this.recording)
-        return this.refuse(request, internalFailure(`no frame ${frame}`));
+      if (!places || !this.recording) throw new Error(`no frame ${frame}`);
       const { first_s: firstS, every_s: everyS } = this.recording.head;
-      const put = read<object>(owner.put(places, firstS + frame * everyS));
-      if (!put.ok) return this.refuse(request, put);
+      granted(owner.put(places, firstS + frame * everyS));
     }
     const isWatched = this.summary?.has_monitor === true && how !== 'still';
     const fit = isWatched ? payloadOf<FitAnswer>(owner.look()) : null;
-    this.post({ type: 'advanced', request, frame, fit, ended: reason }, []);
+    this.post({ type: 'advanced', frame, fit, ended: reason }, []);
   }
 
-  private reset(owner: GarmentRunHandle, { request }: Message<'reset'>): void {
-    const answer = read<object>(owner.reset());
-    if (!answer.ok) return this.refuse(request, answer);
+  private reset(owner: GarmentRunHandle): void {
+    granted(owner.reset());
     this.nFolded = 0;
-    this.post({ type: 'wasReset', request }, []);
   }
 
   /** False when there is no such number. */
@@ -154,12 +138,9 @@ export class GarmentCore {
   }
 
   private describeFrame(owner: GarmentRunHandle, message: Message<'describe'>): void {
-    const { request, reference, timeS } = message;
+    const { reference, timeS } = message;
     const own = message.takesSample ? owner.positions().slice() : null;
-    if (own && reference) {
-      const answer = read<object>(owner.putSample(reference, timeS));
-      if (!answer.ok) return this.refuse(request, answer);
-    }
+    if (own && reference) granted(owner.putSample(reference, timeS));
     const compared = reference && payloadOf<ComparedAnswer>(owner.compare(reference));
     const nBytes = 4 * FLOATS_PER_VERTEX * (this.summary?.n_vertices ?? 0);
     const given = message.buffer;
@@ -174,7 +155,6 @@ export class GarmentCore {
     if (own) owner.put(own, timeS);
     const answer: Described = {
       type: 'described',
-      request,
       buffer,
       isKnown,
       compared,
@@ -189,29 +169,16 @@ export class GarmentCore {
     this.post(answer satisfies FromGarment, [buffer]);
   }
 
-  private async handle(message: ToGarment): Promise<void> {
+  protected async handle(message: ToGarment): Promise<void> {
     if (message.type === 'load') return this.load(message);
     if (!this.run || !this.summary) throw new Error(`${message.type} before load`);
     switch (message.type) {
       case 'advance':
         return this.advance(this.run, message);
       case 'reset':
-        return this.reset(this.run, message);
+        return this.reset(this.run);
       case 'describe':
         return this.describeFrame(this.run, message);
-    }
-  }
-
-  constructor(
-    private readonly module: RefinementModule,
-    private readonly post: Post<FromGarment>,
-  ) {}
-
-  async receive(message: ToGarment): Promise<void> {
-    try {
-      await this.handle(message);
-    } catch (error) {
-      this.refuse(message.request, internalFailure(describe(error)));
     }
   }
 

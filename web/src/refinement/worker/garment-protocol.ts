@@ -1,7 +1,8 @@
 // Messages between the page and the workers of garments: one for each pane, and one for the example.
 // Lengths in metres, times in seconds.
-import type { Failure } from '../../shared/bindings/answers';
+import type { Refusal } from '../../shared/bindings/refusals';
 import type { RunWarning } from '../../shared/bindings/run-warning';
+import type { Done } from '../../shared/workers/asked';
 import type {
   ComparedAnswer,
   FaultsAnswer,
@@ -23,7 +24,6 @@ export type Advance = 'recorded' | 'stepped' | 'still';
 export type ToGarment =
   | {
       type: 'load';
-      request: number;
       fabricsText: string;
       sceneText: string;
       /** A scene of the fine mesh that frames are held against. */
@@ -33,14 +33,13 @@ export type ToGarment =
       recording: ArrayBuffer | null;
       /** Time of a frame. */
       frameS: number;
-      /** From when on folds count. */
+      /** Time from which on folds count. */
       settledS: number;
     }
-  | { type: 'advance'; request: number; frame: number; how: Advance }
-  | { type: 'reset'; request: number }
+  | { type: 'advance'; frame: number; how: Advance }
+  | { type: 'reset' }
   | {
       type: 'describe';
-      request: number;
       scalar: GarmentScalar | null;
       /** The fine pane's places at the same time, if they are there. */
       reference: Float32Array | null;
@@ -67,12 +66,11 @@ export interface GarmentMesh {
 
 export interface Described {
   type: 'described';
-  request: number;
   /** Laid out as any frame is (frame.ts). */
   buffer: ArrayBuffer;
   /** NaN where the scalar is unknown. */
   isKnown: boolean;
-  /** Against the reference, and RMS between the surfaces. */
+  /** Distances from the reference, and RMS between the surfaces. */
   compared: ComparedAnswer | null;
   surfaceM: number | null;
   /** How far folds stand out, over all that were seen; null until that is enough to tell. */
@@ -81,14 +79,13 @@ export interface Described {
   foldsM: number | null;
   faults: FaultsAnswer | null;
   costs: GarmentCosts | null;
-  /** What the steps of this pane show that its scene cannot explain. */
+  /** Signs in the steps of this pane that its scene cannot explain. */
   warnings: RunWarning[];
   solids: SolidsAnswer | null;
 }
 
 export interface Loaded {
   type: 'loaded';
-  request: number;
   summary: GarmentSummary;
   mesh: GarmentMesh;
   /** Head of the record; null when there is none, or one of another mesh. */
@@ -97,30 +94,19 @@ export interface Loaded {
 
 export interface Advanced {
   type: 'advanced';
-  request: number;
   frame: number;
   fit: FitAnswer | null;
   /** Why the run ended, or null. */
   ended: string | null;
 }
 
-export interface WasReset {
-  type: 'wasReset';
-  request: number;
-}
-
-export type FromGarment =
-  | Loaded
-  | Advanced
-  | WasReset
-  | Described
-  | { type: 'refused'; request: number; failure: Failure };
+export type FromGarment = Loaded | Advanced | Described | Refusal;
 
 /** The answer to each question. */
 export interface GarmentAnswers {
   load: Loaded;
   advance: Advanced;
-  reset: WasReset;
+  reset: Done;
   describe: Described;
 }
 
@@ -142,7 +128,6 @@ export type ToExample =
   | {
       /** An example more: the scene on the fine mesh, from its beginning. */
       type: 'begin';
-      request: number;
       fabricsText: string;
       sceneText: string;
       files: HandedFiles;
@@ -156,8 +141,8 @@ export type ToExample =
       keptOf: number;
     }
   /** A frame of it. */
-  | { type: 'goOn'; request: number }
-  | { type: 'plan'; request: number; wish: PlanWish };
+  | { type: 'goOn' }
+  | { type: 'plan'; wish: PlanWish };
 
 export interface ExampleOpened {
   type: 'opened';
@@ -168,22 +153,16 @@ export interface ExampleOpened {
 /** The share of the example that has run; at 1 plans are made of it too. */
 export interface WentOn {
   type: 'wentOn';
-  request: number;
   share: number;
 }
 
 export interface Planned {
   type: 'planned';
-  request: number;
   plan: PlanFile;
   ms: number;
 }
 
-export type FromExample =
-  | ExampleOpened
-  | WentOn
-  | Planned
-  | { type: 'refused'; request: number; failure: Failure };
+export type FromExample = ExampleOpened | WentOn | Planned | Refusal;
 
 /** The answer to each question. */
 export interface ExampleAnswers {

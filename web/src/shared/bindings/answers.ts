@@ -34,6 +34,20 @@ export function internalFailure(what: string): Failure {
   return { ok: false, kind: 'internal', where: '', what };
 }
 
+/** The error of what was refused. */
+export class Refused extends Error {
+  constructor(readonly failure: Failure) {
+    super(failure.what);
+  }
+}
+
+/** The payload of an answer; throws Refused where there is none. */
+export function granted<Payload>(text: string): Payload {
+  const answer = read<Payload>(text);
+  if (answer.ok) return answer;
+  throw new Refused(answer);
+}
+
 /** Letters of a technical reason that are quoted at most. */
 const MOST_REASON = 100;
 

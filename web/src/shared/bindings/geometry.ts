@@ -2,6 +2,7 @@
 
 export type Triple = [number, number, number];
 
+/** A solid by its word in scene files, with what stands there. */
 export type Collider =
-  | { shape: 'plane'; point: Triple; normal: Triple }
-  | { shape: 'sphere'; centre: Triple; radius_m: number };
+  | { shape: 'plane'; point_m: Triple; normal: Triple }
+  | { shape: 'sphere'; centre_m: Triple; radius_m: number };

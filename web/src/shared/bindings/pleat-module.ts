@@ -38,16 +38,16 @@ export interface RunNumbers {
   iterations: number;
   /** Total wall time since load, the first step not counted: of each part that was timed [ms]. */
   parts_ms: Record<string, number>;
-  /** The same of the steps as a whole [ms], of which there were `steps_timed`. */
+  /** Time of the steps as a whole [ms], of which there were `steps_timed`. */
   steps_ms: number;
   steps_timed: number;
-  /** At most one of each kind since the run began. */
+  /** Warnings, at most one of each kind since the run began. */
   warnings: RunWarning[];
   /** Null where there is none of this scene. */
   reference: ReferenceNumbers | null;
 }
 
-/** What `energies` holds, in this order. */
+/** Names of what `energies` holds, in this order. */
 export const ENERGY_NUMBERS = [
   /** [s] */
   'time_s',
@@ -61,7 +61,7 @@ export const ENERGY_NUMBERS = [
   'contact',
   'pins',
   'tears',
-  /** What no work explains [J]. */
+  /** Energy that no work explains [J]. */
   'drift',
   /** Kinetic and elastic energy when the account began [J]. */
   'start',
@@ -97,9 +97,9 @@ export interface MeshLevels {
 
 /** How imex would take the springs of a mesh. */
 export interface ImexShare {
-  /** As many as it is given, or as it takes for the share that shall be explicit. */
+  /** Substeps: as many as it is given, or as it takes for the share that shall be explicit. */
   substeps: number;
-  /** Of the springs, that are implicit: 0 to 1. */
+  /** Share of the springs that are implicit: 0 to 1. */
   share: number;
 }
 
@@ -124,11 +124,11 @@ export interface ResponseRun {
   normal_velocities_m_per_s: number[];
   rms_normal_velocity_m_per_s: number;
   n_touched: number;
-  /** Of the time of a step. */
+  /** Share of the time of a step. */
   contact_share: number;
 }
 
-/** The same cloth from the same state, where its normal velocity ends and where it is turned round. */
+/** One cloth twice from one state, where its normal velocity ends and where it is turned round. */
 export interface ResponseStudy {
   first_contact_s: number;
   substep_s: number;
@@ -160,7 +160,7 @@ export interface SimulationHandle {
   numbers(): string;
   /** Views of module memory: a view is dead after the next call, take it anew each time. */
   positions(): Float32Array;
-  /** The same positions in full precision. */
+  /** Positions in full precision. */
   exactPositions(): Float64Array;
   /** One a vertex [kg]. */
   masses(): Float64Array;

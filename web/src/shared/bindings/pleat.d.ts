@@ -1,7 +1,15 @@
 declare module '*/pleat.mjs' {
-  import type { PleatModule } from './pleat-module';
+  interface Options {
+    /** The file's bytes, for Node. */
+    wasmBinary?: Uint8Array;
+    /** Instantiates a module that is compiled already, and hands the instance over. */
+    instantiateWasm?(
+      imports: WebAssembly.Imports,
+      receive: (instance: WebAssembly.Instance) => void,
+    ): object;
+  }
 
-  /** `wasmBinary` lets Node pass the file's bytes; a browser fetches them itself. */
-  const createPleat: (options?: { wasmBinary?: Uint8Array }) => Promise<PleatModule>;
+  /** The core, or the part of its classes that the caller names. */
+  const createPleat: <Part>(options: Options) => Promise<Part>;
   export default createPleat;
 }

@@ -1,12 +1,12 @@
-/** What a run shows that its scene cannot explain, or that a step of it did not converge (docs/methods/plausibility.md). */
+/** A sign in a run that its scene cannot explain, or a step that did not converge (docs/methods/plausibility.md). */
 export interface RunWarning {
   kind: 'stretch' | 'speed' | 'unsolved' | 'not_converged';
   /** When it was first seen. */
   time_s: number;
   vertex: number;
-  /** At its worst: a strain, a speed [m/s] or a share of the equations; null beyond all numbers. */
+  /** Worst value: a strain, a speed [m/s] or a share of the equations; null beyond all numbers. */
   value: number | null;
-  /** What the scene explains. */
+  /** Value that the scene explains. */
   bound: number | null;
   sentence: string;
   /** Else all that is told is that a step did not converge. */

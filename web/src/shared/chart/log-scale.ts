@@ -1,16 +1,5 @@
 // A logarithmic axis: where a value lies, and which values to write beside it.
 
-export interface LogScale {
-  low: number;
-  high: number;
-  /** 0 at `low`, 1 at `high`; values outside lie outside. */
-  part(value: number): number;
-  /** Labelled values: decades, with 2 and 5 when there are few. */
-  ticks: number[];
-  /** Unlabelled lines between them. */
-  minorTicks: number[];
-}
-
 /** A wide axis of fewer decades than this has room for labels at 2 and 5 too. */
 const FEW_DECADES = 3;
 
@@ -30,7 +19,7 @@ function multiples(factors: readonly number[], low: number, high: number): numbe
  * A scale that holds every positive finite value with some room on both sides; one decade about 1
  * when there is none. `few`: so many decades have labels at 2 and 5 too.
  */
-export function logScale(values: readonly number[], few = FEW_DECADES): LogScale {
+export function logScale(values: readonly number[], few = FEW_DECADES) {
   const usable = values.filter((value) => value > 0 && Number.isFinite(value));
   const room = 1.35;
   let low = usable.length > 0 ? Math.min(...usable) / room : 0.3;
@@ -44,8 +33,13 @@ export function logScale(values: readonly number[], few = FEW_DECADES): LogScale
   return {
     low,
     high,
-    part: (value) => Math.log10(value / low) / decades,
+    /** 0 at `low`, 1 at `high`; values outside lie outside. */
+    part: (value: number) => Math.log10(value / low) / decades,
+    /** Labelled values: decades, with 2 and 5 when there are few. */
     ticks: multiples(decades < few ? [1, 2, 5] : [1], low, high),
+    /** Unlabelled lines between them. */
     minorTicks: multiples([2, 3, 4, 5, 6, 7, 8, 9], low, high),
   };
 }
+
+export type LogScale = ReturnType<typeof logScale>;

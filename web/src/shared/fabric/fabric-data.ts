@@ -23,7 +23,7 @@ export type FabricQuantity =
   | 'damping_ratio'
   | 'friction_fabric_solid';
 
-/** What a scene has in place of a fabric's numbers. */
+/** Numbers that a scene has in place of a fabric's. */
 export type OwnQuantities = Partial<Record<FabricQuantity, number>>;
 
 export type FabricRecord = Record<FabricQuantity, Measured> & {

@@ -34,6 +34,20 @@ export function setText(target: Element, text: string): void {
   if (target.textContent !== text) target.textContent = text;
 }
 
+export function button(
+  words: Node | string,
+  click: () => void,
+  attributes: Attributes = {},
+): HTMLButtonElement {
+  return element('button', { type: 'button', click, ...attributes }, words);
+}
+
+/** A box to tick, with its words behind it. */
+export function checkBox(words: Node | string, onChange: (isOn: boolean) => void) {
+  const input = element('input', { type: 'checkbox', change: () => onChange(input.checked) });
+  return { input, label: element('label', { class: 'check' }, input, words) };
+}
+
 let nIds = 0;
 
 /** A label above its control. */

@@ -110,7 +110,7 @@ function reading(fabric: FabricRecord, line: Line, own: OwnQuantities): Reading 
   return { shown: ofFabric, badge: confidence, origin };
 }
 
-/** What is read of each quantity, by its title. */
+/** Readings of each quantity, by its title. */
 export function quantityReadings(fabric: FabricRecord, own: OwnQuantities): Map<string, Reading> {
   return new Map(LINES.map((line) => [line.title, reading(fabric, line, own)]));
 }

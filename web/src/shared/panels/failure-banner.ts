@@ -1,17 +1,23 @@
 // A failure, above the stage, until it is dismissed.
 import { type Failure, sentenceOf } from '../bindings/answers';
-import { element, setText } from './element';
+import { type Store, watch } from '../state/store';
+import { button, element, setText } from './element';
+
+interface Failing {
+  problem: Failure | null;
+  phase: string;
+}
 
 /** A banner that says what went wrong in a sentence. */
-export function createFailureBanner(parent: HTMLElement, dismiss: () => void) {
+export function createFailureBanner(parent: HTMLElement, store: Store<Failing>): void {
   const sentence = element('p');
-  const button = element('button', { type: 'button', click: dismiss }, 'Dismiss');
-  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, button);
+  const dismissal = button('Dismiss', () => store.set({ problem: null }));
+  const banner = element('div', { class: 'problem', role: 'alert' }, sentence, dismissal);
   parent.append(banner);
-  return ({ problem, phase }: { problem: Failure | null; phase: string }) => {
+  watch(store, ['problem', 'phase'], ({ problem, phase }) => {
     banner.hidden = problem === null;
-    button.hidden = phase === 'broken';
+    dismissal.hidden = phase === 'broken';
     if (!problem) return;
     setText(sentence, phase === 'broken' ? problem.what : sentenceOf(problem));
-  };
+  });
 }

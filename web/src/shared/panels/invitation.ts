@@ -1,15 +1,7 @@
 // The one thing that asks to be grabbed.
 import { element } from './element';
 
-export interface Invitation {
-  /** Pixels from the stage's upper left corner. */
-  place(x: number, y: number): void;
-  setShown(isShown: boolean): void;
-  /** For a stage without a picture. */
-  remove(): void;
-}
-
-export function createInvitation(parent: HTMLElement): Invitation {
+export function createInvitation(parent: HTMLElement) {
   const word = element('span', { class: 'invitation-word' }, 'Pull me');
   const ring = element(
     'div',
@@ -21,7 +13,8 @@ export function createInvitation(parent: HTMLElement): Invitation {
   ring.style.visibility = 'hidden'; // until it has a place
   parent.append(ring);
   return {
-    place(x, y) {
+    /** Pixels from the stage's upper left corner. */
+    place(x: number, y: number) {
       ring.style.visibility = '';
       ring.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
       // The word stays inside the stage when the cloth is at its rim.
@@ -29,9 +22,10 @@ export function createInvitation(parent: HTMLElement): Invitation {
       const inside = Math.min(parent.clientWidth - half, Math.max(half, x));
       word.style.left = `${(inside - x).toFixed(1)}px`;
     },
-    setShown(isShown) {
+    setShown(isShown: boolean) {
       ring.hidden = !isShown;
     },
+    /** Takes it away, for a stage without a picture. */
     remove: () => ring.remove(),
   };
 }

@@ -1,21 +1,26 @@
 // The keys, for those who do not use a pointer.
 import { element } from './element';
 
-const KEYS: readonly [string, string][] = [
+type Keys = readonly (readonly [string, string])[];
+
+/** Keys of a run that is looked at. */
+export const RUN_KEYS: Keys = [
   ['Space', 'play or pause'],
   ['.', 'one step'],
   ['R', 'reset'],
   ['Arrows', 'turn the view'],
   ['+ and -', 'closer, farther'],
   ['Home', 'first view'],
+];
+
+/** Keys of a run whose cloth can be taken. */
+export const HAND_KEYS: Keys = [
+  ...RUN_KEYS,
   ['G', 'take the cloth at the middle of the picture; then arrows, Page Up and Page Down move it'],
   ['G or Escape', 'let go'],
 ];
 
-export function createKeyList(
-  parent: HTMLElement,
-  keys: readonly (readonly [string, string])[],
-): () => void {
+export function createKeyList(parent: HTMLElement, keys: Keys): () => void {
   const list = element('dl', { class: 'keys' });
   for (const [key, meaning] of keys) {
     list.append(element('dt', {}, element('kbd', {}, key)), element('dd', {}, meaning));
@@ -30,8 +35,4 @@ export function createKeyList(
   const section = element('section', { 'aria-label': 'Keys' }, box);
   parent.append(section);
   return () => section.remove();
-}
-
-export function createKeysPanel(parent: HTMLElement): () => void {
-  return createKeyList(parent, KEYS);
 }

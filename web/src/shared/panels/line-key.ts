@@ -1,4 +1,4 @@
-// What a line of a chart looks like, for a list of marks.
+// Look of a line of a chart, for a list of marks.
 import { element, svg } from './element';
 
 /** A piece of the line, which `kind` styles, and its title. */

@@ -1,5 +1,5 @@
 // A button that asks for an OBJ file.
-import { element } from './element';
+import { button, element } from './element';
 
 export function createObjPicker(
   parent: HTMLElement,
@@ -16,11 +16,7 @@ export function createObjPicker(
       picker.value = ''; // the same file, mended, is a change again
     },
   });
-  const open = element(
-    'button',
-    { type: 'button', class: 'wide', click: () => picker.click() },
-    'Choose an OBJ file',
-  );
+  const open = button('Choose an OBJ file', () => picker.click(), { class: 'wide' });
   parent.append(open, picker);
   return () => {
     open.remove();

@@ -1,5 +1,5 @@
 // A file that is being read, and the way out of it.
-import { element, setText } from './element';
+import { button, element, setText } from './element';
 
 export function createReading(cancel: () => void) {
   const what = element('p', { class: 'note', role: 'status' });
@@ -8,7 +8,7 @@ export function createReading(cancel: () => void) {
     { class: 'reading' },
     what,
     element('progress', { 'aria-label': 'Reading the file' }),
-    element('button', { type: 'button', class: 'wide', click: cancel }, 'Cancel'),
+    button('Cancel', cancel, { class: 'wide' }),
   );
   return {
     box,

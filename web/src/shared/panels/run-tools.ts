@@ -6,18 +6,26 @@ import { toolButton } from './tool-button';
 
 const SPEED_TITLES: Record<number, string> = { 1: '1 ×', 0.5: '1/2 ×', 0.25: '1/4 ×' };
 
+/** The choice of a speed. */
+export function speedChoice(onChoice: (speed: number) => void) {
+  return choice(
+    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
+    onChoice,
+  );
+}
+
 export interface RunState {
   playing: boolean;
   phase: string;
   speed: number;
 }
 
-export interface RunActions {
+/** A run that can be played. */
+export interface Playable {
   play(): void;
   pause(): void;
   step(): void;
   reset(): void;
-  homeView(): void;
 }
 
 export interface RunWords {
@@ -32,22 +40,20 @@ export interface RunWords {
 export function createRunTools<State extends RunState>(
   parent: HTMLElement,
   store: Store<State>,
-  actions: RunActions,
+  run: Playable,
+  homeView: () => void,
   words: RunWords,
   canReset: (phase: string) => boolean,
 ): () => void {
   const play = toolButton('play', 'Play', 'Play or pause (space)', () => {
-    if (store.get().playing) actions.pause();
-    else actions.play();
+    if (store.get().playing) run.pause();
+    else run.play();
   });
   play.made.classList.add('primary');
-  const step = toolButton('step', 'Step', words.step, actions.step);
-  const reset = toolButton('reset', 'Reset', words.reset, actions.reset);
-  const view = toolButton('view', 'View', words.view, actions.homeView);
-  const speed = choice(
-    SPEEDS.map((value) => ({ value, title: SPEED_TITLES[value] ?? String(value) })),
-    (value) => store.set({ speed: value } as Partial<State>),
-  );
+  const step = toolButton('step', 'Step', words.step, () => run.step());
+  const reset = toolButton('reset', 'Reset', words.reset, () => run.reset());
+  const view = toolButton('view', 'View', words.view, homeView);
+  const speed = speedChoice((value) => store.set({ speed: value } as Partial<State>));
   speed.control.setAttribute('aria-label', `Speed: ${words.speed}`);
   speed.control.title = words.speed.charAt(0).toUpperCase() + words.speed.slice(1);
   parent.append(play.made, step.made, reset.made, speed.control, view.made);

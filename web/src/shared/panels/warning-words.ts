@@ -1,8 +1,8 @@
-// What a run shows that its scene cannot explain, in words.
+// Words on what a run shows that its scene cannot explain.
 import type { RunWarning } from '../bindings/run-warning';
 import { digits, percent } from './quantity';
 
-/** From here on a stretch is many lengths, however many. */
+/** Least stretch that is many lengths, however many. */
 const MANY = 10;
 
 function stretchText(strain: number | null): string {

@@ -22,7 +22,7 @@ export interface View {
   upright?: number;
 }
 
-/** From where the framed scene is seen, when that is not from where it is seen at first. */
+/** The place from which the framed scene is seen, when that is not the first one. */
 export interface Pose {
   /** [rad] */
   azimuth: number;
@@ -31,22 +31,6 @@ export interface Pose {
   zoom: number;
   /** The turning point from the centre, in radii of what has to be seen. */
   shift: Triple;
-}
-
-export interface CameraControl {
-  frame(view: View): void;
-  home(): void;
-  /** Null for where the scene is seen from at first. */
-  pose(): Pose | null;
-  setPose(pose: Pose | null): void;
-  /** Goes along with what has to be seen, which is there now; the viewer's own turns stay. */
-  follow(centre: Vector3): void;
-  /** True when the key was one of the camera's. */
-  key(name: string): boolean;
-  /** While resting, pointers do nothing: a hand is holding the cloth. */
-  setResting(isResting: boolean): void;
-  /** Call after the canvas changed its shape. */
-  refit(): void;
 }
 
 function clamp(value: number, low: number, high: number): number {
@@ -235,7 +219,7 @@ export function createCameraControl(
   camera: PerspectiveCamera,
   onChange: () => void,
   pictureHeight: () => number = () => element.clientHeight,
-): CameraControl {
+) {
   const orbit = new Orbit(camera, onChange, pictureHeight);
   const pointers = new OrbitPointers(element, orbit);
   const home = () => orbit.home();
@@ -250,20 +234,25 @@ export function createCameraControl(
     Home: home,
   };
   return {
-    frame: (view) => orbit.frame(view),
+    frame: (view: View) => orbit.frame(view),
     home,
+    /** Null for where the scene is seen from at first. */
     pose: () => orbit.held(),
-    setPose(pose) {
+    setPose(pose: Pose | null) {
       if (pose) orbit.hold(pose);
       else orbit.home();
     },
-    follow: (centre) => orbit.follow(centre),
-    key(name) {
+    /** Goes along with what has to be seen, which is there now; the viewer's own turns stay. */
+    follow: (centre: Vector3) => orbit.follow(centre),
+    /** True when the key was one of the camera's. */
+    key(name: string) {
       const action = keys[name];
       action?.();
       return action !== undefined;
     },
-    setResting: (isResting) => pointers.setResting(isResting),
+    /** While resting, pointers do nothing: a hand is holding the cloth. */
+    setResting: (isResting: boolean) => pointers.setResting(isResting),
+    /** Call after the canvas changed its shape. */
     refit: () => orbit.apply(),
   };
 }

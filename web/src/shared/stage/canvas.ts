@@ -13,22 +13,11 @@ export interface CanvasEvents {
   pictureLost(isLost: boolean): void;
 }
 
-export interface Canvas {
-  /** Draws with the next frame of the display. */
-  redraw(): void;
-  /** Call once everything that draws is there. */
-  open(): void;
-}
-
 /** Sharper than this no display at arm's length looks, and it costs the square. */
 const MOST_PIXEL_RATIO = 2;
 
 /** Throws when the browser has no WebGL 2. */
-export function createCanvas(
-  parent: HTMLElement,
-  canvas: HTMLCanvasElement,
-  events: CanvasEvents,
-): Canvas {
+export function createCanvas(parent: HTMLElement, canvas: HTMLCanvasElement, events: CanvasEvents) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
   renderer.outputColorSpace = SRGBColorSpace;
   renderer.shadowMap.enabled = true;
@@ -73,7 +62,9 @@ export function createCanvas(
   });
 
   return {
+    /** Draws with the next frame of the display. */
     redraw,
+    /** Call once everything that draws is there. */
     open() {
       new ResizeObserver(resize).observe(parent);
       window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', applyTheme);

@@ -8,7 +8,6 @@ import {
   Mesh,
 } from 'three';
 import { frameViews, type Scalar } from '../bindings/frame';
-import type { FabricLook } from '../fabric/fabric-look';
 import { MAGNITUDE_MAP, paint, roundedUp, SIGNED_MAP } from './colormap';
 import { createClothMaterials, type Print } from './fabric-material';
 import type { HeatMap, HeatScale } from './heat-map';
@@ -32,26 +31,6 @@ function edgesOf(triangles: Uint32Array): Uint32Array {
     edges.push(a, b);
   }
   return Uint32Array.from(edges);
-}
-
-export interface ClothMesh {
-  object: Group;
-  /** Present positions, three numbers a vertex [m]; valid until the next frame. */
-  positions(): Float32Array;
-  triangles(): Uint32Array;
-  setTopology(triangles: Uint32Array, nVertices: number): void;
-  setFrame(buffer: ArrayBuffer, scalar: Scalar): void;
-  /** Takes the last frame to the screen; call before drawing. */
-  update(): void;
-  setLook(look: FabricLook): void;
-  /** Shown while the mesh has as many vertices as the print. */
-  setPrint(print: Print | null): void;
-  /** `range` is of stretch [%]. True when that is another map or range. */
-  setHeat(map: HeatMap, range: 'auto' | number): boolean;
-  setEdges(isShown: boolean): void;
-  heatScale(): HeatScale;
-  /** Gives back what the graphics card holds. */
-  close(): void;
 }
 
 /** The drawn meshes: both sides of the cloth, the heat map in their place, and the edges. */
@@ -116,7 +95,7 @@ class HeatPaint {
   }
 }
 
-export function createClothMesh(): ClothMesh {
+export function createClothMesh() {
   const geometry = new BufferGeometry();
   const edgeGeometry = new BufferGeometry();
   const parts = createParts(geometry, edgeGeometry);
@@ -139,10 +118,11 @@ export function createClothMesh(): ClothMesh {
 
   return {
     object,
+    /** Present positions, three numbers a vertex [m]; valid until the next frame. */
     positions: () => positions,
     triangles: () => triangles,
     heatScale: () => heatPaint.scale,
-    setTopology(newTriangles, nVertices) {
+    setTopology(newTriangles: Uint32Array, nVertices: number) {
       triangles = new Uint32Array(newTriangles);
       heatPaint.resize(nVertices);
       geometry.dispose();
@@ -154,13 +134,14 @@ export function createClothMesh(): ClothMesh {
       edgeGeometry.setIndex(new BufferAttribute(edgesOf(triangles), 1));
       showPrint();
     },
-    setFrame(buffer, newScalar) {
+    setFrame(buffer: ArrayBuffer, newScalar: Scalar) {
       const views = frameViews(buffer);
       positions = views.positions;
       values = views.scalar;
       scalar = newScalar;
       isStale = true;
     },
+    /** Takes the last frame to the screen; call before drawing. */
     update() {
       if (!isStale || positions.length === 0) return;
       isStale = false;
@@ -168,12 +149,14 @@ export function createClothMesh(): ClothMesh {
       heatPaint.paint(values, scalar, geometry.getAttribute('color') as BufferAttribute);
     },
     setLook,
-    setPrint(newPrint) {
+    /** Shown while the mesh has as many vertices as the print. */
+    setPrint(newPrint: Print | null) {
       if (print !== newPrint) print?.texture.dispose();
       print = newPrint;
       showPrint();
     },
-    setHeat(map, range) {
+    /** `range` is of stretch [%]. True when that is another map or range. */
+    setHeat(map: HeatMap, range: 'auto' | number) {
       if (map === heatPaint.map && range === heatPaint.range) return false;
       heatPaint.map = map;
       heatPaint.range = range;
@@ -183,9 +166,10 @@ export function createClothMesh(): ClothMesh {
       isStale = true;
       return true;
     },
-    setEdges(isShown) {
+    setEdges(isShown: boolean) {
       edges.visible = isShown;
     },
+    /** Gives back what the graphics card holds. */
     close() {
       geometry.dispose();
       edgeGeometry.dispose();
@@ -194,3 +178,5 @@ export function createClothMesh(): ClothMesh {
     },
   };
 }
+
+export type ClothMesh = ReturnType<typeof createClothMesh>;

@@ -10,7 +10,7 @@ const TABLE_SIZE = 256;
 export interface Colormap {
   /** Linear-light red, green, blue of each entry, 0 to 1. */
   table: Float32Array;
-  /** The same scale as a CSS gradient, first entry on the left. */
+  /** The scale as a CSS gradient, first entry on the left. */
   gradient: string;
 }
 

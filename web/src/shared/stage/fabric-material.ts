@@ -10,7 +10,7 @@ import {
 } from 'three';
 import { type FabricLook, SHEEN_ROUGHNESS } from '../fabric/fabric-look';
 
-/** What is painted on cloth, with holes where it is transparent. */
+/** A picture that is painted on cloth, with holes where it is transparent. */
 export interface Print {
   texture: Texture;
   /** Where each vertex lies in it, two numbers each. */

@@ -1,7 +1,8 @@
-// What a stage shows at first: all that the cloth of a scene will need, and its bodies.
+// The first view of a stage: all that the cloth of a scene will need, and its bodies.
 import { Box3, Sphere, Vector3 } from 'three';
 import type { Collider } from '../bindings/geometry';
 import type { PaneStage } from './pane-stage';
+import { bodiesOf, lookOf } from './solid-look';
 
 /** Direction of the first view [rad]: a little from the right and from above. */
 const AZIMUTH = 0.55;
@@ -13,36 +14,24 @@ const LEVEL_HEIGHT = 0.25;
 const SWING_BELOW = 0.8;
 const SWING_AROUND = 0.15;
 
-/** A plane tilted by less than 8 degrees, as a cosine, is a floor. */
-const FLOOR_COSINE = 0.99;
-
-/** What has to stay in view: where the cloth is, where it can swing to, and the bodies. */
+/** A ball around what has to stay in view: where the cloth is, where it can swing to, and the bodies. */
 export function framedSphere(positions: Float32Array, colliders: Collider[]): Sphere {
   const box = new Box3().setFromArray(positions);
   const reach = box.getSize(new Vector3());
   const across = Math.max(reach.x, reach.z);
-  if (
-    reach.y < LEVEL_HEIGHT * across &&
-    colliders.every((collider) => collider.shape === 'plane')
-  ) {
+  const bodies = bodiesOf(colliders);
+  if (reach.y < LEVEL_HEIGHT * across && bodies.length === 0) {
     box.min.y -= SWING_BELOW * across;
     box.expandByVector(new Vector3(SWING_AROUND * across, 0, SWING_AROUND * across));
   }
-  for (const collider of colliders) {
-    if (collider.shape !== 'sphere') continue;
-    const centre = new Vector3(...collider.centre);
-    const half = new Vector3().setScalar(collider.radius_m);
-    box.union(new Box3(centre.clone().sub(half), centre.clone().add(half)));
-  }
+  for (const body of bodies) box.union(body.box);
   return box.getBoundingSphere(new Sphere());
 }
 
 /** The floor is the level plane of the scene, or a little under everything that is seen [m]. */
 export function floorHeight(sphere: Sphere, colliders: Collider[]): number {
-  for (const collider of colliders) {
-    if (collider.shape === 'plane' && collider.normal[1] > FLOOR_COSINE) return collider.point[1];
-  }
-  return Math.min(0, sphere.center.y - sphere.radius);
+  const floors = colliders.map((solid) => lookOf(solid).floor);
+  return floors.find((floor) => floor !== null) ?? Math.min(0, sphere.center.y - sphere.radius);
 }
 
 /** The floor of the scene, and the view in which all of it is seen. */

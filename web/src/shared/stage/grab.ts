@@ -9,17 +9,6 @@ const REACH_PX = 24;
 /** How far one key press moves the hand, as a part of its distance from the eye. */
 const KEY_REACH = 0.02;
 
-export interface Hand {
-  /** The held vertex, or null. */
-  vertex(): number | null;
-  /** Where the hand wants the vertex [m]. */
-  target(): Vector3;
-  /** True when the key was the hand's: G takes and lets go, arrows and page keys move while held. */
-  key(name: string): boolean;
-  /** Lets go without telling anyone: the cloth is another one. */
-  drop(): void;
-}
-
 /** A part of the page [CSS pixels]. */
 export type Box = Pick<DOMRect, 'left' | 'top' | 'width' | 'height'>;
 
@@ -82,7 +71,7 @@ class Grip {
     return true;
   }
 
-  /** Whether a press at this point of the page would take something. */
+  /** True when a press at this point of the page would take something. */
   reaches(x: number, y: number): boolean {
     this.box = this.events.picture({ x, y });
     return this.vertexNear(x, y) !== null || this.hitAt(x, y) !== null;
@@ -201,11 +190,7 @@ function listenToPointer(element: HTMLElement, grip: Grip): void {
   element.addEventListener('blur', () => grip.release());
 }
 
-export function createHand(
-  element: HTMLElement,
-  camera: PerspectiveCamera,
-  events: HandEvents,
-): Hand {
+export function createHand(element: HTMLElement, camera: PerspectiveCamera, events: HandEvents) {
   const grip = new Grip(camera, events);
   listenToPointer(element, grip);
   showReach(element, grip);
@@ -223,16 +208,22 @@ export function createHand(
   const freeKeys: Record<string, () => void> = { g: () => grip.takeMiddle() };
 
   return {
+    /** The held vertex, or null. */
     vertex: () => grip.vertex,
+    /** Where the hand wants the vertex [m]. */
     target: () => grip.target,
-    key(name) {
+    /** True when the key was the hand's: G takes and lets go, arrows and page keys move while held. */
+    key(name: string) {
       const action = (grip.vertex === null ? freeKeys : heldKeys)[name];
       action?.();
       return action !== undefined;
     },
+    /** Lets go without telling anyone: the cloth is another one. */
     drop() {
       grip.drop();
       events.onChange();
     },
   };
 }
+
+export type Hand = ReturnType<typeof createHand>;

@@ -16,14 +16,7 @@ import {
 /** Radius of the marker, as a part of its distance: some 6 pixels on a screen. */
 const MARKER_RADIUS = 0.006;
 
-export interface HandMark {
-  object: Group;
-  /** Null hides it. */
-  place(held: Vector3 | null, target: Vector3, camera: Camera): void;
-  setColour(colour: string): void;
-}
-
-export function createHandMark(): HandMark {
+export function createHandMark() {
   const seen = { depthTest: false, transparent: true };
   const marker = new Mesh(new SphereGeometry(1, 20, 14), new MeshBasicMaterial(seen));
   const thread = new Line(new BufferGeometry(), new LineBasicMaterial(seen));
@@ -38,7 +31,8 @@ export function createHandMark(): HandMark {
   }
   return {
     object,
-    place(held, target, camera) {
+    /** Null hides it. */
+    place(held: Vector3 | null, target: Vector3, camera: Camera) {
       object.visible = held !== null;
       if (!held) return;
       marker.position.copy(held);
@@ -47,7 +41,7 @@ export function createHandMark(): HandMark {
       target.toArray(threadEnds.array, 3);
       threadEnds.needsUpdate = true;
     },
-    setColour(colour) {
+    setColour(colour: string) {
       marker.material.color.set(colour);
       thread.material.color.set(colour);
     },

@@ -1,4 +1,4 @@
-// What is drawn over a cloth and follows its places, and comes to a stage when it is first asked for.
+// A drawing over a cloth that follows its places and comes to a stage when it is first asked for.
 import type { Object3D, Vector3 } from 'three';
 
 export interface Overlay {

@@ -1,10 +1,8 @@
 // The base of every stage: one scene with floor and light, one camera under control, and a canvas
 // that is cut into panes and drawn only when something changed.
-import { type Object3D, PerspectiveCamera, Scene, Vector3 } from 'three';
+import { type Object3D, PerspectiveCamera, Scene } from 'three';
 import { createCameraControl } from './camera-control';
 import { createCanvas } from './canvas';
-import { createHand, type Hand, type HandEvents } from './grab';
-import { createHandMark } from './hand-mark';
 import { createPaneGrid } from './pane-grid';
 import { createSurroundings } from './surroundings';
 
@@ -12,7 +10,7 @@ export interface PaneStageParts {
   /** Angle of view from top to bottom [degrees]. */
   fov: number;
   objects: Object3D[];
-  /** Whether there is anything to be seen. */
+  /** True when there is anything to be seen. */
   isReady(): boolean;
   /** Puts into the scene what a pane shows, just before it is drawn. */
   prepare(pane: number): void;
@@ -66,45 +64,5 @@ export function createPaneStage(
     control.refit();
   }
 
-  return { scene, camera, surroundings, grid, control, canvas, redraw, refit, open };
-}
-
-/** A hand on a stage, with its mark; while it holds the cloth, the camera rests. */
-export function createStageHand(
-  stage: PaneStage,
-  events: Omit<HandEvents, 'onChange'>,
-): Hand & {
-  /** Marks the hand at the held vertex of these positions, or nowhere. */
-  mark(positions: Float32Array | null): void;
-  setColour(colour: string): void;
-} {
-  const { scene, camera, control, canvas, redraw } = stage;
-  const mark = createHandMark();
-  scene.add(mark.object);
-  const hand = createHand(canvas, camera, {
-    ...events,
-    grab(vertex) {
-      control.setResting(true);
-      events.grab(vertex);
-    },
-    release() {
-      control.setResting(false);
-      events.release();
-    },
-    onChange: redraw,
-  });
-  return {
-    ...hand,
-    drop() {
-      hand.drop();
-      control.setResting(false);
-    },
-    mark(positions) {
-      const vertex = hand.vertex();
-      const isHeld = positions !== null && vertex !== null;
-      const place = isHeld ? new Vector3().fromArray(positions, 3 * vertex) : null;
-      mark.place(place, hand.target(), camera);
-    },
-    setColour: mark.setColour,
-  };
+  return { scene, camera, surroundings, grid, control, redraw, refit, open };
 }

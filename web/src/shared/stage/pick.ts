@@ -80,7 +80,7 @@ export function pick(
   return { distance: nearest, point, triangle, vertex };
 }
 
-/** What is seen: `matrix` takes places to clip space, column by column; the size in pixels. */
+/** A picture: `matrix` takes places to clip space, column by column; the size in pixels. */
 export interface Picture {
   matrix: ArrayLike<number>;
   width: number;

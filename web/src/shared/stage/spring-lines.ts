@@ -25,16 +25,7 @@ function createLines() {
   return lines;
 }
 
-export interface SpringLines {
-  object: Group;
-  /** Null draws none. */
-  setSplit(split: SpringSplit | null): void;
-  /** Takes positions, three numbers a vertex, to the screen; call before drawing. */
-  update(positions: Float32Array): void;
-  setColours(colours: { explicit: string; implicit: string }): void;
-}
-
-export function createSpringLines(): SpringLines {
+export function createSpringLines() {
   const explicit = createLines();
   const implicit = createLines();
   const kinds = [explicit, implicit];
@@ -44,13 +35,15 @@ export function createSpringLines(): SpringLines {
   let places = new BufferAttribute(new Float32Array(0), 3);
   return {
     object,
-    setSplit(split) {
+    /** Null draws none. */
+    setSplit(split: SpringSplit | null) {
       object.visible = split !== null;
       if (!split) return;
       explicit.geometry.setIndex(endsOf(split, false));
       implicit.geometry.setIndex(endsOf(split, true));
     },
-    update(positions) {
+    /** Takes positions, three numbers a vertex, to the screen; call before drawing. */
+    update(positions: Float32Array) {
       if (!object.visible) return;
       if (places.array.length !== positions.length) {
         places = new BufferAttribute(positions.slice(), 3).setUsage(DynamicDrawUsage);
@@ -62,9 +55,11 @@ export function createSpringLines(): SpringLines {
       places.array.set(positions);
       places.needsUpdate = true;
     },
-    setColours(colours) {
+    setColours(colours: { explicit: string; implicit: string }) {
       explicit.material.color.set(colours.explicit);
       implicit.material.color.set(colours.implicit);
     },
   };
 }
+
+export type SpringLines = ReturnType<typeof createSpringLines>;

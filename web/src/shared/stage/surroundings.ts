@@ -12,24 +12,10 @@ import {
   MeshBasicMaterial,
   MeshStandardMaterial,
   ShadowMaterial,
-  SphereGeometry,
   Vector3,
 } from 'three';
 import type { Collider } from '../bindings/geometry';
-
-export interface Surroundings {
-  object: Group;
-  /** Moves the spheres; builds them anew when their number or size changed. */
-  setColliders(colliders: Collider[]): void;
-  /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
-  frame(centre: Vector3, radius: number, height: number): void;
-  /** Puts floor and lights under somebody who walks; the grid's lines stay where they are [m]. */
-  follow(x: number, z: number): void;
-  /** Shadows cost as much as the picture itself, each time. */
-  setShadows(areCast: boolean): void;
-  /** `colour` reads a variable of the page's design. */
-  setTheme(colour: (name: string) => string): void;
-}
+import { bodiesOf, type SolidBody } from './solid-look';
 
 /** Half the side of the grid, and its line spacing: metres, or a power of ten of them [m]. */
 const GRID_REACH_M = 4;
@@ -145,54 +131,55 @@ function createKeyLight() {
   };
 }
 
-/** The spheres among the colliders. */
-function createBalls() {
+/** The bodies among the solids. */
+function createBodies() {
   const object = new Group();
   const material = new MeshStandardMaterial({ roughness: 0.75 });
-  let spheres: Mesh[] = [];
-  let radii = '';
+  let meshes: Mesh[] = [];
+  let forms = '';
 
-  function build(radius: number): Mesh {
-    // Drawn a little smaller than it is, so that flat triangles on it do not cut into it.
-    const sphere = new Mesh(new SphereGeometry(0.985 * radius, 64, 40), material);
-    sphere.castShadow = true;
-    sphere.receiveShadow = true;
-    return sphere;
+  function build(body: SolidBody): Mesh {
+    const mesh = new Mesh(body.build(), material);
+    mesh.castShadow = true;
+    mesh.receiveShadow = true;
+    return mesh;
   }
 
   return {
     object,
     material,
     set(colliders: Collider[]) {
-      const balls = colliders.filter((collider) => collider.shape === 'sphere');
-      const wanted = balls.map((ball) => ball.radius_m).join();
-      if (wanted !== radii) {
-        radii = wanted;
-        for (const sphere of spheres) sphere.geometry.dispose();
-        spheres = balls.map((ball) => build(ball.radius_m));
+      const bodies = bodiesOf(colliders);
+      const wanted = bodies.map(({ form }) => form).join();
+      if (wanted !== forms) {
+        forms = wanted;
+        for (const mesh of meshes) mesh.geometry.dispose();
+        meshes = bodies.map(build);
         object.clear();
-        if (spheres.length > 0) object.add(...spheres);
+        if (meshes.length > 0) object.add(...meshes);
       }
-      balls.forEach((ball, index) => {
-        spheres[index]?.position.set(...ball.centre);
+      bodies.forEach(({ centre }, index) => {
+        meshes[index]?.position.set(...centre);
       });
     },
   };
 }
 
-export function createSurroundings(): Surroundings {
+export function createSurroundings() {
   const object = new Group();
   const floor = createFloor();
-  const balls = createBalls();
+  const bodies = createBodies();
   const key = createKeyLight();
   const sky = new HemisphereLight('#ffffff', '#a79f92', 1.35);
-  object.add(floor.object, sky, key.light, key.light.target, balls.object);
+  object.add(floor.object, sky, key.light, key.light.target, bodies.object);
   let lit = { centre: new Vector3(), radius: 1 };
 
   return {
     object,
-    setColliders: balls.set,
-    frame(centre, radius, height) {
+    /** Moves the bodies; builds them anew when their number or form changed. */
+    setColliders: bodies.set,
+    /** Puts the floor at `height` [m] and the lights so that a sphere is lit and shadowed well. */
+    frame(centre: Vector3, radius: number, height: number) {
       const scale = 10 ** Math.round(Math.log10(radius));
       floor.object.scale.setScalar(scale);
       floor.object.position.set(centre.x, height, centre.z);
@@ -200,7 +187,8 @@ export function createSurroundings(): Surroundings {
       key.place(centre, radius);
       key.frame(radius, scale);
     },
-    follow(x, z) {
+    /** Puts floor and lights under somebody who walks; the grid's lines stay where they are [m]. */
+    follow(x: number, z: number) {
       lit.centre.set(x, lit.centre.y, z);
       key.place(lit.centre, lit.radius);
       floor.object.position.x = x;
@@ -209,13 +197,15 @@ export function createSurroundings(): Surroundings {
       const into = (place: number) => (Math.round(place / metre) * metre - place) / metre;
       floor.grid.position.set(into(x), 0, into(z));
     },
-    setShadows(areCast) {
+    /** Shadows cost as much as the picture itself, each time. */
+    setShadows(areCast: boolean) {
       key.light.castShadow = areCast;
     },
-    setTheme(colour) {
+    /** `colour` reads a variable of the page's design. */
+    setTheme(colour: (name: string) => string) {
       floor.disc.material.color.set(colour('--stage-floor'));
       floor.grid.material.color.set(colour('--stage-grid'));
-      balls.material.color.set(colour('--stage-body'));
+      bodies.material.color.set(colour('--stage-body'));
     },
   };
 }

@@ -2,7 +2,7 @@
 // which unit. OBJ says nothing of units.
 import type { Triple } from '../bindings/geometry';
 
-/** Beyond these a browser is busy for minutes, or out of memory. */
+/** Bounds beyond which a browser is busy for minutes, or out of memory. */
 export const MOST_MEGABYTES = 20;
 export const MOST_VERTICES = 200_000;
 
@@ -26,7 +26,7 @@ export interface ObjFile {
   high: Triple;
 }
 
-/** Of a scaled number: as many as a factor like 0.001 leaves right. */
+/** Digits of a scaled number: as many as a factor like 0.001 leaves right. */
 const DIGITS = 15;
 
 /** A vertex with its three coordinates; what follows them, as a colour, is left. */
@@ -88,7 +88,7 @@ function lengthText(metres: number): string {
   return `${Number((1000 * metres).toPrecision(2))} mm`;
 }
 
-/** What is odd about the size of a mesh, and the unit that would explain it; null when nothing is. */
+/** Words on what is odd about the size of a mesh, and the unit that would explain it; null when nothing is. */
 export function oddSize(
   { low, high }: Pick<ObjFile, 'low' | 'high'>,
   unit: ObjUnit,

@@ -8,17 +8,24 @@ export type Model = 'springs' | 'membrane';
 export const STABLE_SUBSTEPS = 'stable';
 export type Substeps = number | typeof STABLE_SUBSTEPS;
 
+/** The page's number for it, in fields and links, is 0. */
+export function numberOf(count: Substeps): number {
+  return count === STABLE_SUBSTEPS ? 0 : count;
+}
+
 export type Count = 'substeps' | 'iterations';
 
 export type DetailValue = string | number;
 
-/** What may be chosen of a method beside its counts: one of some words, or a number between bounds. */
+/** A choice of a method beside its counts: one of some words, or a number between bounds. */
 export interface MethodDetail {
   /** Spelled as in a scene and a link. */
   key: string;
   words?: readonly string[];
   least?: number;
   most?: number;
+  /** It is of effect beside one of these words of other details; without it, always. */
+  beside?: Readonly<Record<string, readonly string[]>>;
 }
 
 export interface StepperRow {
@@ -30,9 +37,9 @@ export interface StepperRow {
   needs_springs: boolean;
   /** Each substep has equations, which may be left unsolved in part. */
   solves: boolean;
-  /** The counts the stepper reads, each with what it starts from; 0 substeps: as many as are stable. */
-  settings: Partial<Record<Count, { start: number; least: number; meaning: string }>>;
-  /** What the details that it reads start from. */
+  /** The counts the stepper reads, each with what it starts from. */
+  settings: Partial<Record<Count, { start: Substeps; least: Substeps; meaning: string }>>;
+  /** Values that the details that it reads start from. */
   details: Readonly<Record<string, DetailValue>>;
   /** The counts with which a sweep measures it at every level. */
   sweep: readonly { substeps?: Substeps; iterations?: number }[];
@@ -42,7 +49,7 @@ export interface StepperRow {
   substep_work: number;
   /** The models whose sweeps it takes part in. */
   models: readonly Model[];
-  /** At finer levels a sweep leaves it out. */
+  /** Finest level at which a sweep takes it in. */
   finest_sweep_level?: number;
   /** Its mark in a chart: an SVG path about the origin. */
   mark: string;

@@ -7,7 +7,7 @@ declare module 'virtual:pleat-steppers' {
 }
 
 declare module 'virtual:pleat-details' {
-  /** The same with what people are told of them. */
+  /** Details with what people are told of them. */
   const details: readonly unknown[];
   export default details;
 }

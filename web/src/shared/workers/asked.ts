@@ -1,16 +1,10 @@
 // The page's end of a worker. A question has exactly one answer; what the worker says unasked is news.
-import type { Failure } from '../bindings/answers';
+import { type Failure, Refused } from '../bindings/answers';
+import type { Refusal } from '../bindings/refusals';
 import { watchLife } from './life';
 
 /** A worker that will not answer any more. */
 export class BrokenWorker extends Error {}
-
-/** The error of a question that was refused. */
-export class Refused extends Error {
-  constructor(readonly failure: Failure) {
-    super(failure.what);
-  }
-}
 
 export interface Message {
   type: string;
@@ -28,7 +22,7 @@ export interface Letter<Question> {
 }
 
 /**
- * What the worker sends: an answer with the id of its question, news without one, why it cannot go on, or
+ * A message of the worker: an answer with the id of its question, news without one, why it cannot go on, or
  * the lock that it holds for life.
  */
 export type Reply = { id: number | null; message: Message } | { broken: string } | { life: string };
@@ -71,7 +65,7 @@ interface Waiting {
   reject(reason: Error): void;
 }
 
-function isRefusal(message: Message): message is Message & { failure: Failure } {
+function isRefusal(message: Message): message is Refusal {
   return message.type === 'refused';
 }
 

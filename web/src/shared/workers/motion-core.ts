@@ -1,7 +1,7 @@
 // Answers each message to the worker of cloth in motion, as a function of the module and of where
 // answers go. The only file that calls delete() on its objects.
 
-import { describe, type Failure, internalFailure, type RunStatus, read } from '../bindings/answers';
+import { granted, Refused, type RunStatus, read } from '../bindings/answers';
 import { FLOATS_PER_VERTEX, frameViews, type Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import {
@@ -24,7 +24,7 @@ import type {
   ToMotion,
   TornMesh,
 } from './motion-protocol';
-import type { Post } from './serve';
+import { ModuleCore } from './serve';
 
 /** Copies the present frame; the one copy on its way to the screen. NaN: there is no such number. */
 function fill(simulation: SimulationHandle, buffer: ArrayBuffer, scalar: Scalar): void {
@@ -59,31 +59,27 @@ function readColliders(simulation: SimulationHandle): Collider[] {
   return answer.ok ? answer.colliders : [];
 }
 
-/** Of a buffer for the frames of the present mesh. */
+/** Size of a buffer for the frames of the present mesh. */
 function frameBytes(simulation: SimulationHandle): number {
   return (4 * FLOATS_PER_VERTEX * simulation.positions().length) / 3;
 }
 
 /** Serves one page. Call `receive` with each message, `close` at the end. */
-export class MotionCore {
+export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private simulation: SimulationHandle | null = null;
   private loaded: SceneSummary | null = null;
   private isHeld = false;
   private hasLedger = false;
   private nBytes = 0; // of the buffers of frames
 
-  private refuse(request: number, failure: Failure): void {
-    this.post({ type: 'refused', request, failure }, []);
-  }
-
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
   private postLoaded(
-    { request, scalar = 'stretch' }: { request: number; scalar?: Scalar },
+    { scalar = 'stretch' }: { scalar?: Scalar },
     run: SimulationHandle,
     summary: SceneSummary,
   ): void {
     const numbers = readNumbers(run);
-    if (!numbers) return this.refuse(request, internalFailure('no numbers after a load'));
+    if (!numbers) throw new Error('no numbers after a load');
     this.nBytes = frameBytes(run);
     const buffers: [ArrayBuffer, ArrayBuffer] = [
       new ArrayBuffer(this.nBytes),
@@ -92,27 +88,24 @@ export class MotionCore {
     fill(run, buffers[0], scalar);
     const triangles = run.triangles().slice();
     const colliders = readColliders(run);
-    this.post(
-      { type: 'loaded', request, summary, triangles, buffers, scalar, numbers, colliders },
-      [triangles.buffer, ...buffers],
-    );
+    this.post({ type: 'loaded', summary, triangles, buffers, scalar, numbers, colliders }, [
+      triangles.buffer,
+      ...buffers,
+    ]);
   }
 
   private load(run: SimulationHandle, message: LoadMessage): void {
-    const { sceneText, keepMotion, request, start } = message;
+    const { sceneText, keepMotion, start } = message;
     const text = keepMotion && this.loaded ? run.carryOver(sceneText) : run.load(sceneText);
-    const answer = read<{ summary: SceneSummary }>(text);
-    if (!answer.ok) return this.refuse(request, answer);
-    const started = read<object>(start ? run.startFrom(start) : '{"ok": true}');
-    if (!started.ok) return this.refuse(request, started);
-    this.loaded = answer.summary;
+    const { summary } = granted<{ summary: SceneSummary }>(text);
+    if (start) granted(run.startFrom(start));
+    this.loaded = summary;
     this.postLoaded(message, run, this.loaded);
   }
 
   private reset(run: SimulationHandle, message: Extract<ToMotion, { type: 'reset' }>): void {
-    if (!this.loaded) return this.refuse(message.request, internalFailure('reset before load'));
-    const answer = read<object>(run.reset());
-    if (!answer.ok) return this.refuse(message.request, answer);
+    if (!this.loaded) throw new Error('reset before load');
+    granted(run.reset());
     this.postLoaded(message, run, this.loaded);
   }
 
@@ -133,7 +126,7 @@ export class MotionCore {
   }
 
   private step(run: SimulationHandle, message: StepMessage): void {
-    const { count, request, scalar = 'stretch', wantsEnergy = false } = message;
+    const { count, scalar = 'stretch', wantsEnergy = false } = message;
     // A buffer of another size belongs to the mesh before the last load: nothing to fill.
     if (!this.loaded || message.buffer.byteLength !== this.nBytes) return;
     if (wantsEnergy && !this.hasLedger) run.openLedger();
@@ -147,31 +140,30 @@ export class MotionCore {
     const energy = readEnergy(run);
     const colliders = readColliders(run);
     this.post(
-      { type: 'frame', request, count, buffer, torn, scalar, hasEnded, report, energy, colliders },
+      { type: 'frame', count, buffer, torn, scalar, hasEnded, report, energy, colliders },
       torn ? [buffer, torn.spare, torn.triangles.buffer] : [buffer],
     );
   }
 
-  private readSprings(run: SimulationHandle, request: number): void {
+  private readSprings(run: SimulationHandle): void {
     const ends = run.springEnds().slice();
     const isImplicit = run.implicitSprings().slice();
-    this.post({ type: 'springs', request, ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
+    this.post({ type: 'springs', ends, isImplicit }, [ends.buffer, isImplicit.buffer]);
   }
 
   private readImplicitShare(run: SimulationHandle, message: ImplicitShareQuestion): void {
-    const { stepS, substeps, explicitShare, request } = message;
-    const answer = read<ImexShare>(run.implicitShare(stepS, substeps, explicitShare));
-    if (!answer.ok) return this.refuse(request, answer);
-    const { substeps: taken, share } = answer;
-    this.post({ type: 'implicitShare', request, substeps: taken, share }, []);
+    const { stepS, substeps, explicitShare } = message;
+    const text = run.implicitShare(stepS, substeps, explicitShare);
+    const { substeps: taken, share } = granted<ImexShare>(text);
+    this.post({ type: 'implicitShare', substeps: taken, share }, []);
   }
 
   private readLevels(run: SimulationHandle, message: LevelsQuestion): void {
-    const { selection, nCoarser, ratio, request } = message;
+    const { selection, nCoarser, ratio } = message;
     const answer = read<{ n_coarser: number; shortage: string }>(
       run.makeLevels(selection, nCoarser, ratio),
     );
-    if (!answer.ok && answer.kind === 'internal') return this.refuse(request, answer);
+    if (!answer.ok && answer.kind === 'internal') throw new Refused(answer);
     const levels: MeshLevel[] = [];
     for (let level = 1; answer.ok && level <= answer.n_coarser; ++level) {
       const vertices = run.levelVertices(level).slice();
@@ -179,7 +171,7 @@ export class MotionCore {
     }
     const shortage = answer.ok ? answer.shortage : answer.what;
     const transfer = levels.flatMap(({ vertices, edges }) => [vertices.buffer, edges.buffer]);
-    this.post({ type: 'levels', request, levels, shortage }, transfer);
+    this.post({ type: 'levels', levels, shortage }, transfer);
   }
 
   private open(text: string): void {
@@ -190,7 +182,7 @@ export class MotionCore {
     this.post({ type: 'ready' }, []);
   }
 
-  private handle(message: ToMotion): void {
+  protected handle(message: ToMotion): void {
     if (message.type === 'open') return this.open(message.fabricsText);
     if (!this.simulation) throw new Error(`${message.type} before open`);
     switch (message.type) {
@@ -205,7 +197,7 @@ export class MotionCore {
       case 'step':
         return this.step(this.simulation, message);
       case 'readSprings':
-        return this.readSprings(this.simulation, message.request);
+        return this.readSprings(this.simulation);
       case 'readImplicitShare':
         return this.readImplicitShare(this.simulation, message);
       case 'readLevels':
@@ -220,20 +212,6 @@ export class MotionCore {
         if (this.isHeld) this.simulation.releaseGrab();
         this.isHeld = false;
         return;
-    }
-  }
-
-  constructor(
-    private readonly module: PleatModule,
-    private readonly post: Post<FromMotion>,
-  ) {}
-
-  receive(message: ToMotion): void {
-    try {
-      this.handle(message);
-    } catch (error) {
-      const request = 'request' in message ? message.request : -1;
-      this.refuse(request, internalFailure(describe(error)));
     }
   }
 

@@ -1,6 +1,5 @@
 // Messages between the page and the worker of cloth in motion, both ways. Lengths in metres, times in seconds.
 
-import type { Failure } from '../bindings/answers';
 import type { Scalar } from '../bindings/frame';
 import type { Collider } from '../bindings/geometry';
 import type {
@@ -12,6 +11,7 @@ import type {
   SceneSummary,
   SpringSplit,
 } from '../bindings/pleat-module';
+import type { Refusal } from '../bindings/refusals';
 import type { Done } from './asked';
 
 export interface StepMessage {
@@ -21,7 +21,6 @@ export interface StepMessage {
   wantsNumbers: boolean;
   /** An account of energy is kept over these steps. */
   wantsEnergy?: boolean;
-  request: number;
   scalar?: Scalar;
   buffer: ArrayBuffer;
 }
@@ -30,7 +29,6 @@ export interface LoadMessage {
   type: 'load';
   sceneText: string;
   keepMotion: boolean;
-  request: number;
   scalar?: Scalar;
   /** Places where the vertices start, unless they start where they rest. */
   start?: Float64Array;
@@ -40,32 +38,29 @@ export interface ImplicitShareQuestion {
   type: 'readImplicitShare';
   stepS: number;
   substeps: number;
-  /** Of the springs, that shall be explicit at least. */
+  /** Share of the springs that shall be explicit at least. */
   explicitShare: number;
-  request: number;
 }
 
 export interface LevelsQuestion {
   type: 'readLevels';
   selection: LevelSelection;
   nCoarser: number;
-  /** Of a level's vertices that the next one keeps. */
+  /** Share of a level's vertices that the next one keeps. */
   ratio: number;
-  request: number;
 }
 
 export type ToMotion =
   /** First message: opens the module's objects with the fabric file's text. */
   | { type: 'open'; fabricsText: string }
-  /** `request` comes back in the answer, so that a late answer can be told from a current one. */
   | LoadMessage
-  | { type: 'reset'; request: number; scalar?: Scalar }
+  | { type: 'reset'; scalar?: Scalar }
   /** A reference's file, for whichever scene is loaded and is what it is of. */
   | { type: 'setReference'; bytes: ArrayBuffer }
   /** The buffer is given away here and comes back filled in `frame`. */
   | StepMessage
   /** Which springs are implicit, as of now. */
-  | { type: 'readSprings'; request: number }
+  | { type: 'readSprings' }
   /** How imex would take the springs of a lattice. */
   | ImplicitShareQuestion
   /** Coarser levels of the loaded mesh. */
@@ -76,7 +71,6 @@ export type ToMotion =
 
 export interface LoadedMessage {
   type: 'loaded';
-  request: number;
   summary: SceneSummary;
   triangles: Uint32Array;
   /** Two frame buffers that belong to the page from now on; the first holds the present frame. */
@@ -102,7 +96,6 @@ export interface TornMesh {
 
 export interface FrameMessage {
   type: 'frame';
-  request: number;
   count: number;
   /** The one that was given, or where the cloth tore, one of another size. */
   buffer: ArrayBuffer;
@@ -120,18 +113,15 @@ export interface FrameMessage {
 
 export interface SpringsMessage extends SpringSplit {
   type: 'springs';
-  request: number;
 }
 
 export interface ImplicitShareMessage extends ImexShare {
   type: 'implicitShare';
-  request: number;
 }
 
 /** A mesh that has no levels has a shortage that says why. */
 export interface LevelsMessage extends MeshLevels {
   type: 'levels';
-  request: number;
 }
 
 /** A reference was taken: the numbers anew. */
@@ -148,8 +138,7 @@ export type FromMotion =
   | ImplicitShareMessage
   | LevelsMessage
   | ReferenceSetMessage
-  /** `request` is -1 when what was refused had none. */
-  | { type: 'refused'; request: number; failure: Failure };
+  | Refusal;
 
 /** The answer to each message that is a question; `done`: there was nothing to answer. */
 export interface MotionAnswers {

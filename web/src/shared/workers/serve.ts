@@ -1,6 +1,8 @@
 // The worker's end of the page: takes one message after the other to the core, and sends back what comes of it.
 import { describe } from '../bindings/answers';
+import { type Refusal, refusalOf } from '../bindings/refusals';
 import type { Done, Letter, Message, Reply } from './asked';
+import type { CoreLetter } from './compiled-core';
 import { holdLife } from './life';
 
 /** The part of a worker's scope that is used. */
@@ -15,6 +17,27 @@ export interface Core<Question> {
 }
 
 export type Post<Answer> = (message: Answer, transfer: Transferable[]) => void;
+
+/** A core of a module, which refuses a message whose work throws. */
+export abstract class ModuleCore<Module, Question, Answer> implements Core<Question> {
+  constructor(
+    protected readonly module: Module,
+    protected readonly post: Post<Answer | Refusal>,
+  ) {}
+
+  receive(message: Question): void | Promise<void> {
+    const refuse = (error: unknown) => this.post(refusalOf(error), []);
+    try {
+      return this.handle(message)?.catch(refuse);
+    } catch (error) {
+      refuse(error);
+    }
+  }
+
+  /** Deletes what it made of the module. */
+  abstract close(): void;
+  protected abstract handle(message: Question): Promise<void> | undefined | void;
+}
 
 const DONE: Done = { type: 'done' };
 
@@ -44,7 +67,9 @@ export function serve<Question, Answer extends Message>(
   const core = start(post);
   let turn: Promise<unknown> = core;
   turn.catch(breakDown);
-  scope.onmessage = ({ data: { id, message } }: MessageEvent<Letter<Question>>) => {
+  scope.onmessage = ({ data }: MessageEvent<Letter<Question> | CoreLetter>) => {
+    if ('core' in data) return; // givenCore takes it
+    const { id, message } = data;
     turn = turn.then(async () => {
       asked = id;
       await (await core).receive(message);

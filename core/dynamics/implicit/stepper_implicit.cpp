@@ -1,0 +1,68 @@
+#include "core/dynamics/implicit/stepper_implicit.h"
+
+#include "core/model/elasticity.h"
+
+namespace pleat {
+
+StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options)
+    : StepperImplicit(model, options, options.substeps) {
+  take_implicitly(model);
+}
+
+StepperImplicit::StepperImplicit(ClothModel& model, const MethodOptions& options, int substeps)
+    : Stepper(model, options, substeps, ContactForces::remembered),
+      solve_(model, make_solver(options, kMaxSolverIterations)),
+      forces_(3, model.n_vertices()) {
+  if (model_.contact) hold_.emplace(model_);
+}
+
+void StepperImplicit::take_implicitly(const ClothModel& stiff) {
+  stiff_ = &stiff;
+  matrix_.emplace(stiff);
+  solve_.analyze(*matrix_);
+  solve_.choose_pins(*matrix_);
+}
+
+/// Fills the matrix with A = M + h C + h^2 K and `forces_`, which holds the external ones, with the
+/// right-hand side h (f - h K v) = h (f_elastic + f_explicit + f_external) - (A - M) v.
+void StepperImplicit::assemble(const State& state, double h) {
+  const StageScope scope(observer_, Stage::assembly);
+  matrix_->set_zero();
+  matrix_->add_masses(1);
+  matrix_->add_elasticity(state.positions, h * h, h, ElementHessian::projected);
+  add_elastic_forces(*stiff_, state.positions, forces_);
+  add_explicit_forces(state, forces_);
+  forces_ = h * forces_ + state.velocities * model_.masses.asDiagonal();
+  flat(forces_).noalias() -=
+      matrix_->lower().selfadjointView<Eigen::Lower>() * flat(state.velocities);
+}
+
+/// Makes drag at the end of the substep part of its equations.
+void StepperImplicit::add_air_resistance(double h) {
+  if (!model_.air) return;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    matrix_->add_diagonal(VertexId(i), h * model_.air->resistance(VertexId(i)));
+}
+
+SolveReport StepperImplicit::substep(State& state, double time_end, double h) {
+  positions_begin_ = state.positions;
+  if (model_.bend_friction)
+    model_.bend_friction->begin_substep(state, h, BendFriction::Knee::foreseen);
+  set_external_forces(state, forces_);
+  assemble(state, h);
+  add_air_resistance(h);
+  matrix_->reduce_to_parents(flat(forces_));
+  if (hold_) {
+    const StageScope scope(observer_, Stage::contact);
+    hold_->set_resistances(*matrix_);
+    hold_->choose(contact_memory_.touches(), state, h);
+    hold_->add(state.velocities, *matrix_, forces_);
+  }
+  SolveReport report = solve_.advance(*matrix_, forces_, state, time_end, h, observer_);
+  if (report.ends_run()) return report;
+  if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
+  correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
+  return report;
+}
+
+}  // namespace pleat

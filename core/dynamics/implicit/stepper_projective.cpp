@@ -1,0 +1,314 @@
+#include "core/dynamics/implicit/stepper_projective.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/check.h"
+#include "core/model/elasticity.h"
+#include "core/model/hanging_vertices.h"
+
+namespace pleat {
+namespace {
+
+constexpr int kNotPinned = -1;
+
+/// Share of its own resistance with which a vertex is held: the more, the fewer substeps until
+/// the remembered force is what it should be, and the more rounds until one that may slip has.
+constexpr double kHeldShare = 0.1;
+
+bool damps_along_spring(const ClothModel& model) {
+  return model.damping_direction == DampingDirection::along_spring;
+}
+
+}  // namespace
+
+StepperProjective::StepperProjective(ClothModel& model, const MethodOptions& options)
+    : Stepper(model, options, options.substeps, ContactForces::remembered),
+      solver_(make_solver(options)),
+      targets_(model.springs.size()),
+      forces_(3, model.n_vertices()),
+      predicted_(Positions::Zero(3, model.n_vertices())),
+      positions_(3, model.n_vertices()),
+      first_change_(3, model.n_vertices()),
+      right_side_(model.n_vertices(), 3),
+      solution_(model.n_vertices(), 3) {
+  if (options.acceleration == Acceleration::anderson) {
+    acceleration_.emplace(model.n_vertices());
+    start_.resize(model.n_vertices(), 6);
+    steady_side_.resize(model.n_vertices(), 3);
+    proposed_.resize(3, model.n_vertices());
+  }
+  if (model_.contact) hold_.emplace(model_, kHeldShare);
+  if (model.air && model.air->has_wind()) air_forces_ = Positions::Zero(3, model.n_vertices());
+  refresh();
+}
+
+/// M/h^2 + sum over springs and bending elements, one number per pair of vertices because x, y and
+/// z do not couple. The damper's c/h joins k whichever way it acts. LoadedRows of vertices that are
+/// pinned or hang are those of the identity.
+void StepperProjective::refresh() {
+  const int n = model_.n_vertices();
+  const double h = options().step / substeps();
+  std::vector<int> pin_of(static_cast<std::size_t>(n), kNotPinned);
+  for (std::size_t p = 0; p < model_.pins.size(); ++p)
+    pin_of[model_.pins[p].vertex] = static_cast<int>(p);
+
+  is_free_.resize(static_cast<std::size_t>(n));
+  std::vector<Eigen::Triplet<double>> entries;
+  pinned_entries_.clear();
+  const auto add = [&](VertexId a, VertexId b, double value) {
+    if (pin_of[a] == kNotPinned && pin_of[b] == kNotPinned) {
+      entries.emplace_back(std::max(a.value, b.value), std::min(a.value, b.value), value);
+    } else if (pin_of[a] == kNotPinned) {
+      pinned_entries_.push_back({a, pin_of[b], value});
+    } else if (pin_of[b] == kNotPinned) {
+      pinned_entries_.push_back({b, pin_of[a], value});
+    }
+  };
+  const FreeCombinations in_free_vertices(n, model_.hanging);
+  const auto add_square = [&](const Combination& sum, double weight) {
+    for (std::size_t i = 0; i < sum.n_terms; ++i)
+      for (std::size_t j = i; j < sum.n_terms; ++j)
+        add(sum.terms[i].vertex, sum.terms[j].vertex,
+            weight * sum.terms[i].factor * sum.terms[j].factor);
+  };
+  for (int i = 0; i < n; ++i) {
+    is_free_[i] = pin_of[i] == kNotPinned && !model_.hangs(VertexId(i));
+    entries.emplace_back(i, i, is_free_[i] ? model_.masses[i] / (h * h) : 1);
+  }
+  constexpr std::array<double, 2> kDifference = {1, -1};
+  for (const Spring& spring : model_.springs)
+    add_square(in_free_vertices(std::array{spring.a, spring.b}, kDifference),
+               spring.stiffness + spring.damping / h);
+  for (const BendElement& bend : model_.bends)
+    add_square(in_free_vertices(bend.vertices, bend.weights), bend.stiffness);
+  matrix_.resize(n, n);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  diagonal_ = matrix_.diagonal();
+  solver_->analyze(matrix_);
+  factor_report_ = solver_->factorize(matrix_);
+  if (!hold_) return;
+  hold_->set_resistances(h * h * diagonal_);
+  is_held_.assign(static_cast<std::size_t>(n), char{0});
+}
+
+void StepperProjective::hold(const State& state, double h) {
+  const StageScope scope(observer_, Stage::contact);
+  was_held_ = is_held_;
+  std::fill(is_held_.begin(), is_held_.end(), char{0});
+  for (const ContactStage::Touch& touch : contact_memory_.touches())
+    is_held_[touch.vertex] = is_free_[touch.vertex];
+  hold_->choose(contact_memory_.touches(), state, h);
+  if (is_held_ == was_held_) return;
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    matrix_.valuePtr()[matrix_.outerIndexPtr()[i]] =
+        (is_held_[i] ? 1 + kHeldShare : 1) * diagonal_[i];
+  const StageScope factor_scope(observer_, Stage::factor);
+  factor_report_ = solver_->factorize(matrix_);
+}
+
+void StepperProjective::set_targets(double h) {
+  const bool along = damps_along_spring(model_);
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Spring& spring = model_.springs[s];
+    Target& target = targets_[s];
+    target = {spring.stiffness, spring.rest_length, Vec3::Zero()};
+    if (spring.damping == 0) continue;
+    const double damper = spring.damping / h;
+    const Vec3 d = positions_begin_.col(spring.a) - positions_begin_.col(spring.b);
+    if (along) {
+      target.weight += damper;
+      target.length = (spring.stiffness * spring.rest_length + damper * d.norm()) / target.weight;
+    } else {
+      target.damped = damper * d;
+    }
+  }
+}
+
+template <class PullOfSpring>
+void StepperProjective::add_up(double time_end, double h, const PullOfSpring& pull_of,
+                               VertexRows& side) const {
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    side.row(i) = (model_.masses[i] / (h * h) * predicted_.col(i)).transpose();
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Vec3 pull = pull_of(model_.springs[s], targets_[s]);
+    side.row(model_.springs[s].a) += pull.transpose();
+    side.row(model_.springs[s].b) -= pull.transpose();
+  }
+  pull_to_parents(model_.hanging, side.transpose());
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held())
+      side.row(held.vertex) +=
+          (held.resistance / (h * h) * (positions_begin_.col(held.vertex) + h * held.velocity))
+              .transpose();
+  for (const PinnedEntry& entry : pinned_entries_)
+    side.row(entry.free_vertex) -=
+        entry.value * model_.pins[entry.pin].position(time_end).transpose();
+  for (const Pin& pin : model_.pins) side.row(pin.vertex) = pin.position(time_end).transpose();
+}
+
+void StepperProjective::set_right_side(double time_end, double h) {
+  const auto projected = [this](const Spring& spring, const Target& target) -> Vec3 {
+    const Vec3 d = positions_.col(spring.a) - positions_.col(spring.b);
+    const double length = d.norm();
+    const double scale = length > 0 ? target.weight * target.length / length : 0;
+    return scale * d + target.damped;
+  };
+  add_up(time_end, h, projected, right_side_);
+  if (!hold_) return;
+  for (const ContactHold::Held& held : hold_->held())
+    if (is_held_[held.vertex])
+      right_side_.row(held.vertex) += (freedom(held, h) * positions_.col(held.vertex)).transpose();
+}
+
+/// Excess of the matrix where the held vertex may slip [N/m].
+Mat3 StepperProjective::freedom(const ContactHold::Held& held, double h) const {
+  return kHeldShare * diagonal_[held.vertex] * Mat3::Identity() - held.resistance / (h * h);
+}
+
+void StepperProjective::start_acceleration(double time_end, double h) {
+  const auto damped = [](const Spring&, const Target& target) { return target.damped; };
+  add_up(time_end, h, damped, steady_side_);
+  places(start_) = positions_.transpose();
+  for (const HangingVertex& vertex : model_.hanging) start_.row(vertex.vertex).setZero();
+  const auto A = matrix_.selfadjointView<Eigen::Lower>();
+  for (int c = 0; c < 3; ++c) loads(start_).col(c).noalias() = A * places(start_).col(c);
+  acceleration_->start(start_);
+}
+
+// The rounds lower x.Ax/2 - x.b_0 - sum k L l(x): b(x) = b_0 + sum S^T p is where the last term
+// pulls. At the image x of a round, A x = b, so that from x to x + d this changes by
+// d.(b - b_0) + d.Ad/2 - sum k L (l(x + d) - l(x)), in which nothing large cancels.
+double StepperProjective::energy_change(const LoadedRows& change, double h) const {
+  double sum = places(change).cwiseProduct(right_side_ - steady_side_ + loads(change) / 2).sum();
+  for (std::size_t s = 0; s < model_.springs.size(); ++s) {
+    const Spring& spring = model_.springs[s];
+    const Vec3 begin = positions_.col(spring.a) - positions_.col(spring.b);
+    const Vec3 end = proposed_.col(spring.a) - proposed_.col(spring.b);
+    const double lengths = begin.norm() + end.norm();
+    if (lengths > 0)
+      sum -= targets_[s].weight * targets_[s].length * (end - begin).dot(end + begin) / lengths;
+  }
+  if (hold_)
+    for (const ContactHold::Held& held : hold_->held()) {
+      const Vec3 begin = positions_.col(held.vertex);
+      const Vec3 end = proposed_.col(held.vertex);
+      if (is_held_[held.vertex]) sum -= (end - begin).dot(freedom(held, h) * (end + begin)) / 2;
+    }
+  return sum;
+}
+
+void StepperProjective::accelerate(double h) {
+  const auto* change = acceleration_->propose(solution_, right_side_);
+  if (change == nullptr) return;
+  proposed_ = (solution_ + places(*change)).transpose();
+  place_between_parents(model_.hanging, proposed_);
+  if (energy_change(*change, h) < 0) {
+    positions_.swap(proposed_);
+    acceleration_->accept();
+  } else {
+    acceleration_->refuse();
+  }
+}
+
+/// Starts without the remembered forces: alone they would throw a light vertex far away from its
+/// neighbours. The rounds do not find friction of a vertex that slips, so it stays, as far as it
+/// brakes.
+void StepperProjective::place_first_guess(double time_end, double h) {
+  positions_ = predicted_;
+  if (contact_memory_.has_forces())
+    for (int i = 0; i < model_.n_vertices(); ++i)
+      if (!model_.hangs(VertexId(i)))
+        positions_.col(i) -= h * h / model_.masses[i] * contact_memory_.forces().col(i);
+  for (const Pin& pin : model_.pins) positions_.col(pin.vertex) = pin.position(time_end);
+  place_between_parents(model_.hanging, positions_);
+  first_change_ = positions_;
+  if (!hold_) return;
+  for (const ContactHold::Held& held : hold_->held()) {
+    const VertexId v = held.vertex;
+    if (!is_held_[v]) continue;
+    const double whole = kHeldShare * hold_->resistances()[v];
+    const Vec3 force = contact_memory_.forces().col(v);
+    const Vec3 way = positions_begin_.col(v) + h * held.velocity - positions_.col(v);
+    const Vec3 held_way = held.resistance * way / whole;
+    const Vec3 brake = h * h / model_.masses[v] * (force - held.resistance * force / whole);
+    const double slide = (way - held_way).norm();
+    const double share = brake.norm() > slide ? slide / brake.norm() : 1;
+    positions_.col(v) += held_way + share * brake;
+  }
+}
+
+SolveReport StepperProjective::substep(State& state, double time_end, double h) {
+  if (!factor_report_.ok()) return factor_report_;
+  positions_begin_ = state.positions;
+  if (hold_) hold(state, h);
+  if (!factor_report_.ok()) return factor_report_;
+  {
+    const StageScope scope(observer_, Stage::forces);
+    set_steady_forces(forces_);
+    if (model_.air)
+      model_.air->add_damped_forces(state.positions, state.velocities, model_.masses,
+                                    model_.hanging, h, air_forces_, forces_);
+    for (int i = 0; i < model_.n_vertices(); ++i) {
+      if (model_.hangs(VertexId(i))) continue;
+      predicted_.col(i) = state.positions.col(i) + h * state.velocities.col(i) +
+                          h * h / model_.masses[i] * forces_.col(i);
+    }
+    place_first_guess(time_end, h);
+    set_targets(h);
+    if (acceleration_) start_acceleration(time_end, h);
+  }
+  SolveReport report;
+  for (int round = 0; round < options().iterations; ++round) {
+    {
+      const StageScope scope(observer_, Stage::assembly);
+      set_right_side(time_end, h);
+    }
+    const StageScope scope(observer_, Stage::solve);
+    report = solver_->solve(right_side_, solution_);
+    if (!report.ok()) return report;
+    if (round == 0) first_change_ = solution_.transpose() - first_change_;
+    positions_ = solution_.transpose();
+    place_between_parents(model_.hanging, positions_);
+    if (acceleration_) accelerate(h);
+  }
+  report.iterations = options().iterations;
+  time_end_ = time_end;
+  state.positions = positions_;
+  state.velocities = (positions_ - positions_begin_) / h;
+  if (hold_) hold_->add_forces(state.velocities, h, contact_memory_.forces());
+  correct(state, time_end, h, hold_ ? hold_->resistances() : model_.masses);
+  return report;
+}
+
+/// |b(x) - A x| over its value where neither springs nor solids act, for the last substep. Cloth
+/// that only falls is predicted to rounding: what rounding makes of A x is nothing to be solved.
+void StepperProjective::store(State&, SolveReport& report) {
+  if (!report.ok()) return;
+  set_right_side(time_end_, options().step / substeps());
+  const auto A = matrix_.selfadjointView<Eigen::Lower>();
+  solution_ = first_change_.transpose();
+  constexpr double kRounding = 100 * std::numeric_limits<double>::epsilon();
+  double first = 0;
+  double last = 0;
+  double rounding = 0;
+  const auto clear_hanging = [this] {
+    for (const HangingVertex& vertex : model_.hanging) column_[vertex.vertex] = 0;
+  };
+  for (int c = 0; c < 3; ++c) {
+    column_.noalias() = A * solution_.col(c);
+    clear_hanging();
+    first += column_.squaredNorm();
+    solution_.col(c) = positions_.row(c).transpose();
+    rounding += kRounding * kRounding * solution_.col(c).cwiseProduct(diagonal_).squaredNorm();
+    column_ = right_side_.col(c);
+    column_.noalias() -= A * solution_.col(c);
+    clear_hanging();
+    last += column_.squaredNorm();
+  }
+  report.relative_residual = first > 0 ? std::sqrt(last / std::max(first, rounding)) : 0;
+}
+
+}  // namespace pleat

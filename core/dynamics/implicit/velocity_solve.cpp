@@ -1,0 +1,77 @@
+#include "core/dynamics/implicit/velocity_solve.h"
+
+#include <utility>
+
+namespace pleat {
+namespace {
+
+/// Share of a lower degree's squared error below which a degree is taken: it multiplies what
+/// solves left over, up to eight times.
+constexpr double kMuchLess = 0.5;
+
+}  // namespace
+
+VelocitySolve::VelocitySolve(const ClothModel& model, std::unique_ptr<LinearSolver> solver)
+    : model_(model), solver_(std::move(solver)) {
+  const Positions none = Positions::Zero(3, model.n_vertices());
+  change_ = none;
+  difference_ = none;
+  differences_.fill(none);
+}
+
+void VelocitySolve::choose_pins(SystemMatrix& matrix) {
+  std::vector<VertexId> vertices;
+  for (const Pin& pin : model_.pins) vertices.push_back(pin.vertex);
+  matrix.choose_prescribed(vertices);
+  pin_changes_.resize(3, static_cast<Eigen::Index>(vertices.size()));
+}
+
+void VelocitySolve::guess() {
+  change_ = differences_[0];
+  for (std::size_t k = 1; k <= degree_; ++k) change_ += differences_[k];
+}
+
+// The polynomial of degree k was wrong by the difference k + 1.
+void VelocitySolve::learn() {
+  double least = 0;
+  difference_ = change_;
+  for (std::size_t k = 0; k < differences_.size(); ++k) {
+    differences_[k].swap(difference_);
+    difference_ = differences_[k] - difference_;
+    const double error = difference_.squaredNorm();
+    if (k > 0 && !(error < kMuchLess * least)) continue;
+    degree_ = k;
+    least = error;
+  }
+}
+
+SolveReport VelocitySolve::advance(SystemMatrix& matrix, Positions& rhs, State& state,
+                                   double time_end, double h, StageObserver* observer) {
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    const Pin& pin = model_.pins[p];
+    pin_changes_.col(static_cast<Eigen::Index>(p)) =
+        (pin.position(time_end) - state.positions.col(pin.vertex)) / h -
+        state.velocities.col(pin.vertex);
+  }
+  matrix.prescribe(pin_changes_, flat(rhs));
+  SolveReport report;
+  {
+    const StageScope scope(observer, Stage::factor);
+    solver_->set_places(flat(state.positions));
+    report = solver_->factorize(matrix.lower());
+  }
+  if (!report.ok()) return report;
+  {
+    const StageScope scope(observer, Stage::solve);
+    guess();
+    report = solver_->solve(flat(rhs), flat(change_));
+    learn();
+  }
+  if (report.ends_run()) return report;
+  state.velocities += change_;
+  state.positions += h * state.velocities;
+  for (const Pin& pin : model_.pins) state.positions.col(pin.vertex) = pin.position(time_end);
+  return report;
+}
+
+}  // namespace pleat

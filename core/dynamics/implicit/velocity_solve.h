@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "core/base/stage_observer.h"
+#include "core/linalg/linear_solver.h"
+#include "core/model/cloth_model.h"
+#include "core/model/state.h"
+#include "core/model/system_matrix.h"
+
+namespace pleat {
+
+/// How a linearly implicit substep ends, once its matrix and right-hand side are there: A dv = b
+/// with the velocity changes of pins prescribed, then v += dv and x += h v.
+class VelocitySolve {
+ public:
+  /// model  outlives it
+  VelocitySolve(const ClothModel& model, std::unique_ptr<LinearSolver> solver);
+
+  /// Call it once for each pattern, before choose_pins.
+  void analyze(const SystemMatrix& matrix) { solver_->analyze(matrix.lower()); }
+  /// Call it when pins have changed in number or vertex.
+  void choose_pins(SystemMatrix& matrix);
+
+  /// The state moves unless the report ends the run. An iterative solver starts from what the last
+  /// changes lead to.
+  ///
+  /// matrix    reduced to parents; changed
+  /// rhs       [N s]; changed
+  /// time_end  of the substep of h [s]
+  /// observer  or null
+  SolveReport advance(SystemMatrix& matrix, Positions& rhs, State& state, double time_end, double h,
+                      StageObserver* observer);
+
+ private:
+  /// The polynomial through the last changes, at the next substep.
+  void guess();
+  /// Takes the degree that would have come nearest to the last change.
+  void learn();
+
+  const ClothModel& model_;
+  std::unique_ptr<LinearSolver> solver_;
+  Positions change_;  // change of velocities [m/s]
+  std::array<Positions, 4>
+      differences_;  // backward, of the last changes; the first is the last one
+  Positions difference_;
+  std::size_t degree_ = 0;  // degree of the polynomial
+  Positions pin_changes_;   // prescribed, one column per pin
+};
+
+}  // namespace pleat

@@ -1,0 +1,200 @@
+#include "core/dynamics/position_based/converged_step.h"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/dynamics/position_based/spring_law.h"
+
+namespace pleat {
+namespace {
+
+struct StepSpring {
+  Eigen::Index a, b;
+  double rest;        // length it aims at [m]
+  double compliance;  // compliance/h^2, relative to the inverse masses
+};
+
+/// The pull of a spring per multiplier, and how it changes with d.
+struct Pull {
+  double length;
+  Vec3 along;      // d(length)/dd
+  Vec3 direction;  // l g / slope
+  Mat3 change;     // d(direction)/dd
+};
+
+Pull pull_of(const Vec3& d, const Vec3& d_begin) {
+  const Vec3 g = d + d_begin;
+  const double square = d.squaredNorm();
+  const double length = std::sqrt(square);
+  const bool is_held = d.dot(g) < square;
+  const double slope = is_held ? square : d.dot(g);
+  const Vec3 slope_change = is_held ? Vec3(2 * d) : Vec3(g + d);
+  const Vec3 along = d / length;
+  const Vec3 direction = (length / slope) * g;
+  const Mat3 change = (g * along.transpose() + length * Mat3::Identity()) / slope -
+                      direction * slope_change.transpose() / slope;
+  return {length, along, direction, change};
+}
+
+class StepEquations {
+ public:
+  StepEquations(const ClothModel& model, const PredictedStep& step)
+      : model_(model), step_(step), unknowns_(3 * model.n_vertices()) {
+    PLEAT_CHECK(model.hanging.empty(), "no vertex hangs");
+    const SpringLaw law = spring_law(model, Constraints::compliant);
+    PLEAT_CHECK(law != SpringLaw::damped_isotropic, "damping acts along springs");
+    mean_mass_ = model.masses.mean();
+    is_held_.resize(static_cast<std::size_t>(model.n_vertices()), false);
+    for (const Pin& pin : model.pins) is_held_[pin.vertex] = true;
+    const double h = step.h;
+    for (const int s : active_springs(model, law)) {
+      const Spring& spring = model.springs[static_cast<std::size_t>(s)];
+      const double damper = law == SpringLaw::damped ? spring.damping / h : 0;
+      const double stiffness = spring.stiffness + damper;
+      const double begin = (step.begins.col(spring.a) - step.begins.col(spring.b)).norm();
+      springs_.push_back({spring.a.value, spring.b.value,
+                          spring.rest_length + damper / stiffness * (begin - spring.rest_length),
+                          mean_mass_ / (stiffness * h * h)});
+    }
+    x_ = step.predicted;
+    multipliers_.setZero(static_cast<Eigen::Index>(springs_.size()));
+    evaluate();
+  }
+
+  double error() const { return right_side_.norm(); }
+  const Positions& positions() const { return x_; }
+
+  /// Solves for a change of all unknowns. False when the factor fails.
+  bool find_change() {
+    Eigen::SparseMatrix<double> matrix(right_side_.size(), right_side_.size());
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    if (!is_analyzed_) factor_.analyzePattern(matrix);
+    is_analyzed_ = true;
+    factor_.factorize(matrix);
+    if (factor_.info() != Eigen::Success) return false;
+    change_ = factor_.solve(right_side_);
+    return change_.allFinite();
+  }
+
+  /// Goes so far along the change.
+  void go(double share) {
+    flat(x_) += share * change_.head(unknowns_);
+    multipliers_ += share * change_.tail(multipliers_.size());
+    evaluate();
+  }
+
+  double largest_change() const {
+    double most = 0;
+    for (Eigen::Index i = 0; i < unknowns_; i += 3)
+      most = std::max(most, change_.segment<3>(i).norm());
+    return most;
+  }
+
+ private:
+  void add(Eigen::Index row, Eigen::Index column, double value) {
+    entries_.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+  }
+  bool is_held(Eigen::Index v) const { return is_held_[static_cast<std::size_t>(v)]; }
+
+  /// The right side is minus the equations: (x - x_predicted)/w - G^T lambda, then C + compliance
+  /// lambda.
+  void evaluate() {
+    entries_.clear();
+    right_side_.setZero(unknowns_ + multipliers_.size());
+    for (Eigen::Index v = 0; v < x_.cols(); ++v) {
+      const double inertia = is_held(v) ? 1 : model_.masses[v] / mean_mass_;
+      for (Eigen::Index k = 0; k < 3; ++k) add(3 * v + k, 3 * v + k, inertia);
+      right_side_.segment<3>(3 * v) = inertia * (step_.predicted.col(v) - x_.col(v));
+    }
+    for (std::size_t s = 0; s < springs_.size(); ++s) add_spring(springs_[s], s);
+    for (const BendElement& bend : model_.bends) add_bend(bend);
+    for (Eigen::Index v = 0; v < x_.cols(); ++v)
+      if (is_held(v)) right_side_.segment<3>(3 * v).setZero();
+  }
+
+  void add_spring(const StepSpring& spring, std::size_t number) {
+    const Eigen::Index row = unknowns_ + static_cast<Eigen::Index>(number);
+    const double multiplier = multipliers_[static_cast<Eigen::Index>(number)];
+    const Pull pull = pull_of(x_.col(spring.a) - x_.col(spring.b),
+                              step_.begins.col(spring.a) - step_.begins.col(spring.b));
+    right_side_[row] = spring.rest - pull.length - spring.compliance * multiplier;
+    add(row, row, spring.compliance);
+    const std::array<Eigen::Index, 2> ends = {spring.a, spring.b};
+    for (const Eigen::Index v : ends) {
+      const double sign = v == spring.a ? 1 : -1;
+      for (Eigen::Index k = 0; k < 3; ++k)
+        if (!is_held(v)) add(row, 3 * v + k, sign * pull.along[k]);
+      if (is_held(v)) continue;
+      right_side_.segment<3>(3 * v) += sign * multiplier * pull.direction;
+      for (Eigen::Index k = 0; k < 3; ++k) add(3 * v + k, row, -sign * pull.direction[k]);
+      for (const Eigen::Index w : ends)
+        if (!is_held(w)) add_block(v, w, (v == w ? -multiplier : multiplier) * pull.change);
+    }
+  }
+
+  /// A linear force: its multiplier is eliminated.
+  void add_bend(const BendElement& bend) {
+    if (bend.stiffness == 0) return;
+    const double stiffness = bend.stiffness * step_.h * step_.h / mean_mass_;
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) sum += bend.weights[k] * x_.col(bend.vertices[k]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Index v = bend.vertices[i].value;
+      if (is_held(v)) continue;
+      right_side_.segment<3>(3 * v) -= stiffness * bend.weights[i] * sum;
+      for (std::size_t j = 0; j < 3; ++j)
+        if (!is_held(bend.vertices[j].value))
+          add_block(v, bend.vertices[j].value,
+                    stiffness * bend.weights[i] * bend.weights[j] * Mat3::Identity());
+    }
+  }
+
+  void add_block(Eigen::Index v, Eigen::Index w, const Mat3& block) {
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < 3; ++j) add(3 * v + i, 3 * w + j, block(i, j));
+  }
+
+  const ClothModel& model_;
+  const PredictedStep& step_;
+  Eigen::Index unknowns_;  // coordinates
+  double mean_mass_ = 0;   // [kg]
+  std::vector<bool> is_held_;
+  std::vector<StepSpring> springs_;
+  Positions x_;
+  Eigen::VectorXd multipliers_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::VectorXd right_side_, change_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor_;
+  bool is_analyzed_ = false;
+};
+
+}  // namespace
+
+ConvergedStep converged_step(const ClothModel& model, const PredictedStep& step) {
+  constexpr int kMostIterations = 60;
+  constexpr int kMostHalvings = 12;
+  constexpr double kRounding = 1e-11;  // share of the extent
+  StepEquations equations(model, step);
+  const double first = equations.error();
+  const double extent = box_diagonal(step.begins);
+  ConvergedStep result;
+  while (!result.is_converged && result.iterations < kMostIterations && equations.find_change()) {
+    ++result.iterations;
+    const double before = equations.error();
+    double share = 1;
+    equations.go(1);
+    for (int i = 0; i < kMostHalvings && !(equations.error() < before); ++i) {
+      equations.go(-share / 2);
+      share /= 2;
+    }
+    result.last_change = share * equations.largest_change();
+    result.is_converged = share == 1 && result.last_change < kRounding * extent;
+  }
+  result.positions = equations.positions();
+  result.relative_error = first > 0 ? equations.error() / first : 0;
+  return result;
+}
+
+}  // namespace pleat

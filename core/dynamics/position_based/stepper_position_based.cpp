@@ -1,0 +1,315 @@
+#include "core/dynamics/position_based/stepper_position_based.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/simd.h"
+#include "core/model/hanging_vertices.h"
+
+namespace pleat {
+namespace {
+
+/// How long triangles are not asked what they feel of the air [s].
+constexpr double kDragPeriod = 1.0 / 120;
+/// Share of the bound D of -df/dv that counts until then. From 1/2 on, which is what uniform motion
+/// changes f by while the speed of the air is the same, what is steady is come to.
+constexpr double kResistanceShare = 0.6;
+
+double step_of(const MethodOptions& options) { return options.step / options.substeps; }
+
+}  // namespace
+
+StepperPositionBased::StepperPositionBased(ClothModel& model, const MethodOptions& options,
+                                           MakeProjections make_projections)
+    : Stepper(model, options, options.substeps),
+      layout_(lane_layout(model)),
+      projections_(make_projections(model, options, layout_, spring_law(model, options.constraints),
+                                    step_of(options))),
+      mean_mass_(model.masses.mean()),
+      pitch_(layout_.pitch()),
+      data_(pitch_ * (carries() ? kArrays : gained), 0.0f) {
+  const double h = step_of(options);
+  for (int k = 0; k < 3; ++k)
+    fall_[static_cast<std::size_t>(k)] = static_cast<float>(model.gravity[k] * h * h);
+  if (model.air) {
+    forces_.resize(3, model.n_vertices());
+    air_.resize(kAirArrays * pitch_);
+  }
+  if (model.contact) {
+    contact_.emplace(layout_);
+    vertices_.resize(static_cast<std::size_t>(layout_.n_slots));
+    for (int i = 0; i < model.n_vertices(); ++i)
+      vertices_[static_cast<std::size_t>(slot_of(VertexId(i)))] = VertexId(i);
+  }
+  refresh();
+}
+
+void StepperPositionBased::refresh() {
+  float* const inverse_masses = array(inverse_mass);
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    inverse_masses[slot_of(VertexId(i))] =
+        model_.hangs(VertexId(i)) ? 0 : static_cast<float>(mean_mass_ / model_.masses[i]);
+  for (const Pin& pin : model_.pins) inverse_masses[slot_of(pin.vertex)] = 0;
+  if (carries())
+    for (int k = 0; k < 3; ++k)
+      std::fill_n(array(gained + k), layout_.n_slots, fall_[static_cast<std::size_t>(k)]);
+  pin_velocities_.setZero(3, static_cast<Eigen::Index>(model_.pins.size()));
+  projections_->refresh_pins(model_, inverse_masses);
+  refresh_rest_lengths();
+}
+
+void StepperPositionBased::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
+
+LaneView StepperPositionBased::view() {
+  return {lanes(move), {array(begin), array(begin + 1), array(begin + 2)}, array(inverse_mass)};
+}
+
+int StepperPositionBased::slot_of(VertexId vertex) const {
+  return layout_.places[static_cast<std::size_t>(vertex)].slot;
+}
+
+// Addresses are taken once, for a step's conversions go through all vertices.
+StepperPositionBased::MotionLanes StepperPositionBased::motion() {
+  return {lanes(begin), lanes(move), lanes(rounded_off)};
+}
+
+Vec3 StepperPositionBased::position_of(const MotionLanes& motion, int slot) const {
+  const auto along = [&](std::size_t k) {
+    return origin_[static_cast<int>(k)] +
+           (static_cast<double>(motion.begins[k][slot]) + motion.moves[k][slot]);
+  };
+  return {along(0), along(1), along(2)};
+}
+
+Vec3 StepperPositionBased::velocity_of(const MotionLanes& motion, int slot, double h) {
+  const auto along = [&](std::size_t k) {
+    return (static_cast<double>(motion.moves[k][slot]) - motion.rounded_off[k][slot]) / h;
+  };
+  return {along(0), along(1), along(2)};
+}
+
+void StepperPositionBased::set_motion(const MotionLanes& motion, int slot, const Vec3& position,
+                                      const Vec3& velocity, double h) const {
+  const auto set_along = [&](std::size_t k) {
+    const double local = position[static_cast<int>(k)] - origin_[static_cast<int>(k)];
+    const auto rounded = static_cast<float>(local);
+    const auto remainder = static_cast<float>(local - rounded);
+    motion.begins[k][slot] = rounded;
+    motion.moves[k][slot] = remainder;
+    motion.rounded_off[k][slot] = static_cast<float>(remainder - h * velocity[static_cast<int>(k)]);
+  };
+  set_along(0);
+  set_along(1);
+  set_along(2);
+}
+
+void StepperPositionBased::load(const State& state) {
+  const StageScope scope(observer_, Stage::convert);
+  const double h = step_of(options());
+  Vec3 least = state.positions.col(0);
+  Vec3 most = least;
+  for (Eigen::Index i = 1; i < state.positions.cols(); ++i) {
+    least = least.cwiseMin(state.positions.col(i));
+    most = most.cwiseMax(state.positions.col(i));
+  }
+  origin_ = 0.5 * (least + most);
+  extent_ = (most - least).norm();
+  take_from(state, h);
+  if (contact_) contact_->begin_step(*model_.contact, layout_);
+  substeps_left_ = substeps();
+}
+
+// begin' = begin + move is rounded; begin' - begin is not, for the two are near each other. So
+// rounded_off' is exactly what the rounding took away, and goes into the next move.
+template <bool carries>
+void StepperPositionBased::predict() {
+  const LaneView v = view();
+  const std::array<float*, 3> begins = lanes(begin);
+  const std::array<float*, 3> lows = lanes(rounded_off);
+  const std::array<float*, 3> gained_before = carries ? lanes(gained) : lows;
+  const Float4 carried = Float4::all(static_cast<float>(options().carried_acceleration));
+  const Vec3Lanes<Float4> fall = {Float4::all(fall_[0]), Float4::all(fall_[1]),
+                                  Float4::all(fall_[2])};
+  const int n_slots = layout_.n_slots;
+  for (int slot = 0; slot < n_slots; slot += Float4::kLanes) {
+    const Float4 w = Float4::load(v.inverse_masses + slot);
+    const Vec3Lanes<Float4> from = pleat::load<Float4>(begins, slot);
+    const Vec3Lanes<Float4> moved = pleat::load<Float4>(v.moves, slot);
+    Vec3Lanes<Float4> gains = {where_positive(w, fall.x), where_positive(w, fall.y),
+                               where_positive(w, fall.z)};
+    const Vec3Lanes<Float4> velocity = moved - pleat::load<Float4>(lows, slot);
+    if constexpr (carries) {
+      gains = gains + carried * (pleat::load<Float4>(gained_before, slot) - gains);
+      pleat::store(velocity, gained_before, slot);
+    }
+    const Vec3Lanes<Float4> goes_on = velocity + gains;
+    const Vec3Lanes<Float4> to = from + moved;
+    const Vec3Lanes<Float4> remainder = moved - (to - from);
+    pleat::store(to, begins, slot);
+    pleat::store(remainder, lows, slot);
+    pleat::store(remainder + goes_on, v.moves, slot);
+  }
+}
+
+void StepperPositionBased::take_gains() {
+  const std::array<float*, 3> gains = lanes(gained);
+  for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
+    const Vec3Lanes<Float4> velocity =
+        pleat::load<Float4>(lanes(move), slot) - pleat::load<Float4>(lanes(rounded_off), slot);
+    pleat::store(velocity - pleat::load<Float4>(gains, slot), gains, slot);
+  }
+}
+
+// A pin that holds still is placed once a step, and goes on as it is: a move that is all rounded
+// off.
+void StepperPositionBased::place_pins(double time_end, double h) {
+  const bool is_first = substeps_left_ == substeps();
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    const Pin& pin = model_.pins[p];
+    const bool holds = pin.motion.kind == Motion::Kind::hold;
+    if (holds && !is_first) continue;
+    const Vec3 place = pin.position(time_end);
+    const int slot = slot_of(pin.vertex);
+    for (int k = 0; k < 3; ++k) {
+      const auto to_place = static_cast<float>(place[k] - origin_[k] - array(begin + k)[slot]);
+      array(move + k)[slot] = to_place;
+      if (holds) array(rounded_off + k)[slot] = to_place;
+    }
+    if (!holds && substeps_left_ == 1)
+      pin_velocities_.col(static_cast<Eigen::Index>(p)) = (place - pin.position(time_end - h)) / h;
+  }
+}
+
+// The air's forces on triangles cost more than all constraints, and are taken now and then. Until
+// the next time the drag of a vertex is f - r D (v' - v), with f and the bound D of its resistance
+// at the velocity v of then, v' that at a substep's end and r the share above.
+void StepperPositionBased::find_air_drag(State& state, double h) {
+  const StageScope scope(observer_, Stage::forces);
+  copy_to(state, h);
+  forces_.setZero();
+  model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces_);
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    Mat3 brake = Mat3::Zero();
+    Vec3 gain = Vec3::Zero();
+    if (array(inverse_mass)[slot] > 0) {  // else it hangs or is held
+      const double per_mass = h / model_.masses[i];
+      const Mat3 resistance = kResistanceShare * per_mass * model_.air->resistance(VertexId(i));
+      const Mat3 left = (Mat3::Identity() + resistance).inverse();
+      brake = Mat3::Identity() - left;
+      gain = left * h * (per_mass * forces_.col(i) + resistance * state.velocities.col(i)) -
+             brake * (h * h * model_.gravity);  // gravity is added afterwards
+    }
+    const std::array<double, kAirArrays> numbers = {gain[0],     gain[1],     gain[2],
+                                                    brake(0, 0), brake(1, 1), brake(2, 2),
+                                                    brake(0, 1), brake(0, 2), brake(1, 2)};
+    for (std::size_t k = 0; k < kAirArrays; ++k)
+      air_[k * pitch_ + static_cast<std::size_t>(slot)] = static_cast<float>(numbers[k]);
+  }
+}
+
+void StepperPositionBased::add_air_drag() {
+  const StageScope scope(observer_, Stage::forces);
+  const std::array<float*, 3> moves = lanes(move);
+  const std::array<float*, 3> lows = lanes(rounded_off);
+  const auto air = [this](std::size_t which, int slot) {
+    return Float4::load(air_.data() + which * pitch_ + static_cast<std::size_t>(slot));
+  };
+  for (int slot = 0; slot < layout_.n_slots; slot += Float4::kLanes) {
+    const Vec3Lanes<Float4> low = pleat::load<Float4>(lows, slot);
+    const auto [x, y, z] = pleat::load<Float4>(moves, slot) - low;
+    const Float4 xy = air(6, slot);
+    const Float4 xz = air(7, slot);
+    const Float4 yz = air(8, slot);
+    pleat::store(low - Vec3Lanes<Float4>{air(0, slot) - air(3, slot) * x - xy * y - xz * z,
+                                         air(1, slot) - xy * x - air(4, slot) * y - yz * z,
+                                         air(2, slot) - xz * x - yz * y - air(5, slot) * z},
+                 lows, slot);
+  }
+}
+
+// Most vertices are far from solids or meet a single one: only the others are made double
+// precision of.
+void StepperPositionBased::resolve_contacts(double h) {
+  const StageScope scope(observer_, Stage::contact);
+  contact_->place_solids(*model_.contact, origin_, extent_);
+  const MotionLanes now = motion();
+  const MotionLanes at_begin = {now.begins, now.rounded_off, now.rounded_off};
+  for (const int slot : contact_->resolve(view(), now.rounded_off)) {
+    const Vec3 place_begin = position_of(at_begin, slot);
+    Vec3 place = position_of(now, slot);
+    Vec3 velocity = velocity_of(now, slot, h);
+    const VertexId vertex = vertices_[static_cast<std::size_t>(slot)];
+    if (model_.contact->resolve(vertex, place_begin, place, velocity))
+      set_motion(now, slot, place, velocity, h);
+  }
+}
+
+void StepperPositionBased::limit_in_double(State& state, double time_end, double h) {
+  positions_begin_ = state.positions;
+  copy_to(state, h);
+  correct(state, time_end, h, model_.masses);
+  take_from(state, h);
+}
+
+void StepperPositionBased::take_from(const State& state, double h) {
+  const MotionLanes lanes = motion();
+  for (int i = 0; i < model_.n_vertices(); ++i)
+    set_motion(lanes, slot_of(VertexId(i)), state.positions.col(i), state.velocities.col(i), h);
+}
+
+void StepperPositionBased::copy_to(State& state, double h) {
+  const MotionLanes lanes = motion();
+  for (int i = 0; i < model_.n_vertices(); ++i) {
+    const int slot = slot_of(VertexId(i));
+    state.positions.col(i) = position_of(lanes, slot);
+    state.velocities.col(i) = velocity_of(lanes, slot, h);
+  }
+  place_between_parents(model_.hanging, state);
+}
+
+SolveReport StepperPositionBased::substep(State& state, double time_end, double h) {
+  if (model_.air) {
+    const int every = std::max(1, static_cast<int>(std::lround(kDragPeriod / h)));
+    if ((substeps() - substeps_left_) % every == 0) find_air_drag(state, h);
+    add_air_drag();
+  }
+  {
+    const StageScope scope(observer_, Stage::solve);
+    carries() ? predict<true>() : predict<false>();
+    place_pins(time_end, h);
+    const LaneView v = view();
+    const bool is_last = substeps_left_ == 1;
+    if (is_last) {
+      projections_->forget();
+      residual_begin_ = std::sqrt(projections_->squared_residual(v));
+    }
+    projections_->solve(v, options().iterations);
+    if (carries()) take_gains();
+    if (is_last) residual_end_ = std::sqrt(projections_->squared_residual(v));
+  }
+  if (strain_limit() != nullptr) {
+    limit_in_double(state, time_end, h);
+  } else if (model_.contact) {
+    resolve_contacts(h);
+  }
+  --substeps_left_;
+  time_end_ = time_end;
+  SolveReport report;
+  report.iterations = options().iterations;
+  return report;
+}
+
+void StepperPositionBased::store(State& state, SolveReport& report) {
+  const StageScope scope(observer_, Stage::convert);
+  copy_to(state, step_of(options()));
+  for (std::size_t p = 0; p < model_.pins.size(); ++p) {
+    state.positions.col(model_.pins[p].vertex.value) = model_.pins[p].position(time_end_);
+    state.velocities.col(model_.pins[p].vertex.value) =
+        pin_velocities_.col(static_cast<Eigen::Index>(p));
+  }
+  place_between_parents(model_.hanging, state);
+  report.relative_residual = residual_begin_ > 0 ? residual_end_ / residual_begin_ : 0;
+}
+
+}  // namespace pleat

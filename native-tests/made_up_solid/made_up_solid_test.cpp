@@ -1,0 +1,99 @@
+// A solid that is added to the list of solids (beside this file) and named nowhere else: contact
+// and the section of scene files are compiled with that list.
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "core/contact/contact_stage.h"
+#include "core/scene/format/solid_section.h"
+
+namespace pleat {
+namespace {
+
+const VertexId kVertex{0};
+constexpr double kHalfThickness = 0.01;  // half of the cloth's thickness [m]
+
+/// A quarter turn about x in a second, of what keeps its height.
+struct Turning : MovingFrame {
+  Pose pose(double time) const override {
+    return {Eigen::AngleAxisd(std::acos(0.0) * time, Vec3::UnitX()).toRotationMatrix(),
+            Vec3::Zero()};
+  }
+};
+
+/// Its upper side is at y = 0.
+ContactStage shelf_stage(const Motion& motion) {
+  ContactOptions options;
+  options.half_thickness = kHalfThickness;
+  const Collider limb{RoundedCone{{5, 0, 0}, {6, 0, 0}, 0.2, 0.1}, {}, 0};
+  return ContactStage({limb, Collider{Shelf{-0.1, 0.1}, motion, 0}}, options);
+}
+
+Motion held() { return {}; }
+
+Motion lifted() {
+  Motion motion;
+  motion.kind = Motion::Kind::move;
+  motion.offset = {0, 0.05, 0};
+  motion.time_end = 1;
+  return motion;
+}
+
+Motion turned() {
+  Motion motion;
+  motion.kind = Motion::Kind::follow;
+  motion.frame = std::make_shared<Turning>();
+  return motion;
+}
+
+}  // namespace
+
+TEST_CASE("made-up solid: contact keeps a vertex off it, held, lifted and turned", "[contact]") {
+  const auto [motion, rise] =
+      GENERATE(table<Motion, double>({{held(), 0}, {lifted(), 0.05}, {turned(), 0}}));
+  const double side = GENERATE(1.0, -1.0);
+  CAPTURE(rise, side);
+  ContactStage stage = shelf_stage(motion);
+  stage.begin_substep(0, 1);
+  const double level = -0.1 + rise + side * (0.1 + kHalfThickness);
+  Vec3 position(0, -0.1, 0);
+  Vec3 velocity(1, -side * 2, 0);
+  const auto touch = stage.resolve(kVertex, {0, level + side * 0.5, 0}, position, velocity);
+  REQUIRE(touch);
+  CHECK(touch->normal.isApprox(Vec3(0, side, 0)));
+  CHECK(position.y() == Approx(level).margin(1e-12));
+  CHECK(stage.gap_at_end(*touch, position).distance == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("made-up solid: penetration, support and outline are known of it", "[contact]") {
+  ContactStage stage = shelf_stage(held());
+  Positions positions(3, 2);
+  positions.col(0) << 0, -0.02, 0;
+  positions.col(1) << 0, kHalfThickness, 0;
+  CHECK(stage.penetration(positions, 0).depth == Approx(0.02));
+  CHECK(stage.penetration(positions, 0).n_inside == 1);
+  CHECK(stage.supports(positions, 0).size() == 2);
+  stage.begin_substep(0, 1);
+  std::vector<ContactStage::Outline> outlines;
+  stage.outlines(outlines);
+  REQUIRE(outlines.size() == 2);
+  // The stage takes what no lane knows, wherever it may be met: here everywhere.
+  CHECK_FALSE(outlines[0].is_exact);
+  CHECK(std::isinf(std::get<SweptSphere>(outlines[0].shape).radius));
+}
+
+TEST_CASE("made-up solid: numbers that it does not take are refused", "[contact]") {
+  CHECK_THROWS_AS(ContactStage({Collider{Shelf{0, 0}, {}, 0}}, {}), ContractError);
+}
+
+TEST_CASE("made-up solid: a scene names it by its word", "[scene]") {
+  const Json json = {{"shelf", {{"height_m", 0.25}}}};
+  const SolidShape shape = read_solid(JsonReader(json));
+  REQUIRE(std::holds_alternative<Shelf>(shape));
+  CHECK(std::get<Shelf>(shape).height == 0.25);
+  CHECK(std::string(word_for(shape)) == "shelf");
+  CHECK(json_solid(shape) == json["shelf"]);
+  const Json none = Json::object();
+  CHECK_THROWS_WITH(read_solid(JsonReader(none)), Catch::Contains("shelf"));
+}
+
+}  // namespace pleat

@@ -1,0 +1,175 @@
+// The read-out above the toolbar: what the setting costs and how wrong it is, with status and time.
+import { fabricNamed } from '../../../shared/fabric/fabric-data';
+import { button, element, setText } from '../../../shared/panels/element';
+import { digits, milliseconds, percent } from '../../../shared/panels/quantity';
+import { type Store, watch } from '../../../shared/state/store';
+import type { MotionState } from '../../state/motion-state';
+import { ownQuantities, type Setting } from '../../state/setting';
+import { errorWords } from './error-words';
+
+const STATUS_WORDS: Record<MotionState['phase'], string> = {
+  loading: 'loading',
+  ready: 'paused',
+  stopped: 'stopped',
+  refused: 'refused',
+  broken: 'not available',
+};
+
+/** A pace below this is told in words: its digits say no more. */
+const SLOWEST_PACE = 0.01;
+
+/** Parts below this share of a step are not worth their room. */
+const LEAST_PART = 0.02;
+
+interface Item {
+  title: string;
+  meaning: string;
+  text(state: MotionState): string;
+  width: 'narrow' | 'middle' | 'wide';
+  /** A second, smaller line. */
+  detail(state: MotionState): string;
+}
+
+function statusText({ phase, playing, pace, ahead }: MotionState): string {
+  if (ahead !== null) return `ahead, ${Math.round(100 * ahead)} %`;
+  if (phase !== 'ready' || !playing) return STATUS_WORDS[phase];
+  if (pace === null) return 'running';
+  return pace < SLOWEST_PACE ? 'running slowly' : `running ${digits(Math.min(pace, 1), 2)} ×`;
+}
+
+/** How the weight of the cloth is known. */
+export function weightText(setting: Setting): string {
+  const { areal_density_kg_per_m2: own } = ownQuantities(setting);
+  const { confidence } = fabricNamed(setting.fabric).areal_density_kg_per_m2;
+  return own === undefined ? `weight ${confidence}` : 'weight of scene';
+}
+
+const ITEMS: readonly Item[] = [
+  {
+    title: 'Status',
+    width: 'middle',
+    meaning:
+      'What the computation does; 1 × keeps up with the clock. Below: step and simulated time.',
+    text: statusText,
+    detail: ({ numbers }) =>
+      numbers ? `step ${numbers.step}, ${numbers.time_s.toFixed(2)} s` : '',
+  },
+  {
+    title: 'Cost of a step',
+    width: 'wide',
+    meaning:
+      'Wall time of one step on this device, from its begin to its end, in parts; mean over at least 50 ms of work.',
+    text: ({ timing }) => (timing ? milliseconds(timing.totalMs) : '–'),
+    detail: ({ timing }) =>
+      timing
+        ? timing.parts
+            .filter(({ ms }) => ms >= LEAST_PART * timing.totalMs)
+            .map(({ name, ms }) => `${name.replaceAll('_', ' ')} ${digits(ms, 2)}`)
+            .join(' · ')
+        : 'play to measure',
+  },
+  {
+    title: 'Error',
+    width: 'middle',
+    meaning:
+      'How far the cloth is from a reference now, RMS over its points; or else what the last sweep found for the very same setting.',
+    text: (state) => errorWords(state).value,
+    detail: (state) => errorWords(state).detail,
+  },
+  {
+    title: 'Stretch',
+    width: 'narrow',
+    meaning: 'Largest and root-mean-square change of length of the threads, now.',
+    text: ({ numbers }) => (numbers ? percent(numbers.largest_stretch) : '–'),
+    detail: ({ numbers }) => (numbers ? `RMS ${percent(numbers.rms_stretch)}` : ''),
+  },
+  {
+    title: 'Residual',
+    width: 'narrow',
+    meaning: 'What is left over of the step’s own equations, relative.',
+    text: ({ numbers }) => (numbers ? digits(numbers.residual, 2) : '–'),
+    detail: ({ numbers, isCutShort }) =>
+      isCutShort ? 'cut short' : numbers ? `${numbers.iterations} iterations` : '',
+  },
+  {
+    title: 'Vertices',
+    width: 'narrow',
+    meaning: 'Points whose motion is computed.',
+    text: ({ summary }) => (summary ? String(summary.n_vertices) : '–'),
+    detail: ({ summary }) => (summary ? `${summary.n_triangles} faces` : ''),
+  },
+  {
+    title: 'Fabric',
+    width: 'middle',
+    meaning: 'The fabric, and how its weight is known; the panel names the source.',
+    text: ({ setting }) => setting.fabric.replace(/ \(.*\)/, ''),
+    detail: ({ setting }) => weightText(setting),
+  },
+];
+
+/** The error in a sentence, with a button for what it takes to know it. */
+function createVerdict(store: Store<MotionState>, actions: { bringReference(): void }) {
+  const sentence = element('span');
+  const ask = button('', () => {
+    store.set({ compare: true });
+    actions.bringReference();
+  });
+  return {
+    line: element('p', { class: 'verdict' }, sentence, ' ', ask),
+    update(state: MotionState) {
+      const words = errorWords(state);
+      setText(sentence, words.sentence);
+      setText(ask, words.action ?? '');
+      ask.hidden = words.action === undefined;
+    },
+  };
+}
+
+export function createNumbersStrip(
+  parent: HTMLElement,
+  store: Store<MotionState>,
+  actions: { bringReference(): void },
+): () => void {
+  const cells = ITEMS.map((item) => {
+    const value = element('dd');
+    const detail = element('dd', { class: 'detail' });
+    const cell = element(
+      'div',
+      { title: item.meaning, class: `cell-${item.width}` },
+      element('dt', {}, item.title),
+      value,
+      detail,
+    );
+    return { item, value, detail, cell };
+  });
+  const verdict = createVerdict(store, actions);
+  parent.append(
+    element('dl', { class: 'numbers' }, ...cells.map(({ cell }) => cell)),
+    verdict.line,
+  );
+  return watch(
+    store,
+    [
+      'numbers',
+      'timing',
+      'summary',
+      'phase',
+      'playing',
+      'ahead',
+      'pace',
+      'sweep',
+      'setting',
+      'mesh',
+      'reference',
+      'compare',
+      'heat',
+    ],
+    (state) => {
+      for (const { item, value, detail } of cells) {
+        setText(value, item.text(state));
+        setText(detail, item.detail(state));
+      }
+      verdict.update(state);
+    },
+  );
+}

@@ -1,0 +1,68 @@
+// The choice of a fabric, its measured numbers, and where each comes from.
+import { fabricNamed, fabrics } from '../../../shared/fabric/fabric-data';
+import { lookOf } from '../../../shared/fabric/fabric-look';
+import { choice, element, field } from '../../../shared/panels/element';
+import {
+  quantityMeanings,
+  quantityRows,
+  sourceList,
+} from '../../../shared/panels/fabric-quantities';
+import { type Store, watch } from '../../../shared/state/store';
+import type { MotionState } from '../../state/motion-state';
+import { ownQuantities } from '../../state/setting';
+
+export function createFabricPanel(parent: HTMLElement, store: Store<MotionState>): () => void {
+  const names = choice(
+    fabrics.map((fabric) => ({
+      value: fabric.name_en,
+      title: `${fabric.name_en} · ${fabric.use_en}`,
+    })),
+    (fabric) => store.set({ setting: { ...store.get().setting, fabric } }),
+  );
+  const swatch = element('span', { class: 'swatch', 'aria-hidden': 'true' });
+  const construction = element('p', { class: 'note' });
+  const sourceBody = element('div', {}, construction);
+  const rows = element('tbody');
+  const sourcesBox = element(
+    'details',
+    {},
+    element('summary', {}, 'Where the numbers come from'),
+    sourceBody,
+  );
+  const table = element(
+    'table',
+    { class: 'quantities' },
+    element('caption', { class: 'unseen' }, 'Measured numbers of the fabric'),
+    rows,
+  );
+  const meaningBox = element(
+    'details',
+    {},
+    element('summary', {}, 'What the words mean'),
+    quantityMeanings(),
+  );
+  parent.append(
+    element(
+      'section',
+      { 'aria-label': 'Fabric' },
+      field('Fabric', names.control, swatch),
+      table,
+      sourcesBox,
+      meaningBox,
+    ),
+  );
+  let shown = '';
+  return watch(store, ['setting'], ({ setting }) => {
+    const own = ownQuantities(setting);
+    const wanted = JSON.stringify([setting.fabric, own]);
+    if (wanted === shown) return;
+    shown = wanted;
+    const fabric = fabricNamed(setting.fabric);
+    const { front, back } = lookOf(fabric.id);
+    names.select(setting.fabric);
+    swatch.style.background = `linear-gradient(135deg, ${front} 50%, ${back} 50%)`;
+    construction.textContent = `Taken as: ${fabric.assumed_construction}.`;
+    rows.replaceChildren(...quantityRows(fabric, own));
+    sourceBody.replaceChildren(construction, sourceList(fabric));
+  });
+}
