@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-
 namespace pleat {
 
 /// Guards against faults of collapses; one is switched off only to show its fault.
@@ -14,8 +11,5 @@ struct CollapseGuards {
   /// Nothing is joined that was apart: an edge keeps at most two triangles.
   bool links = true;
 };
-
-/// Their names on the command line, in the order of the members.
-constexpr std::array<std::string_view, 3> kCollapseGuardNames{"flips", "borders", "links"};
 
 }  // namespace pleat

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "core/base/ids.h"
@@ -18,9 +16,6 @@ enum class TransferWeights {
   /// in which the coarser vertices lie; weights may be negative.
   moving_least_squares,
 };
-/// Their names in files and on the command line, in the order of the enumeration.
-constexpr std::array<std::string_view, 2> kTransferWeightsNames{"inverse_distance",
-                                                                "moving_least_squares"};
 
 /// Interpolation from the vertices of a coarser level to those of a finer one, as rows of weights
 /// that sum to 1.
