@@ -19,7 +19,7 @@ import {
 import { ask } from './parts/command.mjs';
 import { deformWasm } from './parts/deform-wasm.mjs';
 
-const kMoves = 20; // of a hand, from rest to the scene's targets
+const kMoves = 20; // steps of a hand, from rest to the scene's targets
 const kLargest = ['ball', 'diagonal_stretch', 'wrinkles']; // 51 x 51 vertices each
 const kTerms = ['recovery', 'stretch', 'bending'];
 
@@ -259,7 +259,7 @@ async function weights() {
   return { rows, goals, text: `\n\n${markdown(head, lines)}` };
 }
 
-/** Where the posed T-shirt is wrinkled: at its arms, or on its body too. */
+/** Wrinkles of the posed T-shirt: at its arms alone, or on its body too. */
 async function shirt() {
   const kArm = 0.2; // [m] from the middle
   const rows = ['coarse cotton (denim)', 'canvas', 'silk', 'nylon'].map((fabric) => {

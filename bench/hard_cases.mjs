@@ -135,7 +135,7 @@ async function limit({ repeat }) {
   const rows = [];
   for (const [name, sceneOf] of Object.entries(scenes))
     rows.push(...(await limited(repeat, name, sceneOf)));
-  const [free, held] = rows; // of implicit
+  const [free, held] = rows; // rows of implicit
   const { elongation, times_as_long_as_first: times } = held;
   const columns = {
     stepper: 'stepper',

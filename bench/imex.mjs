@@ -9,7 +9,7 @@ import { againstNewton } from './parts/contestants.mjs';
 import { by, kStep, squareSheet } from './parts/sheets.mjs';
 
 const kFrames = 100;
-const kSubsteps = 7; // of 2.4 ms
+const kSubsteps = 7; // substeps of 2.4 ms
 const kTolerance = 1e-4;
 
 const imex = (solver, more = {}) => ({ stepper: 'imex', substeps: kSubsteps, solver, ...more });

@@ -41,7 +41,7 @@ async function time({ repeat }) {
   const kTimes = [0.5, 1]; // [s]
   const kStepsPerSecond = { springs: 3840, membrane: 7680 };
   const kLevel = 2;
-  const kLargestShare = 0.25; // of an error, that its reference may be wrong by
+  const kLargestShare = 0.25; // share of an error that its reference may be wrong by
   const exact = (stepper, substeps) => ({ stepper, substeps, solver: 'cholmod' });
   const methods = {
     'implicit x1': exact('implicit', 1),
@@ -93,7 +93,7 @@ async function mesh() {
       const scene = sheet(level, model, newton(kStepsPerSecond));
       return nativeRun(scene, kTimes.at(-1) / kStep, kTimes);
     });
-    const [{ masses_kg, core }] = runs; // of the vertices that all three have
+    const [{ masses_kg, core }] = runs; // masses of the vertices that all three have
     const meshes = runs.map((run) => run.samples);
     const { samples } = ask('bench', 'limit', { masses_kg, meshes });
     const against = {

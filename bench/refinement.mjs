@@ -38,16 +38,16 @@ const kFineLevel = 2;
 const kDuration = 10; // [s], of which the second half is timed and compared
 const kQuickDuration = 4; // [s]
 const kErrorEvery = 10; // frames
-const kAirChange = 1e-6; // of its density, for each further run of a mesh
+const kAirChange = 1e-6; // change of its density, for each further run of a mesh
 const kFurtherRuns = 3;
 const kTwin = 'fine, air + 1e-6';
 const kRestarts = { every: 0.3, after: 0.25, duration: 5, tolerance: 1e-8 }; // [s]
 const kChanceAfter = 5; // [s] of two fine runs
-const kDemands = [0.0005, 0.001, 0.0015, 0.002, 0.003]; // that may be lost, of the figure [m]
+const kDemands = [0.0005, 0.001, 0.0015, 0.002, 0.003]; // losses of the figure's plans [m]
 const kDrawn = ['skirt', 'trousers'];
 const kFigureFile = join('docs', 'refinement.svg');
 
-/** Where a garment's mesh of every frame is split [1/m]. */
+/** Curvature at which a garment's mesh of every frame is split [1/m]. */
 const kSplitCurvatures = { skirt: 20, trousers: 30, slim_trousers: 30 };
 
 const more = {

@@ -9,7 +9,7 @@ import { askRows, cacheFolder } from './parts/command.mjs';
 import { answer, wasmModule } from './parts/contestants.mjs';
 import { methodWords } from './parts/honesty-order.mjs';
 
-const kSliceMs = 200; // between reports of progress
+const kSliceMs = 200; // time between reports of progress
 const kDuration = 1; // [s]
 
 function readScene(file) {

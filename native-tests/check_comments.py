@@ -17,10 +17,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE_FOLDERS = ("core", "cli", "wasm", "native-tests", "bench", "web/src")
 SUFFIXES = (".h", ".cpp", ".mjs", ".ts")
-# Folders whose comments are not held to this yet.
-NOT_YET_CLEAN = ("core/contact/", "core/dynamics/", "core/scene/", "bench/", "native-tests/bench/", "wasm/",
-                 "web/src/")
-
 PREPOSITIONS = ("about above across after against along among around as at before behind below beneath beside besides "
                 "between beyond by despite down during for from if in inside into of off on onto out outside over past "
                 "per since than through to toward towards under until upon where with within without").split()
@@ -80,15 +76,14 @@ def judge(comment):
     return f'a {kind} opens on "{opening[1]}", expected what the thing is or does: "{comment.words[:60]}"'
 
 
-def check_tree(root, not_yet_clean=()):
+def check_tree(root):
     """Every violation under `root`, as a printable line."""
     files = sorted(path for folder in SOURCE_FOLDERS for path in (root / folder).rglob("*") if path.suffix in SUFFIXES)
     violations = []
     for path in files:
         name = path.relative_to(root).as_posix()
-        if not name.startswith(not_yet_clean):
-            violations += [f"{name}:{comment.line}: {judge(comment)}"
-                           for comment in comments_of(path.read_text(encoding="utf-8")) if judge(comment)]
+        violations += [f"{name}:{comment.line}: {judge(comment)}"
+                       for comment in comments_of(path.read_text(encoding="utf-8")) if judge(comment)]
     return violations
 
 
@@ -135,7 +130,7 @@ def self_test():
 def main():
     if sys.argv[1:] not in ([], ["--self-test"]):
         sys.exit("usage: check_comments.py [--self-test]")
-    violations = self_test() if sys.argv[1:] else check_tree(ROOT, NOT_YET_CLEAN)
+    violations = self_test() if sys.argv[1:] else check_tree(ROOT)
     for violation in violations:
         print(violation)
     return 1 if violations else 0

@@ -160,7 +160,7 @@ class Simulation {
     });
   }
 
-  /// Of torn cloth nothing is carried over: the new one starts whole.
+  /// Loads a scene and carries the run over. Torn cloth starts whole instead.
   std::string carry_over(const std::string& scene_text) {
     return guarded([&](val& envelope) {
       auto fresh = build(scene_text);
@@ -434,7 +434,7 @@ class Simulation {
   std::optional<pleat::RunLedger> ledger_;
   std::array<double, 11> energies_{};
   std::optional<pleat::StrainMap> strain_map_;
-  std::int64_t topology_ = 0;  // of the strain map and the triangles
+  std::int64_t topology_ = 0;  // topology of the strain map and the triangles
   std::optional<pleat::ReferenceTrack> reference_;
   bool matches_ = false;          // it is of the loaded scene
   std::vector<float> positions_;  // 3 per vertex [m]

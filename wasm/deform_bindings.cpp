@@ -27,10 +27,10 @@ using pleat::positions_in;
 using pleat::VertexId;
 using pleat::view_of;
 
-/// What a step after a hand came to.
+/// Result of a step after a hand moved.
 enum class Progress { moved = 0, ended = 1 };
 
-/// Where a pane is on its way to the least energy.
+/// Progress of a pane on its way to the least energy.
 enum class Way { from_here = 0, between = 1, from_rest = 2, done = 3 };
 
 val json_ids(const std::vector<VertexId>& vertices) {
@@ -158,8 +158,8 @@ class Deformation {
     });
   }
 
-  /// What holds all panes from now on: these vertices, ascending, at these places [m]. Each pane
-  /// takes it up in `follow`.
+  /// Holds these vertices, ascending, at these places [m] in all panes. Each pane takes it up in
+  /// `follow`.
   std::string hold(const val& vertices, const val& places) {
     return guarded([&](val&) {
       std::vector<VertexId> held;
@@ -273,7 +273,7 @@ class Deformation {
     frame_.assign(x.data(), x.data() + x.size());
     return view_of(frame_);
   }
-  /// Of the shape that counts, also while the way from rest is under way.
+  /// Positions of the shape that counts, also while the way from rest is under way.
   val exact_positions(int pane) {
     at(pane).end_settling();
     return view_of(at(pane).solver.positions());
@@ -283,7 +283,7 @@ class Deformation {
   struct Pane {
     explicit Pane(DeformSolver with) : solver(std::move(with)) {}
 
-    /// Before anything else moves the solver: a way from rest that is under way counts for nothing.
+    /// Drops a way from rest that is under way; called before anything else moves the solver.
     void end_settling() {
       if (settling) settling->end_trial();
       settling.reset();
@@ -332,7 +332,7 @@ class Deformation {
   std::optional<pleat::DeformScene> scene_;
   std::vector<std::unique_ptr<Pane>> panes_;
   std::vector<VertexId> held_;
-  pleat::Positions places_;  // of what is held [m]
+  pleat::Positions places_;  // places of the held vertices [m]
   std::vector<float> frame_;
   std::vector<std::uint32_t> triangles_;
 };

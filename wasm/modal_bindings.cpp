@@ -130,7 +130,7 @@ class ModalStudy {
     });
   }
 
-  /// Between key shapes, one after the other in `places` [m], there will be frames: {"keys": n,
+  /// Prepares frames between key shapes, which `places` [m] has one after the other: {"keys": n,
   /// "modes", "volume", "size_m"}.
   std::string complete(const val& places, const std::string& wanted_text) {
     return guarded([&](val& envelope) {
@@ -207,7 +207,7 @@ class ModalStudy {
   val shape() const { return view_of(shape_); }
   /// The shape that readKey found.
   val key() const { return view_of(key_); }
-  /// Of each mode beside the rigid ones, where the farthest vertex moves by 1.
+  /// Moves of each mode beside the rigid ones; its farthest vertex moves by 1.
   val moves() const { return view_of(moves_); }
   /// Surfaces of all frames, one after the other.
   val filled() const { return view_of(filled_); }
@@ -265,7 +265,7 @@ class ModalStudy {
   Positions filled_;
 };
 
-/// What so many frames between keys cost here, OBJ texts of one mesh, with the usual options; told
+/// Cost here of so many frames between keys, OBJ texts of one mesh, with the usual options; told
 /// with the keys of `pleat bench inbetween`.
 std::string completion_cost(const val& obj_texts, int n_frames) {
   return guarded([&](val& envelope) {

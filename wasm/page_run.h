@@ -20,7 +20,7 @@ class PageRun {
   void take(std::unique_ptr<Simulation> fresh);
   /// Begins the run anew.
   void reset();
-  /// The same from these places (Simulation::start_from).
+  /// Begins the run anew from these places (Simulation::start_from).
   void start_from(const Positions& places);
 
   /// Lets go of the grabbed vertex. What a hand does is no fault of the run: it is watched from now

@@ -38,7 +38,7 @@ void add_triangles(const QuadMesh& mesh, QuadArrays& arrays) {
       add(pairs[2 * n], n);
       add(pairs[2 * n + 1], n);
     } else {
-      // From a vertex inside an edge every other one is seen at an angle.
+      // A vertex inside an edge sees every other one at an angle.
       for (std::size_t k = 1; k + 1 < outline.size(); ++k)
         add({outline[0], outline[k], outline[k + 1]}, n);
     }

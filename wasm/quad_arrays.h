@@ -12,7 +12,7 @@ struct QuadArrays {
   /// Two for each active face in their order, or more where vertices hang on its edges, so that
   /// neighbours share all edges and nothing shines through.
   std::vector<std::uint32_t> triangles;
-  std::vector<std::uint32_t> triangle_faces;  ///< of each triangle, counted among active faces
+  std::vector<std::uint32_t> triangle_faces;  ///< face of each triangle, counted among active ones
   std::vector<std::uint32_t> edges;           ///< pairs of vertices, each once
   std::vector<std::uint32_t> hanging;
   /// Each active face: its number, level, parent (or -1), corners.

@@ -96,7 +96,7 @@ class GarmentRun {
     });
   }
 
-  /// What frames are held against from now on: a scene of the same cloth on its fine mesh.
+  /// Takes the scene that frames are compared with from now on: the same cloth on its fine mesh.
   std::string hold_against(const std::string& scene_text, const val& files) {
     return guarded([&](val&) {
       const pleat::Scene scene = pleat::read_scene_with(scene_text, files, fabrics_json_);
@@ -123,7 +123,7 @@ class GarmentRun {
     return guarded([&](val& envelope) { run_.put_costs(envelope); });
   }
 
-  /// What the steps since the last load or reset show that the scene cannot explain.
+  /// Signs in the steps since the last load or reset that the scene cannot explain.
   std::string warnings() const {
     return guarded([&](val& envelope) { run_.put_warnings(envelope); });
   }
@@ -258,7 +258,7 @@ class GarmentRun {
         : mesh(fine), areas(fine.vertex_areas()), sampling(own, fine) {}
 
     pleat::QuadMesh mesh;
-    Eigen::VectorXd areas;  // of its vertices at rest [m^2]
+    Eigen::VectorXd areas;  // areas of its vertices at rest [m^2]
     pleat::MeshSampling sampling;
   };
 
@@ -332,7 +332,7 @@ class GarmentRun {
   std::string fabrics_json_;
   pleat::PageRun run_;
   std::shared_ptr<const pleat::MovingBody> body_;
-  std::vector<pleat::BodyPart> parts_;  // of it that are drawn
+  std::vector<pleat::BodyPart> parts_;  // parts of the body that are drawn
   std::optional<pleat::QuadArrays> arrays_;
   std::optional<pleat::VertexCurvature> curvature_;
   std::optional<pleat::FitMonitor> monitor_;
@@ -340,7 +340,7 @@ class GarmentRun {
   std::optional<Reference> reference_;
   std::optional<pleat::FoldSpectrum> folds_;
   pleat::Positions shown_;  // [m]
-  double time_ = 0;         // of what is shown [s]
+  double time_ = 0;         // time of the shown positions [s]
   std::vector<float> positions_;
   std::vector<float> curvatures_;
   std::vector<float> distances_;

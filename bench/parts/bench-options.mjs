@@ -54,7 +54,7 @@ export function oneOf(option, text, choices) {
   return text;
 }
 
-/** Where rows are written as JSON lines; without a file nowhere. It is opened before anything runs. */
+/** Writes rows as JSON lines to a file; without one nowhere. It is opened before anything runs. */
 export function rowsFile(file) {
   if (file === undefined) return { write: () => undefined };
   const must = (work) => {

@@ -3,7 +3,7 @@ import { BadInput, oneOf, readOptions, rowsFile, tell, wholeNumber } from './ben
 import { described, median, sideBySide } from './bench-rows.mjs';
 import { loopContestant, warmUpLoop } from './plain-loop.mjs';
 
-const kYardstickMs = 20; // that the bounds in ms are made for
+const kYardstickMs = 20; // time on the machine that the bounds in ms are made for
 
 /** Milliseconds of the yardstick here, over those that the bounds were made for. */
 async function machineScale(repeat) {

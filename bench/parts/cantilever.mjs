@@ -5,7 +5,7 @@ import { nativeRun, reference } from './command.mjs';
 import { kStep } from './sheets.mjs';
 
 const kLength = 0.2; // [m], from the clamp on
-const kEdges = 40; // along it
+const kEdges = 40; // edges along it
 const kColumns = 10;
 const kArealDensity = 0.114; // [kg/m^2]
 const kGravity = 9.81; // [m/s^2], a scene's default
@@ -44,7 +44,7 @@ const cut = (a, b, c, d, isFromAToD) => [
  * - crossed: cut along both
  */
 export function strip(triangulation, edges = kEdges, columns = kColumns) {
-  const kShift = 0.2; // of an edge: triangles keep a sixth of their height at least
+  const kShift = 0.2; // share of an edge: triangles keep a sixth of their height at least
   const edge = kLength / edges;
   const uniform = random(7);
   const line = columns + 1;

@@ -120,7 +120,7 @@ export function nativeTurns(scene, frames, times, options = []) {
               if (record) done();
               else child.stdin.write(`${count}\n`);
             });
-          child.stdin.on('error', () => undefined); // of a run that has ended
+          child.stdin.on('error', () => undefined); // the run may have ended
           child.stderr.on('data', (text) => (told += text));
           createInterface({ input: child.stdout }).on('line', (line) => {
             if (line !== 'ready') record = JSON.parse(line);

@@ -8,7 +8,9 @@ const kErrors = [1e-1, 1e-2, 1e-3];
 const kMostRounds = 513;
 const kSizes = [33, 65, 129];
 
-/** Out of the sheet's plane [m]: in it no fold forms, and cloth that is gathered is crushed. */
+/**
+ * Offset from the sheet's plane [m]: in it no fold forms, and cloth that is gathered is crushed.
+ */
 const kTwist = 0.05;
 
 /** Cloth that the step is of, and when it starts [s]. */

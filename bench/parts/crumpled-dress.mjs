@@ -14,7 +14,7 @@ function seeded(seed) {
 
 const kLength = 1.1; // [m]
 const kTop = 1.4; // height of its upper edge [m]
-const kRadii = [0.13, 0.33]; // at its upper and its lower edge [m]
+const kRadii = [0.13, 0.33]; // radii at its upper and its lower edge [m]
 
 /** Waves of all lengths from 2 to 20 cm, each a twelfth as high as long, in all directions. */
 function crumpling(random) {
@@ -36,9 +36,9 @@ function crumpling(random) {
 
 /** Places of vertices in a grid: inner ones are moved, some nearly onto their neighbour. */
 function unequalGrid(around, along, random) {
-  const kJitter = 0.4; // of a cell, to each side
+  const kJitter = 0.4; // share of a cell, to each side
   const kSlivers = 0.03; // share of the vertices
-  const kSliver = 0.01; // what is left of the distance to the neighbour
+  const kSliver = 0.01; // share of the distance to the neighbour that is left
   const grid = [];
   for (let row = 0; row < along; ++row) {
     const inside = row > 0 && row < along - 1;

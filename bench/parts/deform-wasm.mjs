@@ -5,7 +5,7 @@ import { dirname, join } from 'node:path';
 import { fabricsText } from './assets.mjs';
 import { answer, wasmModule } from './contestants.mjs';
 
-const kDone = 3; // that Deformation.settle answers at the end
+const kDone = 3; // last answer of Deformation.settle
 
 /** The text of the mesh that a scene names; empty without one. */
 function meshText(file, scene) {

@@ -8,11 +8,11 @@ import { nearest } from './loop-contact.mjs';
 import { by } from './sheets.mjs';
 
 const kFramesPerSecond = 60;
-const kSubsteps = 10; // of all alike, as the scenes have it
+const kSubsteps = 10; // substeps of all alike, as the scenes have it
 const kMostDepthMm = 1e-3;
 
 const kSteppers = ['pbd', 'hpbd', 'multigrid', 'xpbd'];
-const kPromised = kSteppers.slice(0, 3); // of these the goals are
+const kPromised = kSteppers.slice(0, 3); // steppers that the goals are about
 
 /** A scene, and the fabric that it is run with beside its own. */
 const kScenes = { wind: 'silk', ball: 'fine cotton' };

@@ -35,7 +35,7 @@ export async function skirt({ repeat, scale }) {
   });
   const [ours, implicit] = rows;
   const { wasm } = await bothBuilds({ ...fineSkirt(kLive), duration_s: kFrames * kStep }, repeat);
-  const wasmMs = median(wasm.map(({ ms_per_frame }) => ms_per_frame)); // of a picture
+  const wasmMs = median(wasm.map(({ ms_per_frame }) => ms_per_frame)); // time of a picture
   const goals = [
     atMost('skirt_of_implicit', ours.ms_per_frame / implicit.ms_per_frame, 1 / 3, rows),
     atMost('skirt_rms_stretch_percent', kPercent * ours.rms_stretch, 0.5, rows),

@@ -8,7 +8,7 @@ import { inFolder, nativeRun } from './command.mjs';
 import { crumpledDress, dressScene } from './crumpled-dress.mjs';
 import { by, kStep } from './sheets.mjs';
 
-const kTolerance = 1e-3; // of the step's equations
+const kTolerance = 1e-3; // tolerance of the step's equations
 const kSteps = 2; // timed, after the first
 
 // [vertices of a ring, rings of a flounce, flounces]

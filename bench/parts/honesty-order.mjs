@@ -1,11 +1,11 @@
-// Whether a sweep puts settings into the order that they have against the truth: a run on twice the
-// mesh with a quarter of the step and another solver, compared here.
+// Compares the order of a sweep's settings with their order against the truth: a run on twice the
+// mesh with a quarter of the step and another solver.
 import { changed, shippedScene } from './assets.mjs';
 import { tell } from './bench-options.mjs';
 import { atLeast, hasFinished, rankCorrelation, table } from './bench-rows.mjs';
 import { askRows, cacheFolder, nativeRun, reference } from './command.mjs';
 
-const kFewestRanked = 5; // of fewer settings an order says little
+const kFewestRanked = 5; // an order of fewer settings says little
 
 // How long each is compared [s], as on the page: later on their motions are chance.
 const kScenes = { curtain: 1, swinging_sheet: 0.4, tablecloth: 0.4 };

@@ -10,7 +10,7 @@ import { command, inFolder } from './command.mjs';
 const kPollMs = 1;
 const kRepeats = 2;
 const kSteppers = ['implicit', 'xpbd'];
-const kSubsteps = 15; // from 1 on, of each
+const kSubsteps = 15; // counts of each stepper, from 1 on
 const kSettings = kSteppers.length * kSubsteps;
 const kRuns = kSettings * (1 + kRepeats);
 // Half way through the settings, and half way through all runs, within a timed round.

@@ -7,7 +7,7 @@ import { loopContestant } from './plain-loop.mjs';
 import { by } from './sheets.mjs';
 
 const kTimes = [0.2, 0.4, 0.6, 0.8, 1]; // [s]
-const kVertices = 65; // along a side
+const kVertices = 65; // vertices along a side
 const kSubsteps = 30;
 const kTurnFrames = 8;
 /** Rounding of a place in single precision about a local origin [m]. */

@@ -11,7 +11,7 @@ const kTimes = [0.5, 1]; // [s]
 
 const kLoopSubsteps = [30, 100, 300];
 const kTurnFrames = 4;
-/** As much is carried as is useful: with more, the noise of projections grows. */
+/** Carries as much as is useful: with more, the noise of projections grows. */
 const kCarried = { carried_acceleration: 0.3 };
 const kSmooth = { smoother: 'gauss_seidel' };
 const kAfter = { smoother_before: 'none' };

@@ -96,7 +96,7 @@ export function loopContestant(scene, n, substeps, { name = 'loop', ...about }, 
  * code is then the same in all turns.
  */
 export function warmUpLoop() {
-  const kWarmMs = 300; // of processor time, in each order
+  const kWarmMs = 300; // processor time, in each order
   v8.setFlagsFromString('--no-concurrent-recompilation');
   for (const order of ['rows', 'coloured']) {
     const sheet = makeSheet(33, order);

@@ -9,7 +9,7 @@ import { printed } from './command.mjs';
 
 const kFolder = join(root, 'build', 'refinement');
 
-/** Whether answers of a bench that was stopped are taken; else all are asked anew. */
+/** True where answers of a bench that was stopped are taken; else all are asked anew. */
 export const keptAnswers = { areTaken: false };
 const asked = new Set();
 

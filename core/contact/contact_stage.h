@@ -110,7 +110,7 @@ class ContactStage {
     bool is_exact = false;
     double friction = 0;
     double longest_shift = 0;         ///< way of its points in the substep, beyond drift() [m]
-    const SweptCone* cone = nullptr;  ///< until the next substep begins; seen from where it ends
+    const SweptCone* cone = nullptr;  ///< cone at the substep's end; valid until the next one
     std::array<double, 2> radii{};    ///< end radii of the cone without clearance [m]
     Pose carry;                       ///< the cone's motion over the substep
   };
@@ -201,7 +201,7 @@ class ContactStage {
                            const Solid* skipped);
 
   std::vector<Collider> colliders_;  // rounded cones last
-  std::size_t first_framed_ = 0;     // before it are planes and spheres that do not turn
+  std::size_t first_framed_ = 0;     // planes and spheres that do not turn come before it
   std::size_t first_cone_ = 0;
   ContactOptions options_;
   double largest_face_radius_ = 0;  // [m]
@@ -210,8 +210,8 @@ class ContactStage {
   std::vector<Solid> solids_;       // one per collider
   std::vector<Pose> poses_begin_;   // one per collider
   std::vector<Pose> poses_end_;
-  DistanceBudget budget_;       // of the rounded cones
-  std::vector<Touch> touches_;  // of the last call of resolve
+  DistanceBudget budget_;       // budget of the rounded cones
+  std::vector<Touch> touches_;  // answers of the last call of resolve
   std::int64_t n_unresolved_ = 0;
 };
 

@@ -70,9 +70,9 @@ class DistanceBudget {
   std::vector<Hull> hulls_;
   std::vector<Pose> poses_;    // poses at the start of the substep
   std::vector<double> moved_;  // all that any of a solid's points has moved until then [m]
-  std::vector<double> moves_;  // the same in the substep [m]
+  std::vector<double> moves_;  // farthest move of a solid's points in the substep [m]
   std::vector<double> spent_;  // both, the latter stretched [m]
-  double stretch_ = 1;         // of ways within the substep, for the turns of the solids
+  double stretch_ = 1;         // factor on moves within the substep, for the turns of the solids
   Vec3 drift_begin_{0, 0, 0};  // mean place of the solids [m]
   Vec3 drift_end_{0, 0, 0};
   std::vector<Vertex> vertices_;

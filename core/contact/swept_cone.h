@@ -26,7 +26,7 @@ struct SweptCone {
   Vec3 origin{0, 0, 0};              ///< centre_a at the end of the substep [m]
   Mat3 to_local = Mat3::Identity();  ///< rows: normal of the trapezoid of centres, axis, across
   BallRow axis;                      ///< row of the cone, in local directions from the origin
-  BallRow edge;                      ///< along that of the trapezoid where `across` is positive
+  BallRow edge;  ///< row along the edge of the trapezoid where `across` is positive
   bool has_width = false;
   double half_width = 0;  ///< half width at centre_a [m]
   double widening = 0;    ///< growth of the half width, to centre_b [m]

@@ -15,13 +15,13 @@ extern const StepperType kImplicitEuler, kImex, kProjective, kXpbd, kPbd, kHpbd,
 
 /// The most substeps of a step: with steps of 1/60 s, 17 ns each.
 constexpr int kMaxSubsteps = 1000000;
-/// As many as the stability bound asks for.
+/// Stands for as many substeps as the stability bound asks for.
 constexpr int kStableSubsteps = 0;
 
 enum class Constraints {
   compliant,  ///< compliance 1/k
   rigid,      ///< compliance 0
-  /// The same, but diagonals of quads give way to the threads: those of multigrid.
+  /// compliance 0, but diagonals of quads give way to the threads: the constraints of multigrid
   rigid_threads,
 };
 
@@ -32,28 +32,28 @@ enum class NewtonRule {
   equilibrium,     ///< rest under the forces at the end of the substep, whatever the mass
 };
 
-/// Which springs `imex` treats implicitly.
+/// Choice of the springs that `imex` treats implicitly.
 enum class ImplicitSplit {
-  by_stability,  ///< those that symplectic Euler would not take stably in a substep
+  by_stability,  ///< springs that symplectic Euler would not take stably in a substep
   structural,    ///< warp and weft, whatever the substep
 };
 
-/// What `projective` does with its rounds.
+/// Use that `projective` makes of its rounds.
 enum class Acceleration {
   none,
   anderson,  ///< foretells from the last rounds where they lead
 };
 
-/// What `explicit` adds to the places.
+/// Velocities that `explicit` adds to the positions.
 enum class EulerRule {
   symplectic,  ///< the new velocities
   forward,     ///< the old ones: without damping along every spring no step is stable
 };
 
-/// What an explicit stepper does with substeps beyond its stability bound.
+/// Response of an explicit stepper to substeps beyond its stability bound.
 enum class BeyondBound {
   refuse,
-  go_on,  ///< until the numbers end the run
+  go_on,  ///< steps on until the numbers end the run
 };
 
 /// How pbd, hpbd and multigrid go over the constraints of a level once.
@@ -61,25 +61,25 @@ enum class Smoother {
   none,          ///< not at all
   jacobi,        ///< all from the same places; a vertex takes the mean of what they ask of it
   gauss_seidel,  ///< each sees what those before it did
-  /// The same, but the springs of a grid that follow on one another away from the pins are solved
-  /// at once, as xpbd does; on other meshes and on coarser levels as gauss_seidel.
+  /// gauss_seidel, but the springs of a grid that follow on one another away from the pins are
+  /// solved at once, as xpbd does. Other meshes and coarser levels take gauss_seidel itself.
   lines,
-  sor,  ///< the same, each correcting omega times what it asks for
+  sor,  ///< gauss_seidel, each correcting omega times what it asks for
 };
 
-/// What the lengths of coarser levels are.
+/// Rest lengths of coarser levels.
 enum class LevelLengths {
   /// The longest that strain-free cloth allows, and no shorter place is wrong: what satisfies the
   /// finest level stays as it is.
   surface,
   /// Distances at rest, kept to both sides: the form of the paper, which irons folds.
   chord,
-  /// What the finer level's errors along them ask for, to both sides: what satisfies the finest
-  /// level stays as it is, stretched as its multipliers say, and cycles converge.
+  /// Lengths that the finer level's errors along them ask for, to both sides: what satisfies the
+  /// finest level stays as it is, stretched as its multipliers say, and cycles converge.
   error,
 };
 
-/// What holds vertices from afar.
+/// Constraints that hold vertices from afar.
 enum class Attachments {
   none,
   long_range,  ///< no further from a pin than strain-free cloth allows
@@ -88,7 +88,7 @@ enum class Attachments {
 /// The tolerance that newton, which makes references, starts from.
 constexpr double kNewtonTolerance = 1e-10;
 
-/// With half of it carried nothing would be damped.
+/// Largest carried_acceleration: with half of it carried nothing would be damped.
 constexpr double kMostCarried = 0.4;
 
 /// A stepper with its settings. Each stepper reads its step and the settings that its row of the
@@ -106,7 +106,7 @@ struct MethodOptions {
   double tolerance = 1e-3;
   /// Over-relaxation of sor, in (0, 2), or, as a solver, 0 for an estimate of the best.
   double omega = 0;
-  Preconditioner preconditioner = Preconditioner::automatic;  ///< of cg
+  Preconditioner preconditioner = Preconditioner::automatic;  ///< used by cg
   ImplicitSplit split = ImplicitSplit::by_stability;
   /// imex: share of the springs that shall be explicit, in [0, 1]: it takes as many substeps more
   /// as that asks for.
@@ -123,11 +123,11 @@ struct MethodOptions {
   double carried_acceleration = 0;
   Acceleration acceleration = Acceleration::none;
   int levels = 0;      ///< coarser than the mesh, not negative
-  double ratio = 0.5;  ///< of vertices that a level keeps, in (0.1, 0.9)
+  double ratio = 0.5;  ///< share of vertices that a level keeps, in (0.1, 0.9)
   LevelSelection selection = LevelSelection::quadrics;
   LevelLengths level_lengths = LevelLengths::surface;
-  Smoother smoother_before = Smoother::none;         ///< of a level, on the way to coarser ones
-  Smoother smoother_after = Smoother::gauss_seidel;  ///< on the way back
+  Smoother smoother_before = Smoother::none;  ///< smoother of a level on the way to coarser ones
+  Smoother smoother_after = Smoother::gauss_seidel;  ///< smoother of a level on the way back
   Attachments attachments = Attachments::none;
 
   /// Throws ContractError.

@@ -17,7 +17,7 @@ namespace pleat {
 /// A word that scenes have in place of 0.
 struct ZeroWord {
   const char* text = nullptr;          ///< null: 0 is a number like others
-  bool StepperType::*taken = nullptr;  ///< by steppers with this; null: by all
+  bool StepperType::*taken = nullptr;  ///< holds for the steppers that take it; null: all do
   const char* refusal = "";            ///< why the others do not take it
 
   bool is_for(const StepperType& type) const {
@@ -29,7 +29,7 @@ template <class Number>
 struct NumberField {
   Number MethodOptions::*member;
   NumberRange range;
-  int steps_per_unit = 1;  ///< in which the page changes it
+  int steps_per_unit = 1;  ///< steps of the page's control per 1
   ZeroWord zero = {};
   double StepperType::*most = nullptr;  ///< the largest that a stepper takes, where that is less
 };
@@ -39,7 +39,7 @@ using ShareField = NumberField<double>;
 /// One of some words, which stand for the first values of an enumeration, in their order.
 struct WordField {
   std::span<const char* const> words;
-  std::span<const char* const> titles;  ///< for people, where the page offers it
+  std::span<const char* const> titles;  ///< words for people, where the page offers it
   std::size_t (*get)(const MethodOptions& method);
   void (*set)(MethodOptions& method, std::size_t value);
 
@@ -63,10 +63,10 @@ struct Beside {
 };
 
 struct MethodSetting {
-  const char* key;  ///< in a scene's section "method"
+  const char* key;  ///< key in a scene's section "method"
   std::variant<CountField, ShareField, WordField> field;
-  const char* title = nullptr;  ///< for people; null: the page does not offer it
-  const char* meaning = "";     ///< for people, a sentence
+  const char* title = nullptr;  ///< name for people; null: the page does not offer it
+  const char* meaning = "";     ///< sentence for people
   /// It is of effect beside one of these, as far as its stepper reads them; empty: always.
   std::span<const Beside> beside = {};
 

@@ -25,13 +25,13 @@ struct GivenSprings {
 
 /// The cloth of a scene before it moves.
 struct RestCloth {
-  std::optional<QuadMesh> quads;     ///< of cloth that is made of quads
-  TriangleMesh mesh;                 ///< of any cloth; of particles without warp directions
-  std::vector<VertexGroup> groups;   ///< what pins may name
-  RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: of a mesh, texture coordinates
-  Positions start;                   ///< where it begins [m]: at rest, a garment as it is round
+  std::optional<QuadMesh> quads;     ///< set where cloth is made of quads
+  TriangleMesh mesh;                 ///< triangles of any cloth; particles have no warp directions
+  std::vector<VertexGroup> groups;   ///< parts that pins may name
+  RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty; a mesh's texture coordinates
+  Positions start;                   ///< start [m]: at rest, a garment as it is round
   Positions start_velocities;        ///< 3 x n [m/s]
-  std::optional<GivenSprings> given_springs;  ///< of particles and knits
+  std::optional<GivenSprings> given_springs;  ///< springs of particles and knits
 };
 
 class QuadCloth;
@@ -53,7 +53,7 @@ class ClothSource {
   ///
   /// level  0 to kMaxLevel; 0 where is_surface() is false
   virtual RestCloth at_rest(int level) const = 0;
-  /// What its reader has to tell beside it, a sentence; mostly empty.
+  /// Remark of its reader, a sentence; mostly empty.
   virtual std::string remark() const { return {}; }
   /// Length that position errors are given in per cent of [m]: a sheet's diagonal, or that of the
   /// box around other cloth. 0 for a single vertex.

@@ -31,21 +31,21 @@ struct PinBox {
 struct PinRule {
   std::variant<std::string, std::vector<VertexId>, PinBox> where;
   Motion motion;                            ///< not `follow`
-  std::optional<Bone> bone = std::nullopt;  ///< of the body, which it follows instead
+  std::optional<Bone> bone = std::nullopt;  ///< bone of the body that it follows instead
 };
 
 /// The law that holds a cloth together in its own plane.
 enum class Elasticity {
-  springs,   ///< along the threads and on the diagonals of quads (docs/methods/springs.md)
+  springs,   ///< springs on threads and diagonals of quads (docs/methods/springs.md)
   membrane,  ///< orthotropic triangles (docs/methods/membrane.md)
 };
 
 enum class BendingModel {
   none,
-  quadratic,  ///< of mesh lines, with springs
-  linear,     ///< of mesh lines by their chords, exact at one curvature
-  fitted,     ///< of triangles, with a membrane (docs/methods/fitted_bending.md)
-  hinge,      ///< of edges, with a membrane: for comparison
+  quadratic,  ///< bending of mesh lines, with springs
+  linear,     ///< bending of mesh lines by their chords, exact at one curvature
+  fitted,     ///< bending of triangles, with a membrane (docs/methods/fitted_bending.md)
+  hinge,      ///< hinges at edges, with a membrane: for comparison
 };
 
 struct Tearing;
@@ -53,11 +53,10 @@ struct Tearing;
 struct ModelOptions {
   Elasticity elasticity = Elasticity::springs;
   BendingModel bending = BendingModel::quadratic;
-  DampingDirection damping_direction = DampingDirection::along_spring;  ///< of springs
-  bool shear = true;  ///< springs on both diagonals of each quad
-  double stiffening_strain =
-      0;               ///< along the threads; beyond it kTautFactor times as stiff; 0: never
-  double torsion = 1;  ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
+  DampingDirection damping_direction = DampingDirection::along_spring;  ///< damping of springs
+  bool shear = true;              ///< springs on both diagonals of each quad
+  double stiffening_strain = 0;   ///< threads beyond it are kTautFactor times as stiff; 0: never
+  double torsion = 1;             ///< fitted: twisting rigidity in shares of sqrt(B_warp B_weft)
   double stiffness_exponent = 0;  ///< springs of faces of level l are 2^(this l) times as stiff
   std::optional<StrainLimitOptions> strain_limit;
   std::shared_ptr<const Tearing> tearing;  ///< or null: the cloth holds whatever pulls at it
@@ -68,11 +67,11 @@ struct RecordOptions {
   FrameFormat format = FrameFormat::obj;
 };
 
-/// Where cloth begins, in place of its rest shape: of it refined uniformly.
+/// State in which cloth, refined uniformly, begins in place of its rest shape.
 struct StartState {
   Positions positions;   ///< [m]
-  Positions velocities;  ///< as many [m/s]
-  int level = 0;         ///< of refinement
+  Positions velocities;  ///< one per vertex [m/s]
+  int level = 0;         ///< uniform refinements
 };
 
 /// A scene as its file describes it. Every default of the format stands here and in the option
@@ -89,14 +88,14 @@ struct Scene {
       fabric_overrides;  ///< keys of the numbers a scene sets beside a named fabric's
   ModelOptions model;
   int level = 0;                       ///< uniform refinements, 0 to kMaxLevel; with a plan 0
-  std::optional<RefinementPlan> plan;  ///< where to refine cloth that is made of quads
+  std::optional<RefinementPlan> plan;  ///< refinement of cloth that is made of quads
   std::optional<StartState> start;
   std::shared_ptr<const SceneBody> body;  ///< or null
   std::vector<PinRule> pins;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::optional<AirOptions> air;
   std::vector<Collider> colliders;
-  ContactResponse contact_response = ContactResponse::resting;  ///< of colliders and body
+  ContactResponse contact_response = ContactResponse::resting;  ///< response of colliders and body
   MethodOptions method;
   double duration = 5;  ///< [s], positive
   RecordOptions record;

@@ -19,7 +19,7 @@ struct SheetWords {
 /// Size, counts, place and directions. What the scene leaves out stays as it is in `shape`.
 void read_sheet_shape(const JsonReader& reader, const SheetWords& words, SheetShape& shape);
 
-/// The same keys in an object, key by key as write_scene has them.
+/// Object with the keys of the shape, in the form of write_scene.
 Json json_sheet_shape(const SheetWords& words, const SheetShape& shape);
 
 /// Edges and corners by name: upper is u = 0 (where warp begins), left is v = 0 (where weft

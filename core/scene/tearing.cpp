@@ -70,8 +70,8 @@ class Tear {
     return split(edge, ends[0]) || split(edge, ends[1]);
   }
 
-  /// For each vertex the number of its region: of ends of overloads that have faces in common, or
-  /// that others lie between, and all corners of these faces.
+  /// Number of each vertex's region: ends of overloads that have faces in common, or that others
+  /// join, with all corners of these faces.
   std::vector<int> regions(const std::vector<Overload>& overloads) const {
     JoinedSets joined(edges_at_.size());
     for (const Overload& overload : overloads)
@@ -89,11 +89,11 @@ class Tear {
   struct Plane {
     const Positions& shape;
     Vec3 place;
-    Vec3 normal;  // towards the other end, as long as the edge
+    Vec3 normal;  // vector to the other end, as long as the edge
 
-    /// On the plane is on the edge's side.
+    /// True for a point on the far side; the plane itself is on the edge's side.
     bool is_beyond(const Vec3& point) const {
-      constexpr double kOnPlane = 1e-9;  // of the edge: far above rounding, far below a face
+      constexpr double kOnPlane = 1e-9;  // share of the edge: far above rounding, far below a face
       return normal.dot(point - place) < -kOnPlane * normal.squaredNorm();
     }
   };

@@ -17,7 +17,7 @@ struct Scene;
 /// Cloth that was torn at one time.
 struct TornCloth {
   RestCloth cloth;
-  /// For each vertex that the tear appended the one that it was split from, which comes before it.
+  /// Vertex that each appended one was split from, which comes before it.
   std::vector<VertexId> origins;
 };
 

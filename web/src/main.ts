@@ -1,4 +1,4 @@
-// Which view is shown, by the address and the tabs. Each view is made when it is first asked for.
+// Shows a view by the address and the tabs. Each view is made when it is first asked for.
 import { keepOfflineCopy } from './shared/page/offline';
 import type { View } from './shared/page/view';
 import './shared/page/design.css';

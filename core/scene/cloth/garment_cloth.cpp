@@ -23,7 +23,7 @@ constexpr std::array<LengthField<TrouserMeasures>, 4> kTrouserLengths{
      {"ankle_opening_m", &TrouserMeasures::ankle_opening}}};
 
 constexpr NumberRange kLength{-10, 10};  // [m]; the garment itself says which it takes
-constexpr int kMostColumns = 400;        // with their rows 1e5 vertices
+constexpr int kMostColumns = 400;        // makes 1e5 vertices with the rows
 
 template <class Measures, std::size_t n>
 Measures read_measures(const JsonReader& reader,

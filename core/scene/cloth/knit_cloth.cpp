@@ -11,7 +11,7 @@ namespace {
 
 constexpr SheetWords kKnitWords{"wale_direction", "course_direction", 1};
 
-/// Where a spring leads from a particle.
+/// Offset of a particle's neighbour, and the spring that leads there.
 struct SpringReach {
   int rows, columns;
   SpringKind kind;

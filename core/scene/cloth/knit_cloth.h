@@ -15,7 +15,7 @@ struct KnitSpring {
 struct KnitPattern {
   int plain_columns = 6;
   int lace_columns = 4;
-  double lace_stiffness = 0.6;  ///< of a spring within lace over that of a plain one, positive
+  double lace_stiffness = 0.6;  ///< stiffness of springs within lace over plain ones, positive
 
   bool is_lace(int column) const {
     return column % (plain_columns + lace_columns) >= plain_columns;

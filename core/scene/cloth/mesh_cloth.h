@@ -10,11 +10,11 @@ namespace pleat {
 class MeshCloth final : public ClothSource {
  public:
   TriangleMesh mesh;                    ///< sound (mesh_fault), with all warp directions
-  std::vector<VertexGroup> groups;      ///< with different names, none empty
+  std::vector<VertexGroup> groups;      ///< groups with different names, none empty
   RestCoordinates texture_coordinates;  ///< 2 x n; empty unless each vertex has exactly one pair
-  std::vector<std::optional<CornerTexture>> textures;  ///< of each triangle
+  std::vector<std::optional<CornerTexture>> textures;  ///< one per triangle
   Vec3 initial_velocity{0, 0, 0};                      ///< [m/s]
-  std::string skipped;                                 ///< of its file (skipped_sentence)
+  std::string skipped;  ///< skipped statements of its file (skipped_sentence)
 
   const char* key() const override;
   /// Always written out, so that the text is the whole scene.

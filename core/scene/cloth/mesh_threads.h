@@ -15,7 +15,7 @@ namespace pleat {
 using Corners = std::array<Vec3, 3>;
 /// Texture coordinates of each triangle of a mesh, where it has them.
 using CornerTextures = std::vector<std::optional<CornerTexture>>;
-/// Where a triangle stands in the input.
+/// Names the place of a triangle in the input.
 using TrianglePlace = std::function<std::string(std::size_t triangle)>;
 
 Corners corners_of(const TriangleMesh& mesh, const Triangle& triangle);
@@ -39,7 +39,7 @@ void check_cut(const CornerTexture& corners, const std::string& place);
 std::vector<CornerTexture> texture_pattern(const CornerTextures& textures, double scale,
                                            const TrianglePlace& place);
 
-/// What a mesh says of its rest shape.
+/// Rest shape that a mesh asks for.
 struct RestChoice {
   bool is_texture = false;
   double scale = 1;  ///< [m] per unit of the texture

@@ -20,7 +20,7 @@ Spring read_spring(const JsonReader& reader, const Positions& positions) {
 }
 
 BendElement read_bend(const JsonReader& reader, std::int64_t n_vertices) {
-  constexpr double kRounding = 1e-9;  // of the largest weight; a file may round its weights
+  constexpr double kRounding = 1e-9;  // share of the largest weight; a file may round its weights
   reader.allow_keys({"vertices", "stiffness_n_m3", "weights_per_m2"});
   BendElement bend;
   bend.vertices = read_vertices<3>(reader.at("vertices"), n_vertices);

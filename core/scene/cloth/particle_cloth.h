@@ -8,12 +8,12 @@ namespace pleat {
 /// too.
 class ParticleCloth final : public ClothSource {
  public:
-  Positions positions;     ///< at time 0 [m]
-  Positions velocities;    ///< at time 0 [m/s], same size
+  Positions positions;     ///< positions at time 0 [m]
+  Positions velocities;    ///< velocities at time 0 [m/s], same size
   Eigen::VectorXd masses;  ///< [kg], positive
   std::vector<Spring> springs;
   std::vector<BendElement> bends;
-  std::vector<Triangle> triangles;  ///< for drawing and air drag; may be empty
+  std::vector<Triangle> triangles;  ///< faces for drawing and air drag; may be empty
 
   const char* key() const override;
   Json json() const override;

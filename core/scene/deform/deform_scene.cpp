@@ -47,7 +47,7 @@ std::vector<VertexGroup> sheet_groups(const SheetShape& shape, const Positions& 
   const Vec3 corners[] = {shape.origin, shape.origin + v, shape.origin + u, shape.origin + u + v};
   std::vector<VertexGroup> groups;
   const auto add_edge = [&](const char* name, const Vec3& a, const Vec3& b) {
-    constexpr double kRounding = 1e-9;  // of the edge
+    constexpr double kRounding = 1e-9;  // share of the edge
     groups.push_back({name, {}});
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       if ((x.col(i) - a).cross(b - a).norm() <= kRounding * (b - a).squaredNorm())
@@ -205,7 +205,7 @@ struct Holder {
 };
 
 std::map<VertexId, Holder> holders(const DeformScene& scene) {
-  constexpr double kRounding = 1e-9;  // of the cloth's size; turns by nothing round that much
+  constexpr double kRounding = 1e-9;  // share of the cloth's size; turns by nothing round that much
   const Positions& rest = scene.mesh.rest_positions;
   std::map<VertexId, Holder> holders;
   for (const VertexId v : scene.pins) holders[v] = {-1, rest.col(v)};

@@ -34,16 +34,16 @@ struct DeformTermChoice {
 /// One cloth under pins and handles, as its file describes it.
 struct DeformScene {
   std::string name = "unnamed";
-  std::string caption;                                 ///< one sentence: what to notice
-  std::string remark;                                  ///< of its mesh's reader; mostly empty
-  TriangleMesh mesh;                                   ///< with all warp directions
+  std::string caption;  ///< one sentence: what to notice
+  std::string remark;   ///< sentence from its mesh's reader; mostly empty
+  TriangleMesh mesh;    ///< triangles with all warp directions
   std::vector<std::optional<CornerTexture>> textures;  ///< one per triangle
-  std::vector<VertexGroup> groups;  ///< of a sheet: its edges, and what is grasped at its corners
+  std::vector<VertexGroup> groups;  ///< a sheet's edges, and the parts grasped at its corners
   std::vector<VertexId> pins;       ///< held where they rest; ascending, each once
   std::vector<DeformHandle> handles;
-  std::string fabric;                ///< of the library; empty when weights or measures are given
-  std::optional<FittedWeights> fit;  ///< of measures
-  DeformWeights fabric_weights;      ///< of all terms
+  std::string fabric;  ///< name in the library; empty when weights or measures are given
+  std::optional<FittedWeights> fit;  ///< fit to measures, where they are given
+  DeformWeights fabric_weights;      ///< weights of all terms
   DeformTermChoice terms;
   EnergyForm form = EnergyForm::consistent;
 

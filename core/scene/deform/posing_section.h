@@ -13,7 +13,7 @@ class Posing {
   /// A posture that a motion comes through.
   struct Moment {
     BodyMotion motion;
-    double time = 0;  ///< since the body stood [s]
+    double time = 0;  ///< time since the body stood [s]
   };
 
   /// facing  where the body looks in the cloth's axes: level, of length one; y is up
@@ -26,7 +26,7 @@ class Posing {
   MovingBody at_rest_, posed_;
   double time_at_rest_, time_posed_;  // [s]
   Bone pinned_;
-  Pose facing_;  // from the body's axes to the cloth's
+  Pose facing_;  // pose of the body's axes in the cloth's
 };
 
 /// The section "figure" of a deformation. Throws InputError with the JSON pointer.

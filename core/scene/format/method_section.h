@@ -14,9 +14,9 @@ Json json_method(const MethodOptions& method);
 
 /// The rows of the table as JSON: all that a page needs to know of each stepper.
 Json json_steppers(StepperTable steppers);
-/// What people may choose of a method beside its counts, in the order in which a page shows it:
-/// words or bounds, titles, meanings. A row of json_steppers has the values that its stepper starts
-/// from.
+/// Settings that people may choose for a method beside its counts, in the order in which a page
+/// shows them: words or bounds, titles, meanings. A row of json_steppers has the values that its
+/// stepper starts from.
 Json json_method_details(StepperTable steppers = standard_steppers());
 
 /// The section "record": which frames are kept, and how.

@@ -22,14 +22,13 @@ class JsonReader;
 Scene read_scene(std::string_view json_text, const FabricLibrary& fabrics,
                  const FileSource& files = {}, const SceneTables& tables = {});
 
-/// The same of a scene that is parsed already.
+/// Reads a scene that is parsed already.
 ///
 /// root  of the scene's own document
 Scene read_scene(const JsonReader& root, const FabricLibrary& fabrics, const FileSource& files = {},
                  const SceneTables& tables = {});
 
-/// The same scene with every default and every mesh written out. read_scene(write_scene(s)) gives s
-/// again.
+/// Writes the scene with every default and every mesh. read_scene(write_scene(s)) gives s again.
 std::string write_scene(const Scene& scene);
 
 /// A week of the fastest step; more is a mistake in the unit.

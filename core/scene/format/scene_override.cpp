@@ -10,7 +10,7 @@
 namespace pleat {
 namespace {
 
-constexpr std::size_t kMaxTokens = 32;  // as deep as JSON text may nest
+constexpr std::size_t kMaxTokens = 32;  // depth to which JSON text may nest
 constexpr const char* kStepperPointer = "/method/stepper";
 constexpr const char* kFabricPointer = "/fabric/name";
 
@@ -91,7 +91,7 @@ void clear_method(Json& scene, const Json& stepper, StepperTable steppers) {
     method.erase("substeps");
   if ((type->needs_factor || type->prefers_factor) && method.value("solver", Json()) == "cg")
     method.erase("solver");
-  if (type->largest_tolerance < 1) method.erase("tolerance");  // that of another stepper's solves
+  if (type->largest_tolerance < 1) method.erase("tolerance");  // chosen for another stepper
 }
 
 /// Overrides of lower rank are set first.

@@ -17,7 +17,7 @@ struct ClothSurroundings {
 
 /// A kind of cloth that the section "cloth" may name.
 struct ClothKind {
-  const char* key;  ///< as ClothSource::key()
+  const char* key;  ///< value of ClothSource::key()
   SceneCloth (*read)(const JsonReader& reader, const ClothSurroundings& around);
 };
 
@@ -27,7 +27,7 @@ std::span<const ClothKind> standard_cloths();
 /// The tables from which a scene is read.
 struct SceneTables {
   std::span<const ClothKind> cloths = standard_cloths();
-  StepperTable steppers = standard_steppers();  ///< that the section "method" may name
+  StepperTable steppers = standard_steppers();  ///< steppers that the section "method" may name
 };
 
 }  // namespace pleat

@@ -23,7 +23,7 @@ export interface ClothAnswer {
   pins: number[];
   handles: { name: string; vertices: number[]; places_m: number[] }[];
   fabric: string;
-  /** Which statements of the OBJ file were skipped, counted, in words; missing or empty when none was. */
+  /** Skipped statements of the OBJ file, counted, in words; missing or empty when none was. */
   skipped?: string;
 }
 

@@ -1,4 +1,4 @@
-// Which cloth is pulled, what to notice in it, and the visitor's mesh.
+// The cloth that is pulled, what to notice in it, and the visitor's mesh.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';

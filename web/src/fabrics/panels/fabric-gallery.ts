@@ -61,7 +61,7 @@ export interface Cell {
   column: number;
 }
 
-/** Where a key leads from a cell; null for a key that leads nowhere. */
+/** Cell that a key leads to; null for a key that leads nowhere. */
 export function cellAfter(key: string, { row, column }: Cell, nRows: number): Cell | null {
   const last = nRows - 1;
   switch (key) {

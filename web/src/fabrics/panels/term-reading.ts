@@ -63,7 +63,7 @@ function termSentence(term: Term, { terms, weights }: PaneState, counts: Counts)
   return `${does}: ${title} weighs ${percent(weights[term])} and makes ${percent(part)} of the three terms before weighting.`;
 }
 
-/** Which term most of the energy is. */
+/** Names the term that most of the energy is. */
 function energySentence(pane: PaneState, counts: Counts): string {
   const paid = triple((term) => (counts[term] ? pane.weights[term] * pane.terms[term] : 0));
   const total = sum(paid);

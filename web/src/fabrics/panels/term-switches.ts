@@ -1,4 +1,4 @@
-// Which form of the energy, and which of its terms count, each with what that changes.
+// Switches for the form of the energy and for its terms, each with what that changes.
 import { element, setText } from '../../shared/panels/element';
 import { type Store, watch } from '../../shared/state/store';
 import { type DeformState, type EnergyForm, TERMS, type Term } from '../state/deform-state';

@@ -21,7 +21,7 @@ export class Hand {
   constructor(
     private readonly store: Store<FabricsState>,
     private readonly held: () => HeldCloth,
-    /** Where a vertex is seen in a pane [m]. */
+    /** Place of a vertex in a pane [m]. */
     private readonly place: (vertex: number, pane: number) => Triple,
   ) {}
 
@@ -43,7 +43,7 @@ export class Hand {
     this.store.set({ isDragging: true, invited: false, chosenHold: hold.name });
   }
 
-  /** Where the taken vertex is wanted [m]. */
+  /** Moves the taken vertex to this place [m]. */
   move([x, y, z]: Triple): void {
     if (!this.taken) return;
     const { name, base, isNew } = this.taken;

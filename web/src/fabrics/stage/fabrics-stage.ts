@@ -190,7 +190,7 @@ export function createFabricsStage(
     stepFrom: (place: Triple, direction: Triple) =>
       stepSeen(stage.camera, new Vector3(...place), direction).toArray(),
     positions: (pane: number) => clothes.positions(pane),
-    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    /** Pixels from the canvas's upper left corner to a vertex. */
     project: held.project,
   };
 }

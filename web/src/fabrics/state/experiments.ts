@@ -43,7 +43,7 @@ export interface Experiment {
   caption: string;
   fabric: string;
   text: string;
-  /** Where the mesh is that it names. */
+  /** Address of the mesh that it names. */
   meshUrl: string | null;
   /** The bodies that the cloth is drawn onto. */
   bodies: Collider[];

@@ -1,4 +1,4 @@
-// Which fabrics are shown side by side, and what changing that list gives.
+// Fabrics that are shown side by side, and changes of that list.
 import { fabricNamed } from '../../shared/fabric/fabric-data';
 import type { FabricChoice, OwnFabric, Triple } from './deform-state';
 import { geometryOf } from './fabric-geometry';

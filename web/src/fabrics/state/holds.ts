@@ -7,7 +7,7 @@ export interface Hold extends NamedHold {
   kind: 'pin' | 'handle';
   /** The vertex that a hand took; null for one of the experiment's own. */
   vertex: number | null;
-  /** Where its vertices are before it is moved, three numbers each [m]. */
+  /** Places of its vertices before it is moved, three numbers each [m]. */
   base: readonly number[];
   /** How far it has been moved [m]. */
   offset: Triple;
@@ -34,7 +34,7 @@ export function middleOf({ base, offset }: Hold): Triple {
   return [sum[0] / n + offset[0], sum[1] / n + offset[1], sum[2] / n + offset[2]];
 }
 
-/** Where a hold has one of its vertices before it is moved [m]; null if it has not that one. */
+/** Place of a hold's vertex before it is moved [m]; null if it has not that one. */
 export function baseOf(hold: Hold, vertex: number): Triple | null {
   const index = hold.vertices.indexOf(vertex);
   return index < 0 ? null : placeOf(hold.base, index);

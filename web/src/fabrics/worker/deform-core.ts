@@ -57,7 +57,7 @@ export class DeformCore {
   private held: Int32Array = new Int32Array(0);
   private panes: Pane[] = [];
   private next = 0; // the pane whose turn it is
-  private isWaiting = false; // for its turn
+  private isWaiting = false; // its turn is asked for
 
   /** The payload of an answer, or null when it was refused, which is told. */
   private granted<Payload>(what: Refusable, text: string): Payload | null {
@@ -205,7 +205,7 @@ export class DeformCore {
   }
 
   private move(run: DeformationHandle, places: Float64Array): void {
-    if (places.length !== 3 * this.held.length) return; // of an earlier hold
+    if (places.length !== 3 * this.held.length) return; // places of an earlier hold
     run.moveHeld(places);
     this.begin('following', true);
   }

@@ -173,7 +173,7 @@ export class Duel {
       }),
     );
     this.msPerStep = (this.parts.nowMs() - begunMs) / count;
-    if (!isCurrent()) return; // what begins anew has buffers of its own
+    if (!isCurrent()) return; // a run that begins anew has buffers of its own
     frames.forEach((frame, pane) => {
       const side = SIDES[pane];
       if (!frame || !side) return;

@@ -13,7 +13,7 @@ export interface SideStart {
 }
 
 export class SideRun {
-  private spare: ArrayBuffer | null = null; // what is not shown
+  private spare: ArrayBuffer | null = null; // the buffer that is not shown
   private hasEnded = false;
 
   constructor(

@@ -17,7 +17,7 @@ export interface SurfaceAnswer {
   pins?: number[];
   /** One step of a cloth's run. */
   step_s?: number;
-  /** Which statements of the OBJ file were skipped, counted, in words; missing or empty when none was. */
+  /** Skipped statements of the OBJ file, counted, in words; missing or empty when none was. */
   skipped?: string;
 }
 

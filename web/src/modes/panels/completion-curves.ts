@@ -42,7 +42,7 @@ const ENERGY: Curve = {
   straight: ({ straight_strain }, rest) => energyOf(straight_strain, rest),
 };
 
-/** Where the thickness is made up, joules would be too. */
+/** Strain in place of joules: where the thickness is made up, joules would be too. */
 const STRAIN: Curve = {
   title: 'Root of the energy, as mean strain [%]',
   fromZero: true,

@@ -9,7 +9,7 @@ import { ENERGY_TITLES, energyMeaning, frequencyText, modesNote } from './mode-w
 export interface ModeListActions {
   setEnergy(energy: Energy, compares: boolean): void;
   setCount(count: ModeCount): void;
-  /** That mode in full and no other. */
+  /** Plays this mode in full and no other. */
   playAlone(mode: number): void;
   setAmplitude(mode: number, amplitude: number): void;
 }

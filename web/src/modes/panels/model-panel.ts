@@ -1,4 +1,4 @@
-// Which body is shown, what to notice in it, how its volume is made, and the visitor's mesh.
+// The body that is shown, what to notice in it, how its volume is made, and the visitor's mesh.
 import { choice, element, field, setText } from '../../shared/panels/element';
 import { createObjPicker } from '../../shared/panels/obj-picker';
 import { createObjUnit, ownMeshWords } from '../../shared/panels/obj-unit';

@@ -32,7 +32,7 @@ function createFilePicker(openFiles: (files: readonly File[]) => void) {
     'aria-label': 'OBJ files of keys',
     change() {
       openFiles([...(picker.files ?? [])]);
-      picker.value = ''; // the same file, mended, is a change again
+      picker.value = ''; // choosing the same file, mended, is a change again
     },
   });
   return picker;

@@ -31,7 +31,7 @@ function changedKey(from: Keys, to: Keys): number | null {
 }
 
 export class KeyWork {
-  private done: Keys = []; // those that the worker has
+  private done: Keys = []; // keys that the worker has
   private isBusy = false;
 
   constructor(

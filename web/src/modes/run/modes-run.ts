@@ -63,7 +63,7 @@ export class ModesRun {
   private client: ModalClient;
   private body: Body | null = null;
   private own: OwnMesh | null = null;
-  private last: Wanted | null = null; // that had its modes
+  private last: Wanted | null = null; // the last one that had its modes
   private readonly latest = new Latest(); // opening
 
   constructor(

@@ -20,7 +20,7 @@ export class Pull {
     this.store.set({ playing: false, invited: false });
   }
 
-  /** Where the taken vertex is wanted [m]. */
+  /** Moves the taken vertex to this place [m]. */
   move(target: Triple): void {
     const body = this.run.present;
     const { taken, store } = this;

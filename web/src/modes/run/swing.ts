@@ -39,7 +39,7 @@ export function thereAndBack(way: number, length: number): number {
 export class Swing {
   /** Time since the modes were set to swing [s]. */
   seconds = 0;
-  private way = 0; // along the keys and back
+  private way = 0; // way covered along the keys and back
   private readonly clock = createClock();
 
   constructor(

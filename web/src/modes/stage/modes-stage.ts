@@ -183,7 +183,7 @@ export function createModesStage(
       redraw();
     },
     homeView: stage.control.home,
-    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    /** Pixels from the canvas's upper left corner to a vertex. */
     project: held.project,
   };
 }

@@ -10,7 +10,7 @@ const MESHES = import.meta.glob<string>('../../../../assets/meshes/{skirt,t_shir
 /** The model of the visitor's own mesh. */
 export const OWN = 'own';
 
-/** Where a body comes from. */
+/** Source of a body. */
 export type Source =
   | { kind: 'box' }
   /** A cloth where its scene begins; with `drapes` where it has come to rest. */

@@ -11,7 +11,7 @@ export function frameCount(nKeys: number): number {
   return Math.min(MOST_FRAMES, FRAMES_BETWEEN * (nKeys - 1) + 1);
 }
 
-/** Where a time lies between two of ascending times: the one before, and how far on to the next. */
+/** Place of a time among ascending times: the one before, and how far on to the next. */
 export function placeIn(times: readonly number[], time: number): { at: number; share: number } {
   const last = times.length - 1;
   let at = 0;

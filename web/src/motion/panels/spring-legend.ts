@@ -1,4 +1,4 @@
-// Which springs are implicit: the two colours on the stage, and the share in a sentence.
+// Legend of implicit springs: the two colours on the stage, and the share in a sentence.
 
 import type { SpringSplit } from '../../shared/bindings/pleat-module';
 import { element, setText } from '../../shared/panels/element';

@@ -23,7 +23,7 @@ function shownSetting({ setting, draggedSubsteps }: MotionState): Setting {
 }
 
 export class ImexSavingSource {
-  private sceneText: string | null = null; // that is told of, or asked about
+  private sceneText: string | null = null; // the scene that is told of, or asked about
   private isAsking = false;
   private isFirst = true; // nobody has moved anything yet: nothing is measured unasked
   private restHandle: ReturnType<typeof setTimeout> | undefined;

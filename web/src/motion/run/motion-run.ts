@@ -91,8 +91,8 @@ export class MotionRun {
   private nWarned = 0; // warnings of the run that were told
   private isRecovering = false; // started again after an end, and no step since
   private startsAnew = false; // the next load keeps no motion
-  private loaded: Content | null = null; // by the worker
-  private seen: Content | null = null; // in the picture
+  private loaded: Content | null = null; // content that the worker has
+  private seen: Content | null = null; // content of the picture
   private proven: Content | null = null; // the last one whose steps came without a wait
 
   constructor(

@@ -18,7 +18,7 @@ const UNFETCHED = 'What reads a mesh could not be fetched. Try again with a netw
 
 export class ObjSource {
   private files: ObjFiles | null = null; // they come with the first file
-  private client: ObjClient | null = null; // that is reading
+  private client: ObjClient | null = null; // the client that is reading
   private own: ObjFile | null = null; // the visitor's, that was read last
 
   constructor(

@@ -8,7 +8,7 @@ import { referenceUrl } from './references';
 import type { RunWorker } from './run-worker';
 
 export class ReferenceSource {
-  private at: string | null = null; // that the worker has, or is about to get
+  private at: string | null = null; // the reference that the worker has, or is about to get
 
   constructor(
     private readonly store: Store<MotionState>,

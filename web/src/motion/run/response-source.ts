@@ -19,7 +19,7 @@ const REST_MS = 300;
 const COULD_NOT = 'What happens at contact could not be studied. Try again.';
 
 export class ResponseSource {
-  private sceneText: string | null = null; // that was studied last, or is being studied
+  private sceneText: string | null = null; // the scene that was studied last, or is being studied
   private restHandle: ReturnType<typeof setTimeout> | undefined;
   private client: MeasuringClient | null = null;
   readonly close: () => void;

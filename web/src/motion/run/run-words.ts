@@ -3,7 +3,7 @@ import { frameViews } from '../../shared/bindings/frame';
 import type { RunReport } from '../../shared/workers/motion-protocol';
 import type { Setting } from '../state/setting';
 
-/** Where the vertex that a message names was in a frame, in words; nothing when it names none. */
+/** Last place of the vertex that a message names, in words; nothing when it names none. */
 function placeOf(message: string, frame: ArrayBuffer): string {
   const vertex = Number(/^vertex (\d+)/.exec(message)?.[1] ?? Number.NaN);
   const place = frameViews(frame).positions.subarray(3 * vertex, 3 * vertex + 3);

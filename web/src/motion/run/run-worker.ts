@@ -23,7 +23,7 @@ export interface RunWorkerEvents {
 
 export class RunWorker {
   private client: MotionClient;
-  private readonly questions: ToMotion['type'][] = []; // without an answer yet, in their order
+  private readonly questions: ToMotion['type'][] = []; // not answered yet, in their order
   private sinceMs = 0; // the first of them is worked on since then
   private hasStarted = false;
   private lookHandle: ReturnType<typeof setTimeout> | null = null;

@@ -66,7 +66,7 @@ function laceAt(x: number, y: number): Yarn {
       toHole = Math.min(toHole, Math.hypot(x - column - 0.5, y - course - 0.5));
     }
   const around = roundness((toHole - EYELET.yarn) / EYELET.half);
-  const cover = (toHole - EYELET.hole) * STITCH_PX + 0.5; // over one pixel, so that edges are smooth
+  const cover = (toHole - EYELET.hole) * STITCH_PX + 0.5; // a pixel wide: edges are smooth
   return {
     height: Math.max(around, LACE_BETWEEN * plainHeight(x, y)),
     cover: Math.min(Math.max(cover, 0), 1),
@@ -112,7 +112,7 @@ export function knitPixels(knit: Knit): Pixels {
   return { width, height, data };
 }
 
-/** Where each particle lies in the texture: in the middle of its wale. */
+/** Place of each particle in the texture: in the middle of its wale. */
 export function knitCoordinates(knit: Knit): Float32Array {
   const { columns, rows } = knit;
   const coursesPerRow = Math.max(1, Math.round((stitchesOf(knit) * (columns - 1)) / (rows - 1)));

@@ -24,7 +24,7 @@ export interface MotionStageEvents extends HeldStageEvents {
 
 export interface DrawnPicture {
   heatScale: HeatScale;
-  /** Where the invitation belongs, in pixels. */
+  /** Pixels at which the invitation belongs. */
   invitation: { x: number; y: number };
   /** Pose from which it is seen; null for that of the scene's first view. */
   camera: Pose | null;
@@ -132,7 +132,7 @@ export function createMotionStage(
     },
     /** Present positions, three numbers a vertex [m]. */
     positions: () => cloth.positions(),
-    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    /** Pixels from the canvas's upper left corner to a vertex. */
     project: (vertex: number) => held.project(vertex, 0),
     /** The vertex that asks to be taken. */
     inviting: held.inviting,

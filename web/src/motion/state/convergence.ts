@@ -1,4 +1,4 @@
-// Which methods are compared on one step, and what is known of the last comparison.
+// Methods that are compared on one step, and the result of the last comparison.
 
 import { STEPPERS, stepperRow } from '../../shared/steppers/steppers';
 import type {

@@ -70,7 +70,7 @@ export interface MotionState extends MotionLink {
   springSplit: SpringSplit | null;
   /** While one of them is drawn, those of the loaded cloth; null until they are known. */
   coarseLevels: MeshLevels | null;
-  /** Where the slider of substeps is dragged to, until it is let go. */
+  /** Substeps that the slider is dragged to, until it is let go. */
   draggedSubsteps: number | null;
   /** Savings of imex at the substeps that its slider shows; null until that is known. */
   imexSaving: ImexSaving | null;

@@ -18,7 +18,7 @@ export interface ObjMesh {
   unit: ObjUnit;
   /** Words on what is odd about its size. */
   odd: string | null;
-  /** Which statements of the file were skipped, in words. */
+  /** Skipped statements of the file, in words. */
   skipped?: string;
   /** The section "cloth" of a scene. */
   clothText: string;

@@ -16,7 +16,7 @@ const BATCH_MS = 50;
 
 const N_ROUNDS = 5;
 
-/** Where rounds are long there are fewer: none begins later than this [ms]. */
+/** Latest beginning of a round [ms]: there are fewer rounds where they are long. */
 const LAST_BEGIN_MS = 3000;
 
 interface ParsedScene {

@@ -121,7 +121,7 @@ export function levelsSentence({ panes }: Pick<RefinementState, 'panes'>): strin
   return `A level splits each face into four. The two from coarse to fine cost ${times(fine.nVertices, coarse.nVertices)} the vertices${time}.`;
 }
 
-/** Where to read what one more level buys: words before the link, the link, and words after it. */
+/** Pointer to what one more level buys: words before the link, the link, and words after it. */
 export const ONE_MORE_LEVEL = {
   before: 'How much nearer one more level comes, folds do not tell: for that open ',
   link: 'the swinging sheet',

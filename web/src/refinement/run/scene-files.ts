@@ -24,7 +24,7 @@ const START_URLS: Record<StartName, string> = {
 
 const kept = new Map<StartName, Promise<string>>();
 
-/** Where a garment has settled, fetched once. */
+/** Text of a garment's settled state, fetched once. */
 function startText(name: StartName, fetchBytes: FetchBytes): Promise<string> {
   const known = kept.get(name);
   if (known) return known;

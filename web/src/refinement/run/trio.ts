@@ -64,7 +64,7 @@ export class Trio {
   private readonly clock: Clock;
   private readonly latest = new Latest(); // load
   private isBusy = false;
-  private isAskedAgain = false; // for colours and cloth, while busy
+  private isAskedAgain = false; // colours and cloth were wanted while busy
   private isTakingBack = false; // a wish that was given up
   private isBuilt = false; // all panes are as wanted, but for the plan
   private planned: readonly MotionId[] = []; // further examples of the plan that is there
@@ -146,7 +146,7 @@ export class Trio {
       if (!isCurrent()) return;
       this.isBuilt = true;
       this.store.set({ phase: 'ready', doing: null });
-      this.recolour(); // with the numbers, which take longer than the picture
+      this.recolour(); // comes with the numbers, which take longer than the picture
     } catch (error) {
       if (isCurrent()) this.giveUp(error);
     }

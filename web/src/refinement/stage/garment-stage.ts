@@ -239,7 +239,7 @@ export function createGarmentStage(
     positions: (pane: number) => own.positions(pane),
     triangles: (pane: number) => clothes[pane]?.triangles() ?? new Uint32Array(0),
     scalars: (pane: number) => clothes[pane]?.scalars() ?? new Float32Array(0),
-    /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+    /** Pixels from the canvas's upper left corner to a vertex. */
     project: (vertex: number, pane: number) => own.project(vertex, pane),
     /** The picture as it is, as a PNG. */
     picture() {

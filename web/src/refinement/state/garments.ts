@@ -76,7 +76,7 @@ const EVEN_SCENES: Record<GarmentId, string> = {
   slim_trousers: slimTrousersEven,
 };
 
-/** Which mesh a garment is on. */
+/** Choice of the mesh that a garment is on. */
 export type GarmentMeshWish = { level: number } | { plan: PlanFile } | 'even';
 
 interface GarmentScene {

@@ -30,8 +30,8 @@ export type ColourId = (typeof COLOURS)[number];
 export const DEMANDS = { least: 0.5, most: 4, step: 0.1 };
 
 /**
- * Where a pane's frames come from: a record that comes with the page, this device, or, until it
- * plays, the fine pane's shape as this mesh could show it.
+ * Source of a pane's frames: a record that comes with the page, this device, or, until it plays,
+ * the fine pane's shape as this mesh could show it.
  */
 export type FrameSource = 'recorded' | 'computed' | 'sampled' | 'resting';
 
@@ -72,7 +72,7 @@ export interface RefinementLink {
   fabric: string;
   /** Motions, in this fabric, that the plan is made of beside the example that comes with the page. */
   further: readonly MotionId[];
-  /** Which of both sliders rules. */
+  /** Slider that rules, of the two. */
   rule: 'demand' | 'budget';
   /** Part of the examples' shapes that may be lost [mm]. */
   demand: number;

@@ -77,7 +77,7 @@ export interface SpringSplit {
   isImplicit: Int8Array;
 }
 
-/** Which vertices a coarser level keeps: by quadrics, or every one but those with two neighbours that stay. */
+/** Vertices of a coarser level: by quadrics, or all but those with two neighbours that stay. */
 export type LevelSelection = 'quadrics' | 'thinned';
 
 /** A level coarser than the mesh, in vertices of the mesh. */
@@ -114,7 +114,7 @@ export interface ObjAnswer {
   high_m: Triple;
   /** Some triangle has no texture coordinates. */
   needs_direction: boolean;
-  /** Which statements were skipped, counted, in words; missing or empty when none was. */
+  /** Skipped statements, counted, in words; missing or empty when none was. */
   skipped?: string;
 }
 

@@ -10,7 +10,7 @@ export function createInvitation(parent: HTMLElement) {
     word,
   );
   ring.hidden = true;
-  ring.style.visibility = 'hidden'; // until it has a place
+  ring.style.visibility = 'hidden'; // hidden until it has a place
   parent.append(ring);
   return {
     /** Pixels from the stage's upper left corner. */

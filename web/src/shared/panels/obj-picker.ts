@@ -13,7 +13,7 @@ export function createObjPicker(
     change() {
       const [file] = picker.files ?? [];
       if (file) actions.openObj(file);
-      picker.value = ''; // the same file, mended, is a change again
+      picker.value = ''; // choosing the same file, mended, is a change again
     },
   });
   const open = button('Choose an OBJ file', () => picker.click(), { class: 'wide' });

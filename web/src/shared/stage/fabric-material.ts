@@ -13,7 +13,7 @@ import { type FabricLook, SHEEN_ROUGHNESS } from '../fabric/fabric-look';
 /** A picture that is painted on cloth, with holes where it is transparent. */
 export interface Print {
   texture: Texture;
-  /** Where each vertex lies in it, two numbers each. */
+  /** Place of each vertex in it, two numbers each. */
   coordinates: Float32Array;
 }
 

@@ -51,7 +51,7 @@ class Grip {
   pointerId: number | null = null;
   private readonly raycaster = new Raycaster();
   private readonly plane = new Plane();
-  private readonly offset = new Vector3(); // from the point under the pointer to the held vertex
+  private readonly offset = new Vector3(); // the held vertex from the point under the pointer
   private box: () => Box;
 
   constructor(
@@ -210,7 +210,7 @@ export function createHand(element: HTMLElement, camera: PerspectiveCamera, even
   return {
     /** The held vertex, or null. */
     vertex: () => grip.vertex,
-    /** Where the hand wants the vertex [m]. */
+    /** Place at which the hand wants the vertex [m]. */
     target: () => grip.target,
     /** True when the key was the hand's: G takes and lets go, arrows and page keys move while held. */
     key(name: string) {

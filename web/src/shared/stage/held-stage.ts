@@ -49,7 +49,7 @@ export function createHeldStage(
     mark.place(place, hand.target(), stage.camera);
   }
 
-  /** Where a vertex is seen, in pixels from the canvas's upper left corner. */
+  /** Pixels from the canvas's upper left corner to a vertex. */
   function project(vertex: number, pane: number): { x: number; y: number } {
     return grid.project(parts.positions(pane), vertex, pane);
   }

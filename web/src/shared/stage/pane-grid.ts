@@ -50,7 +50,7 @@ export function createPaneGrid(canvas: HTMLCanvasElement, camera: PerspectiveCam
       }
       return 0;
     },
-    /** Where a vertex is seen in a pane, in pixels from the canvas's upper left corner. */
+    /** Pixels from the canvas's upper left corner to a vertex in a pane. */
     project(positions: Float32Array, vertex: number, pane: number): { x: number; y: number } {
       const place = new Vector3().fromArray(positions, 3 * vertex).project(camera);
       const { left, top, width, height } = cutCanvas(pane);

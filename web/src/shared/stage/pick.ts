@@ -1,4 +1,4 @@
-// Which point of the cloth a ray meets first.
+// Finds the point of the cloth that a ray meets first.
 
 export type Point = [number, number, number];
 
@@ -107,7 +107,7 @@ export function nearestSeen(
   for (let vertex = 0; 3 * vertex < positions.length; ++vertex) {
     const place = at(positions, vertex);
     const w = row(3, place);
-    if (w <= 0) continue; // behind the eye
+    if (w <= 0) continue; // the vertex is behind the eye
     const across = ((row(0, place) / w + 1) / 2) * width - point.x;
     const down = ((1 - row(1, place) / w) / 2) * height - point.y;
     const away = Math.hypot(across, down);

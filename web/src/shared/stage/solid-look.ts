@@ -7,7 +7,7 @@ export interface SolidBody {
   /** Says all that sets its form: a body is built anew when this changes. */
   form: string;
   centre: Triple;
-  /** What has to stay in view. */
+  /** Box that has to stay in view. */
   box: Box3;
   build(): BufferGeometry;
 }

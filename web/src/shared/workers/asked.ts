@@ -27,7 +27,7 @@ export interface Letter<Question> {
  */
 export type Reply = { id: number | null; message: Message } | { broken: string } | { life: string };
 
-/** Which answer each type of question has. */
+/** Answers of each type of question. */
 export type AnswersTo<Question extends Message> = Record<Question['type'], Message>;
 
 export interface Asked<Question extends Message, Answers extends AnswersTo<Question>> {

@@ -70,7 +70,7 @@ export class MotionCore extends ModuleCore<PleatModule, ToMotion, FromMotion> {
   private loaded: SceneSummary | null = null;
   private isHeld = false;
   private hasLedger = false;
-  private nBytes = 0; // of the buffers of frames
+  private nBytes = 0; // size of the buffers of frames
 
   /** Sends everything the page draws from, with two fresh buffers, the first one filled. */
   private postLoaded(

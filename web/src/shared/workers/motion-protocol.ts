@@ -59,7 +59,7 @@ export type ToMotion =
   | { type: 'setReference'; bytes: ArrayBuffer }
   /** The buffer is given away here and comes back filled in `frame`. */
   | StepMessage
-  /** Which springs are implicit, as of now. */
+  /** Asks for the springs that are implicit as of now. */
   | { type: 'readSprings' }
   /** How imex would take the springs of a lattice. */
   | ImplicitShareQuestion

@@ -11,7 +11,7 @@ export interface Field {
   bottom: number;
 }
 
-/** Where numbers lie in the chart. */
+/** Axes that place numbers in the chart. */
 export interface Axes {
   field: Field;
   across: LogScale;

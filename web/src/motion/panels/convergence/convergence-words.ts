@@ -51,7 +51,7 @@ export function waysOf({ study, methods, constraints }: ConvergenceResult): Way[
   }));
 }
 
-/** Where a way first has no more than that left. */
+/** First point of a way at which no more than that is left. */
 function reached({ points }: Way, target: number): WayPoint | undefined {
   return points.find(({ left }) => left <= target);
 }

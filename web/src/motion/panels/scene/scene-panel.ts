@@ -1,4 +1,4 @@
-// Which scene, and the visitor's mesh or the form of a knit.
+// Choice of the scene, and the visitor's mesh or the form of a knit.
 import { choice, element, field } from '../../../shared/panels/element';
 import { type Store, watch } from '../../../shared/state/store';
 import { later } from '../../run/later';

@@ -15,7 +15,7 @@ export function boundOf({ reference }: BenchRow): number | null {
   return reference.uncertainty_m === null ? null : SURER * reference.uncertainty_m;
 }
 
-/** That a line goes beyond the points of its level. */
+/** Length by which a line goes beyond the points of its level. */
 const ROOM = 10;
 
 /** The floors of the levels whose mesh error is known. */
