@@ -296,7 +296,7 @@ MethodOptions StepperType::usual_method() const {
   method.substeps = start.substeps;
   method.iterations = start.iterations;
   method.tolerance = tolerance;
-  method.solver = needs_factor || prefers_factor ? best_direct_solver() : solver;
+  if (needs_factor || prefers_factor) method.solver = best_direct_solver();
   if (set_start != nullptr) set_start(method);
   return method;
 }

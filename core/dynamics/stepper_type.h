@@ -47,7 +47,6 @@ struct StepperType {
   const char* iterations_meaning = "";  ///< effect of more iterations, where it reads them
   /// Used where a scene says nothing.
   MethodCounts start = {};
-  SolverKind solver = SolverKind::cg;  ///< solver where it has no use for a factor
   double tolerance = MethodOptions{}.tolerance;
   double largest_tolerance = 1;  ///< excluded when 1
   /// Sets what else it starts from; null: the defaults of MethodOptions.

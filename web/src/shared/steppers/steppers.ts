@@ -8,7 +8,7 @@ export type Model = 'springs' | 'membrane';
 export const STABLE_SUBSTEPS = 'stable';
 export type Substeps = number | typeof STABLE_SUBSTEPS;
 
-/** The page's number for it, in fields and links, is 0. */
+/** The number that fields and links of the page have for a count: 0 for as many as are stable. */
 export function numberOf(count: Substeps): number {
   return count === STABLE_SUBSTEPS ? 0 : count;
 }
