@@ -109,7 +109,7 @@ SceneInput read_scene_input(const std::string& file, const SceneChanges& changes
 std::vector<SceneInput> take_scenes(Arguments& arguments, const std::vector<std::string>& others) {
   const FabricLibrary fabrics = take_fabrics(arguments);
   const SceneChanges changes = take_scene_changes(arguments);
-  std::vector<std::string> files{arguments.word("a scene's file")};
+  std::vector<std::string> files{arguments.word("a scene file")};
   arguments.finish();
   files.insert(files.end(), others.begin(), others.end());
   std::vector<SceneInput> inputs;

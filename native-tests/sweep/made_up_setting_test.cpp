@@ -11,7 +11,8 @@
 #include "native-tests/support/assets.h"
 #include "native-tests/support/scene_schema.h"
 
-namespace pleat {
+// A namespace of its own, as test files of a folder may stand in one unit.
+namespace pleat::made_up_setting {
 namespace {
 
 constexpr MethodSetting kWobble = {
@@ -33,10 +34,8 @@ const StepperType kMadeUp = made_up();
 const std::array<const StepperType*, 2> kTable = {&steppers::kImplicitEuler, &kMadeUp};
 
 Scene scene_of(const Json& method) {
-  SceneParts parts = all_scene_parts();
-  parts.steppers = kTable;
   const Json scene = {{"cloth", {{"sheet", {{"columns", 2}, {"rows", 2}}}}}, {"method", method}};
-  return read_scene(scene.dump(), fabric_library(), {}, parts);
+  return read_scene(scene.dump(), fabric_library(), {}, {.steppers = kTable});
 }
 
 std::string refusal_of(const Json& method) {
@@ -117,4 +116,4 @@ TEST_CASE("method settings: schema, help and page say what an added setting is",
   CHECK_FALSE(method["oneOf"][0]["properties"].contains("ropes"));
 }
 
-}  // namespace pleat
+}  // namespace pleat::made_up_setting

@@ -8,13 +8,11 @@ export interface CoreLetter {
 
 let compiled: Promise<WebAssembly.Module> | null = null;
 
-/** Compiles while it is fetched, where the server names the type that browsers want for that. */
-async function compile(): Promise<WebAssembly.Module> {
-  const response = await fetch(address);
-  if (!response.ok) throw new Error(`its program could not be loaded: ${response.status}`);
-  return response.headers.get('content-type') === 'application/wasm'
-    ? WebAssembly.compileStreaming(response)
-    : WebAssembly.compile(await response.arrayBuffer());
+/** Compiles while it is fetched; afterwards where the server does not name the type that browsers want for that. */
+function compile(): Promise<WebAssembly.Module> {
+  return WebAssembly.compileStreaming(fetch(address)).catch(async () =>
+    WebAssembly.compile(await (await fetch(address)).arrayBuffer()),
+  );
 }
 
 /** The compiled core; one that failed is tried anew with the next worker. */
