@@ -36,10 +36,13 @@ bool MethodSetting::is_idle(const MethodOptions& method) const {
 void MethodOptions::validate() const {
   PLEAT_CHECK(stepper != nullptr, "a method has a stepper");
   PLEAT_CHECK(step > 0, "a step is positive");
-  for (const MethodSetting* setting : stepper->settings)
+  const auto check = [this](const MethodSetting& setting) {
     PLEAT_CHECK(
-        std::visit([&](const auto& field) { return is_in_range(field, *this); }, setting->field),
-        setting->key);
+        std::visit([&](const auto& field) { return is_in_range(field, *this); }, setting.field),
+        setting.key);
+  };
+  for (const MethodSetting& setting : kMethodSettings) check(setting);
+  for (const MethodSetting* setting : stepper->settings) check(*setting);
 }
 
 }  // namespace pleat
