@@ -89,7 +89,7 @@ System sheet(int n, const Vec3& down, const std::vector<int>& numbers) {
   return system;
 }
 
-std::vector<int> in_order(int count) {
+std::vector<int> ascending(int count) {
   std::vector<int> numbers(static_cast<std::size_t>(count));
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
@@ -103,7 +103,7 @@ void shuffle(std::vector<Value>& values, Random& random) {
 }
 
 System swinging_sheet(int n) {
-  System system = sheet(n, {0, 0, 1}, in_order(n * n));
+  System system = sheet(n, {0, 0, 1}, ascending(n * n));
   for (int c = 0; c < n; ++c) pin(system, c);
   return system;
 }
@@ -255,7 +255,7 @@ TEST_CASE("xpbd: projections keep momentum", "[dynamics]") {
   CAPTURE(seed, rigid);
   const int n = 9;
   Random random(seed);
-  System system = sheet(n, {0, 0, 1}, in_order(n * n));
+  System system = sheet(n, {0, 0, 1}, ascending(n * n));
   add_bends(system, n, 1e-6);
   system.model.gravity.setZero();
   for (double& x : system.state.velocities.reshaped()) x = random.uniform(-1, 1);
@@ -373,7 +373,7 @@ TEST_CASE("xpbd: four lanes together give what they give one by one, to the bit"
   const bool shuffled = GENERATE(false, true);
   CAPTURE(n, static_cast<int>(law), shuffled);
   Random random(7);
-  std::vector<int> numbers = in_order(n * n);
+  std::vector<int> numbers = ascending(n * n);
   if (shuffled) shuffle(numbers, random);
   System system = sheet(n, {0, 0, 1}, numbers);
   if (!shuffled) add_bends(system, n, 1e-6);
@@ -435,7 +435,7 @@ TEST_CASE("xpbd: a hanging sheet at rest stays at rest in any order", "[dynamics
   if (c.n == 65 && seed > 1) return;
   CAPTURE(c.n, c.substeps, seed);
   Random random(seed);
-  std::vector<int> numbers = in_order(c.n * c.n);
+  std::vector<int> numbers = ascending(c.n * c.n);
   shuffle(numbers, random);
   System system = sheet(c.n, {0, -1, 0}, numbers);
   shuffle(system.model.springs, random);
