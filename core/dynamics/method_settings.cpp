@@ -41,7 +41,8 @@ void MethodOptions::validate() const {
         std::visit([&](const auto& field) { return is_in_range(field, *this); }, setting.field),
         setting.key);
   };
-  for (const MethodSetting& setting : kMethodSettings) check(setting);
+  for (const MethodSetting& setting : kMethodSettings)
+    if (!std::holds_alternative<WordField>(setting.field)) check(setting);
   for (const MethodSetting* setting : stepper->settings) check(*setting);
 }
 
