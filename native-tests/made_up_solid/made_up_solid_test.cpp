@@ -12,14 +12,6 @@ namespace {
 const VertexId kVertex{0};
 constexpr double kHalfThickness = 0.01;  // half of the cloth's thickness [m]
 
-/// A quarter turn about x in a second, of what keeps its height.
-struct Turning : MovingFrame {
-  Pose pose(double time) const override {
-    return {Eigen::AngleAxisd(std::acos(0.0) * time, Vec3::UnitX()).toRotationMatrix(),
-            Vec3::Zero()};
-  }
-};
-
 /// Its upper side is at y = 0.
 ContactStage shelf_stage(const Motion& motion) {
   ContactOptions options;
@@ -38,24 +30,16 @@ Motion lifted() {
   return motion;
 }
 
-Motion turned() {
-  Motion motion;
-  motion.kind = Motion::Kind::follow;
-  motion.frame = std::make_shared<Turning>();
-  return motion;
-}
-
 }  // namespace
 
-TEST_CASE("made-up solid: contact keeps a vertex off it, held, lifted and turned", "[contact]") {
-  const auto [motion, rise] =
-      GENERATE(table<Motion, double>({{held(), 0}, {lifted(), 0.05}, {turned(), 0}}));
+TEST_CASE("made-up solid: contact keeps a vertex off it, held and lifted", "[contact]") {
+  const auto [motion, rise] = GENERATE(table<Motion, double>({{held(), 0}, {lifted(), 0.05}}));
   const double side = GENERATE(1.0, -1.0);
   CAPTURE(rise, side);
   ContactStage stage = shelf_stage(motion);
   stage.begin_substep(0, 1);
   const double level = -0.1 + rise + side * (0.1 + kHalfThickness);
-  Vec3 position(0, -0.1, 0);
+  Vec3 position(0, -0.1 + side * 0.02, 0);  // not in the middle, which has no side
   Vec3 velocity(1, -side * 2, 0);
   const auto touch = stage.resolve(kVertex, {0, level + side * 0.5, 0}, position, velocity);
   REQUIRE(touch);
