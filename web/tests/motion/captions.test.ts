@@ -104,7 +104,7 @@ function rmsApart(a: Vertex[], b: Vertex[]): number {
 }
 
 // Seconds of cloth in motion.
-describe('the caption of', { timeout: 60000 }, () => {
+describe('the caption of', { timeout: 240000 }, () => {
   it('the curtain: half the width, four folds in every fabric, deeper on their way down', async () => {
     const module = await loadModule();
     expect(sceneOf('curtain').caption).toMatch(/half its width.*the same four.*deeper/);

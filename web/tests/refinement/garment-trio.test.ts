@@ -27,7 +27,7 @@ beforeAll(async () => {
   module = await loadModule();
 });
 
-const PATIENCE_MS = 60000;
+const PATIENCE_MS = 240000;
 
 /** The first three frames of a further example count, instead of minutes of work. */
 const SEEN = { fromS: 0, toS: 0.1 };
