@@ -38,7 +38,8 @@ double solving_factor(double n_vertices, const MethodOptions& method) {
 
 /// Substeps times vertices times their cost, per second of motion; for progress and estimates.
 double expected_work(double n_vertices, const MethodOptions& method) {
-  constexpr int kUsualSubsteps = 100;  // usual number for explicit, where the stability bound chooses
+  constexpr int kUsualSubsteps =
+      100;  // usual number for explicit, where the stability bound chooses
   const int substeps = method.substeps == kStableSubsteps ? kUsualSubsteps : method.substeps;
   return n_vertices / method.step * substeps * method.stepper->substep_cost(method) *
          solving_factor(n_vertices, method);
