@@ -457,7 +457,7 @@ await check(
             const { postMessage } = Worker.prototype;
             Worker.prototype.postMessage = function post(letter, transfer) {
               const { message } = letter;
-              if (message.type === 'load') {
+              if (message?.type === 'load') {
                 const scene = { ...JSON.parse(message.sceneText), ...change };
                 message.sceneText = JSON.stringify(scene);
               }
