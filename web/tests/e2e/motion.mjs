@@ -193,7 +193,7 @@ async function checkWorker({ check, open }, visit) {
         const { postMessage } = Worker.prototype;
         Worker.prototype.postMessage = function post(letter, transfer) {
           // The worker is kept busy by steps enough for an hour.
-          if (window.hangs && letter.message.type === 'step') letter.message.count = 1e7;
+          if (window.hangs && letter.message?.type === 'step') letter.message.count = 1e7;
           postMessage.call(this, letter, transfer);
         };
       };
