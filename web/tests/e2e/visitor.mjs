@@ -104,9 +104,10 @@ export function createVisitor({ open, check }, isReady, prefix = '') {
     });
   }
 
-  /** Without the files that match `files` there is a sentence; `work` looks at what is left. */
-  async function checkWithoutModule(hash, files, what, work) {
+  /** Without WebAssembly there is a sentence; `work` looks at what is left, and once it can be had again. */
+  async function checkWithoutModule(hash, what, work) {
     await check(`${prefix}without its WebAssembly file a sentence, and ${what}`, async () => {
+      const files = '**/pleat*.wasm';
       const { page, close } = await open(hash, {
         prepare: (fresh) => fresh.context().route(files, (route) => route.abort()),
       });
@@ -114,6 +115,7 @@ export function createVisitor({ open, check }, isReady, prefix = '') {
         await until(page, (state) => state.phase === 'broken');
         const sentence = await alertText(page);
         expectThat(/WebAssembly/.test(sentence), `it says: ${sentence}`);
+        await page.context().unroute(files);
         await work(page);
       } finally {
         await close();
