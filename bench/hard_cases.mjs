@@ -36,7 +36,7 @@ async function hardCases({ options }) {
   const unexpected = rows.filter((row) => !row.expected);
   return {
     rows,
-    goals: [atMost('stability.hard_cases.unexpected', unexpected.length, 0)],
+    goals: [atMost('unexpected_outcomes', unexpected.length, 0)],
     text: `what breaks cloth systems\n\n${outcomeTables(rows, unexpected)}`,
   };
 }
@@ -70,7 +70,7 @@ async function flag({ repeat }) {
   const nStable = runs.filter(({ stable }) => stable === 'yes').length;
   return {
     rows,
-    goals: [atLeast('stability.flag_60_s_stable_steppers', nStable, kSteppers.length, rows)],
+    goals: [atLeast('flag_60_s_stable_steppers', nStable, kSteppers.length, rows)],
     text: `${table(runs, columns)}\n\n${described(rows)}`,
   };
 }
@@ -148,8 +148,8 @@ async function limit({ repeat }) {
   return {
     rows,
     goals: [
-      atMost('stability.limit_largest_elongation', elongation, 0.1, [free, held]),
-      atMost('stability.limit_time_over_unlimited', times, 1.1, [free, held]),
+      atMost('limit_largest_elongation', elongation, 0.1, [free, held]),
+      atMost('limit_time_over_unlimited', times, 1.1, [free, held]),
     ],
     text: `${table(rows, columns)}\n\n${described(rows)}`,
   };
@@ -173,7 +173,7 @@ async function absent({ repeat }) {
     rows.push(...found);
     const [, again, plain] = found.map((row) => row.times_as_long_as_first);
     lines.push([name, again, plain]);
-    goals.push(atMost(`stability.absent_features_cost_${name}`, plain, 1.02, found));
+    goals.push(atMost(`absent_features_cost_${name}`, plain, 1.02, found));
   }
   const ratios = markdown(['stepper', 'alone, again', 'plain scene'], lines);
   const text = `time over that of the stepper alone\n\n${ratios}\n\n${described(rows)}`;
@@ -191,7 +191,7 @@ async function display() {
     'positions after 1 s': (row) => row.sha256.slice(0, 12),
     'as at 30 Hz': (row) => (isAsFirst(row) ? 'yes' : 'no'),
   };
-  const goals = [atMost('stability.display_rates_that_differ', nDiffering, 0, rows)];
+  const goals = [atMost('display_rates_that_differ', nDiffering, 0, rows)];
   return { rows, goals, text: table(rows, columns) };
 }
 

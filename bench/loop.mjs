@@ -2,12 +2,22 @@
 // Speed and error of every stepper against each other, the same core as WebAssembly, and a plain
 // JavaScript loop. Bounds in milliseconds hold where that loop (sheet 65x65, 100 substeps, row
 // order) takes 20 ms, and are scaled by what it takes here.
+import { shippedScene } from './parts/assets.mjs';
 import { runParts } from './parts/bench-parts.mjs';
-import { atLeast, atMost, measure } from './parts/bench-rows.mjs';
+import { atLeast, atMost, measure, table } from './parts/bench-rows.mjs';
 import { nativeRun, reference } from './parts/command.mjs';
 import { contestant } from './parts/contestants.mjs';
 import { loopContestant } from './parts/plain-loop.mjs';
-import { by, cornersCome, cotton, kEdge, kLimp, lying, squareSheet } from './parts/sheets.mjs';
+import {
+  by,
+  cornersCome,
+  cotton,
+  kEdge,
+  kLimp,
+  kStep,
+  lying,
+  squareSheet,
+} from './parts/sheets.mjs';
 
 const kTimes = [0.5, 1]; // [s]
 
@@ -116,6 +126,44 @@ async function projective({ repeat, scale }) {
   return { rows, goals };
 }
 
+/**
+ * Few accelerated rounds of projective against many plain ones, on cloth that swings. Errors are
+ * those of all frames together, as in sweeps, and the frames end before the free edge whips round.
+ */
+async function acceleration({ repeat }) {
+  const scene = shippedScene('swinging_sheet');
+  const frames = 24;
+  const times = Array.from({ length: frames }, (_, k) => (k + 1) * kStep);
+  const rounds = (iterations, kind) => {
+    const label = `projective, ${iterations} rounds, acceleration: ${kind}`;
+    const method = { stepper: 'projective', substeps: 1, iterations, acceleration: kind };
+    return contestant('native', label, by(scene, method), frames);
+  };
+  const exact = { stepper: 'newton', step_s: kStep / 16, rule: 'midpoint' };
+  const against = reference(by(scene, exact), 'run', times);
+  const contestants = [rounds(40, 'none'), rounds(5, 'anderson')];
+  const rows = await measure(contestants, { repeat, times, against, frames, turnFrames: 6 });
+  const error = (row) => Math.hypot(...Object.values(row.position_errors_m)) / Math.sqrt(frames);
+  const [plain, accelerated] = rows;
+  const columns = {
+    contestant: 'label',
+    'ms/frame': 'ms_per_frame',
+    spread: 'spread_ms',
+    'error of all frames mm': (row) => 1e3 * error(row),
+    'of the last': (row) => 1e3 * row.position_error_m,
+    status: 'status',
+  };
+  const time = accelerated.times_as_long_as_first;
+  return {
+    rows,
+    goals: [
+      atMost('accelerated_rounds_time_to_plain', time, 1 / 3, rows),
+      atMost('accelerated_rounds_error_to_plain', error(accelerated) / error(plain), 1, rows),
+    ],
+    text: `errors against ${against.reference.description}\n\n${table(rows, columns)}`,
+  };
+}
+
 async function implicit({ repeat, scale }) {
   const method = (more) => swinging(100, { stepper: 'implicit', substeps: 1, ...more });
   const scenes = {
@@ -181,5 +229,5 @@ async function absent({ repeat }) {
   return { rows, goals };
 }
 
-const parts = { yardstick, projective, implicit, targets, absent };
+const parts = { yardstick, projective, acceleration, implicit, targets, absent };
 await runParts('loop', 'speed and error, and the goals they have to meet', parts);

@@ -122,12 +122,12 @@ async function page() {
   });
   if (running) process.kill(-child.pid, 'SIGTERM');
   await ended;
-  return found([row], 'setup.page_s', 200);
+  return found([row], 'page_s', 200);
 }
 
 const test = async () => {
   freshClone();
-  return found([await timedPleat('test', ['test'])], 'setup.test_s', 18 * 60);
+  return found([await timedPleat('test', ['test'])], 'test_s', 18 * 60);
 };
 
 /** Each module is built and tested once before its source changes. */
@@ -138,7 +138,7 @@ async function change() {
     appendFileSync(join(freshClone(), 'core', module, file), '// Changed.\n');
     rows.push(await timedPleat(`change of core/${module}/${file}`, ['test', module]));
   }
-  return found(rows, 'setup.change_s', 60);
+  return found(rows, 'change_s', 60);
 }
 
 /** Texts of the last build's and tests' logs whose names begin so. */
@@ -184,9 +184,9 @@ function download() {
   return {
     rows,
     goals: [
-      atMost('setup.first_visit_wasm_kb', visit, 600),
-      atMost('setup.first_visit_page_kb', page, 200),
-      atMost('setup.all_wasm_kb', all, 1000),
+      atMost('first_visit_wasm_kb', visit, 600),
+      atMost('first_visit_page_kb', page, 200),
+      atMost('all_wasm_kb', all, 1000),
     ],
     text: `\n\n${table(rows, columns)}`,
   };

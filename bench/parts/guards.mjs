@@ -80,7 +80,7 @@ export function guards() {
   const most = Math.max(...rows.filter(({ without }) => without === '').map(faults));
   return {
     rows,
-    goals: [atMost('multigrid.guarded_hierarchy_faults', most, 0)],
+    goals: [atMost('guarded_hierarchy_faults', most, 0)],
     text: `${kFigureFile}\n\n${table(coarser, columns)}`,
   };
 }

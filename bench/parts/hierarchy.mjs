@@ -51,7 +51,7 @@ export async function hierarchy({ repeat, scale }) {
   const slowest = Math.max(...rows.map((row) => row.processor_ms));
   return {
     rows,
-    goals: [atMost('multigrid.hierarchy_10000_ms', slowest, kMostMs * scale, rows)],
+    goals: [atMost('hierarchy_10000_ms', slowest, kMostMs * scale, rows)],
     text: `processor time to make three coarser levels; median of ${repeat}\n\n${table(rows, columns)}`,
   };
 }

@@ -56,8 +56,8 @@ export async function dress({ scale }) {
   return {
     rows,
     goals: [
-      atMost('truth.dress_step_ms', ours.ms, 3000 * scale, [ours]),
-      atMost('truth.dress_residual', ours.residual, kTolerance, [ours]),
+      atMost('dress_step_ms', ours.ms, 3000 * scale, [ours]),
+      atMost('dress_residual', ours.residual, kTolerance, [ours]),
     ],
     text: `one step of ${short(1e3 * kStep)} ms, the slowest of the first and later ones, with analysis\n\n${table(rows, columns)}`,
   };

@@ -83,7 +83,7 @@ export async function order() {
   const truths = [...new Set(rows.map((row) => row.truth.description))].join('; ');
   const text = `the order of a sweep against ${truths}; ranked: ${told.join(', ')}\n\n${table(rows, columns)}`;
   const goals = Object.entries(correlations).map(([name, correlation]) =>
-    atLeast(`truth.order_${name}`, correlation, 0.95, rows),
+    atLeast(`order_${name}`, correlation, 0.95, rows),
   );
   return { rows, goals, text };
 }

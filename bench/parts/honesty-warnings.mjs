@@ -62,8 +62,8 @@ export async function warnings() {
   return {
     rows,
     goals: [
-      atLeast('truth.explosions_told', nTold, 20, explosions),
-      atMost('truth.shipped_scenes_warned', nWarned, 0, shipped),
+      atLeast('explosions_told', nTold, 20, explosions),
+      atMost('shipped_scenes_warned', nWarned, 0, shipped),
     ],
     text: `explosions that end as if all were well, and shipped scenes\n\n${table(rows, columns)}`,
   };

@@ -100,12 +100,12 @@ function goalsOf(found, timeOverFactor) {
   const growth = coarsest && finest && finest.iterations_per_step / coarsest.iterations_per_step;
   const timed = { sheet_257: kSheets[1], dress: 'crumpled dress of six pieces' };
   const goals = [
-    growth && atMost('multigrid.iterations_257_over_33', growth, 1.5, [coarsest, finest]),
-    skirt && atMost('multigrid.iterations_skirt', skirt.iterations_per_step, 20, [skirt]),
+    growth && atMost('iterations_257_over_33', growth, 1.5, [coarsest, finest]),
+    skirt && atMost('iterations_skirt', skirt.iterations_per_step, 20, [skirt]),
     ...Object.entries(timed).flatMap(([key, scene]) =>
       kTolerances.map((tolerance) => {
         const row = found(scene, 'multigrid', tolerance);
-        const name = `multigrid.${key}_time_over_factor_${tolerance}`;
+        const name = `${key}_time_over_factor_${tolerance}`;
         return row && atMost(name, timeOverFactor(row), 0.5, [row]);
       }),
     ),
