@@ -1,13 +1,17 @@
 // The table of commands, and a made-up command that is added to it and named nowhere else.
 #include "cli/command_table.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/base/check.h"
+#include "native-tests/support/assets.h"
+#include "native-tests/support/places.h"
 #include "native-tests/support/small_scene.h"
 
 namespace pleat {
@@ -46,6 +50,17 @@ std::string refusal(CommandTable table, const Call& words) {
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// The constant that a command is, by its name: kHardCasesCommand of hard-cases.
+std::string constant_of(const std::string& name) {
+  std::string constant = "k";
+  bool begins = true;
+  for (const char letter : name) {
+    if (letter != '-') constant += begins ? static_cast<char>(std::toupper(letter)) : letter;
+    begins = letter == '-';
+  }
+  return constant + "Command";
 }
 
 Outcome run_made_up(Arguments arguments) {
@@ -113,6 +128,22 @@ TEST_CASE("command table: every command has help of its own, and all of them fit
   CHECK(refusal(standard_commands(), {"help", "frob"}) ==
         refusal(standard_commands(), {"frob", "--help"}));
   CHECK(says(refusal(standard_commands(), {"help", "run", "sweep"}), "sweep: one word too many"));
+}
+
+TEST_CASE("command table: one more is named in two places, its file and the table", "[cli]") {
+  const std::set<std::string> own = {"run", "bench"};  // ./pleat shows one and adds to the other
+  std::size_t most = 0;
+  for (const Command* command : standard_commands()) {
+    const std::string name = command->name;
+    CAPTURE(name);
+    std::string file = "cli/" + name + "_command";
+    std::replace(file.begin(), file.end(), '-', '_');
+    const std::set<std::string> named = files_naming({constant_of(name)});
+    CHECK(named == std::set<std::string>{"cli/command_table", file});
+    CHECK((own.count(name) == 1 || !says(repository_file("pleat"), name)));
+    most = std::max(most, named.size());
+  }
+  tell_places("subcommand", most);
 }
 
 TEST_CASE("command table: commands take the options that their help names", "[cli]") {

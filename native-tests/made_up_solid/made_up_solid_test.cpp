@@ -2,9 +2,12 @@
 // and the section of scene files are compiled with that list.
 #include <catch2/catch.hpp>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "core/contact/contact_stage.h"
 #include "core/scene/format/solid_section.h"
+#include "native-tests/support/places.h"
 
 namespace pleat {
 namespace {
@@ -78,6 +81,28 @@ TEST_CASE("made-up solid: a scene names it by its word", "[scene]") {
   CHECK(json_solid(shape) == json["shelf"]);
   const Json none = Json::object();
   CHECK_THROWS_WITH(read_solid(JsonReader(none)), Catch::Contains("shelf"));
+}
+
+TEST_CASE("made-up solid: a real one is named in eight places", "[contact]") {
+  const std::set<std::string> places = {
+      "core/base/shapes",                     // its numbers
+      "core/contact/solid_shape",             // the list of solids
+      "core/contact/swept_contact",           // its meeting with a vertex
+      "core/scene/format/solid_section",      // its keys
+      "core/scene/scene_schema.json",         // schema of its keys
+      "docs/methods/contact.md",              // the formula of its meeting
+      "web/src/shared/bindings/geometry.ts",  // its type on the page
+      "web/src/shared/stage/solid-look.ts",
+  };
+  std::set<std::string> named = files_naming({"Plane", "SweptPlane", "'plane'", "\"plane\""});
+  // Speed alone asks which solid it is there: the made-up one does without.
+  CHECK(named.erase("core/contact/contact_stage") == 1);
+  CHECK(named.erase("core/dynamics/position_based/lanes/contact_program") == 1);
+  // Other planes than the solid.
+  CHECK(named.erase("core/scene/tearing") == 1);
+  CHECK(named.erase("web/src/shared/stage/grab.ts") == 1);
+  CHECK(named == places);
+  tell_places("collider", named.size());
 }
 
 }  // namespace pleat

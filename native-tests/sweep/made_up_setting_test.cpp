@@ -1,6 +1,7 @@
 // Settings that a stepper of the table reads and that are named nowhere else.
 #include <array>
 #include <catch2/catch.hpp>
+#include <set>
 #include <string>
 
 #include "core/base/check.h"
@@ -9,6 +10,7 @@
 #include "core/scene/format/scene_file.h"
 #include "core/scene/format/scene_override.h"
 #include "native-tests/support/assets.h"
+#include "native-tests/support/places.h"
 #include "native-tests/support/scene_schema.h"
 
 // A namespace of its own, as test files of a folder may stand in one unit.
@@ -114,6 +116,29 @@ TEST_CASE("method settings: schema, help and page say what an added setting is",
   CHECK(method["properties"]["ropes"]["maximum"] == 9);
   CHECK(method["oneOf"][1]["properties"]["ropes"]["default"] == 4);
   CHECK_FALSE(method["oneOf"][0]["properties"].contains("ropes"));
+}
+
+TEST_CASE("method settings: one more is named in five places, beside what it does", "[sweep]") {
+  const std::set<std::string> places = {
+      "core/dynamics/method_options",   // its field
+      "core/dynamics/method_settings",  // its row
+      "core/dynamics/stepper_table",    // the steppers that read it
+      "core/scene/scene_schema.json",   // its values and its steppers
+      "docs/methods/scene_format.md",   // its row
+  };
+  for (const MethodSetting& setting : kMethodSettings) {
+    std::set<std::string> others = places;
+    for (const std::string& file : files_naming({setting.key})) others.erase(file);
+    others.erase("core/dynamics/method_options");  // a field may have another name than its key
+    CAPTURE(setting.key, others);
+    CHECK(others.empty());
+  }
+  // Multigrid's use of this one is no place of another.
+  std::set<std::string> named = files_naming({"carried_acceleration"});
+  CHECK(named.erase("core/dynamics/position_based/stepper_position_based") == 1);
+  CHECK(named.erase("docs/methods/multigrid.md") == 1);
+  CHECK(named == places);
+  tell_places("method_setting", named.size());
 }
 
 }  // namespace pleat::made_up_setting
