@@ -12,6 +12,7 @@ import {
   readdirSync,
   readFileSync,
   rmSync,
+  statSync,
   symlinkSync,
 } from 'node:fs';
 import { cpus, tmpdir } from 'node:os';
@@ -141,13 +142,15 @@ async function change() {
   return found(rows, 'change_s', 60);
 }
 
-/** Texts of the last build's and tests' logs whose names begin so. */
+/** Texts of the last build's and tests' logs whose names begin so, the newest first. */
 function logs(start) {
   const folder = built('build', 'logs');
   const names = existsSync(folder) ? readdirSync(folder) : [];
   return names
     .filter((name) => name.startsWith(start) && name.endsWith('.log'))
-    .map((name) => readFileSync(join(folder, name), 'utf8'))
+    .map((name) => join(folder, name))
+    .sort((a, b) => statSync(b).mtimeMs - statSync(a).mtimeMs)
+    .map((file) => readFileSync(file, 'utf8'))
     .join('\n');
 }
 
