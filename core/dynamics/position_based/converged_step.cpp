@@ -1,14 +1,18 @@
 #include "core/dynamics/position_based/converged_step.h"
 
-#include <Eigen/SparseLU>
+#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/check.h"
 #include "core/dynamics/position_based/spring_law.h"
+#include "core/linalg/make_linear_solver.h"
 
 namespace pleat {
 namespace {
+
+/// Relative residual that a linear solve leaves: what is left, the next iteration takes.
+constexpr double kLinearResidual = 1e-9;
 
 struct StepSpring {
   Eigen::Index a, b;
@@ -38,6 +42,28 @@ Pull pull_of(const Vec3& d, const Vec3& d_begin) {
   return {length, along, direction, change};
 }
 
+/// A factor of the symmetric matrix that is near the unsymmetric one, in the form that Eigen asks
+/// for.
+struct NearFactor {
+  std::unique_ptr<LinearSolver> solver = make_linear_solver(best_direct_solver());
+  bool is_analyzed = false;
+
+  bool refresh(const SparseMatrix& lower) {
+    if (!is_analyzed) solver->analyze(lower);
+    is_analyzed = true;
+    return solver->factorize(lower).ok();
+  }
+  NearFactor& compute(const Eigen::SparseMatrix<double, Eigen::RowMajor>& /*refreshed before*/) {
+    return *this;
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& rhs) const {
+    Eigen::VectorXd solution = Eigen::VectorXd::Zero(rhs.size());
+    solver->solve(rhs, solution);
+    return solution;
+  }
+  Eigen::ComputationInfo info() const { return Eigen::Success; }
+};
+
 class StepEquations {
  public:
   StepEquations(const ClothModel& model, const PredictedStep& step)
@@ -66,15 +92,22 @@ class StepEquations {
   double error() const { return right_side_.norm(); }
   const Positions& positions() const { return x_; }
 
-  /// Solves for a change of all unknowns. False when the factor fails.
+  /// Solves for a change of all unknowns, without the multipliers first. False when that fails.
   bool find_change() {
-    Eigen::SparseMatrix<double> matrix(right_side_.size(), right_side_.size());
+    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(unknowns_, unknowns_);
     matrix.setFromTriplets(entries_.begin(), entries_.end());
-    if (!is_analyzed_) factor_.analyzePattern(matrix);
-    is_analyzed_ = true;
-    factor_.factorize(matrix);
-    if (factor_.info() != Eigen::Success) return false;
-    change_ = factor_.solve(right_side_);
+    SparseMatrix near(unknowns_, unknowns_);
+    near.setFromTriplets(near_entries_.begin(), near_entries_.end());
+    if (!iteration_.preconditioner().refresh(near)) return false;
+    iteration_.setTolerance(kLinearResidual);
+    change_.resize(right_side_.size());
+    change_.head(unknowns_) = iteration_.compute(matrix).solve(reduced_right_side_);
+    for (std::size_t s = 0; s < springs_.size(); ++s) {
+      const Eigen::Index row = unknowns_ + static_cast<Eigen::Index>(s);
+      const StepSpring& spring = springs_[s];
+      const Vec3 apart = change_.segment<3>(3 * spring.a) - change_.segment<3>(3 * spring.b);
+      change_[row] = (right_side_[row] - alongs_[s].dot(apart)) / spring.compliance;
+    }
     return change_.allFinite();
   }
 
@@ -93,25 +126,28 @@ class StepEquations {
   }
 
  private:
-  void add(Eigen::Index row, Eigen::Index column, double value) {
-    entries_.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
-  }
   bool is_held(Eigen::Index v) const { return is_held_[static_cast<std::size_t>(v)]; }
 
   /// The right side is minus the equations: (x - x_predicted)/w - G^T lambda, then C + compliance
-  /// lambda.
+  /// lambda. The matrix is of the places alone, each multiplier's equation put into theirs.
   void evaluate() {
     entries_.clear();
+    near_entries_.clear();
+    alongs_.clear();
     right_side_.setZero(unknowns_ + multipliers_.size());
     for (Eigen::Index v = 0; v < x_.cols(); ++v) {
       const double inertia = is_held(v) ? 1 : model_.masses[v] / mean_mass_;
-      for (Eigen::Index k = 0; k < 3; ++k) add(3 * v + k, 3 * v + k, inertia);
+      add_block(v, v, inertia * Mat3::Identity(), inertia * Mat3::Identity());
       right_side_.segment<3>(3 * v) = inertia * (step_.predicted.col(v) - x_.col(v));
     }
-    for (std::size_t s = 0; s < springs_.size(); ++s) add_spring(springs_[s], s);
     for (const BendElement& bend : model_.bends) add_bend(bend);
-    for (Eigen::Index v = 0; v < x_.cols(); ++v)
-      if (is_held(v)) right_side_.segment<3>(3 * v).setZero();
+    reduced_right_side_ = right_side_.head(unknowns_);
+    for (std::size_t s = 0; s < springs_.size(); ++s) add_spring(springs_[s], s);
+    for (Eigen::Index v = 0; v < x_.cols(); ++v) {
+      if (!is_held(v)) continue;
+      right_side_.segment<3>(3 * v).setZero();
+      reduced_right_side_.segment<3>(3 * v).setZero();
+    }
   }
 
   void add_spring(const StepSpring& spring, std::size_t number) {
@@ -120,17 +156,21 @@ class StepEquations {
     const Pull pull = pull_of(x_.col(spring.a) - x_.col(spring.b),
                               step_.begins.col(spring.a) - step_.begins.col(spring.b));
     right_side_[row] = spring.rest - pull.length - spring.compliance * multiplier;
-    add(row, row, spring.compliance);
+    alongs_.push_back(pull.along);
+    const Mat3 along = pull.along * pull.along.transpose();
+    const Mat3 block =
+        pull.direction * pull.along.transpose() / spring.compliance - multiplier * pull.change;
+    const Mat3 near = along / spring.compliance +
+                      std::max(0.0, -multiplier) / (2 * pull.length) * (Mat3::Identity() - along);
     const std::array<Eigen::Index, 2> ends = {spring.a, spring.b};
     for (const Eigen::Index v : ends) {
-      const double sign = v == spring.a ? 1 : -1;
-      for (Eigen::Index k = 0; k < 3; ++k)
-        if (!is_held(v)) add(row, 3 * v + k, sign * pull.along[k]);
       if (is_held(v)) continue;
+      const double sign = v == spring.a ? 1 : -1;
       right_side_.segment<3>(3 * v) += sign * multiplier * pull.direction;
-      for (Eigen::Index k = 0; k < 3; ++k) add(3 * v + k, row, -sign * pull.direction[k]);
+      reduced_right_side_.segment<3>(3 * v) +=
+          sign * (multiplier + right_side_[row] / spring.compliance) * pull.direction;
       for (const Eigen::Index w : ends)
-        if (!is_held(w)) add_block(v, w, (v == w ? -multiplier : multiplier) * pull.change);
+        if (!is_held(w)) add_block(v, w, (v == w ? 1 : -1) * block, (v == w ? 1 : -1) * near);
     }
   }
 
@@ -144,16 +184,23 @@ class StepEquations {
       const Eigen::Index v = bend.vertices[i].value;
       if (is_held(v)) continue;
       right_side_.segment<3>(3 * v) -= stiffness * bend.weights[i] * sum;
-      for (std::size_t j = 0; j < 3; ++j)
-        if (!is_held(bend.vertices[j].value))
-          add_block(v, bend.vertices[j].value,
-                    stiffness * bend.weights[i] * bend.weights[j] * Mat3::Identity());
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (is_held(bend.vertices[j].value)) continue;
+        const Mat3 block = stiffness * bend.weights[i] * bend.weights[j] * Mat3::Identity();
+        add_block(v, bend.vertices[j].value, block, block);
+      }
     }
   }
 
-  void add_block(Eigen::Index v, Eigen::Index w, const Mat3& block) {
+  /// `near` is symmetric over all, and positive definite.
+  void add_block(Eigen::Index v, Eigen::Index w, const Mat3& block, const Mat3& near) {
     for (Eigen::Index i = 0; i < 3; ++i)
-      for (Eigen::Index j = 0; j < 3; ++j) add(3 * v + i, 3 * w + j, block(i, j));
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        const auto row = static_cast<int>(3 * v + i);
+        const auto column = static_cast<int>(3 * w + j);
+        entries_.emplace_back(row, column, block(i, j));
+        if (row >= column) near_entries_.emplace_back(row, column, near(i, j));
+      }
   }
 
   const ClothModel& model_;
@@ -164,10 +211,10 @@ class StepEquations {
   std::vector<StepSpring> springs_;
   Positions x_;
   Eigen::VectorXd multipliers_;
-  std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::VectorXd right_side_, change_;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor_;
-  bool is_analyzed_ = false;
+  std::vector<Eigen::Triplet<double>> entries_, near_entries_;
+  std::vector<Vec3> alongs_;  // of springs: d(length)/dd
+  Eigen::VectorXd right_side_, reduced_right_side_, change_;
+  Eigen::BiCGSTAB<Eigen::SparseMatrix<double, Eigen::RowMajor>, NearFactor> iteration_;
 };
 
 }  // namespace
@@ -190,7 +237,7 @@ ConvergedStep converged_step(const ClothModel& model, const PredictedStep& step)
       share /= 2;
     }
     result.last_change = share * equations.largest_change();
-    result.is_converged = share == 1 && result.last_change < kRounding * extent;
+    result.is_converged = equations.largest_change() < kRounding * extent;
   }
   result.positions = equations.positions();
   result.relative_error = first > 0 ? equations.error() / first : 0;

@@ -18,7 +18,7 @@ struct ConvergedStep {
 ///
 ///     x = x_predicted + W G(x)^T lambda,   C(x) + compliance/h^2 lambda = 0,
 ///
-/// all unknowns at once with a sparse factor: W inverse masses, G the directions that springs pull
+/// all unknowns at once: W inverse masses, G the directions that springs pull
 /// along (core/dynamics/position_based/spring_law.h). Sweeps add pulls along directions of places
 /// on their way, so that what they come to differs from this by as much as these turn within the
 /// solve.
