@@ -28,7 +28,7 @@ const completed = (files, frames, options = []) =>
 
 /** A completion in WebAssembly, of keys that are OBJ files of one mesh. */
 async function completedInWasm(files) {
-  const module = await wasmModule('completionCost');
+  const module = await wasmModule();
   const keys = files.map((file) => readFileSync(file, 'utf8'));
   return withStatus({ ...answer(module.completionCost(keys, kFrames)), target: 'wasm' });
 }

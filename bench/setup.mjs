@@ -158,8 +158,7 @@ function logs(start) {
 const pageCode = () => Number(logs('page-build').match(/first load, page: ([\d.]+) kB/)?.[1]);
 
 /**
- * Kilobytes of WebAssembly and of the page. A first visit fetches the module called pleat, or the
- * only one; views that are opened later fetch the others.
+ * Kilobytes of WebAssembly and of the page. Views that are opened later fetch the rest of the module.
  */
 function download() {
   const folder = [built('web', 'dist', 'assets'), built('build', 'wasm', 'wasm')].find(existsSync);
@@ -175,7 +174,7 @@ function download() {
     const of = (key) => rows.reduce((total, row) => total + row[key], 0) || Number.NaN;
     return { file, gzip_kb: of('gzip_kb'), brotli_kb: of('brotli_kb'), status: 'ok' };
   };
-  const first = modules.filter(({ file }) => files.length === 1 || /^pleat\b/.test(file));
+  const first = modules.filter(({ file }) => !file.startsWith('pleat-rest'));
   const totals = [
     sum('WebAssembly of a first visit', first),
     sum('all WebAssembly', modules),

@@ -23,7 +23,7 @@ function readScene(file) {
 /** The scene of a file that the core can read. */
 async function checkedScene(file, reference) {
   const scene = readScene(file);
-  const module = await wasmModule('Scene');
+  const module = await wasmModule();
   const reader = new module.Scene(fabricsText());
   const { ok, where, what } = JSON.parse(reader.parse(JSON.stringify(scene)));
   reader.delete();
@@ -36,7 +36,7 @@ async function checkedScene(file, reference) {
 async function wasmSweep(scene, repeats, reference, nativeRows) {
   const settings = nativeRows.map((row) => row.setting);
   const plan = { scene, settings, duration_s: kDuration, repeats, reference };
-  const module = await wasmModule('Experiment');
+  const module = await wasmModule();
   const experiment = new module.Experiment(fabricsText());
   let told = answer(experiment.start(JSON.stringify(plan)));
   while (!told.done) {

@@ -8,11 +8,11 @@ build_preset() {
   cmake --preset "$preset" && cmake --build --preset "$preset" -j "$(nproc)" ${1+--target "$@"}
 }
 
-# The page and its tests take the module from web/src/wasm; an unchanged one keeps its date.
+# The page and its tests take the module's parts from web/src/wasm; an unchanged one keeps its date.
 build_wasm() {
   local file
   build_preset wasm && mkdir -p web/src/wasm || return 1
-  for file in pleat.{mjs,wasm}; do
+  for file in pleat{.mjs,.wasm,-rest.wasm}; do
     cmp -s "build/wasm/wasm/$file" "web/src/wasm/$file" ||
       cp "build/wasm/wasm/$file" "web/src/wasm/$file" || return 1
   done

@@ -1,7 +1,7 @@
 // Programs that compute one scene, in turn: each builds its state anew, runs a first frame that is
 // not timed, then as many frames of 1/60 s as its turn has, and at its end tells of the run with
 // the keys of `pleat bench run`.
-import { readdirSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import v8 from 'node:v8';
 
@@ -13,34 +13,18 @@ import { by, kStep } from './sheets.mjs';
 
 const wasmFolder = join(root, 'build', 'wasm', 'wasm');
 
-const compiled = {};
+let compiled = null;
 
-async function instanceOf(file) {
-  if (!compiled[file]) {
+/** The built module, anew for each run, so that memory and state are the run's alone. */
+export async function wasmModule() {
+  if (!compiled) {
     // V8 would start with unoptimised code and swap it at a moment of its own.
     v8.setFlagsFromString('--no-liftoff');
-    compiled[file] = await WebAssembly.compile(readFileSync(join(wasmFolder, file)));
+    const files = ['pleat.wasm', 'pleat-rest.wasm'].map((name) => readFileSync(join(wasmFolder, name)));
+    compiled = await Promise.all(files.map((bytes) => WebAssembly.compile(bytes)));
   }
-  const { default: create } = await import(join(wasmFolder, file.replace(/wasm$/, 'mjs')));
-  return create({
-    instantiateWasm: (imports, receive) => {
-      WebAssembly.instantiate(compiled[file], imports).then((instance) => receive(instance));
-      return {};
-    },
-  });
-}
-
-/**
- * The built module that has this class or function, anew for each run, so that memory and state are
- * the run's alone.
- */
-export async function wasmModule(name = 'Simulation') {
-  for (const file of readdirSync(wasmFolder).filter((one) => one.endsWith('.wasm'))) {
-    if (!readFileSync(join(wasmFolder, file)).includes(`${name}\0`)) continue;
-    const module = await instanceOf(file);
-    if (module[name]) return module;
-  }
-  throw new Error(`${wasmFolder}: no module has ${name}`);
+  const { default: create } = await import(join(wasmFolder, 'pleat.mjs'));
+  return create({ parts: compiled });
 }
 
 /** Answer of a module's call; throws where it refused. */

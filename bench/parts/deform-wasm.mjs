@@ -48,7 +48,7 @@ function heldOf({ pins, rest_m, handles }) {
 export async function deformWasm(file, moves) {
   const text = readFileSync(file, 'utf8');
   const scene = JSON.parse(text);
-  const module = await wasmModule('Deformation');
+  const module = await wasmModule();
   const shape = new module.Deformation(fabricsText());
   const opened = answer(shape.open(text, meshText(file, scene)));
   const weights = fabricWeights(scene.fabric);

@@ -13,7 +13,7 @@ export const kEarly = 0.5; // [s], after which both builds are compared
 export const kTight = 1e-12; // tolerance of the solver, with which rounding does not grow
 
 async function opened(scene) {
-  const module = await wasmModule('GarmentRun');
+  const module = await wasmModule();
   const run = new module.GarmentRun(fabricsText());
   const { n_vertices, step_s } = answer(run.load(JSON.stringify(scene), {}));
   return { run, n_vertices, steps: (seconds) => run.step(Math.round(seconds / step_s)) };

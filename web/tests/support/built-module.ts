@@ -20,5 +20,6 @@ export async function loadModule(): Promise<BuiltModule> {
   if (!existsSync(fileOf('pleat.wasm')))
     throw new Error('The WebAssembly module is not built: ./pleat test and ./pleat demo do.');
   const { default: create } = await import(/* @vite-ignore */ fileOf('pleat.mjs').href);
-  return create({ wasmBinary: readFileSync(fileOf('pleat.wasm')) });
+  const parts = ['pleat.wasm', 'pleat-rest.wasm'].map((name) => readFileSync(fileOf(name)));
+  return create({ parts: await Promise.all(parts.map((bytes) => WebAssembly.compile(bytes))) });
 }

@@ -1,12 +1,7 @@
 declare module '*/pleat.mjs' {
   interface Options {
-    /** The file's bytes, for Node. */
-    wasmBinary?: Uint8Array;
-    /** Instantiates a module that is compiled already, and hands the instance over. */
-    instantiateWasm?(
-      imports: WebAssembly.Imports,
-      receive: (instance: WebAssembly.Instance) => void,
-    ): object;
+    /** What a first visit needs, compiled, and the rest where that is wanted. */
+    parts: WebAssembly.Module[];
   }
 
   /** The core, or the part of its classes that the caller names. */

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""Splits the linked module into what a first visit needs and the rest.
+
+split.py WHOLE FIRST OUTPUT_FIRST OUTPUT_REST
+
+WHOLE   the optimised module, with names of functions
+FIRST   a module of the same objects linked with the bindings of a first visit alone, with names
+
+A function of WHOLE whose name FIRST lacks goes to the rest, but for what initialises the module. Where WHOLE has
+several of one name, or one that the optimiser made of several, all stay.
+"""
+import re
+import subprocess
+import sys
+import tempfile
+
+# Those that the compiler is told to use, and its defaults.
+FEATURES = ["--enable-simd", "--enable-exception-handling", "--enable-bulk-memory", "--enable-sign-ext",
+            "--enable-mutable-globals", "--enable-nontrapping-float-to-int"]
+
+
+def calls(module):
+    """Names of the module's own functions, each with those that it calls by name, in Binaryen's writing."""
+    graph = subprocess.run(["wasm-opt", *FEATURES, "--print-call-graph", module], check=True, capture_output=True,
+                           text=True).stdout
+    found = {name: set() for name in re.findall(r'^  "([^"]+)" \[.*fillcolor="white"', graph, re.MULTILINE)}
+    for caller, called in re.findall(r'^  "([^"]+)" -> "([^"]+)"', graph, re.MULTILINE):
+        found[caller].add(called)
+    return found
+
+
+def reached(graph, start):
+    """Start and all that it calls, and they call."""
+    found, open_names = {start}, [start]
+    while open_names:
+        for name in graph.get(open_names.pop(), ()):
+            if name not in found:
+                found.add(name)
+                open_names.append(name)
+    return found
+
+
+def main():
+    whole, first, output_first, output_rest = sys.argv[1:]
+    graph = calls(whole)
+    needed = set(calls(first)) | reached(graph, "__wasm_call_ctors")
+    rest = [name for name in graph
+            if not name.startswith("byn$") and re.sub(r"_\d+$", "", name) not in needed and name not in needed]
+    with tempfile.NamedTemporaryFile(mode="w", suffix=".functions") as names:
+        names.write("\n".join(rest))
+        names.flush()
+        subprocess.run(["wasm-split", *FEATURES, whole, f"--split-funcs=@{names.name}", "-o1", output_first,
+                        "-o2", output_rest], check=True)
+
+
+main()
