@@ -86,7 +86,7 @@ double mean(const std::vector<double>& values) {
 Json row_json(const Contestant& contestant, const ContestantResult& result,
               const ReferenceLabel& against) {
   const Scene& scene = contestant.scene;
-  const double contact = result.parts_ms[static_cast<std::size_t>(Stage::contact)];
+  const double contact = result.parts_ms[static_cast<std::size_t>(Part::contact)];
   const double refinement = result.refinement_ms.empty() ? 0 : mean(result.refinement_ms);
   Json json = {{"scene", scene.name},
                {"method", json_method(scene.method)},

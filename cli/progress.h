@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/linalg/solve_report.h"
+#include "core/run/part_timer.h"
 #include "core/run/run_watch.h"
-#include "core/run/stage_timer.h"
 
 namespace pleat {
 

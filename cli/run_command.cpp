@@ -178,7 +178,7 @@ Json metrics_json(const Simulation& simulation, const RunSummary& summary, Watch
                {"largest_stretch", summary.largest_stretch}};
   if (scene.model.tearing) json["n_splits"] = simulation.tear_origins().size();
   json["warnings"] = json_warnings(summary.warnings);
-  if (const StrainLimitStage* limit = simulation.strain_limit()) {
+  if (const StrainLimitPass* limit = simulation.strain_limit()) {
     json["strain_limit_sweeps_per_step"] = static_cast<double>(limit->n_sweeps()) / n_steps;
     json["n_strain_limit_capped"] = limit->n_capped();
   }

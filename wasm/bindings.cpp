@@ -243,7 +243,7 @@ class Simulation {
     return guarded([&](val& envelope) {
       val list = val::array();
       for (const pleat::Collider& collider : running().scene().colliders) {
-        const auto shape = pleat::ContactStage::placed(collider, running().time());
+        const auto shape = pleat::ContactPass::placed(collider, running().time());
         val entry = json_value(pleat::json_solid(shape).dump());
         entry.set("shape", std::string(pleat::word_for(shape)));
         list.call<void>("push", entry);

@@ -68,10 +68,10 @@ void PageRun::put_warnings(val& envelope) const {
 void PageRun::put_costs(val& envelope) const {
   running();
   val parts = val::object();
-  for (int s = 0; s < kStageCount; ++s) {
-    const auto stage = static_cast<Stage>(s);
-    const double seconds = steps_->parts().total(stage);
-    if (seconds > 0) parts.set(std::string(name(stage)), 1e3 * seconds);
+  for (int s = 0; s < kPartCount; ++s) {
+    const auto part = static_cast<Part>(s);
+    const double seconds = steps_->parts().total(part);
+    if (seconds > 0) parts.set(std::string(name(part)), 1e3 * seconds);
   }
   envelope.set("parts_ms", parts);
   envelope.set("steps_ms", 1e3 * steps_->seconds());

@@ -149,7 +149,7 @@ SolveReport DeformSolver::linearise() {
   ++n_linearisations_;
   SparseMatrix constrained;
   {
-    const StageScope stage(observer_, Stage::assembly);
+    const PartScope scope(observer_, Part::assembly);
     metric_ = energy_.metric(weights_, positions_);
     metric_.diagonal().array() += damping_ * metric_.diagonal().mean();
     constrained = metric_;
@@ -158,7 +158,7 @@ SolveReport DeformSolver::linearise() {
         if (is_held_[entry.row()] != 0 || is_held_[column] != 0)
           entry.valueRef() = entry.row() == column ? 1 : 0;
   }
-  const StageScope stage(observer_, Stage::factor);
+  const PartScope scope(observer_, Part::factor);
   corrections_.clear();
   last_change_.resize(3, 0);
   n_with_factor_ = 0;
@@ -171,7 +171,7 @@ SolveReport DeformSolver::linearise() {
 }
 
 Positions DeformSolver::free_gradient() const {
-  const StageScope stage(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   Positions gradient = energy_.gradient(weights_, positions_);
   for (const VertexId v : held_) gradient.col(v).setZero();
   return gradient;
@@ -179,7 +179,7 @@ Positions DeformSolver::free_gradient() const {
 
 /// The shape in which the linearised problem is at rest once what is held has moved.
 Positions DeformSolver::foreseen(const Positions& moves) {
-  const StageScope stage(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   Positions change = Positions::Zero(3, positions_.cols());
   for (std::size_t k = 0; k < held_.size(); ++k)
     change.col(held_[k]) = moves.col(static_cast<Eigen::Index>(k));
@@ -248,7 +248,7 @@ void DeformSolver::remember(const Positions& gradient) {
 }
 
 Positions DeformSolver::descent(const Positions& gradient) {
-  const StageScope stage(observer_, Stage::solve);
+  const PartScope scope(observer_, Part::solve);
   return corrections_.descent(gradient, [this](const Positions& q) {
     Eigen::MatrixXd solution(q.cols(), 3);
     solver_->solve(q.transpose(), solution);
@@ -260,7 +260,7 @@ Positions DeformSolver::descent(const Positions& gradient) {
 /// nothing moved, if it does not.
 bool DeformSolver::descend(const Positions& direction, double slope, double before,
                            DeformStep& step) {
-  const StageScope stage(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   const Positions start = positions_;
   double share = 1;
   for (step.halvings = 0; step.halvings <= kMaxHalvings; ++step.halvings, share /= 2) {

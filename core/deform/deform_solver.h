@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/deform/deform_energy.h"
 #include "core/linalg/lbfgs.h"
 #include "core/linalg/linear_solver.h"
@@ -109,7 +109,7 @@ class DeformSolver {
   DeformTerms terms() const { return energy_.terms(positions_); }
   double energy() const { return terms().weighted(weights_); }
 
-  void observe(StageObserver* observer) { observer_ = observer; }
+  void observe(PartObserver* observer) { observer_ = observer; }
 
  private:
   static constexpr std::size_t kMaxCorrections = 20;
@@ -151,7 +151,7 @@ class DeformSolver {
 
   std::vector<DeformStep> steps_;
   bool converged_ = false;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
 };
 
 }  // namespace pleat

@@ -20,7 +20,7 @@ enum class ContactForces { forgotten, remembered };
 /// Source: docs/methods/contact.md.
 class ContactMemory {
  public:
-  using Touch = ContactStage::Touch;
+  using Touch = ContactPass::Touch;
 
   /// Forces are remembered only where the model has solids on which cloth rests.
   ContactMemory(const ClothModel& model, ContactForces wanted);

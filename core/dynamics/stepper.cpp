@@ -90,7 +90,7 @@ SolveReport Stepper::advance(State& state, double time) {
 
 SolveReport Stepper::substep_in_world(State& state, double time_end, double h) {
   if (model_.contact) {
-    const StageScope scope(observer_, Stage::contact);
+    const PartScope scope(observer_, Part::contact);
     model_.contact->begin_substep(time_end - h, time_end);
     contact_memory_.begin_substep();
   }
@@ -120,19 +120,19 @@ void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) const {
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
 void Stepper::set_external_forces(const State& state, Eigen::Ref<Positions> forces) {
-  const StageScope scope(observer_, Stage::forces);
+  const PartScope scope(observer_, Part::forces);
   set_steady_forces(forces);
   if (model_.air) model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces);
 }
 
-std::span<const ContactStage::Touch> Stepper::touch_solids(State& state) {
+std::span<const ContactPass::Touch> Stepper::touch_solids(State& state) {
   return model_.contact->resolve(positions_begin_, contact_memory_.exempt(), state.positions,
                                  state.velocities);
 }
 
 void Stepper::resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                                double travel_share) {
-  const StageScope scope(observer_, Stage::contact);
+  const PartScope scope(observer_, Part::contact);
   contact_memory_.let_go(state, h, resistances, travel_share);
   contact_memory_.remember(touch_solids(state), positions_begin_, state, h, resistances);
 }
@@ -142,10 +142,10 @@ void Stepper::limit_among_contacts(State& state, double h, double travel_share) 
   constexpr int kMaxRounds = 3;
   for (int round = 0; round < kMaxRounds && strain_limit_->is_exceeded(state.positions); ++round) {
     {
-      const StageScope scope(observer_, Stage::strain_limit);
+      const PartScope scope(observer_, Part::strain_limit);
       strain_limit_->limit_again(state, travel_share * h, model_.contact->touches());
     }
-    const StageScope scope(observer_, Stage::contact);
+    const PartScope scope(observer_, Part::contact);
     contact_memory_.keep(state);
     contact_memory_.add(touch_solids(state), state, h);
   }
@@ -154,7 +154,7 @@ void Stepper::limit_among_contacts(State& state, double h, double travel_share) 
 void Stepper::correct(State& state, double time_end, double h, const Eigen::VectorXd& resistances,
                       double travel_share) {
   if (strain_limit_) {
-    const StageScope scope(observer_, Stage::strain_limit);
+    const PartScope scope(observer_, Part::strain_limit);
     strain_limit_->limit(state, travel_share * h);
   }
   if (model_.contact) resolve_contacts(state, h, resistances, travel_share);

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/dynamics/contact_memory.h"
 #include "core/dynamics/first_contact.h"
 #include "core/dynamics/method_options.h"
-#include "core/dynamics/strain_limit_stage.h"
+#include "core/dynamics/strain_limit_pass.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
 
@@ -62,9 +62,9 @@ class Stepper {
   std::optional<double> first_contact() const { return first_contact_.time(); }
 
   /// Null where the model has none.
-  const StrainLimitStage* strain_limit() const { return strain_limit_ ? &*strain_limit_ : nullptr; }
+  const StrainLimitPass* strain_limit() const { return strain_limit_ ? &*strain_limit_ : nullptr; }
 
-  void observe(StageObserver* observer) { observer_ = observer; }
+  void observe(PartObserver* observer) { observer_ = observer; }
   const MethodOptions& options() const { return options_; }
   int substeps() const { return substeps_; }
 
@@ -107,7 +107,7 @@ class Stepper {
                                                    int max_iterations = 1);
 
   ClothModel& model_;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
   ContactMemory contact_memory_;
   Positions positions_begin_;  // start of the substep, set by steppers that call correct
 
@@ -116,11 +116,11 @@ class Stepper {
   void resolve_contacts(State& state, double h, const Eigen::VectorXd& resistances,
                         double travel_share);
   void limit_among_contacts(State& state, double h, double travel_share);
-  std::span<const ContactStage::Touch> touch_solids(State& state);
+  std::span<const ContactPass::Touch> touch_solids(State& state);
 
   MethodOptions options_;
   int substeps_;
-  std::optional<StrainLimitStage> strain_limit_;
+  std::optional<StrainLimitPass> strain_limit_;
   FirstContact first_contact_;
   State last_finite_;
   BendFriction::Kept last_friction_;  // state of friction inside the fabric, there

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/motion.h"
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/fabric/chord_bending.h"
 #include "core/fabric/hinge_bending.h"
 #include "core/fabric/membrane.h"
@@ -50,7 +50,7 @@ struct ClothModel {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s^2]
   std::vector<Pin> pins;      ///< at most one per vertex, none where it hangs
   std::optional<AirDrag> air;
-  std::optional<ContactStage> contact;
+  std::optional<ContactPass> contact;
   std::optional<StrainLimit> strain_limit;
   TriangleMesh surface;  ///< base of coarser levels; empty unless the method asks for it
   RestCoordinates rest_coordinates;  ///< 2 x n [m], or empty: some steppers order their work by it

@@ -96,7 +96,7 @@ Vec3 EnergyLedger::missing_impulse(VertexId vertex, const State& begin, const St
 
 void EnergyLedger::record_contact(const State& begin, const State& end, double time_end,
                                   double step) {
-  for (const ContactStage::Support& support : model_.contact->supports(end.positions, time_end)) {
+  for (const ContactPass::Support& support : model_.contact->supports(end.positions, time_end)) {
     const VertexId v = support.vertex;
     if (is_pinned_[v]) continue;
     const Vec3 impulse =

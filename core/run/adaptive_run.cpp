@@ -56,7 +56,7 @@ void AdaptiveRun::set_options(const DynamicOptions& options) {
   refinement_ = DynamicRefinement(base_, options);
 }
 
-void AdaptiveRun::observe(StageObserver* observer) {
+void AdaptiveRun::observe(PartObserver* observer) {
   observer_ = observer;
   stepper_->observe(observer);
 }

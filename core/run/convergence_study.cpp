@@ -13,8 +13,8 @@
 #include "core/dynamics/position_based/spring_law.h"
 #include "core/dynamics/position_based/step_solve.h"
 #include "core/dynamics/stepper_table.h"
+#include "core/run/part_timer.h"
 #include "core/run/simulation.h"
-#include "core/run/stage_timer.h"
 
 namespace pleat {
 namespace {

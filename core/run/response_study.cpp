@@ -20,7 +20,7 @@ namespace {
 constexpr double kFirstContact = 1e-6;  // [m]
 
 Vec3 normal_at(const Collider& collider, const Vec3& place, double time) {
-  return gap(swept(ContactStage::placed(collider, time), {}, Vec3::Zero()), place).normal;
+  return gap(swept(ContactPass::placed(collider, time), {}, Vec3::Zero()), place).normal;
 }
 
 void check_scene(const Scene& scene) {
@@ -80,8 +80,8 @@ class FrictionWatch {
   }
 
   void end() {
-    const ContactStage& contact = *simulation_.model().contact;
-    for (const ContactStage::Touch& touch : contact.touches()) {
+    const ContactPass& contact = *simulation_.model().contact;
+    for (const ContactPass::Touch& touch : contact.touches()) {
       const Vec3 before = free_.velocities.col(touch.vertex);
       const double friction = contact.colliders()[static_cast<std::size_t>(touch.solid)].friction;
       const Vec3 law = answered(before, touch.normal, friction, response_);
@@ -122,8 +122,8 @@ class TouchedVertices {
         solids_(static_cast<std::size_t>(simulation.model().n_vertices()), kUntouched) {}
 
   void look(ResponseRun& run) {
-    const ContactStage& contact = *simulation_.model().contact;
-    for (const ContactStage::Touch& touch : contact.touches())
+    const ContactPass& contact = *simulation_.model().contact;
+    for (const ContactPass::Touch& touch : contact.touches())
       solids_[static_cast<std::size_t>(touch.vertex)] = touch.solid;
     double sum = 0;
     int n = 0;
@@ -186,7 +186,7 @@ ResponseRun run_from_contact(const Scene& scene, double window, State& at, doubl
                                         " s, first contact and the time that is looked at after "
                                         "it, got " +
                                         Json(scene.duration).dump() + " s");
-  run.contact_share = timed.parts().total(Stage::contact) / timed.seconds();
+  run.contact_share = timed.parts().total(Part::contact) / timed.seconds();
   if (friction) run.friction = friction->result();
   return run;
 }

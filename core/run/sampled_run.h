@@ -60,7 +60,7 @@ class SampledRun {
   double timed_seconds() const { return run_.seconds(); }  ///< wall time [s]
   double timed_duration() const;                           ///< simulated time [s]
   /// Times of the same steps' parts; zero unless timed.
-  const StageTimer& parts() const { return run_.parts(); }
+  const PartTimer& parts() const { return run_.parts(); }
   /// See EnergyLedger; NaN without it.
   double relative_drift() const;
   /// See RunWatch, which looks at each step; none when untimed.

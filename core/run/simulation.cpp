@@ -49,7 +49,7 @@ void Simulation::start() {
   stepper_->observe(observer_);
 }
 
-void Simulation::observe(StageObserver* observer) {
+void Simulation::observe(PartObserver* observer) {
   observer_ = observer;
   stepper_->observe(observer);
 }
@@ -61,12 +61,12 @@ void Simulation::reset() {
   start();
 }
 
-/// Pins stay, and what the contact stage has counted.
+/// Pins stay, and what the contact pass has counted.
 void Simulation::take_cloth(RestCloth cloth) {
   stepper_.reset();  // it refers to the model
   cloth_ = std::move(cloth);
   std::vector<Pin> pins = std::move(model_.pins);
-  std::optional<ContactStage> contact = std::move(model_.contact);
+  std::optional<ContactPass> contact = std::move(model_.contact);
   model_ = scene_model(scene_, cloth_);
   model_.pins = std::move(pins);
   if (contact) contact->set_options(model_.contact->options());

@@ -97,12 +97,12 @@ class Simulation final : public MovingCloth {
   /// Contact forces over the vertices' masses [m/s^2]; zero where vertices hang.
   Positions contact_accelerations() const;
   /// See Stepper::strain_limit.
-  const StrainLimitStage* strain_limit() const { return stepper_->strain_limit(); }
+  const StrainLimitPass* strain_limit() const { return stepper_->strain_limit(); }
   /// The longest substep that is surely stable [s]; nothing where the method has no bound.
   std::optional<double> stability_bound() const;
   /// See Stepper::implicit_springs.
   std::span<const char> implicit_springs() const { return stepper_->implicit_springs(); }
-  void observe(StageObserver* observer) override;
+  void observe(PartObserver* observer) override;
 
  private:
   void expect_outside_of_solids() const;
@@ -128,7 +128,7 @@ class Simulation final : public MovingCloth {
   std::optional<Positions> start_positions_;  // when not those of the scene [m]
   State state_;
   std::unique_ptr<Stepper> stepper_;
-  StageObserver* observer_ = nullptr;
+  PartObserver* observer_ = nullptr;
   double time_begin_ = 0;  // when this cloth went on from another's state [s]
   std::int64_t n_steps_ = 0;
   bool was_led_astray_ = false;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/model/state.h"
 #include "core/model/system_matrix.h"
 
@@ -36,8 +36,8 @@ class ContactHold {
   void set_resistances(const SystemMatrix& matrix, double mass_unit = 1);
   void set_resistances(const Eigen::VectorXd& resistances) { resistances_ = resistances; }
 
-  /// Says which vertices are held in the substep that the contact stage is at.
-  void choose(std::span<const ContactStage::Touch> touches, const State& begin, double h);
+  /// Says which vertices are held in the substep that the contact pass is at.
+  void choose(std::span<const ContactPass::Touch> touches, const State& begin, double h);
   std::span<const Held> held() const { return held_; }
 
   /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.
@@ -50,7 +50,7 @@ class ContactHold {
   const Eigen::VectorXd& resistances() const { return resistances_; }
 
  private:
-  const ContactStage& contact_;
+  const ContactPass& contact_;
   double share_;
   Eigen::VectorXd resistances_;
   std::vector<Held> held_;

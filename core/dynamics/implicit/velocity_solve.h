@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "core/base/stage_observer.h"
+#include "core/base/part_observer.h"
 #include "core/linalg/linear_solver.h"
 #include "core/model/cloth_model.h"
 #include "core/model/state.h"
@@ -31,7 +31,7 @@ class VelocitySolve {
   /// time_end  of the substep of h [s]
   /// observer  or null
   SolveReport advance(SystemMatrix& matrix, Positions& rhs, State& state, double time_end, double h,
-                      StageObserver* observer);
+                      PartObserver* observer);
 
  private:
   /// The polynomial through the last changes, at the next substep.

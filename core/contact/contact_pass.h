@@ -52,10 +52,10 @@ struct Penetration {
 /// Edges and faces are covered by a sample rule: vertices are held off a round solid far enough
 /// that a flat face with its corners there does not cut it (see clearance()). Source:
 /// docs/methods/contact.md (derivation and limits).
-class ContactStage {
+class ContactPass {
  public:
   /// Throws ContractError for a collider that is not valid, negative sizes.
-  ContactStage(std::vector<Collider> colliders, const ContactOptions& options);
+  ContactPass(std::vector<Collider> colliders, const ContactOptions& options);
 
   const ContactOptions& options() const { return options_; }
   /// Throws ContractError for negative sizes.

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/contact_stage.h"
+#include "core/contact/contact_pass.h"
 #include "core/model/cloth_model.h"
 #include "core/model/hanging_vertices.h"
 #include "core/model/state.h"
@@ -24,10 +24,10 @@ namespace pleat {
 ///
 /// Source: the velocity constraint of Sun, Zhao & Liu, Computer Engineering and Applications
 /// 44(31), 2008; docs/methods/strain_limit.md.
-class StrainLimitStage {
+class StrainLimitPass {
  public:
-  /// model  with a strain limit; outlives the stage
-  explicit StrainLimitStage(const ClothModel& model);
+  /// model  with a strain limit; outlives the pass
+  explicit StrainLimitPass(const ClothModel& model);
 
   /// Corrects what a stepper proposes for the end of a substep. Pinned vertices stay. Allocates
   /// nothing.
@@ -37,7 +37,7 @@ class StrainLimitStage {
 
   /// Corrects once more in that substep, after contact touched vertices, which are then not pulled
   /// into solids.
-  void limit_again(State& state, double travel, std::span<const ContactStage::Touch> touches);
+  void limit_again(State& state, double travel, std::span<const ContactPass::Touch> touches);
 
   /// True where an edge that is not pinned at both ends is beyond its limits.
   bool is_exceeded(const Eigen::Ref<const Positions>& positions) const;
