@@ -113,8 +113,8 @@ RunSummary run_to_end(Simulation& simulation, Watchers& watchers) {
     summary.last_stretch = stretch(simulation.gauge(), simulation.state().positions);
     summary.largest_stretch = std::max(summary.largest_stretch, summary.last_stretch.largest);
     summary.rms_stretch_sum += summary.last_stretch.rms;
-    watch.look(simulation, step_report);
-    if (watchers.ledger) watchers.ledger->look();
+    watch.check(simulation, step_report);
+    if (watchers.ledger) watchers.ledger->record_step();
     // The last finite frame of a run that ended early is kept, unless it was written already.
     const bool is_frame = (simulation.n_steps() % steps_per_frame == 0) != ended;
     if (is_frame) add_frame(simulation, watchers, summary);

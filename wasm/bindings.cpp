@@ -192,7 +192,7 @@ class Simulation {
     int status = run_.step(0, [this] { frame(); });
     for (int i = 0; i < n && status == 0; ++i)
       status = run_.step(1, [this] {
-        ledger_->look();
+        ledger_->record_step();
         frame();
       });
     return status;

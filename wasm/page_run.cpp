@@ -45,7 +45,7 @@ int PageRun::step(int n, const std::function<void()>& show) {
     running();
     for (int i = 0; i < n && !report_.ends_run(); ++i) {
       report_ = steps_->step();
-      if (!report_.ends_run() && !running().is_grabbed()) watch_->look(running(), report_);
+      if (!report_.ends_run() && !running().is_grabbed()) watch_->check(running(), report_);
     }
     show();
   } catch (const std::exception& error) {

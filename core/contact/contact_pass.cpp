@@ -193,7 +193,7 @@ void ContactPass::meet_framed(VertexId vertex, const Vec3& begin, const Vec3& en
     });
   }
   if (first_cone_ == solids_.size()) return;
-  budget_.look_at_near(vertex, begin, end, [&](std::size_t k) {
+  budget_.visit_near(vertex, begin, end, [&](std::size_t k) {
     const Solid& solid = solids_[first_cone_ + k];
     if (&solid == skipped) return -std::numeric_limits<double>::infinity();
     const Vec3 from = solid.turns ? solid.carry * begin : begin;

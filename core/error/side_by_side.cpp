@@ -144,7 +144,7 @@ void SideBySide::Run::observe_frame(bool is_compared, bool is_monitored,
     result.unpinned_inside.add(contact->penetration(unpinned, cloth->time()));
   }
   if (monitor && is_monitored) {
-    result.fit->last = monitor->look(state.positions);
+    result.fit->last = monitor->add_frame(state.positions);
     result.fit->outside += result.fit->last.share;
   }
   if (is_compared) keep_sample(reference_mesh);

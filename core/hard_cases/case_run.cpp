@@ -103,7 +103,7 @@ struct EventHandler {
 void begin_checks(const HardCase& hard_case, double duration, VariantRun& run) {
   for (const CaseCheck& check : hard_case.checks) {
     run.measures.push_back(check.measure(*run.simulation, duration));
-    run.measures.back()->look(*run.simulation, {});
+    run.measures.back()->update(*run.simulation, {});
   }
 }
 
@@ -119,7 +119,7 @@ SolveReport run_variant(const HardCase& hard_case, double duration, const CaseFi
       std::visit(EventHandler{run, files}, event->what);
     SolveReport report = run.simulation->step();
     if (report.ends_run()) return report;
-    for (const auto& measure : run.measures) measure->look(*run.simulation, report);
+    for (const auto& measure : run.measures) measure->update(*run.simulation, report);
     if (progress) progress(static_cast<double>(s + 1) / static_cast<double>(n_steps));
   }
   return {};

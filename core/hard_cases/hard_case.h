@@ -21,7 +21,7 @@ class CaseMeasure {
  public:
   virtual ~CaseMeasure() = default;
   /// Looks at the start of the run, with an empty report, and after each step.
-  virtual void look(const Simulation& simulation, const SolveReport& step) = 0;
+  virtual void update(const Simulation& simulation, const SolveReport& step) = 0;
   virtual double value() const = 0;
   /// Sentence for a reader on a value that is too large; mostly empty.
   virtual std::string detail() const { return {}; }

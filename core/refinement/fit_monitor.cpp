@@ -80,7 +80,7 @@ FitMonitor::FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan) : curva
   limits_ = Eigen::Map<const Eigen::VectorXd>(plan.curvature_limits.data(), n_limits);
 }
 
-FitReport FitMonitor::look(const Eigen::Ref<const Positions>& positions) {
+FitReport FitMonitor::add_frame(const Eigen::Ref<const Positions>& positions) {
   const auto n_outside = (curvature_.of(positions).array() > limits_.array()).count();
   report_.share = static_cast<double>(n_outside) / static_cast<double>(limits_.size());
   report_.worst_share = std::max(report_.worst_share, report_.share);

@@ -69,7 +69,7 @@ class FitMonitor {
   FitMonitor(const QuadMesh& mesh, const RefinementPlan& plan);
 
   /// The next frame: positions on the plan's mesh [m].
-  FitReport look(const Eigen::Ref<const Positions>& positions);
+  FitReport add_frame(const Eigen::Ref<const Positions>& positions);
 
  private:
   FaceCurvature curvature_;

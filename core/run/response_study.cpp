@@ -121,7 +121,7 @@ class TouchedVertices {
       : simulation_(simulation),
         solids_(static_cast<std::size_t>(simulation.model().n_vertices()), kUntouched) {}
 
-  void look(ResponseRun& run) {
+  void measure(ResponseRun& run) {
     const ContactPass& contact = *simulation_.model().contact;
     for (const ContactPass::Touch& touch : contact.touches())
       solids_[static_cast<std::size_t>(touch.vertex)] = touch.solid;
@@ -175,7 +175,7 @@ ResponseRun run_from_contact(const Scene& scene, double window, State& at, doubl
     if (!simulation.first_contact()) continue;
     if (!is_after) timed.clear_costs();
     if (is_after && friction) friction->end();
-    touched.look(run);
+    touched.measure(run);
     --n_left;
   }
   if (!simulation.first_contact())

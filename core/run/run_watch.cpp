@@ -252,14 +252,14 @@ RunWatch::RunWatch(const Simulation& simulation) {
                  (mass > 0 ? std::sqrt(2 * std::max(0.0, stored) / mass) : 0);
 }
 
-void RunWatch::look(const Simulation& simulation, const SolveReport& step) {
+void RunWatch::check(const Simulation& simulation, const SolveReport& step) {
   driven_speed_ = std::max(driven_speed_, driven_speed(simulation));
   look_at_stretch(simulation);
   look_at_speed(simulation);
   look_at_report(simulation, step);
 }
 
-void RunWatch::look_at_stretch(const Simulation& simulation) {
+void RunWatch::check_at_stretch(const Simulation& simulation) {
   const Positions& positions = simulation.state().positions;
   RunWarning warning{RunWarning::Kind::stretch,
                      simulation.time(),
@@ -277,7 +277,7 @@ void RunWatch::look_at_stretch(const Simulation& simulation) {
   if (warning.value > warning.bound) warn(simulation, std::move(warning));
 }
 
-void RunWatch::look_at_speed(const Simulation& simulation) {
+void RunWatch::check_at_speed(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
   const Fastest fastest = fastest_of(state.velocities);
@@ -295,7 +295,7 @@ void RunWatch::look_at_speed(const Simulation& simulation) {
                     {}});
 }
 
-void RunWatch::look_at_report(const Simulation& simulation, const SolveReport& step) {
+void RunWatch::check_at_report(const Simulation& simulation, const SolveReport& step) {
   const bool is_unsolved =
       simulation.scene().method.stepper->solves_equations && step.relative_residual > kUnsolved;
   n_unsolved_ = is_unsolved ? n_unsolved_ + 1 : 0;

@@ -52,7 +52,7 @@ class RunWatch {
   explicit RunWatch(const Simulation& simulation);
 
   /// step  the report of the steps since the last look
-  void look(const Simulation& simulation, const SolveReport& step);
+  void check(const Simulation& simulation, const SolveReport& step);
 
   /// At most one of each kind, as they were seen, but that which is not nonsense last.
   const std::vector<RunWarning>& warnings() const { return warnings_; }

@@ -74,9 +74,9 @@ void SampledRun::step() {
   if (sampling) begin_ = simulation_.state();
   const SolveReport report = run_.step();
   if (report.ends_run()) return;
-  if (watch_) watch_->look(simulation_, report);
+  if (watch_) watch_->check(simulation_, report);
   if (sampling) take_samples(begin_, time_begin);
-  if (ledger_) ledger_->look();
+  if (ledger_) ledger_->record_step();
 }
 
 void SampledRun::advance(double budget) {

@@ -110,11 +110,11 @@ TEST_CASE("contact: a vertex that keeps its distance is looked at once", "[conta
     const std::vector<Pose> begin(2, Pose{Mat3::Identity(), 0.01 * k * velocity});
     const std::vector<Pose> end(2, Pose{Mat3::Identity(), 0.01 * (k + 1) * velocity});
     budget.begin_substep(begin, end);
-    budget.look_at_near(VertexId(0), Vec3(1, 0, 0) + 0.01 * k * velocity,
-                        Vec3(1, 0, 0) + 0.01 * (k + 1) * velocity, [&](std::size_t solid) {
-                          ++n_looks;
-                          return solid == 0 ? 0.8 : 1.9;
-                        });
+    budget.visit_near(VertexId(0), Vec3(1, 0, 0) + 0.01 * k * velocity,
+                      Vec3(1, 0, 0) + 0.01 * (k + 1) * velocity, [&](std::size_t solid) {
+                        ++n_looks;
+                        return solid == 0 ? 0.8 : 1.9;
+                      });
   }
   CHECK(n_looks == 2);
 }
@@ -134,7 +134,7 @@ TEST_CASE("contact: a vertex is looked at when its way has used its distance up"
     const double end = 0.01 * (k + 1);
     budget.begin_substep(std::vector<Pose>{pose(begin, 1), pose(begin, -1)},
                          std::vector<Pose>{pose(end, 1), pose(end, -1)});
-    budget.look_at_near(VertexId(0), {2 - begin, 0, 0}, {2 - end, 0, 0}, [&](std::size_t solid) {
+    budget.visit_near(VertexId(0), {2 - begin, 0, 0}, {2 - end, 0, 0}, [&](std::size_t solid) {
       if (solid == 0) looks.push_back(k);
       return 0.505;
     });
@@ -163,7 +163,7 @@ TEST_CASE("contact: a vertex is looked at when the turn of a solid asks for it",
     if (next_look == 0 && distance < moved) next_look = k;
     bool looked = false;
     budget.begin_substep(std::vector<Pose>{pose(k)}, std::vector<Pose>{pose(k + 1)});
-    budget.look_at_near(VertexId(0), {0, 5, speed * k}, {0, 5, speed * (k + 1)}, [&](std::size_t) {
+    budget.visit_near(VertexId(0), {0, 5, speed * k}, {0, 5, speed * (k + 1)}, [&](std::size_t) {
       looked = true;
       return distance;
     });
@@ -204,7 +204,7 @@ TEST_CASE("contact: few of sixteen walking limbs are looked at", "[contact]") {
     budget.begin_substep(begin, end);
     for (int i = 0; i < n_vertices; ++i) {
       const Vec3 from = skirt.col(i) + k * h * kWalk;
-      budget.look_at_near(VertexId(i), from, from + h * kWalk, [&](std::size_t solid) {
+      budget.visit_near(VertexId(i), from, from + h * kWalk, [&](std::size_t solid) {
         ++n_looks;
         return gap(solids[solid], from).distance;
       });
