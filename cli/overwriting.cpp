@@ -1,7 +1,5 @@
 #include "cli/overwriting.h"
 
-#include <string>
-
 #include "core/files/whole_file.h"
 
 namespace pleat {

@@ -8,7 +8,6 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
-#include "core/dynamics/stepper_table.h"
 #include "core/error/self_crossings.h"
 #include "core/files/frame_file.h"
 #include "core/files/matrix_file.h"

@@ -2,11 +2,9 @@
 // when memory grows.
 #include <emscripten/bind.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/base/check.h"
@@ -17,7 +15,6 @@
 #include "core/error/mesh_sampling.h"
 #include "core/error/self_crossings.h"
 #include "core/error/surface_distance.h"
-#include "core/model/stretch.h"
 #include "core/refinement/fit_monitor.h"
 #include "wasm/arrays.h"
 #include "wasm/envelope.h"

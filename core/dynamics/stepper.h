@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/base/part_observer.h"
 #include "core/dynamics/contact_memory.h"

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/base/check.h"
-#include "core/files/json_reader.h"
 
 namespace pleat {
 namespace {

@@ -7,7 +7,6 @@
 #include "core/base/check.h"
 #include "core/base/rigid_motion.h"
 #include "core/modal/arap_energy.h"
-#include "core/modal/nearest_rotation.h"
 #include "core/modal/shape_clusters.h"
 
 namespace pleat {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 
 #include "core/base/check.h"
-#include "core/files/json_reader.h"
 #include "core/scene/format/scene_file.h"
 
 namespace pleat {

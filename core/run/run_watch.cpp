@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <variant>
 
-#include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 
 namespace pleat {

@@ -1,8 +1,6 @@
 #include "core/run/sampled_run.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/base/check.h"
 #include "core/scene/tearing.h"

@@ -1,11 +1,9 @@
 #include "core/run/scene_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
-#include "core/dynamics/stepper_table.h"
 #include "core/model/elements.h"
 #include "core/run/elastic_model.h"
 #include "core/scene/tearing.h"

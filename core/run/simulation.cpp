@@ -1,8 +1,6 @@
 #include "core/run/simulation.h"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "core/base/check.h"

@@ -1,5 +1,4 @@
 #include "core/sweep/front_chart.h"
-#include "core/dynamics/stepper_table.h"
 
 #include <algorithm>
 #include <cmath>

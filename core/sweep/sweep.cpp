@@ -6,10 +6,8 @@
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
-#include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/files/json_reader.h"
-#include "core/scene/format/cloth_section.h"
 #include "core/scene/format/fabric_section.h"
 #include "core/scene/format/method_section.h"
 #include "core/scene/format/model_section.h"

@@ -1,6 +1,5 @@
 #include "core/dynamics/position_based/spring_law.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pleat {

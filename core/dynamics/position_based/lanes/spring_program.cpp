@@ -1,7 +1,6 @@
 #include "core/dynamics/position_based/lanes/spring_program.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <string_view>
 

@@ -1,6 +1,5 @@
 #include "core/dynamics/position_based/levels/cycle_projections.h"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
