@@ -364,13 +364,13 @@ void StrainLimitPass::limit_again(State& state, double travel,
 
 double StrainLimitPass::largest_excess(const Positions& positions) const {
   double largest = 0;
-  const auto look_at = [&](const auto& edge) {
+  const auto include = [&](const auto& edge) {
     if (inverse_mass(edge.ends) == 0) return;
     const double share = edge.ends.difference(positions).norm() / edge.rest_length;
     largest = std::max({largest, share - limits_.longest, limits_.shortest - share});
   };
-  std::for_each(edges_.begin(), edges_.end(), look_at);
-  std::for_each(shared_edges_.begin(), shared_edges_.end(), look_at);
+  std::for_each(edges_.begin(), edges_.end(), include);
+  std::for_each(shared_edges_.begin(), shared_edges_.end(), include);
   return largest;
 }
 

@@ -252,12 +252,12 @@ RunWatch::RunWatch(const Simulation& simulation) {
 
 void RunWatch::check(const Simulation& simulation, const SolveReport& step) {
   driven_speed_ = std::max(driven_speed_, driven_speed(simulation));
-  look_at_stretch(simulation);
-  look_at_speed(simulation);
-  look_at_report(simulation, step);
+  check_stretch(simulation);
+  check_speed(simulation);
+  check_report(simulation, step);
 }
 
-void RunWatch::check_at_stretch(const Simulation& simulation) {
+void RunWatch::check_stretch(const Simulation& simulation) {
   const Positions& positions = simulation.state().positions;
   RunWarning warning{RunWarning::Kind::stretch,
                      simulation.time(),
@@ -275,7 +275,7 @@ void RunWatch::check_at_stretch(const Simulation& simulation) {
   if (warning.value > warning.bound) warn(simulation, std::move(warning));
 }
 
-void RunWatch::check_at_speed(const Simulation& simulation) {
+void RunWatch::check_speed(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
   const State& state = simulation.state();
   const Fastest fastest = fastest_of(state.velocities);
@@ -293,7 +293,7 @@ void RunWatch::check_at_speed(const Simulation& simulation) {
                     {}});
 }
 
-void RunWatch::check_at_report(const Simulation& simulation, const SolveReport& step) {
+void RunWatch::check_report(const Simulation& simulation, const SolveReport& step) {
   const bool is_unsolved =
       simulation.scene().method.stepper->solves_equations && step.relative_residual > kUnsolved;
   n_unsolved_ = is_unsolved ? n_unsolved_ + 1 : 0;
