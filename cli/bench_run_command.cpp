@@ -9,6 +9,7 @@
 #include "cli/reference_folder.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/error/run_comparison.h"
 #include "core/reference/chain_reference.h"
 #include "core/reference/closed_form_reference.h"

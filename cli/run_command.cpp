@@ -9,6 +9,7 @@
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
 #include "core/error/self_crossings.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/files/frame_file.h"
 #include "core/files/matrix_file.h"
 #include "core/model/stretch.h"

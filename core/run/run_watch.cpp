@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 
 namespace pleat {

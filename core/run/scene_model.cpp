@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/dynamics/stepper_table.h"
 #include "core/model/elements.h"
 #include "core/run/elastic_model.h"
 #include "core/scene/tearing.h"

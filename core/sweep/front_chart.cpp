@@ -1,4 +1,5 @@
 #include "core/sweep/front_chart.h"
+#include "core/dynamics/stepper_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/core_version.h"
+#include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/files/json_reader.h"
 #include "core/scene/format/fabric_section.h"
