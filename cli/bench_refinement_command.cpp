@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/scene_input.h"
 #include "core/base/core_version.h"
+#include "core/base/formatted.h"
 #include "core/error/error_norms.h"
 #include "core/error/restarts.h"
 #include "core/error/side_by_side.h"
@@ -125,11 +126,10 @@ Json row_json(const Contestant& contestant, const ContestantResult& result,
 
 /// Names the first run, against which all of a bench are held.
 ReferenceLabel label_of_first(const Scene& scene, int n_vertices, const FrameOptions& options) {
-  char run[96];
-  std::snprintf(run, sizeof run, ", %d vertices, its own run of %g s", n_vertices,
-                options.duration);
   const double times[] = {options.begin, options.duration};
-  return {reference_id("together", scene, times), scene.name + run};
+  return {
+      reference_id("together", scene, times),
+      scene.name + formatted(", %d vertices, its own run of %g s", n_vertices, options.duration)};
 }
 
 Outcome print_together(const std::vector<Contestant>& contestants, const FrameOptions& options) {

@@ -1,8 +1,7 @@
 #include "core/dynamics/stepper.h"
 
-#include <cstdio>
-
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/linalg/make_linear_solver.h"
 #include "core/model/elasticity.h"
 #include "core/model/hanging_vertices.h"
@@ -21,13 +20,11 @@ VertexId first_lost(const State& state) {
 }
 
 SolveReport lost_report(VertexId vertex, double time) {
-  char sentence[120];
-  std::snprintf(sentence, sizeof sentence,
-                "vertex %d diverged in the step from %.6g s: beyond %.0g m or m/s, or not finite",
-                vertex.value, time, kLargestCoordinate);
   SolveReport report;
   report.status = SolveStatus::not_finite;
-  report.message = sentence;
+  report.message =
+      formatted("vertex %d diverged in the step from %.6g s: beyond %.0g m or m/s, or not finite",
+                vertex.value, time, kLargestCoordinate);
   return report;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/fabric/taut_springs.h"
 
 namespace pleat {
@@ -141,12 +141,10 @@ std::vector<MembraneElement> membrane_elements(const TriangleMesh& mesh) {
 
 MembraneLaw membrane_law(const FabricConstants& fabric) {
   if (fabric.shear * fabric.shear > fabric.stretch_warp * fabric.stretch_weft) {
-    char sentence[240];
-    std::snprintf(sentence, sizeof sentence,
-                  "%s: expected a shear stiffness of at most sqrt(%g * %g) N/m, that of stretch, "
-                  "got %g N/m",
-                  fabric.name.c_str(), fabric.stretch_warp, fabric.stretch_weft, fabric.shear);
-    throw InputError("/fabric", sentence);
+    throw InputError("/fabric", formatted("%s: expected a shear stiffness of at most sqrt(%g * %g) "
+                                          "N/m, that of stretch, got %g N/m",
+                                          fabric.name.c_str(), fabric.stretch_warp,
+                                          fabric.stretch_weft, fabric.shear));
   }
   return {fabric.stretch_warp, fabric.stretch_weft, fabric.shear, 0};
 }

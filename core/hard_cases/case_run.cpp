@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/files/whole_file.h"
 #include "core/scene/format/scene_file.h"
 
@@ -147,15 +147,9 @@ std::optional<double> bound_of(const HardCase& hard_case, const Check& check,
   return exception == nullptr ? std::optional(check.bound) : exception->bound;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 std::string sentence(const CaseFinding& finding) {
-  return finding.what + ": expected at most " + number(finding.bound) + ", got " +
-         number(finding.found) + (finding.detail.empty() ? "" : " (" + finding.detail + ")");
+  return finding.what + ": expected at most " + three_digits(finding.bound) + ", got " +
+         three_digits(finding.found) + (finding.detail.empty() ? "" : " (" + finding.detail + ")");
 }
 
 void judge(std::vector<CaseFinding> findings, CaseOutcome& outcome) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/model/elasticity.h"
 
@@ -155,33 +155,27 @@ constexpr std::array<Word<RunWarning::Kind>, 4> kKinds = {
      {"unsolved", RunWarning::Kind::unsolved},
      {"not_converged", RunWarning::Kind::not_converged}}};
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 }  // namespace
 
 std::string sentence(const RunWarning& warning) {
-  const std::string since = "from " + number(warning.time) + " s";
+  const std::string since = "from " + three_digits(warning.time) + " s";
   const std::string place = since + " at vertex " + std::to_string(warning.vertex.value);
   std::string text;
   switch (warning.kind) {
     case RunWarning::Kind::stretch:
-      text = place + " on, the cloth stretched by up to " + number(100 * warning.value) +
-             " %; its load explains " + number(100 * warning.bound) + " %";
+      text = place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
+             " %; its load explains " + three_digits(100 * warning.bound) + " %";
       break;
     case RunWarning::Kind::speed:
-      text = place + " on, the cloth was as fast as " + number(warning.value) +
-             " m/s; falling and pulling explain " + number(warning.bound) + " m/s";
+      text = place + " on, the cloth was as fast as " + three_digits(warning.value) +
+             " m/s; falling and pulling explain " + three_digits(warning.bound) + " m/s";
       break;
     case RunWarning::Kind::unsolved:
-      text = since + " on, steps left " + number(100 * warning.value) +
+      text = since + " on, steps left " + three_digits(100 * warning.value) +
              " % of their equations unsolved";
       break;
     case RunWarning::Kind::not_converged:
-      text = since + " on, steps did not converge and left " + number(100 * warning.value) +
+      text = since + " on, steps did not converge and left " + three_digits(100 * warning.value) +
              " % of their equations unsolved";
       break;
   }

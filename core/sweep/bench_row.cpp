@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/scene/format/method_section.h"
 #include "core/sweep/pareto.h"
@@ -88,12 +88,7 @@ constexpr NumberColumn kNumberColumns[] = {
 };
 
 /// A number with three significant digits, or a dash.
-std::string short_number(double value) {
-  if (!std::isfinite(value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string short_number(double value) { return std::isfinite(value) ? three_digits(value) : "-"; }
 
 std::string method_phrase(const BenchRow& row) {
   const MethodOptions& method = row.method;

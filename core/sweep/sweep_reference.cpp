@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/formatted.h"
 #include "core/dynamics/stepper_table.h"
 #include "core/error/error_norms.h"
 #include "core/error/run_comparison.h"
@@ -108,10 +108,8 @@ void doubt(Reference& reference, const Scene& scene, const char* halved,
   reference.label.uncertainty = std::max(reference.label.uncertainty, change);
   for (std::size_t s = 0; s < changes.size(); ++s)
     reference.samples[s].uncertainty = std::max(reference.samples[s].uncertainty, changes[s]);
-  char phrase[80];
-  std::snprintf(phrase, sizeof phrase, "; halving its %s changed it by %.3g mm", halved,
-                1e3 * change);
-  reference.label.description += phrase;
+  reference.label.description +=
+      formatted("; halving its %s changed it by %.3g mm", halved, 1e3 * change);
   reference.label.converged = is_converged(scene, reference.label.uncertainty);
 }
 
