@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace pleat {
 
 /// The parts of a computation that can be timed from outside.
@@ -12,9 +14,11 @@ enum class Part {
   contact,
   strain_limit,
 };
+inline constexpr const char* kPartNames[] = {"convert", "forces",  "assembly",    "factor",
+                                             "solve",   "contact", "strain limit"};
 constexpr int kPartCount = 7;
 
-const char* name(Part part);
+constexpr const char* name(Part part) { return kPartNames[static_cast<std::size_t>(part)]; }
 
 /// Told where a computation is. Nothing below `run` reads a clock.
 class PartObserver {

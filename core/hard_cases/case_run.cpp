@@ -212,20 +212,6 @@ void fail_as_accepted(CaseOutcome& outcome) {
 
 }  // namespace
 
-const char* name(CaseStatus status) {
-  switch (status) {
-    case CaseStatus::ok:
-      return "ok";
-    case CaseStatus::stopped:
-      return "stopped";
-    case CaseStatus::refused:
-      return "refused";
-    case CaseStatus::failed:
-      return "failed";
-  }
-  return "";
-}
-
 CaseOutcome run_case(const HardCase& hard_case, const StepperType& type, CaseLength length,
                      const CaseFiles& files, const CaseProgress& progress) {
   CaseOutcome outcome{.case_name = hard_case.name, .stepper = type.name};

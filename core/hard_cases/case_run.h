@@ -14,7 +14,11 @@ enum class CaseStatus {
   failed,   ///< it ran and did not keep what was asked
 };
 
-const char* name(CaseStatus status);
+inline constexpr const char* kCaseStatusNames[] = {"ok", "stopped", "refused", "failed"};
+
+constexpr const char* name(CaseStatus status) {
+  return kCaseStatusNames[static_cast<std::size_t>(status)];
+}
 
 /// Outcome of a case with one stepper.
 struct CaseOutcome {

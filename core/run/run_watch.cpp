@@ -160,26 +160,20 @@ constexpr std::array<Word<RunWarning::Kind>, 4> kKinds = {
 std::string sentence(const RunWarning& warning) {
   const std::string since = "from " + three_digits(warning.time) + " s";
   const std::string place = since + " at vertex " + std::to_string(warning.vertex.value);
-  std::string text;
+  const std::string left = three_digits(100 * warning.value) + " % of their equations unsolved";
   switch (warning.kind) {
     case RunWarning::Kind::stretch:
-      text = place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
+      return place + " on, the cloth stretched by up to " + three_digits(100 * warning.value) +
              " %; its load explains " + three_digits(100 * warning.bound) + " %";
-      break;
     case RunWarning::Kind::speed:
-      text = place + " on, the cloth was as fast as " + three_digits(warning.value) +
+      return place + " on, the cloth was as fast as " + three_digits(warning.value) +
              " m/s; falling and pulling explain " + three_digits(warning.bound) + " m/s";
-      break;
     case RunWarning::Kind::unsolved:
-      text = since + " on, steps left " + three_digits(100 * warning.value) +
-             " % of their equations unsolved";
-      break;
+      return since + " on, steps left " + left;
     case RunWarning::Kind::not_converged:
-      text = since + " on, steps did not converge and left " + three_digits(100 * warning.value) +
-             " % of their equations unsolved";
-      break;
+      return since + " on, steps did not converge and left " + left;
   }
-  return text;
+  return "";
 }
 
 std::string advice(const RunWarning& warning) {
