@@ -305,7 +305,7 @@ class Simulation {
   /// 1 for each spring that is taken implicitly, 0 for others; empty where all are taken alike.
   val implicit_springs() const {
     if (!run_.is_loaded()) return view_of(kNoDoubles);
-    return view_of(running().implicit_springs());
+    return view_of(running().stepper().implicit_springs());
   }
   /// The substeps that imex would take of a step [s] when it is given so many and shall have such a
   /// share of the springs explicit, and the share that is implicit then, as the cloth is held now.

@@ -163,24 +163,24 @@ ResponseRun run_from_contact(const Scene& scene, double window, State& at, doubl
   const auto n_window = std::max(1LL, std::llround(window / scene.method.step));
   ResponseRun run;
   std::optional<FrictionWatch> friction;
-  if (!simulation.remembers_contact_forces()) friction.emplace(scene, simulation);
+  if (simulation.stepper().contact_forces().cols() == 0) friction.emplace(scene, simulation);
   TouchedVertices touched(simulation);
   TimedRun timed(simulation, TimedRun::Parts::timed);
   std::int64_t n_left = n_window;
   for (std::int64_t s = 0; s < n_steps && n_left > 0; ++s) {
-    const bool is_after = simulation.first_contact().has_value();
+    const bool is_after = simulation.stepper().first_contact().has_value();
     if (!is_after) at = simulation.state();
     if (is_after && friction) friction->begin(simulation.state(), simulation.time());
     check_report(timed.step());
-    if (!simulation.first_contact()) continue;
+    if (!simulation.stepper().first_contact()) continue;
     if (!is_after) timed.clear_costs();
     if (is_after && friction) friction->end();
     touched.measure(run);
     --n_left;
   }
-  if (!simulation.first_contact())
+  if (!simulation.stepper().first_contact())
     throw InputError("/duration_s", "expected a time in which the cloth meets a solid");
-  first_contact = *simulation.first_contact();
+  first_contact = *simulation.stepper().first_contact();
   if (n_left > 0)
     throw InputError("/duration_s", "expected at least " + Json(first_contact + window).dump() +
                                         " s, first contact and the time that is looked at after "

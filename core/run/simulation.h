@@ -88,20 +88,12 @@ class Simulation final : public MovingCloth {
     return time_begin_ + static_cast<double>(n_steps_) * scene_.method.step;
   }
   int substeps() const { return stepper_->substeps(); }
-  /// See Stepper::remark.
-  std::string remark() const { return stepper_->remark(); }
-  /// See Stepper::first_contact.
-  std::optional<double> first_contact() const { return stepper_->first_contact(); }
-  /// See Stepper::contact_forces.
-  bool remembers_contact_forces() const { return stepper_->contact_forces().cols() > 0; }
+  /// Another one after each reset and tear.
+  const Stepper& stepper() const { return *stepper_; }
   /// Contact forces over the vertices' masses [m/s^2]; zero where vertices hang.
   Positions contact_accelerations() const;
-  /// See Stepper::strain_limit.
-  const StrainLimitPass* strain_limit() const { return stepper_->strain_limit(); }
   /// The longest substep that is surely stable [s]; nothing where the method has no bound.
   std::optional<double> stability_bound() const;
-  /// See Stepper::implicit_springs.
-  std::span<const char> implicit_springs() const { return stepper_->implicit_springs(); }
   void observe(PartObserver* observer) override;
 
  private:
