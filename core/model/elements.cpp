@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/check.h"
 #include "core/fabric/taut_springs.h"
 
 namespace pleat {
@@ -165,48 +164,15 @@ void BendElements::add_row_sums(RowSums& sums) const {
   for (const BendElement& bend : model_.bends) add_bend_sums(bend, sums);
 }
 
-void ChordElements::add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
-  energy += chord_energy(model_.chord_bends, positions);
-}
-
-void ChordElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                               Eigen::Ref<Positions> forces) const {
-  add_chord_forces(model_.chord_bends, positions, forces);
-}
-
 void ChordElements::add_row_sums(RowSums& sums) const {
   for (const ChordBend& bend : model_.chord_bends)
     for (const VertexId v : {bend.a, bend.b}) sums.stiffness[v] += bend.stiffness;
-}
-
-void BendFrictionElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                      double& energy) const {
-  if (!empty()) energy += model_.bend_friction->energy(positions);
-}
-
-void BendFrictionElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                      Eigen::Ref<Positions> forces) const {
-  if (!empty()) model_.bend_friction->add_forces(positions, forces);
 }
 
 void BendFrictionElements::add_row_sums(RowSums& sums) const {
   if (empty()) return;
   for (const BendFriction::Element& element : model_.bend_friction->elements())
     add_bend_sums(element.bend, sums);
-}
-
-void MembraneElements::check() const {
-  PLEAT_CHECK(model_.membrane_relaxation >= 0, "a relaxation time is not negative");
-}
-
-void MembraneElements::add_energy(const Eigen::Ref<const Positions>& positions,
-                                  double& energy) const {
-  energy += membrane_energy(model_.membrane, positions);
-}
-
-void MembraneElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                                  Eigen::Ref<Positions> forces) const {
-  add_membrane_forces(model_.membrane, positions, forces);
 }
 
 void MembraneElements::add_damping_forces(const Eigen::Ref<const Positions>& positions,
@@ -237,15 +203,6 @@ void MembraneElements::add_row_sums(RowSums& sums) const {
       sums.damping[element.vertices[i]] += model_.membrane_relaxation * row / 2;
     }
   }
-}
-
-void HingeElements::add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
-  energy += hinge_energy(model_.hinges, positions);
-}
-
-void HingeElements::add_forces(const Eigen::Ref<const Positions>& positions,
-                               Eigen::Ref<Positions> forces) const {
-  add_hinge_forces(model_.hinges, positions, forces);
 }
 
 void HingeElements::add_row_sums(RowSums& sums) const {

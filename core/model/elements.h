@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/check.h"
 #include "core/fabric/element_hessian.h"
 #include "core/model/cloth_model.h"
 
@@ -213,8 +214,13 @@ struct ChordElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const ChordBend& bend : model_.chord_bends) join(bend.a, bend.b);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
+    energy += chord_energy(model_.chord_bends, positions);
+  }
+  void add_forces(const Eigen::Ref<const Positions>& positions,
+                  Eigen::Ref<Positions> forces) const {
+    add_chord_forces(model_.chord_bends, positions, forces);
+  }
   template <class Blocks>
   void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
@@ -240,8 +246,13 @@ struct BendFrictionElements : ElementKind {
     for (const BendFriction::Element& element : model_.bend_friction->elements())
       join_all(element.bend.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
+    if (!empty()) energy += model_.bend_friction->energy(positions);
+  }
+  void add_forces(const Eigen::Ref<const Positions>& positions,
+                  Eigen::Ref<Positions> forces) const {
+    if (!empty()) model_.bend_friction->add_forces(positions, forces);
+  }
   template <class Blocks>
   void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
@@ -263,7 +274,9 @@ struct MembraneElements : ElementKind {
   using ElementKind::ElementKind;
 
   bool empty() const { return model_.membrane.elements.empty(); }
-  void check() const;
+  void check() const {
+    PLEAT_CHECK(model_.membrane_relaxation >= 0, "a relaxation time is not negative");
+  }
   template <class Note>
   void for_each_part(Note&& note) const {
     note(!empty(), "membrane", bytes_of(model_.membrane.elements));
@@ -275,8 +288,13 @@ struct MembraneElements : ElementKind {
     for (const MembraneElement& element : model_.membrane.elements)
       join_all(element.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
+    energy += membrane_energy(model_.membrane, positions);
+  }
+  void add_forces(const Eigen::Ref<const Positions>& positions,
+                  Eigen::Ref<Positions> forces) const {
+    add_membrane_forces(model_.membrane, positions, forces);
+  }
   void add_damping_forces(const Eigen::Ref<const Positions>& positions,
                           const Eigen::Ref<const Positions>& velocities,
                           Eigen::Ref<Positions> forces) const;
@@ -309,8 +327,13 @@ struct HingeElements : ElementKind {
   void for_each_pair(Join&& join) const {
     for (const Hinge& hinge : model_.hinges) join_all(hinge.vertices, join);
   }
-  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const;
-  void add_forces(const Eigen::Ref<const Positions>& positions, Eigen::Ref<Positions> forces) const;
+  void add_energy(const Eigen::Ref<const Positions>& positions, double& energy) const {
+    energy += hinge_energy(model_.hinges, positions);
+  }
+  void add_forces(const Eigen::Ref<const Positions>& positions,
+                  Eigen::Ref<Positions> forces) const {
+    add_hinge_forces(model_.hinges, positions, forces);
+  }
   template <class Blocks>
   void add_to_matrix(const Eigen::Ref<const Positions>& positions, const MatrixShares& shares,
                      Blocks& blocks) const {
