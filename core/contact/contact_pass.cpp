@@ -294,9 +294,10 @@ std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Ve
   return touch;
 }
 
-std::span<const ContactPass::Touch> ContactPass::resolve(
-    const Eigen::Ref<const Positions>& positions_begin, std::span<const char> is_exempt,
-    Eigen::Ref<Positions> positions, Eigen::Ref<Positions> velocities) {
+std::span<const ContactPass::Touch> ContactPass::resolve(const PositionsView& positions_begin,
+                                                         std::span<const char> is_exempt,
+                                                         PositionsRef positions,
+                                                         PositionsRef velocities) {
   const Eigen::Index n_vertices = positions.cols();
   PLEAT_CHECK(positions_begin.cols() == n_vertices && velocities.cols() == n_vertices &&
                   is_exempt.size() == static_cast<std::size_t>(n_vertices),
@@ -361,7 +362,7 @@ void ContactPass::outlines(std::vector<Outline>& outlines) const {
   }
 }
 
-double ContactPass::least_gap(const Eigen::Ref<const Positions>& positions,
+double ContactPass::least_gap(const PositionsView& positions,
                               std::span<const char> is_exempt) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Solid& solid : solids_) {
@@ -386,8 +387,8 @@ SolidShape ContactPass::placed(const Collider& collider, double time) {
   return pleat::placed(collider.shape, collider.motion.pose(time));
 }
 
-std::vector<ContactPass::Support> ContactPass::supports(
-    const Eigen::Ref<const Positions>& positions, double time) const {
+std::vector<ContactPass::Support> ContactPass::supports(const PositionsView& positions,
+                                                        double time) const {
   std::vector<Support> found;
   for (const Collider& collider : colliders_) {
     const SweptSolid bare = swept(placed(collider, time), Clearance{}, Vec3::Zero());
@@ -406,8 +407,7 @@ std::size_t ContactPass::bytes() const {
          static_cast<std::size_t>(options_.face_radii.size()) * sizeof(double);
 }
 
-Penetration ContactPass::penetration(const Eigen::Ref<const Positions>& positions,
-                                     double time) const {
+Penetration ContactPass::penetration(const PositionsView& positions, double time) const {
   std::vector<SweptSolid> solids;
   for (const Collider& collider : colliders_)
     solids.push_back(swept(placed(collider, time), Clearance{}, Vec3::Zero()));

@@ -91,9 +91,9 @@ class ContactPass {
   /// Where nothing touched a vertex, it is left to the bit, as is one that is not finite. Allocates
   /// nothing after the first call with as many vertices. Throws ContractError unless all have the
   /// same number of vertices.
-  std::span<const Touch> resolve(const Eigen::Ref<const Positions>& positions_begin,
-                                 std::span<const char> is_exempt, Eigen::Ref<Positions> positions,
-                                 Eigen::Ref<Positions> velocities);
+  std::span<const Touch> resolve(const PositionsView& positions_begin,
+                                 std::span<const char> is_exempt, PositionsRef positions,
+                                 PositionsRef velocities);
 
   /// Corrects one vertex alone, of which `resolve` of the whole state knows nothing; returns
   /// nothing where it is not touched.
@@ -130,8 +130,7 @@ class ContactPass {
 
   /// Least height above where solids hold them of the vertices that are not exempt, at the end of
   /// the substep [m]; negative below, infinite without solids.
-  double least_gap(const Eigen::Ref<const Positions>& positions,
-                   std::span<const char> is_exempt) const;
+  double least_gap(const PositionsView& positions, std::span<const char> is_exempt) const;
 
   /// Mean velocity over the substep of the touched solid's point that is at a place [m] when it
   /// begins [m/s].
@@ -146,7 +145,7 @@ class ContactPass {
   std::int64_t n_unresolved() const { return n_unresolved_; }
 
   /// Depth of the vertices inside of the solids as these are at a time [s], clearance not counted.
-  Penetration penetration(const Eigen::Ref<const Positions>& positions, double time) const;
+  Penetration penetration(const PositionsView& positions, double time) const;
 
   /// A vertex on a solid that may push it and rub at it.
   struct Support {
@@ -157,7 +156,7 @@ class ContactPass {
 
   /// The vertices that are at a time [s] no further from a solid than it holds them, and
   /// kTouchDistance; once for each solid. It knows positions alone, and nothing of substeps.
-  std::vector<Support> supports(const Eigen::Ref<const Positions>& positions, double time) const;
+  std::vector<Support> supports(const PositionsView& positions, double time) const;
 
   /// Size of its solids and of the radii of faces, without what it keeps of touches.
   std::size_t bytes() const;

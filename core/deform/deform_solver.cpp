@@ -195,7 +195,7 @@ void DeformSolver::take_if_lower(Positions shape) {
   if (energy_.terms(shape).weighted(weights_) < energy()) positions_ = std::move(shape);
 }
 
-void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
+void DeformSolver::move_held(const PositionsView& places) {
   PLEAT_CHECK(places.cols() == static_cast<Eigen::Index>(held_.size()), "a place per held vertex");
   const Positions moves = places - held_places();
   if (moves.isZero(0)) return;
@@ -207,7 +207,7 @@ void DeformSolver::move_held(const Eigen::Ref<const Positions>& places) {
   take_if_lower(std::move(followed));
 }
 
-SolveReport DeformSolver::follow(const Eigen::Ref<const Positions>& places) {
+SolveReport DeformSolver::follow(const PositionsView& places) {
   move_held(places);
   const int n_before = n_linearisations_;
   double before = energy();
@@ -229,7 +229,7 @@ Positions DeformSolver::held_places() const {
 }
 
 /// The metric is the same for a shape however turned: a factor made before serves after.
-void DeformSolver::restart(const Eigen::Ref<const Positions>& places) {
+void DeformSolver::restart(const PositionsView& places) {
   const Positions bent = energy_.rest_positions() + bulges_;
   positions_ = bent;
   for (const VertexId v : held_) positions_.col(v) = energy_.rest_positions().col(v);

@@ -60,16 +60,16 @@ class DeformSolver {
 
   /// Moves what is held, one column per held vertex in their order [m]. The rest follows as far as
   /// the factor at hand foresees.
-  void move_held(const Eigen::Ref<const Positions>& places);
+  void move_held(const PositionsView& places);
 
   /// A hand's move, bounded in time: move_held and a few steps, one of which may linearise.
-  SolveReport follow(const Eigen::Ref<const Positions>& places);
+  SolveReport follow(const PositionsView& places);
 
   /// Goes back to rest, bent by a thousandth of its size, the same way each time, as a flat shape
   /// can be a saddle; from there what is held moves to these places. Where that turns it by more
   /// than 30 degrees on the whole, rest turned along with it is the other start, and the one of
   /// lower energy is taken.
-  void restart(const Eigen::Ref<const Positions>& places);
+  void restart(const PositionsView& places);
   /// Goes back to rest and moves what is held to its present places.
   void restart() { restart(held_places()); }
 

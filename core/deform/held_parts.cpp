@@ -60,7 +60,7 @@ double size_of(const std::vector<VertexId>& part, const Positions& rest) {
 }  // namespace
 
 std::vector<HeldPart> held_parts(const TriangleMesh& mesh, const std::vector<VertexId>& held,
-                                 const Eigen::Ref<const Positions>& targets) {
+                                 const PositionsView& targets) {
   PLEAT_CHECK(static_cast<Eigen::Index>(held.size()) == targets.cols(),
               "every held vertex has a place");
   std::vector<int> place_of(static_cast<std::size_t>(mesh.n_vertices()), -1);

@@ -42,7 +42,7 @@ Stepper::Stepper(ClothModel& model, const MethodOptions& options, int substeps,
   if (model.strain_limit) strain_limit_.emplace(model);
 }
 
-void Stepper::start_from_contact_forces(const Eigen::Ref<const Positions>& forces) {
+void Stepper::start_from_contact_forces(const PositionsView& forces) {
   if (!contact_memory_.has_forces()) return;
   PLEAT_CHECK(forces.cols() == model_.n_vertices(), "a contact force for every vertex");
   contact_memory_.forces() = forces;
@@ -109,14 +109,14 @@ std::unique_ptr<LinearSolver> Stepper::make_solver(const MethodOptions& options,
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void Stepper::set_steady_forces(Eigen::Ref<Positions> forces) const {
+void Stepper::set_steady_forces(PositionsRef forces) const {
   forces.setZero();
   add_gravity(model_, forces);
   if (contact_memory_.has_forces()) forces += contact_memory_.forces();
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is handed on to be written through.
-void Stepper::set_external_forces(const State& state, Eigen::Ref<Positions> forces) {
+void Stepper::set_external_forces(const State& state, PositionsRef forces) {
   const PartScope scope(observer_, Part::forces);
   set_steady_forces(forces);
   if (model_.air) model_.air->add_forces(state.positions, state.velocities, model_.hanging, forces);

@@ -46,7 +46,7 @@ class Stepper {
   const Positions& contact_forces() const { return contact_memory_.forces(); }
   /// Takes these for the forces of the substep before the first. Of no effect where none are
   /// remembered.
-  void start_from_contact_forces(const Eigen::Ref<const Positions>& forces);
+  void start_from_contact_forces(const PositionsView& forces);
 
   /// Says for each spring of the model whether it is taken implicitly; empty for steppers that
   /// treat all alike. Valid until the next call that changes the stepper.
@@ -91,10 +91,10 @@ class Stepper {
                double travel_share = 1);
 
   /// Weight and remembered contact [N], without the air's forces.
-  void set_steady_forces(Eigen::Ref<Positions> forces) const;
+  void set_steady_forces(PositionsRef forces) const;
   /// Everything but elasticity and damping: weight, remembered contact, air [N]. Nothing where
   /// vertices hang.
-  void set_external_forces(const State& state, Eigen::Ref<Positions> forces);
+  void set_external_forces(const State& state, PositionsRef forces);
 
   /// Bounds an iterative solver's way to the end of a substep; reaching it is reported as not
   /// converged.

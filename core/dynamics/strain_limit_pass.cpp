@@ -16,7 +16,7 @@ constexpr int kMaxSolves = 50;
 
 }  // namespace
 
-Vec3 StrainLimitPass::SharedEnds::difference(const Eigen::Ref<const Positions>& positions) const {
+Vec3 StrainLimitPass::SharedEnds::difference(const PositionsView& positions) const {
   Vec3 d(0, 0, 0);
   for (std::size_t i = 0; i < sum.n_terms; ++i)
     d += sum.terms[i].factor * positions.col(sum.terms[i].vertex);
@@ -66,8 +66,7 @@ bool StrainLimitPass::exceeds(const Edge<EndsKind>& edge, double squared_length)
 }
 
 template <class EndsKind>
-bool StrainLimitPass::is_beyond(const Edge<EndsKind>& edge,
-                                const Eigen::Ref<const Positions>& positions) const {
+bool StrainLimitPass::is_beyond(const Edge<EndsKind>& edge, const PositionsView& positions) const {
   return exceeds(edge, edge.ends.difference(positions).squaredNorm()) &&
          inverse_mass(edge.ends) > 0;
 }
@@ -374,7 +373,7 @@ double StrainLimitPass::largest_excess(const Positions& positions) const {
   return largest;
 }
 
-bool StrainLimitPass::is_exceeded(const Eigen::Ref<const Positions>& positions) const {
+bool StrainLimitPass::is_exceeded(const PositionsView& positions) const {
   const auto is_out = [&](const auto& edge) { return is_beyond(edge, positions); };
   return std::any_of(edges_.begin(), edges_.end(), is_out) ||
          std::any_of(shared_edges_.begin(), shared_edges_.end(), is_out);

@@ -40,7 +40,7 @@ class StrainLimitPass {
   void limit_again(State& state, double travel, std::span<const ContactPass::Touch> touches);
 
   /// True where an edge that is not pinned at both ends is beyond its limits.
-  bool is_exceeded(const Eigen::Ref<const Positions>& positions) const;
+  bool is_exceeded(const PositionsView& positions) const;
 
   std::int64_t n_sweeps() const {
     return n_sweeps_;
@@ -53,7 +53,7 @@ class StrainLimitPass {
   struct Ends {
     VertexId a, b;
 
-    Vec3 difference(const Eigen::Ref<const Positions>& positions) const {
+    Vec3 difference(const PositionsView& positions) const {
       return positions.col(a) - positions.col(b);
     }
     template <class Visit>
@@ -66,7 +66,7 @@ class StrainLimitPass {
   struct SharedEnds {
     Combination sum;
 
-    Vec3 difference(const Eigen::Ref<const Positions>& positions) const;
+    Vec3 difference(const PositionsView& positions) const;
     template <class Visit>
     void for_each(Visit&& visit) const {
       for (std::size_t i = 0; i < sum.n_terms; ++i) visit(sum.terms[i].vertex, sum.terms[i].factor);
@@ -112,7 +112,7 @@ class StrainLimitPass {
   template <class EndsKind>
   bool exceeds(const Edge<EndsKind>& edge, double squared_length) const;
   template <class EndsKind>
-  bool is_beyond(const Edge<EndsKind>& edge, const Eigen::Ref<const Positions>& positions) const;
+  bool is_beyond(const Edge<EndsKind>& edge, const PositionsView& positions) const;
   template <class EndsKind>
   void pull(const EndsKind& ends, const Vec3& impulse, Positions& positions) const;
   template <class EndsKind>

@@ -33,11 +33,10 @@ class BendMeasure {
 
   /// positions  [m], of all vertices of the mesh
   /// Throws ContractError unless both are finite.
-  BendError error(const Eigen::Ref<const Positions>& positions,
-                  const Eigen::Ref<const Positions>& reference) const;
+  BendError error(const PositionsView& positions, const PositionsView& reference) const;
 
   /// Smoothed magnitude of curvature of each triangle [1/m].
-  Eigen::VectorXd curvatures(const Eigen::Ref<const Positions>& positions) const;
+  Eigen::VectorXd curvatures(const PositionsView& positions) const;
 
   const Eigen::VectorXd& areas() const { return areas_; }  ///< rest area of each triangle [m^2]
 
@@ -60,15 +59,14 @@ class BendMeasure {
 ///
 /// Throws ContractError unless the sizes agree and the weights are not negative, with a positive
 /// sum.
-double wasserstein_distance(const Eigen::Ref<const Eigen::VectorXd>& values_a,
-                            const Eigen::Ref<const Eigen::VectorXd>& values_b,
-                            const Eigen::Ref<const Eigen::VectorXd>& weights);
+double wasserstein_distance(const VectorView& values_a, const VectorView& values_b,
+                            const VectorView& weights);
 
 /// Positions of a mesh after `subdivided`: new vertices lie in the middle of the edges that they
 /// split.
 ///
 /// middles  of each new vertex, as `subdivided` gives them
-Positions subdivided_positions(const Eigen::Ref<const Positions>& positions,
+Positions subdivided_positions(const PositionsView& positions,
                                std::span<const std::array<VertexId, 2>> middles);
 
 }  // namespace pleat

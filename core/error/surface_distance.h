@@ -25,9 +25,7 @@ struct SurfaceError {
 /// Throws ContractError unless both have a triangle and all positions are finite.
 /// Source: Aspert, Santa-Cruz & Ebrahimi, MESH: Measuring errors between surfaces using the
 /// Hausdorff distance, ICME 2002.
-SurfaceError surface_error(std::span<const Triangle> triangles_a,
-                           const Eigen::Ref<const Positions>& positions_a,
-                           std::span<const Triangle> triangles_b,
-                           const Eigen::Ref<const Positions>& positions_b);
+SurfaceError surface_error(std::span<const Triangle> triangles_a, const PositionsView& positions_a,
+                           std::span<const Triangle> triangles_b, const PositionsView& positions_b);
 
 }  // namespace pleat

@@ -23,8 +23,7 @@ struct HingeTurn {
 
 /// vertices  as in Hinge
 /// Zero with a flap of no area, which turns nowhere.
-HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
-                     const Eigen::Ref<const Positions>& positions);
+HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices, const PositionsView& positions);
 
 /// One hinge per inner edge, at rest when flat, with c = B l^2 / (A1 + A2): edge length l, areas A1
 /// and A2 beside it.
@@ -40,16 +39,15 @@ HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices,
 std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity);
 
 /// Energy stored [J].
-double hinge_energy(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions);
+double hinge_energy(std::span<const Hinge> hinges, const PositionsView& positions);
 
 /// Adds the forces on vertices [N].
-void add_hinge_forces(std::span<const Hinge> hinges, const Eigen::Ref<const Positions>& positions,
-                      Eigen::Ref<Positions> forces);
+void add_hinge_forces(std::span<const Hinge> hinges, const PositionsView& positions,
+                      PositionsRef forces);
 
 /// -d(forces)/d(positions) of one hinge [N/m], in 3 x 3 blocks by vertex. Projected: without its
 /// negative eigenvalues.
-Eigen::Matrix<double, 12, 12> hinge_stiffness(const Hinge& hinge,
-                                              const Eigen::Ref<const Positions>& positions,
+Eigen::Matrix<double, 12, 12> hinge_stiffness(const Hinge& hinge, const PositionsView& positions,
                                               ElementHessian hessian);
 
 }  // namespace pleat

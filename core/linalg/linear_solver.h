@@ -24,7 +24,7 @@ class LinearSolver {
 
   /// Sets the places of the vertices to which the unknowns belong, three each [m]: some solvers are
   /// faster for it. Of effect from the next factorisation on; sizes that differ count as not known.
-  virtual void set_places(const Eigen::Ref<const Eigen::VectorXd>& /*places*/) {}
+  virtual void set_places(const VectorView& /*places*/) {}
 
   /// rhs       n x m right-hand sides
   /// solution  n x m; an iterative solver starts from what it holds, if that is better than zero

@@ -11,7 +11,7 @@ namespace pleat {
 using Corners = std::array<Vec3, 3>;  ///< corners of a triangle [m]
 
 std::vector<Corners> triangle_corners(std::span<const Triangle> triangles,
-                                      const Eigen::Ref<const Positions>& positions);
+                                      const PositionsView& positions);
 
 /// A binary tree of boxes around triangles that lie near one another.
 class TriangleBoxes {

@@ -35,6 +35,6 @@ struct StrainLimit {
 ///
 /// rest_positions  [m]
 std::vector<GaugeEdge> in_lines(const std::vector<GaugeEdge>& edges,
-                                const Eigen::Ref<const Positions>& rest_positions);
+                                const PositionsView& rest_positions);
 
 }  // namespace pleat

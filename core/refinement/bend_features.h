@@ -18,7 +18,7 @@ class BendFeatureSum {
 
   /// positions  [m]. Throws InputError naming the frame (counted from 0) when it has another number
   /// of vertices than the mesh or one is not finite.
-  void add(const Eigen::Ref<const Positions>& positions);
+  void add(const PositionsView& positions);
 
   int n_frames() const { return n_frames_; }
 

@@ -23,7 +23,7 @@ class FaceLossSum {
   explicit FaceLossSum(const QuadMesh& fine);
 
   /// positions  one column per vertex [m]; ContractError for another number
-  void add(const Eigen::Ref<const Positions>& positions);
+  void add(const PositionsView& positions);
 
   int n_frames() const { return n_frames_; }
 

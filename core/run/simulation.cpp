@@ -100,7 +100,7 @@ void Simulation::tear() {
   tear_origins_.insert(tear_origins_.end(), torn->origins.begin(), torn->origins.end());
 }
 
-void Simulation::start_from(const Eigen::Ref<const Positions>& positions) {
+void Simulation::start_from(const PositionsView& positions) {
   const auto n_vertices = static_cast<Eigen::Index>(model_.masses.size()) -
                           static_cast<Eigen::Index>(tear_origins_.size());
   if (positions.cols() != n_vertices || !positions.allFinite())

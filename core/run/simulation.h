@@ -29,7 +29,7 @@ class Simulation final : public MovingCloth {
 
   /// Starts from these places at rest [m], one column a vertex, now and at each reset. Pins are
   /// where that puts their vertices. Throws InputError unless there are as many and all are finite.
-  void start_from(const Eigen::Ref<const Positions>& positions);
+  void start_from(const PositionsView& positions);
 
   /// Goes on from this state at a time of the scene's own [s]: pins and solids are where they are
   /// then, hanging vertices in the middle of their parents. A reset starts the scene. Throws

@@ -34,8 +34,7 @@ void ContactHold::choose(std::span<const ContactPass::Touch> touches, const Stat
   }
 }
 
-void ContactHold::add(const Positions& velocities, SystemMatrix& matrix,
-                      Eigen::Ref<Positions> rhs) const {
+void ContactHold::add(const Positions& velocities, SystemMatrix& matrix, PositionsRef rhs) const {
   for (const Held& held : held_) {
     matrix.add_diagonal(held.vertex, held.resistance);
     rhs.col(held.vertex) += held.resistance * (held.velocity - velocities.col(held.vertex));

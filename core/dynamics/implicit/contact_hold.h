@@ -41,7 +41,7 @@ class ContactHold {
   std::span<const Held> held() const { return held_; }
 
   /// Adds what holds them to A dv = rhs, a linearised step from these velocities, A in kg.
-  void add(const Positions& velocities, SystemMatrix& matrix, Eigen::Ref<Positions> rhs) const;
+  void add(const Positions& velocities, SystemMatrix& matrix, PositionsRef rhs) const;
 
   /// Adds the forces that they exert at the velocities of the solution [m/s].
   void add_forces(const Positions& velocities, double h, Positions& forces) const;

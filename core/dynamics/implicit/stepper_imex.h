@@ -33,7 +33,7 @@ class StepperImex final : public StepperImplicit {
 
  private:
   void choose();
-  void add_explicit_forces(const State& state, Eigen::Ref<Positions> forces) const override;
+  void add_explicit_forces(const State& state, PositionsRef forces) const override;
 
   StabilitySplit parts_;
 };

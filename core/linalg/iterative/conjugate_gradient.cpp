@@ -36,7 +36,7 @@ class ConjugateGradient final : public BlockIteration {
  public:
   explicit ConjugateGradient(const SolverOptions& options) : BlockIteration(options) {}
 
-  void set_places(const Eigen::Ref<const Eigen::VectorXd>& places) override {
+  void set_places(const VectorView& places) override {
     places_.assign(places.data(), places.data() + places.size());
   }
 
