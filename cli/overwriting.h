@@ -20,9 +20,8 @@ class Overwriting {
   explicit Overwriting(Arguments& arguments);
 
   bool is_asked() const { return is_asked_; }
-  /// Throws InputError when --overwrite was given and nothing is written.
-  ///
-  /// options  that name outputs, for the sentence
+  /// Throws InputError when --overwrite was given and nothing is written; `options` name outputs,
+  /// for the sentence.
   void need(bool has_output, const char* options) const;
 
   /// These files are read.
@@ -40,9 +39,7 @@ class Overwriting {
 /// The folder after --out for frames, which take the place of an earlier run's.
 class FrameFolder {
  public:
-  /// Takes --out and --overwrite.
-  ///
-  /// other  a further file that a run has there, or empty
+  /// Takes --out and --overwrite. A run may have a further file there.
   explicit FrameFolder(Arguments& arguments, std::string other = "");
 
   explicit operator bool() const { return !folder_.empty(); }  ///< --out was given

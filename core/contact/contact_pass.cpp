@@ -235,14 +235,12 @@ bool ContactPass::is_outside(const Solid& solid, const Vec3& place) const {
 // share s of the substep, u the velocity and d the path relative to it, and t marking the part
 // across n:
 //   u <- slip u_t + max(u_n, 0) n,   x <- point + (1 - s) slip d_t,
-// or, where it bounces, with |u_n| and the mirrored rest of d_n.
-// Friction thus acts on the path after the impact as it does on the velocity; a vertex that sticks
-// stays where it met the solid, to the bit. The new place lies on the tangent plane, never inside
-// of a convex solid. Should this lead into the solid that acted before, the vertex slides along the
-// new one, in the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as
-// well; then it is clear of both. Where solids leave it no place with its clearance, the middle of
-// the last two places is as far inside of either's, and may yet be outside of the solids
-// themselves.
+// or, where it bounces, with |u_n| and the mirrored rest of d_n. A vertex that sticks stays where
+// it met the solid, to the bit. The new place lies on the tangent plane, never inside of a convex
+// solid. Should this lead into the solid that acted before, the vertex slides along the new one, in
+// the direction m = n_b - (n_b . n) n, until it is on the old one's tangent plane as well; then it
+// is clear of both. Where solids leave it no place with its clearance, the middle of the last two
+// places is as far inside of either's, and may yet be outside of the solids themselves.
 std::optional<ContactPass::Touch> ContactPass::resolve(VertexId vertex, const Vec3& position_begin,
                                                        Vec3& position, Vec3& velocity) {
   Meeting meeting = earliest_meeting(vertex, position_begin, position, 0, nullptr);

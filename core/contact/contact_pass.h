@@ -40,18 +40,15 @@ struct Penetration {
   int n_inside = 0;  ///< vertices inside of any solid
 };
 
-/// Keeps the vertices of a cloth out of solids, for every stepper alike: it takes the state that a
-/// substep proposes and corrects it.
+/// Keeps the vertices of a cloth out of solids, in the state that a substep proposes.
 ///
 /// The path of a vertex relative to the moving solid is swept over the substep, so that nothing
 /// fast or thin is tunnelled. From the impact on, the vertex moves in the tangent plane: its normal
 /// velocity relative to the solid becomes zero (no bounce, unless the response is `uniform`), the
 /// tangential one loses at most `friction` times the normal change (Coulomb), and the rest of its
-/// tangential path shrinks by the same factor. A solid's velocity is the mean over the substep of
-/// its point that is met. A vertex that begins inside is put on the surface without gaining speed.
-/// Edges and faces are covered by a sample rule: vertices are held off a round solid far enough
-/// that a flat face with its corners there does not cut it (see clearance()). Source:
-/// docs/methods/contact.md (derivation and limits).
+/// tangential path shrinks by the same factor. A vertex that begins inside is put on the surface
+/// without gaining speed. Vertices are held off a round solid far enough that a flat face with its
+/// corners there does not cut it (see clearance()). Source: docs/methods/contact.md.
 class ContactPass {
  public:
   /// Throws ContractError for a collider that is not valid, negative sizes.
@@ -87,10 +84,9 @@ class ContactPass {
   /// positions        at time_end [m]; corrected
   /// velocities       at time_end [m/s]; corrected
   ///
-  /// Returns how vertices were touched, in the order of the vertices; valid until the next call.
-  /// Where nothing touched a vertex, it is left to the bit, as is one that is not finite. Allocates
-  /// nothing after the first call with as many vertices. Throws ContractError unless all have the
-  /// same number of vertices.
+  /// Returns how vertices were touched, in their order; valid until the next call. One that nothing
+  /// touched, or that is not finite, is left to the bit. Allocates nothing after the first call
+  /// with as many vertices.
   std::span<const Touch> resolve(const PositionsView& positions_begin,
                                  std::span<const char> is_exempt, PositionsRef positions,
                                  PositionsRef velocities);

@@ -27,9 +27,8 @@ constexpr int kPatienceWithHalving = 2;  // L-BFGS halves a step now and then an
 /// triangle has collapsed, which another factor does not know either, but corrections learn.
 constexpr int kFactorsInVain = 2;
 
-/// Many short steps can still lead far: the end is a short one after which less than this share of
-/// the energy is left to gain (left_to_gain). Where the least energy is nothing every step gains
-/// most of it, and the end is a step of kNoStep, in which files and screens see no change.
+/// The end is a short step after which less than this share of the energy is left to gain
+/// (left_to_gain), or one of kNoStep, in which files and screens see no change.
 constexpr double kWorthMore = 1e-7;
 constexpr double kNoStep = 1e-8;  // DeformStep::relative_step
 

@@ -29,9 +29,8 @@ std::vector<int> lowest_in_part(const TriangleMesh& mesh) {
   return lowest;
 }
 
-/// The place farthest from the first spans the line from which the others are measured.
-///
-/// size  of the part at rest [m]
+/// The place farthest from the first spans the line from which the others are measured; the size is
+/// the part's at rest [m].
 Hold hold_of(const std::vector<Vec3>& places, double size) {
   constexpr double kSame = 1e-6;  // share of the size; files often carry six digits
   constexpr double kLastDigits = 4 * std::numeric_limits<double>::epsilon();

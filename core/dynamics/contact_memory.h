@@ -8,16 +8,12 @@
 
 namespace pleat {
 
-/// Forces with which solids held vertices in one substep may be among the forces of the next. The
-/// equations of a stepper that solves for the end of a substep then contain the support:
-/// cloth comes to rest in equilibrium instead of falling into the solid and being put back in every
-/// substep.
+/// Forces with which solids held vertices in one substep may be among the forces of the next: cloth
+/// then rests in equilibrium instead of falling into the solid and being put back in every substep.
 enum class ContactForces { forgotten, remembered };
 
 /// Knows from one substep to the next how solids touched the cloth, and with what force they held
-/// each vertex.
-///
-/// Source: docs/methods/contact.md.
+/// each vertex. Source: docs/methods/contact.md.
 class ContactMemory {
  public:
   using Touch = ContactPass::Touch;

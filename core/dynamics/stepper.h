@@ -19,8 +19,7 @@ namespace pleat {
 /// diverged, though its numbers are finite still.
 constexpr double kLargestCoordinate = 1e12;
 
-/// Advances a state by one step. Every stepper works on the same model, so that they can be
-/// compared.
+/// Advances a state by one step. Every stepper works on the same model.
 ///
 /// The model is shared and outlives the stepper. After its pins changed in number or vertex, call
 /// `refresh`; after its rest lengths changed, `refresh_rest_lengths`; pins that only move need

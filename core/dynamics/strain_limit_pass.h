@@ -11,16 +11,15 @@
 
 namespace pleat {
 
-/// Keeps the edges of a cloth within the limits that its model has, for every stepper alike: it
-/// takes the state that a substep proposes and corrects it.
+/// Keeps the edges of a cloth within its model's limits, in the state that a substep proposes.
 ///
 /// An edge that would end longer than (1 + tau) L gets an impulse along itself, equal and opposite
 /// at its ends and shared by their inverse masses, after which it ends just below the limit. Edges
 /// of a line are solved for together, by one tridiagonal system; sweeps over all lines go on until
 /// no edge exceeds. An edge may give impulse back within a substep, never more than it got. Linear
-/// momentum is kept; angular momentum is lost in first order of the substep, as by backward Euler,
-/// because impulses act along the edge as it ends: along where it began they would make taut cloth
-/// flutter ever wider across its threads. Ends that hang hand impulses on to their parents.
+/// momentum is kept; angular momentum is lost in first order of the substep, as impulses act along
+/// the edge as it ends: along where it began they would make taut cloth flutter. Ends that hang
+/// hand impulses on to their parents.
 ///
 /// Source: the velocity constraint of Sun, Zhao & Liu, Computer Engineering and Applications
 /// 44(31), 2008; docs/methods/strain_limit.md.
@@ -29,10 +28,8 @@ class StrainLimitPass {
   /// model  with a strain limit; outlives the pass
   explicit StrainLimitPass(const ClothModel& model);
 
-  /// Corrects what a stepper proposes for the end of a substep. Pinned vertices stay. Allocates
-  /// nothing.
-  ///
-  /// travel  how far a change of velocity by dv moves a vertex in the substep, over dv [s]
+  /// Corrects what a stepper proposes for the end of a substep, in which a change of velocity by dv
+  /// moves a vertex by travel dv [s]. Pinned vertices stay. Allocates nothing.
   void limit(State& state, double travel);
 
   /// Corrects once more in that substep, after contact touched vertices, which are then not pulled

@@ -16,8 +16,7 @@ struct BendError {
   double regions = 0;       ///< mean difference between the mean curvatures of regions
 };
 
-/// Compares how states of one cloth are bent, with wrinkles where they may be: what counts is how
-/// much of the cloth is curved how strongly.
+/// Compares how states of one cloth are bent: how much of it is curved how strongly, wherever.
 ///
 /// Both states are given at the vertices of one mesh, the finer one (carried_positions,
 /// subdivided_positions), and smoothed over the edges of the coarsest one, since what lies between
@@ -62,10 +61,7 @@ class BendMeasure {
 double wasserstein_distance(const VectorView& values_a, const VectorView& values_b,
                             const VectorView& weights);
 
-/// Positions of a mesh after `subdivided`: new vertices lie in the middle of the edges that they
-/// split.
-///
-/// middles  of each new vertex, as `subdivided` gives them
+/// Positions of a mesh after `subdivided`: new vertices lie in the middle of the edges split.
 Positions subdivided_positions(const PositionsView& positions,
                                std::span<const std::array<VertexId, 2>> middles);
 

@@ -39,9 +39,7 @@ struct MeshLimit {
 };
 
 /// Richardson's extrapolation at the observed rate log2(d1/d2) of the distances d1 and d2 between
-/// successive meshes. NaN where they do not fall.
-///
-/// areas  weights of the vertices of the coarsest mesh, as of position_error
+/// successive meshes; areas weigh the coarsest one's vertices. NaN where distances do not fall.
 MeshLimit observed_limit(const std::array<Positions, 3>& meshes, const VectorView& areas);
 
 }  // namespace pleat

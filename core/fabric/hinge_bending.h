@@ -32,8 +32,7 @@ HingeTurn hinge_turn(const std::array<VertexId, 4>& vertices, const PositionsVie
 ///
 /// Right for equilateral triangles; others bend unlike by direction (docs/methods/fitted_bending.md
 /// has the numbers). A hinge with a flap of no area bends nowhere: no energy, no force, no
-/// stiffness. Folded by exactly a half turn it unfolds to either side, as rounding has it, with the
-/// full moment. Throws ContractError for a negative rigidity or triangles without area at rest.
+/// stiffness. Throws ContractError for a negative rigidity or triangles without area at rest.
 /// Source: Grinspun, Hirani, Desbrun & Schröder, Discrete shells, SCA 2003; Tamstorf & Grinspun,
 /// Discrete bending forces and their Jacobians, Graphical Models 75(6), 2013.
 std::vector<Hinge> hinges(const TriangleMesh& mesh, double rigidity);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/vec.h"
 #include "core/linalg/solve_report.h"
 #include "core/linalg/sparse.h"
 
@@ -9,9 +10,9 @@ namespace pleat {
 ///
 /// Call `analyze` once per sparsity pattern, `factorize` once per set of values, `solve` as often
 /// as wanted. None of the three allocates in our code when called again with the same pattern and
-/// number of columns, but for a list of cg that may grow with the values and what multigrid needs
-/// when it first takes over. Throws ContractError when
-/// the calls come in another order or sizes disagree; numeric trouble is reported.
+/// number of columns, but for cg's list that may grow with the values and what multigrid first
+/// needs. Throws ContractError for calls in another order or sizes that disagree; numeric trouble
+/// is reported.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;

@@ -8,13 +8,12 @@
 
 namespace pleat {
 
-/// Accounts for the energy of a moving cloth from the states before and after each step alone: it
-/// shares nothing with the steppers but the laws of force. Energy that no force explains is the
-/// method's own gain or loss.
+/// Accounts for the energy of a moving cloth from the states before and after each step alone:
+/// energy that no force explains is the method's own gain or loss.
 ///
 /// The powers of damping, air, pins and contact are integrated by the trapezoid rule over each
-/// step, so that for a consistent method the drift over a fixed time falls at least in proportion
-/// to the step, except where motion jumps.
+/// step, so that a consistent method's drift falls at least in proportion to the step, except where
+/// motion jumps.
 class EnergyLedger {
  public:
   /// Works done on the cloth since the start [J].

@@ -8,10 +8,8 @@ namespace pleat {
 /// column per vertex.
 using BendFeatures = Eigen::Matrix<double, 2, Eigen::Dynamic>;
 
-/// Gathers the features of a motion frame by frame, without keeping the frames.
-///
-/// Source: Welford, Note on a method for calculating corrected sums of squares and products,
-/// Technometrics 4(3), 1962.
+/// Gathers the features of a motion, without keeping its frames. Source: Welford, Note on a method
+/// for calculating corrected sums of squares and products, Technometrics 4(3), 1962.
 class BendFeatureSum {
  public:
   explicit BendFeatureSum(const QuadMesh& mesh);

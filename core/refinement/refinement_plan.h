@@ -42,9 +42,8 @@ struct PlanOptions {
   std::optional<int> level_cap;  ///< finest level; else that of the fine mesh, which is the most
 };
 
-/// Throws InputError naming the demand, vertex budget or level cap that is out of range.
-///
-/// max_level  of the fine mesh
+/// Throws InputError naming the demand, vertex budget or level cap that is out of range;
+/// `max_level` is the fine mesh's.
 void check_plan_options(const PlanOptions& options, int n_patterns, const QuadMesh& base,
                         int max_level);
 

@@ -75,8 +75,7 @@ double longest_edge(const Positions& positions, const std::array<VertexId, 4>& c
 
 /// The radius of the largest face around each vertex [m]: of a garment half of the longest edge of
 /// quads, whose threads run along limbs and around them; of other cloth a triangle's circumradius.
-/// A hanging vertex is in the middle of an edge twice as long, which its parents alone hold off and
-/// which may be stretched.
+/// A hanging vertex is in the middle of an edge twice as long.
 Eigen::VectorXd face_radii(const Scene& scene, const RestCloth& cloth, const ClothModel& model) {
   const Positions& positions = cloth.mesh.rest_positions;
   Eigen::VectorXd radii = Eigen::VectorXd::Zero(positions.cols());

@@ -20,9 +20,8 @@ class Simulation final : public MovingCloth {
   /// Throws InputError when the scene's method cannot run on it.
   explicit Simulation(const Scene& scene);
 
-  /// One step of scene.method.step. Cloth that tears does so first, where it is overloaded. After a
-  /// report that is not ok or not_converged the state is the
-  /// last finite one and further steps return the same report.
+  /// One step of scene.method.step. Cloth that tears does so first. After a report that is not ok
+  /// or not_converged the state is the last finite one and further steps return that report.
   SolveReport step() override;
   /// Starts anew, whole.
   void reset();
@@ -41,11 +40,10 @@ class Simulation final : public MovingCloth {
                   const Positions& contact_accelerations = Positions(3, 0));
 
   /// Takes the motion of `old` over: vertices that both meshes share keep position and velocity to
-  /// the bit, new ones are interpolated along the mesh lines. Forces go on as they were and turn
-  /// into this scene's own within kTransitionTime, so that a change of mesh or fabric does not
-  /// shake the cloth; until then it does not tear. Moments of inner friction go on where the same
-  /// three vertices follow each other, and start at zero elsewhere. Throws ContractError unless
-  /// both are sheets with the same base mesh, and `old` is whole.
+  /// the bit, new ones are interpolated along the mesh lines. Forces turn into this scene's own
+  /// within kTransitionTime; until then it does not tear. Moments of inner friction go on where the
+  /// same three vertices follow each other, and start at zero elsewhere. Throws ContractError
+  /// unless both are sheets with the same base mesh, and `old` is whole.
   void carry_over(const Simulation& old);
 
   /// Holds every vertex within the hand's radius (kHandRadius of the rest diagonal; of

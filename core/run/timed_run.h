@@ -7,10 +7,8 @@
 
 namespace pleat {
 
-/// Steps a cloth and keeps what its steps reported and what they cost by the clock.
-///
-/// The first step, in which steppers build what they keep, is part of the report and not of the
-/// costs.
+/// Steps a cloth and keeps its steps' reports and their cost by the clock, without that of the
+/// first, in which steppers build what they keep.
 class TimedRun {
  public:
   /// Timing the parts of a step costs time itself.

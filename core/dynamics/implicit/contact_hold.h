@@ -13,10 +13,8 @@ namespace pleat {
 ///
 /// A vertex that a solid touched in the last substep is held by a resistance as large as its own:
 /// to the solid's velocity altogether if it sticks, and if it slips, along the normal, onto the
-/// solid's surface where it will be. What that
-/// exerts joins the remembered contact force, which thereby converges as a multiplier does: the
-/// resistance need not be large for the vertex to be held, and a vertex in equilibrium is held by
-/// the force alone.
+/// solid's surface where it will be. What that exerts joins the remembered contact force, which
+/// thereby converges as a multiplier does.
 ///
 /// Source: Hestenes, Multiplier and gradient methods, Journal of Optimization Theory and
 /// Applications 4, 1969; docs/methods/contact.md.

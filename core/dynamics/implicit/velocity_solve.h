@@ -23,13 +23,9 @@ class VelocitySolve {
   /// Call it when pins have changed in number or vertex.
   void choose_pins(SystemMatrix& matrix);
 
-  /// The state moves unless the report ends the run. An iterative solver starts from what the last
-  /// changes lead to.
-  ///
-  /// matrix    reduced to parents; changed
-  /// rhs       [N s]; changed
-  /// time_end  of the substep of h [s]
-  /// observer  or null
+  /// The state moves by h [s] to `time_end` unless the report ends the run. An iterative solver
+  /// starts from what the last changes lead to. Matrix, reduced to parents, and right-hand side [N
+  /// s] are changed. The observer may be null.
   SolveReport advance(SystemMatrix& matrix, Positions& rhs, State& state, double time_end, double h,
                       PartObserver* observer);
 

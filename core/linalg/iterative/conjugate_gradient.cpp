@@ -27,9 +27,8 @@ constexpr int kLookEvery = 4;
 constexpr int kPatience = 60;
 
 /// The most factorisations in a row that begin with multigrid once it had to take over: then the
-/// incomplete factor is tried again, at a twentieth of what they took. A first time is no habit, as
-/// of a run that begins far from rest: 0, 1, 3, 7 and 15 times in a row, from anew when the factor
-/// was fast enough.
+/// incomplete factor is tried again, at a twentieth of what they took. 0, 1, 3, 7 and 15 times in a
+/// row, from anew when the factor was fast enough.
 constexpr int kMultigridTurns = 15;
 
 class ConjugateGradient final : public BlockIteration {

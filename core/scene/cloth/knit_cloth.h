@@ -26,7 +26,6 @@ struct KnitPattern {
 /// (structural: warp along the wales, weft along the courses), across both diagonals (shear) and to
 /// every second particle of their row and column (bending). A spring is as stiff as the mean of
 /// what its ends' wales ask for; dampers are everywhere alike. Its parts are those of a sheet.
-///
 /// Source: docs/methods/wool.md.
 class KnitCloth final : public ClothSource {
  public:

@@ -14,9 +14,7 @@ namespace pleat {
 /// Contact of four vertices at a time, in single precision: which of them may meet a solid, and,
 /// where that is one plane, ball or rounded cone, what ContactPass would make of it. It holds
 /// vertices further off by what single precision rounds off. What else there is it leaves to
-/// ContactPass.
-///
-/// Source: docs/methods/contact.md, "In lanes".
+/// ContactPass. Source: docs/methods/contact.md, "In lanes".
 class ContactProgram {
  public:
   explicit ContactProgram(const LaneLayout& layout);

@@ -22,9 +22,8 @@ class GroupFreedom {
   /// stretch  of ways within the substep, for the turns of the solids
   void begin_substep(std::span<const float> shifts, float stretch);
 
-  /// Spends the substep of a group, and calls meet(solid) for each that it may meet.
-  ///
-  /// way  longest of its vertices, in the drifting frame [m]
+  /// Spends the substep of a group, whose longest way in the drifting frame this is [m], and calls
+  /// meet(solid) for each that it may meet.
   template <class Meet>
   void spend(int group, float way, const Meet& meet) {
     float* const free = of(group);

@@ -12,9 +12,8 @@ namespace {
 /// 1/kLineSoftness times as hard.
 constexpr float kLineSoftness = 1e-3f;
 /// Largest pull f of a line, times twice the largest inverse mass in it. A pull moves vertices
-/// across the line too, along directions from before the solution; from 1/2 on, waves across the
-/// line pass more than a link per substep and grow (docs/methods/xpbd.md). Projecting a spring
-/// alone reaches 1/4 however far it is stretched.
+/// across the line too, along directions from before the solution; from 1/2 on, waves across it
+/// grow (docs/methods/xpbd.md). A spring alone reaches 1/4.
 constexpr float kLargestPull = 0.3f;
 /// Groups of four kept per spring of a line between elimination and substitution: its pull as far
 /// as the rows before it say, the share of the next pull in it, its direction g, and what its

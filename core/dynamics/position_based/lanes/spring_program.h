@@ -8,9 +8,8 @@
 namespace pleat {
 
 /// The springs of a model that join no hanging vertex, compiled into operations on four of them at
-/// a time and into an order. Springs that follow on one another across the rows are solved
-/// together, a line at a time; then the others are projected one after the other, each seeing what
-/// those before it did.
+/// a time and into an order. Springs that follow on one another across the rows are solved a line
+/// at a time; then the others are projected one after the other.
 class SpringProgram {
  public:
   /// h  substep [s]
