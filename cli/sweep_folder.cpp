@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/base/formatted.h"
+#include "core/files/whole_file.h"
 #include "core/sweep/front_chart.h"
 
 namespace pleat {

@@ -118,7 +118,9 @@ std::string asked_of(const HardCase& hard_case, const CaseOutcome* outcome) {
 }
 
 std::string lengths_of(const HardCase& hard_case) {
-  return hard_case.still ? "" : three_digits(hard_case.brief) + ", " + three_digits(hard_case.full);
+  return hard_case.still
+             ? ""
+             : three_digits(hard_case.seconds.brief) + ", " + three_digits(hard_case.seconds.full);
 }
 
 std::string case_list(std::span<const HardCase> cases, std::span<const CaseOutcome> outcomes) {

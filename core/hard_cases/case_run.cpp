@@ -215,7 +215,7 @@ void fail_as_accepted(CaseOutcome& outcome) {
 CaseOutcome run_case(const HardCase& hard_case, const StepperType& type, CaseLength length,
                      const CaseFiles& files, const CaseProgress& progress) {
   CaseOutcome outcome{.case_name = hard_case.name, .stepper = type.name};
-  outcome.asked = length == CaseLength::brief ? hard_case.brief : hard_case.full;
+  outcome.asked = length == CaseLength::brief ? hard_case.seconds.brief : hard_case.seconds.full;
   std::vector<VariantRun> runs;
   try {
     for (const CaseVariant& variant : hard_case.variants)

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/position_based/lanes/hanging_program.h"
 #include "core/dynamics/position_based/lanes/lane_projections.h"
 #include "core/dynamics/position_based/levels/attachments.h"
 #include "core/dynamics/position_based/levels/coarse_levels.h"
 #include "core/dynamics/position_based/levels/cycle_acceleration.h"
-#include "core/dynamics/position_based/levels/gathered_sweeps.h"
+#include "core/dynamics/position_based/levels/gathered_bends.h"
+#include "core/dynamics/position_based/levels/gathered_springs.h"
+#include "core/dynamics/position_based/levels/gathered_vertices.h"
 #include "core/dynamics/position_based/levels/strain_correction.h"
 
 namespace pleat {
@@ -70,6 +73,53 @@ std::string lines_remark(const MethodOptions& options, const LaneLayout& layout)
                         : "the other smoother is none";
   return std::string("gauss_seidel in the place of lines, as ") + why;
 }
+
+/// The constraints of a cloth's own mesh, whatever that is, one after the other: springs in sets
+/// that share no vertex, four at a time.
+struct GatheredSweeps {
+  GatheredSprings springs;
+  GatheredBends bends;
+  HangingProgram hanging;
+
+  GatheredSweeps(const ClothModel& model, const LaneLayout& layout, SpringLaw law, double h)
+      : springs(model, layout, law, h), bends(model, layout, h), hanging(model, layout, law, h) {}
+
+  void refresh_pins(const float* inverse_masses) {
+    springs.refresh_pins(inverse_masses);
+    bends.refresh_pins(inverse_masses);
+  }
+
+  void refresh_rest_lengths(const ClothModel& model) {
+    springs.refresh_rest_lengths(model);
+    hanging.refresh_rest_lengths(model);
+  }
+
+  /// Projects each constraint once. The first sweep of a substep starts from multipliers of zero.
+  void sweep(GatheredVertices& vertices, const Relaxation& relaxation, bool is_first) {
+    const float* const begins = vertices.begins();
+    float* const moves = vertices.moves();
+    if (is_first) {
+      springs.forget();
+      bends.forget();
+    }
+    bends.sweep(begins, moves,
+                relaxation.smoother == Smoother::sor ? static_cast<float>(relaxation.omega) : 1.0f);
+    springs.sweep(begins, moves, relaxation);
+    if (!hanging.empty()) hanging.sweep(vertices.lanes(), is_first);
+  }
+
+  void forget() {
+    springs.forget();
+    bends.forget();
+    hanging.forget();
+  }
+
+  double squared_residual(GatheredVertices& vertices) const {
+    const double of_hanging = hanging.squared_residual(vertices.lanes());
+    return of_hanging + springs.squared_residual(vertices.begins(), vertices.moves()) +
+           bends.squared_residual(vertices.begins(), vertices.moves());
+  }
+};
 
 /// Sweeps of the finest level after each correction by strains: half of what the cycle costs.
 constexpr int kSweepsByStrain = 3;
