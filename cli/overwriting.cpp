@@ -13,10 +13,6 @@ void Overwriting::need(bool has_output, const char* options) const {
     throw InputError("--overwrite", std::string("expected ") + options + " beside it, got none");
 }
 
-void Overwriting::spare(const std::vector<std::filesystem::path>& files) {
-  spared_.insert(spared_.end(), files.begin(), files.end());
-}
-
 void Overwriting::check_spared(const std::filesystem::path& file) const {
   std::error_code error;  // a file may not be there
   for (const std::filesystem::path& spared : spared_)

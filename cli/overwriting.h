@@ -25,7 +25,9 @@ class Overwriting {
   void need(bool has_output, const char* options) const;
 
   /// These files are read.
-  void spare(const std::vector<std::filesystem::path>& files);
+  void spare(const std::vector<std::filesystem::path>& files) {
+    spared_.insert(spared_.end(), files.begin(), files.end());
+  }
   /// Throws FileError for a file that is read.
   void check_spared(const std::filesystem::path& file) const;
   /// Throws FileError unless write_file may put a file there.

@@ -381,10 +381,6 @@ Gap ContactPass::gap_at_end(const Touch& touch, const Vec3& place) const {
   return held_gap(solids_[static_cast<std::size_t>(touch.solid)], touch.vertex, place);
 }
 
-SolidShape ContactPass::placed(const Collider& collider, double time) {
-  return pleat::placed(collider.shape, collider.motion.pose(time));
-}
-
 std::vector<ContactPass::Support> ContactPass::supports(const PositionsView& positions,
                                                         double time) const {
   std::vector<Support> found;

@@ -160,7 +160,9 @@ class ContactPass {
   /// Rounded cones come last.
   const std::vector<Collider>& colliders() const { return colliders_; }
   /// The solid's shape at a time [s].
-  static SolidShape placed(const Collider& collider, double time);
+  static SolidShape placed(const Collider& collider, double time) {
+    return pleat::placed(collider.shape, collider.motion.pose(time));
+  }
 
  private:
   /// A collider over the substep that was begun.

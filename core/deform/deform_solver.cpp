@@ -242,10 +242,6 @@ void DeformSolver::restart(const PositionsView& places) {
   if (motion.angle() > kLargeTurn) take_if_lower(motion.of(bent));
 }
 
-void DeformSolver::remember(const Positions& gradient) {
-  if (last_change_.cols() > 0) corrections_.remember(last_change_, gradient - last_gradient_);
-}
-
 Positions DeformSolver::descent(const Positions& gradient) {
   const PartScope scope(observer_, Part::solve);
   return corrections_.descent(gradient, [this](const Positions& q) {

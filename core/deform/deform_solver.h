@@ -121,7 +121,9 @@ class DeformSolver {
   Positions free_gradient() const;
   Positions foreseen(const Positions& moves);
   void take_if_lower(Positions shape);
-  void remember(const Positions& gradient);
+  void remember(const Positions& gradient) {
+    if (last_change_.cols() > 0) corrections_.remember(last_change_, gradient - last_gradient_);
+  }
   Positions descent(const Positions& gradient);
   bool descend(const Positions& direction, double slope, double before, DeformStep& step);
   void judge(const DeformStep& step, double before);

@@ -35,7 +35,9 @@ class ContactMemory {
                 const State& state, double h, const Eigen::VectorXd& resistances);
 
   /// Lets a state be corrected once more in the substep, and adds what contact did.
-  void keep(const State& state);
+  void keep(const State& state) {
+    if (has_forces()) solved_velocities_ = state.velocities;
+  }
   void add(std::span<const Touch> touches, const State& state, double h);
 
   /// Goes back to a substep that began with these forces.

@@ -142,10 +142,6 @@ void FoldSpectrum::add(const PositionsView& positions) {
         fold_amplitudes(maps_[r].of(positions)).cwiseAbs2();
 }
 
-Eigen::MatrixXd FoldSpectrum::amplitudes() const {
-  return (squares_ / std::max(1, n_added_)).cwiseSqrt();
-}
-
 double fold_distance(const Eigen::Ref<const Eigen::MatrixXd>& amplitudes_a,
                      const Eigen::Ref<const Eigen::MatrixXd>& amplitudes_b) {
   PLEAT_CHECK(amplitudes_a.rows() == amplitudes_b.rows() && amplitudes_a.cols() > 0 &&

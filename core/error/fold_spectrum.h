@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error/material_map.h"
@@ -41,7 +42,7 @@ class FoldSpectrum {
   void add(const PositionsView& positions);
 
   /// Root mean square over what was added, a column for each ring [m].
-  Eigen::MatrixXd amplitudes() const;
+  Eigen::MatrixXd amplitudes() const { return (squares_ / std::max(1, n_added_)).cwiseSqrt(); }
 
  private:
   std::vector<MaterialMap> maps_;

@@ -1,7 +1,6 @@
 #include "core/error/side_by_side.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/check.h"
 #include "core/refinement/mesh_match.h"
@@ -58,8 +57,6 @@ SamplingError mean_sampling(const MeshSampling& sampling, std::span<const Sample
 }
 
 }  // namespace
-
-int FrameOptions::n_frames() const { return static_cast<int>(std::lround(duration / frame_time)); }
 
 void FrameOptions::validate() const {
   if (!(frame_time > 0) || !(duration >= 2 * frame_time) || !is_whole(duration / frame_time))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,7 +28,7 @@ struct FrameOptions {
   double settled = 2;            ///< time at which the monitors start to look [s]
   int error_every = 5;           ///< frames from one that is compared to the next
 
-  int n_frames() const;
+  int n_frames() const { return static_cast<int>(std::lround(duration / frame_time)); }
   /// Throws InputError naming the value that is out of range or no whole number of frames.
   void validate() const;
 };

@@ -1,7 +1,6 @@
 #include "core/model/energy_ledger.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/check.h"
 #include "core/model/hanging_vertices.h"
@@ -131,9 +130,5 @@ void EnergyLedger::record(const State& begin, const State& end, double time_end,
 }
 
 double EnergyLedger::drift() const { return parts_.sum() - first_parts_.sum() - works_.sum(); }
-
-double EnergyLedger::relative_drift() const {
-  return largest_kinetic_energy_ > 0 ? std::abs(drift()) / largest_kinetic_energy_ : 0;
-}
 
 }  // namespace pleat

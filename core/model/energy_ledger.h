@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "core/model/cloth_model.h"
@@ -45,7 +46,9 @@ class EnergyLedger {
   const EnergyParts& first_parts() const { return first_parts_; }
   double drift() const;  ///< change of the energy minus the works [J]
   /// |drift| over the largest kinetic energy seen, 0 while nothing moved.
-  double relative_drift() const;
+  double relative_drift() const {
+    return largest_kinetic_energy_ > 0 ? std::abs(drift()) / largest_kinetic_energy_ : 0;
+  }
 
  private:
   /// Forces of springs, dampers, weight and air [N], and the powers of the last but one and of air

@@ -191,8 +191,6 @@ class SystemMatrix::Blocks {
   const Slot* next_;
 };
 
-void SystemMatrix::set_zero() { matrix_.coeffs().setZero(); }
-
 void SystemMatrix::set_values(const SparseMatrix& lower) {
   PLEAT_CHECK(lower.nonZeros() == matrix_.nonZeros(), "values come with the same pattern");
   matrix_.coeffs() = lower.coeffs();

@@ -16,7 +16,7 @@ class SystemMatrix {
   /// model  outlives the matrix and keeps its elements.
   explicit SystemMatrix(const ClothModel& model);
 
-  void set_zero();
+  void set_zero() { matrix_.coeffs().setZero(); }
   /// Takes the values of a matrix with the same pattern.
   void set_values(const SparseMatrix& lower);
   /// Adds factor * m to the diagonal of each vertex.

@@ -126,10 +126,6 @@ std::optional<Reference> MemoryReferenceStore::find(const std::string& id) {
   return place->second;
 }
 
-void MemoryReferenceStore::keep(const Reference& reference) {
-  references_[reference.label.id] = reference;
-}
-
 std::string write_reference(const Reference& reference, Precision precision) {
   std::string bytes = header_json(reference, precision).dump() + "\n";
   for (const Sample& sample : reference.samples) {

@@ -1,6 +1,5 @@
 #include "core/refinement/face_losses.h"
 
-#include <algorithm>
 #include <array>
 
 #include "core/base/check.h"
@@ -100,7 +99,5 @@ void FaceLossSum::add(const PositionsView& positions) {
     }
   }
 }
-
-FaceLosses FaceLossSum::losses() const { return sums_ / std::max(1, n_frames_); }
 
 }  // namespace pleat

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/mesh/quad_mesh.h"
@@ -28,7 +29,7 @@ class FaceLossSum {
   int n_frames() const { return n_frames_; }
 
   /// Means over the frames so far; zero without any.
-  FaceLosses losses() const;
+  FaceLosses losses() const { return sums_ / std::max(1, n_frames_); }
 
  private:
   QuadMesh fine_;

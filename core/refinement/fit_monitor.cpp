@@ -50,10 +50,6 @@ Eigen::VectorXd FaceCurvature::largest_around(const VectorView& values) const {
 ExampleEnvelope::ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine)
     : sample_(mesh, fine), curvature_(mesh) {}
 
-void ExampleEnvelope::add(const PositionsView& fine_positions) {
-  seen_.push_back(curvature_.of(sample_.of(fine_positions)));
-}
-
 std::vector<double> ExampleEnvelope::limits() const {
   constexpr double kPart = 0.995;
   constexpr double kPerUnit = 100;

@@ -35,7 +35,9 @@ class ExampleEnvelope {
   ExampleEnvelope(const QuadMesh& mesh, const QuadMesh& fine);
 
   /// A frame of an example: the fine mesh's positions [m].
-  void add(const PositionsView& fine_positions);
+  void add(const PositionsView& fine_positions) {
+    seen_.push_back(curvature_.of(sample_.of(fine_positions)));
+  }
 
   /// One value per active face, up to the next hundredth: the largest curvature of a face that is
   /// no more than two away from it, of which it exceeds that in one frame of 200 [1/m]. Folds come

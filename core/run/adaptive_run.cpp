@@ -52,10 +52,6 @@ SolveReport AdaptiveRun::step() {
   return report;
 }
 
-void AdaptiveRun::set_options(const DynamicOptions& options) {
-  refinement_ = DynamicRefinement(base_, options);
-}
-
 void AdaptiveRun::observe(PartObserver* observer) {
   observer_ = observer;
   stepper_->observe(observer);

@@ -26,7 +26,9 @@ class AdaptiveRun final : public MovingCloth {
   SolveReport step() override;
 
   /// Sets the options of later changes of the mesh.
-  void set_options(const DynamicOptions& options);
+  void set_options(const DynamicOptions& options) {
+    refinement_ = DynamicRefinement(base_, options);
+  }
 
   const QuadMesh* mesh() const override { return &*cloth_.quads; }
   const ClothModel& model() const override { return *model_; }

@@ -1,7 +1,5 @@
 #include "core/run/sampled_run.h"
 
-#include <algorithm>
-
 #include "core/base/check.h"
 #include "core/scene/tearing.h"
 
@@ -31,18 +29,6 @@ SampledRun::SampledRun(const Scene& scene, std::vector<double> times, Parts part
               "sample times are positive and ascend");
   if (parts == Parts::timed_with_ledger) ledger_.emplace(simulation_);
   if (parts != Parts::untimed) watch_.emplace(simulation_);
-}
-
-double SampledRun::relative_drift() const {
-  return ledger_ ? ledger_->account().relative_drift() : std::numeric_limits<double>::quiet_NaN();
-}
-
-std::vector<RunWarning> SampledRun::warnings() const {
-  return watch_ ? watch_->warnings() : std::vector<RunWarning>();
-}
-
-double SampledRun::timed_duration() const {
-  return static_cast<double>(run_.n_timed()) * simulation_.scene().method.step;
 }
 
 bool SampledRun::sample_is_due() const {
@@ -83,10 +69,6 @@ void SampledRun::advance(double budget) {
     step();
     if (watch.elapsed() >= budget) return;
   }
-}
-
-double SampledRun::progress() const {
-  return done() ? 1 : std::min(1.0, simulation_.time() / times_.back());
 }
 
 }  // namespace pleat

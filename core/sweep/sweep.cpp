@@ -88,10 +88,6 @@ bool Sweep::run_is_left_out() const {
   return !done() && !in_first_round() && !can_be_timed(rows_[setting()]);
 }
 
-void Sweep::skip_left_out() {
-  while (run_is_left_out()) ++n_done_;
-}
-
 /// Takes what the store has. A finer one that is there needs no coarser one to be made.
 void Sweep::find_references() {
   has_looked_ = true;

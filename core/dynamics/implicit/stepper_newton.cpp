@@ -1,6 +1,5 @@
 #include "core/dynamics/implicit/stepper_newton.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -81,8 +80,6 @@ void StepperNewton::refresh() {
   no_change_ = Positions::Zero(3, static_cast<Eigen::Index>(vertices.size()));
   has_factor_ = false;
 }
-
-double StepperNewton::first_shift() const { return std::max(model_.gravity.norm(), 1.0) / extent_; }
 
 void StepperNewton::set_up(const State& state, double h) {
   const PartScope scope(observer_, Part::assembly);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/dynamics/implicit/contact_hold.h"
 #include "core/dynamics/stepper.h"
 #include "core/model/system_matrix.h"
@@ -48,7 +50,7 @@ class StepperNewton final : public Stepper {
   SolveReport find_direction();
   double search_line();
   /// The squared frequency of a pendulum as long as the cloth: brings it to rest fastest [1/s^2].
-  double first_shift() const;
+  double first_shift() const { return std::max(model_.gravity.norm(), 1.0) / extent_; }
   bool is_at_rest() const { return options().rule == NewtonRule::equilibrium; }
 
   SystemMatrix matrix_;

@@ -58,14 +58,8 @@ void StepperPositionBased::refresh() {
   refresh_rest_lengths();
 }
 
-void StepperPositionBased::refresh_rest_lengths() { projections_->refresh_rest_lengths(model_); }
-
 LaneView StepperPositionBased::view() {
   return {lanes(move), {array(begin), array(begin + 1), array(begin + 2)}, array(inverse_mass)};
-}
-
-int StepperPositionBased::slot_of(VertexId vertex) const {
-  return layout_.places[static_cast<std::size_t>(vertex)].slot;
 }
 
 // Addresses are taken once, for a step's conversions go through all vertices.

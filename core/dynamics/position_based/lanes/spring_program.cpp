@@ -1,6 +1,5 @@
 #include "core/dynamics/position_based/lanes/spring_program.h"
 
-#include <algorithm>
 #include <functional>
 #include <string_view>
 
@@ -85,12 +84,6 @@ void SpringProgram::fill_blocks(const ClothModel& model) {
     }
     operations_[i].block = remembered[at];
   }
-}
-
-void SpringProgram::refresh_rest_lengths(const ClothModel& model) { fill_blocks(model); }
-
-void SpringProgram::compute_lane_by_lane() {
-  for (OperationStretch& stretch : stretches_) stretch.whole = false;
 }
 
 float* SpringProgram::line_scratch(int row, int channel) {
@@ -222,8 +215,6 @@ void SpringProgram::sweep(const LaneView& view, bool is_first) {
     is_first ? sweep<kLaw, true>(view) : sweep<kLaw, false>(view);
   });
 }
-
-void SpringProgram::forget() { std::fill(multipliers_.begin(), multipliers_.end(), 0.0f); }
 
 double SpringProgram::squared_residual(const LaneView& v) const {
   return with_law(law_, [&](auto constant) {
