@@ -20,8 +20,7 @@ std::unique_ptr<MovingCloth> moving_cloth(const Contestant& contestant) {
 }
 
 Positions unpinned_columns(const ClothModel& model, const Positions& columns) {
-  std::vector<bool> is_pinned(static_cast<std::size_t>(columns.cols()), false);
-  for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
+  const std::vector<bool> is_pinned = model.pinned();
   Positions unpinned(3, columns.cols() - static_cast<Eigen::Index>(model.pins.size()));
   Eigen::Index next = 0;
   for (Eigen::Index v = 0; v < columns.cols(); ++v)

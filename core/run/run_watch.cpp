@@ -39,8 +39,7 @@ double edge_stiffness(const Scene& scene, const GaugeEdge& edge) {
 /// through the middle of the cloth.
 double holding_stiffness(const Simulation& simulation) {
   const ClothModel& model = simulation.model();
-  std::vector<bool> is_held(static_cast<std::size_t>(model.n_vertices()), false);
-  for (const Pin& pin : model.pins) is_held[pin.vertex] = true;
+  const std::vector<bool> is_held = model.pinned();
   double held = 0;
   double all = 0;
   const auto add = [&](VertexId a, VertexId b, double stiffness) {

@@ -200,8 +200,7 @@ void Simulation::grab(VertexId vertex) {
   PLEAT_CHECK(vertex >= 0 && vertex < model_.n_vertices(), "a grabbed vertex exists");
   release_grab();
   was_led_astray_ = true;
-  std::vector<bool> pinned(static_cast<std::size_t>(model_.n_vertices()), false);
-  for (const Pin& pin : model_.pins) pinned[pin.vertex] = true;
+  const std::vector<bool> pinned = model_.pinned();
   grab_ = Grab{vertex, model_.pins.size(), state_.positions.col(vertex)};
   const double radius =
       scene_.cloth->is_surface() ? kHandRadius * scene_.cloth->rest_diagonal() : 0;

@@ -27,12 +27,6 @@ HierarchyOptions hierarchy_options(const MethodOptions& options) {
   return hierarchy;
 }
 
-std::vector<bool> pinned(const ClothModel& model) {
-  std::vector<bool> is_pinned(static_cast<std::size_t>(model.n_vertices()), false);
-  for (const Pin& pin : model.pins) is_pinned[pin.vertex] = true;
-  return is_pinned;
-}
-
 /// omega  0: the usual one
 Relaxation relaxation(Smoother smoother, double omega) {
   constexpr double kUsualOmega = 1.1;  // sor's: more smooths less (docs/methods/multigrid.md)
@@ -45,7 +39,7 @@ Relaxation relaxation(Smoother smoother, double omega) {
 MeshHierarchy hierarchy_of(const ClothModel& model, const MethodOptions& options) {
   if (options.levels == 0 || model.surface.triangles.empty()) return {};
   MeshHierarchy hierarchy =
-      mesh_hierarchy(model.surface, pinned(model), hierarchy_options(options));
+      mesh_hierarchy(model.surface, model.pinned(), hierarchy_options(options));
   for (MeshLevel& level : hierarchy.levels)
     std::erase_if(level.edges, [&](const LevelEdge& edge) {
       return model.hangs(level.vertices[edge.a]) || model.hangs(level.vertices[edge.b]);
