@@ -1,6 +1,5 @@
 #include "core/error/restarts.h"
 
-#include <cmath>
 #include <limits>
 #include <memory>
 

@@ -60,7 +60,9 @@ class EdgeCollapse {
   std::vector<VertexId> neighbours(VertexId vertex) const;
   std::size_t n_shared_triangles(VertexId from, VertexId to) const;
   bool keeps_triangles(VertexId from, VertexId to) const;
-  bool keeps_border(VertexId from, VertexId to) const;
+  bool keeps_border(VertexId from, VertexId to) const {
+    return !is_border_[from] || is_border_[to];
+  }
   bool keeps_links(VertexId from, VertexId to);
   bool keeps_shapes(VertexId from, VertexId to) const;
   bool is_allowed(VertexId from, VertexId to);

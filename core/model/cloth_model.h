@@ -58,7 +58,7 @@ struct ClothModel {
   int n_vertices() const { return static_cast<int>(masses.size()); }
   /// True where a vertex is in the middle of its parents, which have its mass.
   bool hangs(VertexId vertex) const { return masses[vertex] == 0; }
-  /// For each vertex whether a pin holds it.
+  /// Says for each vertex whether a pin holds it.
   std::vector<bool> pinned() const {
     std::vector<bool> is_pinned(static_cast<std::size_t>(n_vertices()), false);
     for (const Pin& pin : pins) is_pinned[pin.vertex] = true;

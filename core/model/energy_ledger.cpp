@@ -37,10 +37,6 @@ void EnergyLedger::take_vertices() {
   part_.resize(3, model_.n_vertices());
 }
 
-double EnergyLedger::friction_loss() const {
-  return model_.bend_friction ? model_.bend_friction->dissipated() : 0;
-}
-
 /// Replaces the moments of the end, which the model has, by those of the start.
 void EnergyLedger::exchange_friction(const State& begin) {
   part_.setZero();

@@ -60,7 +60,9 @@ class EnergyLedger {
   };
 
   void take_vertices();
-  double friction_loss() const;
+  double friction_loss() const {
+    return model_.bend_friction ? model_.bend_friction->dissipated() : 0;
+  }
   void exchange_friction(const State& begin);
   void evaluate(const State& state, double time, Loads& loads);
   Vec3 missing_impulse(VertexId vertex, const State& begin, const State& end, double step) const;

@@ -62,17 +62,8 @@ double reference_step(const SweepPlan& plan, const Family& family) {
 }  // namespace
 
 const char* id_prefix(ReferenceKind kind) {
-  switch (kind) {
-    case ReferenceKind::converged:
-      return "converged";
-    case ReferenceKind::rigid_chain:
-      return "chain";
-    case ReferenceKind::same_mesh:
-      return "same-mesh";
-    case ReferenceKind::closed_form:
-      return "closed-form";
-  }
-  return "";
+  constexpr const char* kPrefixes[] = {"converged", "same-mesh", "chain", "closed-form"};
+  return kPrefixes[static_cast<std::size_t>(kind)];
 }
 
 MethodOptions exact_method(double step) {
