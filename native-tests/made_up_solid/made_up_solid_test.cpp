@@ -96,7 +96,7 @@ TEST_CASE("made-up solid: a real one is named in eight places", "[contact]") {
   };
   std::set<std::string> named = files_naming({"Plane", "SweptPlane", "'plane'", "\"plane\""});
   // Speed alone asks which solid it is there: the made-up one does without.
-  CHECK(named.erase("core/contact/contact_stage") == 1);
+  CHECK(named.erase("core/contact/contact_pass") == 1);
   CHECK(named.erase("core/dynamics/position_based/lanes/contact_program") == 1);
   // Other planes than the solid.
   CHECK(named.erase("core/scene/tearing") == 1);
